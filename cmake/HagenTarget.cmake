@@ -1,0 +1,27 @@
+# hagen_target(TARGET): what every target of this project shares.
+function(hagen_target target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_options(
+    ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                      $<$<BOOL:${HAGEN_WARNINGS_AS_ERRORS}>:-Werror>
+                      # One result on every machine: no fused multiply-add unless it is written.
+                      -ffp-contract=off)
+  if(HAGEN_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE})
+  endif()
+endfunction()
+
+# hagen_library(NAME SOURCE...): the library hagen::NAME of this folder, with its headers in
+# include/hagen/NAME, exported and installed.
+function(hagen_library name)
+  add_library(hagen_${name} ${ARGN})
+  add_library(hagen::${name} ALIAS hagen_${name})
+  hagen_target(hagen_${name})
+  target_include_directories(
+    hagen_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  set_target_properties(hagen_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  install(TARGETS hagen_${name} EXPORT hagenTargets)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()

@@ -1,0 +1,121 @@
+#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/VelodyneDecoder.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+namespace hagen {
+namespace {
+
+using mrpt::obs::CObservationPointCloud;
+using mrpt::obs::CObservationVelodyneScan;
+
+bool endsWith(std::string_view text, std::string_view ending) {
+    return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
+}
+
+template <class Coordinates>
+void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates& z, Scan& scan) {
+    scan.clear();
+    scan.x_m.assign(x.begin(), x.end());
+    scan.y_m.assign(y.begin(), y.end());
+    scan.z_m.assign(z.begin(), z.end());
+    scan.intensity.assign(x.size(), 0.0f);
+}
+
+void readVelodyneScan(const CObservationVelodyneScan& observation, const Settings& settings,
+                      ObservedScan& observed) {
+    if (observation.scan_packets.empty()) {
+        const auto& cloud = observation.point_cloud;
+        observed.sensor = settings.sensorModel();
+        assignPoints(cloud.x, cloud.y, cloud.z, observed.scan);
+        std::transform(cloud.intensity.begin(), cloud.intensity.end(),
+                       observed.scan.intensity.begin(),
+                       [](std::uint8_t intensity) { return static_cast<float>(intensity) / 255.0f; });
+        locateBeams(observed.sensor, observed.scan);
+        observed.remark = cloud.size() == 0 ? "the scan has no packets" : "";
+        return;
+    }
+    observed.sensor = sensorOf(observation);
+    const std::size_t unsound_blocks = decodePackets(observation, observed.scan);
+    if (unsound_blocks > 0) {
+        observed.remark = std::to_string(unsound_blocks) + " of " +
+                          std::to_string(observation.scan_packets.size() * 12) +
+                          " packet blocks have no valid header or azimuth and are left out";
+    } else if (settings.sensor.model && settings.sensor.model != observed.sensor.name) {
+        observed.remark = "the packets are of a " + observed.sensor.name +
+                          ": its beams are used, not those of the settings' sensor.model " +
+                          *settings.sensor.model;
+    }
+}
+
+void readCloud(const CObservationPointCloud& observation, const Settings& settings,
+               ObservedScan& observed) {
+    observation.load();
+    if (!observation.pointcloud) throw std::runtime_error("the observation holds no point cloud");
+    const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
+    observed.sensor = settings.sensorModel();
+    assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
+                 cloud.getPointsBufferRef_z(), observed.scan);
+    if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
+        const auto& intensity = xyzi->getPointsBufferRef_intensity();
+        observed.scan.intensity.assign(intensity.begin(), intensity.end());
+    }
+    locateBeams(observed.sensor, observed.scan);
+}
+
+}  // namespace
+
+bool isLidarScan(const mrpt::obs::CObservation& observation) {
+    if (endsWith(observation.sensorLabel, "_roi")) return false;  // `_non_roi` too
+    return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr ||
+           dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
+}
+
+void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
+                     ObservedScan& observed) {
+    observed.remark.clear();
+    if (const auto* packets = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+        readVelodyneScan(*packets, settings, observed);
+    } else if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
+        readCloud(*cloud, settings, observed);
+    } else {
+        throw std::runtime_error("not a LiDAR scan");
+    }
+}
+
+CObservationPointCloud::Ptr observationOf(const Scan& scan, const std::string& label,
+                                          mrpt::Clock::time_point time) {
+    auto points = mrpt::maps::CPointsMapXYZI::Create();
+    points->reserve(scan.size());
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        points->insertPointFast(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+        points->setPointIntensity(i, scan.intensity[i]);
+    }
+    auto observation = CObservationPointCloud::Create();
+    observation->timestamp = time;
+    observation->sensorLabel = label;
+    observation->pointcloud = points;
+    return observation;
+}
+
+CObservationPointCloud::Ptr portable(const CObservationPointCloud& observation) {
+    auto points = PortableCloud::Create();
+    const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
+    points->setAllPoints(
+        {cloud.getPointsBufferRef_x().begin(), cloud.getPointsBufferRef_x().end()},
+        {cloud.getPointsBufferRef_y().begin(), cloud.getPointsBufferRef_y().end()},
+        {cloud.getPointsBufferRef_z().begin(), cloud.getPointsBufferRef_z().end()});
+    auto copy = CObservationPointCloud::Create();
+    copy->timestamp = observation.timestamp;
+    copy->sensorLabel = observation.sensorLabel;
+    copy->sensorPose = observation.sensorPose;
+    copy->pointcloud = points;
+    return copy;
+}
+
+}  // namespace hagen

@@ -1,0 +1,34 @@
+#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/RoiPointCloudFilter.h>
+
+namespace hagen {
+
+RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
+                                         const mrpt::poses::CPose3D& sensor_pose)
+    : sensor_pose_(sensor_pose), filter_(settings.sensorModel(), settings.options) {}
+
+void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
+                                 mrpt::system::TTimeStamp /*pc_timestamp*/,
+                                 const mrpt::poses::CPose3D& /*pc_reference_pose*/,
+                                 TExtraFilterParams* params) {
+    scan_.clear();
+    for (std::size_t i = 0; i < inout_pointcloud->size(); ++i) {
+        mrpt::math::TPoint3D point;
+        inout_pointcloud->getPoint(i, point);
+        const mrpt::math::TPoint3D seen = sensor_pose_.inverseComposePoint(point);
+        scan_.x_m.push_back(static_cast<float>(seen.x));
+        scan_.y_m.push_back(static_cast<float>(seen.y));
+        scan_.z_m.push_back(static_cast<float>(seen.z));
+    }
+    scan_.intensity.assign(scan_.size(), 0.0f);
+    locateBeams(filter_.sensor(), scan_);
+
+    std::vector<bool> deleted(scan_.size(), true);
+    for (const std::uint32_t i : filter_.segment(scan_).returns.roi) deleted[i] = false;
+    if (params == nullptr || !params->do_not_delete) inout_pointcloud->applyDeletionMask(deleted);
+    if (params != nullptr && params->out_deletion_mask != nullptr) {
+        *params->out_deletion_mask = std::move(deleted);
+    }
+}
+
+}  // namespace hagen

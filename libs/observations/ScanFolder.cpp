@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <hagen/observations/ScanFolder.h>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Files are little-endian, and so is every machine that MRPT is packaged for but s390x.
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files need byte swapping");
+
+template <class Record>
+std::vector<Record> readRecords(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary | std::ios::ate);
+    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+    const auto bytes = static_cast<std::size_t>(in.tellg());
+    if (bytes % sizeof(Record) != 0) {
+        throw std::runtime_error(file.string() + ": " + std::to_string(bytes) +
+                                 " bytes are no whole number of " + std::to_string(sizeof(Record)) +
+                                 "-byte points; is it cut off?");
+    }
+    std::vector<Record> records(bytes / sizeof(Record));
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(bytes));
+    if (!in) throw std::runtime_error(file.string() + ": cannot be read to its end");
+    return records;
+}
+
+template <class Record>
+void writeRecords(const fs::path& file, const std::vector<Record>& records) {
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(records.data()),
+              static_cast<std::streamsize>(records.size() * sizeof(Record)));
+    out.close();
+    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+/// The lines of a table with `columns` numbers each; empty where there is no such file.
+std::vector<std::vector<double>> readTable(const fs::path& file, std::size_t lines,
+                                           std::size_t columns) {
+    std::vector<std::vector<double>> table;
+    if (!fs::exists(file)) return table;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        const std::vector<double> numbers{std::istream_iterator<double>(words), {}};
+        if (numbers.empty() && words.eof()) continue;  // a blank line
+        if (numbers.size() != columns) {
+            throw std::runtime_error(file.string() + ":" + std::to_string(table.size() + 1) + ": " +
+                                     std::to_string(columns) + " numbers are expected, not '" + line +
+                                     "'");
+        }
+        table.push_back(numbers);
+    }
+    if (table.size() != lines) {
+        throw std::runtime_error(file.string() + ": has " + std::to_string(table.size()) +
+                                 " lines for " + std::to_string(lines) + " scans");
+    }
+    return table;
+}
+
+}  // namespace
+
+ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
+    const fs::path scans = folder_ / "velodyne";
+    if (!fs::is_directory(scans)) {
+        throw std::runtime_error(folder_.string() +
+                                 ": not a scan folder: it has no folder 'velodyne' with .bin files");
+    }
+    for (const auto& entry : fs::directory_iterator(scans)) {
+        if (entry.path().extension() == ".bin") names_.push_back(entry.path().stem().string());
+    }
+    if (names_.empty()) throw std::runtime_error(scans.string() + ": holds no .bin files");
+    std::sort(names_.begin(), names_.end());
+}
+
+fs::path ScanFolder::scanFile(std::size_t scan) const {
+    return folder_ / "velodyne" / (names_[scan] + ".bin");
+}
+
+fs::path ScanFolder::labelFile(std::size_t scan) const {
+    return folder_ / "labels" / (names_[scan] + ".label");
+}
+
+std::vector<double> ScanFolder::times() const {
+    std::vector<double> times_s;
+    for (const auto& line : readTable(folder_ / "times.txt", size(), 1)) times_s.push_back(line[0]);
+    return times_s;
+}
+
+std::vector<std::array<double, 12>> ScanFolder::poses() const {
+    std::vector<std::array<double, 12>> poses;
+    for (const auto& line : readTable(folder_ / "poses.txt", size(), 12)) {
+        std::copy(line.begin(), line.end(), poses.emplace_back().begin());
+    }
+    return poses;
+}
+
+void readScan(const fs::path& file, Scan& scan) {
+    const auto points = readRecords<std::array<float, 4>>(file);
+    scan.clear();
+    scan.reserve(points.size());
+    for (const auto& [x, y, z, intensity] : points) {
+        scan.x_m.push_back(x);
+        scan.y_m.push_back(y);
+        scan.z_m.push_back(z);
+        scan.intensity.push_back(intensity);
+    }
+}
+
+void writeScan(const fs::path& file, const Scan& scan) {
+    std::vector<std::array<float, 4>> points(scan.size());
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        points[i] = {scan.x_m[i], scan.y_m[i], scan.z_m[i], scan.intensity[i]};
+    }
+    writeRecords(file, points);
+}
+
+std::vector<std::uint16_t> readLabels(const fs::path& file) {
+    const auto entries = readRecords<std::uint32_t>(file);
+    std::vector<std::uint16_t> labels(entries.size());
+    std::transform(entries.begin(), entries.end(), labels.begin(),
+                   [](std::uint32_t entry) { return static_cast<std::uint16_t>(entry & 0xffff); });
+    return labels;
+}
+
+void writeLabels(const fs::path& file, const std::vector<Label>& labels,
+                 const std::vector<std::int32_t>& components) {
+    std::vector<std::uint32_t> entries(labels.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const auto component = static_cast<std::uint32_t>(std::min(components[i], kMaxFileComponent));
+        entries[i] = component << 16 | static_cast<std::uint32_t>(labels[i]);
+    }
+    writeRecords(file, entries);
+}
+
+}  // namespace hagen

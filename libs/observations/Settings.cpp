@@ -1,0 +1,256 @@
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <hagen/observations/Settings.h>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr int kMostIncludes = 8;  // deep enough for any sane set of files; stops circles
+
+/// Where a value stands, for messages.
+std::string at(const fs::path& file, const YAML::Node& node) {
+    const YAML::Mark mark = node.Mark();
+    return file.string() + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
+}
+
+std::string number(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string unknownKey(const std::string& key, const std::vector<std::string>& known) {
+    const std::string nearest =
+        *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+            return editDistance(key, a) < editDistance(key, b);
+        });
+    return "unknown key '" + key + "'; did you mean '" + nearest + "'?";
+}
+
+/// A number within [least, most], or a SettingsError that says what is allowed.
+template <class Number>
+Number parseNumber(const YAML::Node& node, const std::string& key, double least, double most) {
+    Number value{};
+    if (!node.IsScalar() || !YAML::convert<Number>::decode(node, value)) {
+        throw SettingsError(key + " must be a " + (std::is_integral_v<Number> ? "whole " : "") +
+                            "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
+    }
+    if (!(value >= least && value <= most)) {  // NaN too
+        throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " + number(least) +
+                            " and " + number(most));
+    }
+    return value;
+}
+
+Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    if (text == "lowest") return Seeds::Lowest;
+    if (text == "top_and_nearest") return Seeds::TopAndNearest;
+    throw SettingsError(key + " must be 'lowest' or 'top_and_nearest', not '" + text + "'");
+}
+
+void parseOption(const OptionKey& key, const YAML::Node& node, Options& options) {
+    if (const auto* real = std::get_if<float Options::*>(&key.field)) {
+        options.*(*real) = parseNumber<float>(node, key.name, key.least, key.most);
+    } else if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
+        options.*(*whole) = parseNumber<int>(node, key.name, key.least, key.most);
+    } else {
+        options.*std::get<Seeds Options::*>(key.field) = parseSeeds(node, key.name);
+    }
+}
+
+const OptionKey* findOption(const std::string& name) {
+    for (const OptionKey& key : optionKeys()) {
+        if (key.name == name) return &key;
+    }
+    return nullptr;
+}
+
+void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sensor& sensor) {
+    if (!section.IsMap()) {
+        throw SettingsError(at(file, section) + "sensor must hold keys, such as 'model: VLP-16'");
+    }
+    if (section["model"]) sensor = {};  // another sensor: nothing of the one before holds
+    for (const auto& entry : section) {
+        const std::string key = entry.first.Scalar();
+        const YAML::Node& value = entry.second;
+        try {
+            if (key == "model") {
+                if (!value.IsScalar()) throw SettingsError("sensor.model must be a name");
+                sensor.model = value.Scalar();
+                if (sensor.model != "custom") hagen::sensorModel(*sensor.model);
+            } else if (key == "elevations_deg") {
+                if (!value.IsSequence()) {
+                    throw SettingsError("sensor.elevations_deg must be a list, lowest beam first");
+                }
+                sensor.elevations_deg.clear();
+                for (const YAML::Node& elevation : value) {
+                    sensor.elevations_deg.push_back(
+                        parseNumber<double>(elevation, "each of sensor.elevations_deg", -90, 90));
+                }
+                customSensorModel(sensor.elevations_deg);
+            } else if (key == "min_range_m") {
+                sensor.min_range_m = parseNumber<float>(value, "sensor.min_range_m", 0, 1000);
+            } else if (key == "max_range_m") {
+                sensor.max_range_m = parseNumber<float>(value, "sensor.max_range_m", 0, 1000);
+            } else {
+                throw SettingsError(
+                    unknownKey(key, {"model", "elevations_deg", "min_range_m", "max_range_m"}) +
+                    " (in 'sensor')");
+            }
+        } catch (const std::exception& e) {
+            throw SettingsError(at(file, value) + e.what());
+        }
+    }
+    if (!sensor.elevations_deg.empty() && sensor.model.value_or("") != "custom") {
+        throw SettingsError(at(file, section) +
+                            "sensor.elevations_deg goes with 'model: custom'; a known model has its own");
+    }
+}
+
+YAML::Node parseFile(const fs::path& file) {
+    if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
+    try {
+        return YAML::LoadFile(file.string());
+    } catch (const YAML::BadFile&) {
+        throw SettingsError(file.string() + ": cannot be read");
+    } catch (const YAML::Exception& e) {
+        throw SettingsError(file.string() + ":" + std::to_string(e.mark.line + 1) +
+                            ": not YAML: " + e.msg);
+    }
+}
+
+void mergeFile(const fs::path& file, int includes, Settings& settings);
+
+void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, Settings& settings) {
+    if (includes >= kMostIncludes) {
+        throw SettingsError(at(file, node) + "include goes round in a circle, or too deep");
+    }
+    const YAML::Node names = node.IsSequence() ? node : YAML::Load("[]");
+    if (!node.IsSequence() && !node.IsScalar()) {
+        throw SettingsError(at(file, node) + "include must be a file name or a list of them");
+    }
+    if (node.IsScalar()) mergeFile(file.parent_path() / node.Scalar(), includes + 1, settings);
+    for (const YAML::Node& name : names) {
+        mergeFile(file.parent_path() / name.as<std::string>(""), includes + 1, settings);
+    }
+}
+
+void mergeFile(const fs::path& file, int includes, Settings& settings) {
+    const YAML::Node document = parseFile(file);
+    if (document.IsNull()) return;  // empty, or comments alone: all defaults
+    if (!document.IsMap()) {
+        throw SettingsError(file.string() + ": not settings: 'key: value' lines are expected");
+    }
+    if (document["include"]) mergeIncludes(file, document["include"], includes, settings);
+
+    std::vector<std::string> known{"include", "sensor"};
+    for (const OptionKey& key : optionKeys()) known.push_back(key.name);
+    std::set<std::string> seen;
+    for (const auto& entry : document) {
+        const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+        if (!seen.insert(name).second) {
+            throw SettingsError(at(file, entry.first) + "key '" + name + "' is there twice");
+        }
+        if (name == "include") continue;
+        if (name == "sensor") {
+            parseSensor(file, entry.second, settings.sensor);
+        } else if (const OptionKey* key = findOption(name)) {
+            try {
+                parseOption(*key, entry.second, settings.options);
+            } catch (const SettingsError& e) {
+                throw SettingsError(at(file, entry.second) + e.what());
+            }
+        } else {
+            throw SettingsError(at(file, entry.first) + unknownKey(name, known));
+        }
+    }
+}
+
+}  // namespace
+
+const std::vector<OptionKey>& optionKeys() {
+    static const std::vector<OptionKey> keys{
+        {"zone_m", "m", 0.1, 1000, "radius of the avoidance zone; farther returns are ROU", "",
+         &Options::zone_m},
+        {"context_m", "m", 0.1, kUnlimited,
+         "returns up to this range enter the image, as context; never less than zone_m", "",
+         &Options::context_m},
+        {"columns", "px", 8, 10000, "columns of the image in a full turn", "I_w",
+         &Options::columns},
+        {"repair_max_step_m", "m", 0, 1000,
+         "fill one-pixel holes between vertical neighbours that differ by less; 0: none", "",
+         &Options::repair_max_step_m},
+        {"persistence_m", "m", 0, 1000, "least persistence of a maximum that is sharpened", "",
+         &Options::persistence_m},
+        {"sharpening_sigma_px", "px", 0.01, 100, "spatial Gaussian of the bilateral filter", "g_s",
+         &Options::sharpening_sigma_px},
+        {"sharpening_sigma_m", "m", 0.01, 100, "range Gaussian of the bilateral filter", "g_r",
+         &Options::sharpening_sigma_m},
+        {"window_size", "angles", 2, 64, "rows of the trajectory matrix", "W",
+         &Options::window_size},
+        {"principal_components", "", 1, 64, "leading components kept; as many as W: no smoothing",
+         "PC", &Options::principal_components},
+        {"beta_deg", "deg", 0, 90, "neighbours whose angles differ by less are one region", "beta",
+         &Options::beta_deg},
+        {"seeds", "", 0, 0, "lowest: ground seeds the ROU; top_and_nearest: the text's literal reading",
+         "", &Options::seeds},
+        {"component_gap_m", "m", 0, 1000,
+         "RoI pixels side by side are one obstacle where depths differ by less", "",
+         &Options::component_gap_m},
+        {"window_scans", "scans", 1, 100, "consecutive scans segmented together; needs poses", "K",
+         &Options::window_scans}};
+    return keys;
+}
+
+SensorModel Settings::sensorModel() const {
+    if (sensor.model == "custom" && sensor.elevations_deg.empty()) {
+        throw SettingsError("sensor.model is 'custom', but there is no sensor.elevations_deg");
+    }
+    SensorModel model = sensor.model == "custom"
+                            ? customSensorModel(sensor.elevations_deg)
+                            : hagen::sensorModel(sensor.model.value_or("VLP-16"));
+    model.min_range_m = sensor.min_range_m.value_or(model.min_range_m);
+    model.max_range_m = sensor.max_range_m.value_or(model.max_range_m);
+    return model;
+}
+
+void mergeSettings(const std::filesystem::path& file, Settings& settings) {
+    Settings merged = settings;
+    mergeFile(file, 0, merged);
+    settings = merged;
+}
+
+void setOption(const std::string& key, const std::string& value, Settings& settings) {
+    const OptionKey* option = findOption(key);
+    if (option == nullptr) {
+        std::vector<std::string> known;
+        for (const OptionKey& k : optionKeys()) known.push_back(k.name);
+        throw SettingsError(unknownKey(key, known));
+    }
+    parseOption(*option, YAML::Node(value), settings.options);
+}
+
+}  // namespace hagen

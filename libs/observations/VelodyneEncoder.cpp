@@ -1,0 +1,108 @@
+#include <cmath>
+#include <cstring>
+#include <hagen/observations/VelodyneEncoder.h>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
+
+constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
+constexpr int kReturns = CObservationVelodyneScan::SCANS_PER_BLOCK;
+
+/// Writes a packet byte by byte, little-endian, as it comes over the network. MRPT's struct keeps its
+/// fields private.
+class PacketBytes {
+   public:
+    void put16(unsigned value) {
+        bytes_.push_back(static_cast<std::uint8_t>(value & 0xff));
+        bytes_.push_back(static_cast<std::uint8_t>(value >> 8));
+    }
+    void put8(unsigned value) { bytes_.push_back(static_cast<std::uint8_t>(value)); }
+
+    Packet packet() const {
+        Packet packet;
+        static_assert(sizeof packet == CObservationVelodyneScan::PACKET_SIZE);
+        if (bytes_.size() != sizeof packet) throw std::logic_error("a packet has 1206 bytes");
+        std::memcpy(static_cast<void*>(&packet), bytes_.data(), sizeof packet);
+        return packet;
+    }
+
+   private:
+    std::vector<std::uint8_t> bytes_;
+};
+
+unsigned distanceUnits(float range_m) {
+    const float units = std::round(range_m / CObservationVelodyneScan::DISTANCE_RESOLUTION);
+    return units >= 1.0f && units <= 65535.0f ? static_cast<unsigned>(units) : 0u;  // NaN: 0
+}
+
+void checkSizes(const VelodyneModel& model, const Firings& firings) {
+    const auto fits = [&](const Image<float>& image) {
+        return image.rows() == model.lasers && image.cols() == firings.range_m.cols();
+    };
+    const bool dual_fits = firings.last_range_m.size() == 0 || fits(firings.last_range_m);
+    if (!fits(firings.range_m) || !fits(firings.intensity) || !dual_fits) {
+        throw std::invalid_argument("firings of a " + model.name + " have " +
+                                    std::to_string(model.lasers) +
+                                    " lasers, and as many intensities as ranges");
+    }
+}
+
+}  // namespace
+
+double firingAzimuthDeg(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
+    const double turn = firing + laser * model.laser_period_us / model.firing_period_us;
+    return std::fmod(firings.first_azimuth_deg + turn * firings.azimuth_step_deg, 360.0);
+}
+
+std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& firings) {
+    checkSizes(model, firings);
+    const bool dual = firings.last_range_m.size() != 0;
+    const int blocks_per_firing = dual ? 2 : 1;
+    const int firing_count = static_cast<int>(firings.range_m.cols());
+    const int firings_per_packet = kBlocks / blocks_per_firing * model.firings_per_block;
+
+    std::vector<Packet> packets;
+    for (int first = 0; first < firing_count; first += firings_per_packet) {
+        PacketBytes bytes;
+        for (int b = 0; b < kBlocks; ++b) {
+            const int block_firing = first + b / blocks_per_firing * model.firings_per_block;
+            // Dual mode: the last return comes first, then the strongest.
+            const auto& range_m = dual && b % 2 == 0 ? firings.last_range_m : firings.range_m;
+            const double azimuth_deg = firingAzimuthDeg(model, firings, 0, block_firing);
+            bytes.put16(CObservationVelodyneScan::UPPER_BANK);
+            bytes.put16(static_cast<unsigned>(std::lround(100 * azimuth_deg)) % 36000);
+            for (int i = 0; i < kReturns; ++i) {
+                const int laser = i % model.lasers, firing = block_firing + i / model.lasers;
+                const bool fired = firing < firing_count;
+                bytes.put16(fired ? distanceUnits(range_m(laser, firing)) : 0);
+                bytes.put8(fired ? static_cast<unsigned>(
+                                       std::lround(255.0f * firings.intensity(laser, firing)))
+                                 : 0);
+            }
+        }
+        const auto time_us = static_cast<std::uint32_t>(
+            std::fmod(firings.first_time_us + std::round(first * model.firing_period_us), 3600e6));
+        bytes.put16(time_us & 0xffff);
+        bytes.put16(time_us >> 16);
+        bytes.put8(dual ? CObservationVelodyneScan::RETMODE_DUAL
+                        : CObservationVelodyneScan::RETMODE_STRONGEST);
+        bytes.put8(model.id);
+        packets.push_back(bytes.packet());
+    }
+    return packets;
+}
+
+CObservationVelodyneScan::Ptr encodeScan(const VelodyneModel& model, const Firings& firings) {
+    auto scan = CObservationVelodyneScan::Create();
+    scan->scan_packets = encodePackets(model, firings);
+    scan->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration);
+    scan->minRange = 0.5;
+    scan->maxRange = 130.0;
+    return scan;
+}
+
+}  // namespace hagen

@@ -1,0 +1,41 @@
+#pragma once
+#include <hagen/observations/Settings.h>
+#include <hagen/range_image/Scan.h>
+#include <hagen/range_image/SensorModel.h>
+#include <mrpt/core/Clock.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <string>
+
+namespace hagen {
+
+/// Whether this project reads the observation as a LiDAR scan: a CObservationVelodyneScan, or a
+/// CObservationPointCloud, unless its label ends in `_roi` or `_non_roi`: those are results.
+bool isLidarScan(const mrpt::obs::CObservation& observation);
+
+/// A LiDAR scan out of an observation.
+struct ObservedScan {
+    Scan scan;
+    SensorModel sensor;
+    /// What a user should know: packet blocks left out, or settings that the recording overrules.
+    /// Empty where there is nothing.
+    std::string remark;
+};
+
+/// Reads a scan in its sensor's frame. The sensor is the recording's own where it tells (packets),
+/// else that of the settings (clouds). A Velodyne scan without packets but with a stored cloud gives
+/// that cloud.
+/// Throws std::runtime_error, saying why, for packets that cannot be decoded and for a cloud that is
+/// missing; `observed` is used again, so that reading many scans allocates little.
+void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
+                     ObservedScan& observed);
+
+/// An observation of these returns, with their intensities.
+mrpt::obs::CObservationPointCloud::Ptr observationOf(const Scan& scan, const std::string& label,
+                                                     mrpt::Clock::time_point time);
+
+/// The same observation with a cloud that every MRPT from 2.5 to 3 reads; intensities are lost.
+mrpt::obs::CObservationPointCloud::Ptr portable(const mrpt::obs::CObservationPointCloud& observation);
+
+}  // namespace hagen

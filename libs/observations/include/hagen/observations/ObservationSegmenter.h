@@ -1,0 +1,83 @@
+#pragma once
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/observations/SlidingWindow.h>
+#include <hagen/segmentation/HagenFilter.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/rtti/CObject.h>
+#include <mrpt/system/COutputLogger.h>
+#include <mrpt/system/CTimeLogger.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace hagen {
+
+/// The filter as an MRPT observation processor.
+///
+///     hagen::ObservationSegmenter segmenter;      // or by name, with mrpt::rtti::classFactory()
+///     segmenter.initialize(settings);
+///     hagen::ObservationSegmenter::Output out;
+///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
+///
+/// Takes every LiDAR scan of a log, of several sensors too: each sensor label has its own filter and
+/// its own window.
+class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
+    DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen)
+
+   public:
+    struct Output {
+        /// RoI and ROU of the scan: its time stamp and sensor pose, its label with `_roi` and
+        /// `_non_roi` behind it. Points in the sensor's frame; returns out of the sensor's range are
+        /// in neither.
+        mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
+
+        /// The scan's returns, and what each stage made of them; valid until the next call of
+        /// process(). With a window of several scans `result` is about `window`, whose first
+        /// scan->size() returns are the scan's.
+        const Scan* scan = nullptr;
+        const Scan* window = nullptr;
+        const SegmentationResult* result = nullptr;
+        const SensorModel* sensor = nullptr;
+
+        /// What a user should know about this scan; empty where there is nothing. Logged, too.
+        std::string remark;
+    };
+
+    ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
+
+    /// Takes new settings and forgets all scans. Without it, defaults hold.
+    void initialize(const Settings& settings);
+
+    /// Segments one observation. False, and `out` untouched, for one that is no LiDAR scan.
+    /// `vehicle_pose` is the vehicle in the map at the scan's time; only a window of more than one
+    /// scan needs it, and without it the scan is segmented alone, which the remark says.
+    /// Throws std::runtime_error, saying why, for a scan that cannot be read.
+    bool process(const mrpt::obs::CObservation& observation, Output& out,
+                 const std::optional<mrpt::poses::CPose3D>& vehicle_pose = std::nullopt);
+
+    /// Times of each part of process(). Off at first: it prints its report when it goes.
+    mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
+
+   private:
+    /// What belongs to one sensor label.
+    struct Lidar {
+        HagenFilter filter;
+        SlidingWindow window;
+    };
+    Lidar& lidarOf(const std::string& label, const SensorModel& sensor);
+
+    Settings settings_;
+    std::map<std::string, Lidar> lidars_;
+    ObservedScan observed_;
+};
+
+/// Makes this project's classes known to mrpt::rtti::classFactory(). Happens by itself where the
+/// program uses any of them; call it before asking for one by name alone.
+void registerHagenClasses();
+
+}  // namespace hagen

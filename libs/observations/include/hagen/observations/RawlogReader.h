@@ -1,0 +1,39 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/CSerializable.h>
+
+#include <memory>
+#include <stdexcept>
+
+namespace hagen {
+
+/// A rawlog that ends in the middle of an entry, or holds one that cannot be read. The message names
+/// the file, the entry and its byte.
+struct BrokenRawlog : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Reads a rawlog entry by entry, in memory for one entry. An entry is an object of the file: an
+/// observation, an action collection, a sensory frame, or whatever else the log holds.
+class RawlogReader {
+   public:
+    /// Throws std::runtime_error, naming the file, where it cannot be opened or is empty.
+    explicit RawlogReader(const std::filesystem::path& file);
+
+    /// The next entry, or nullptr at the end. Throws BrokenRawlog.
+    mrpt::serialization::CSerializable::Ptr next();
+
+    /// Entries read so far.
+    std::size_t entries() const { return entries_; }
+
+   private:
+    std::filesystem::path file_;
+    mrpt::io::CFileGZInputStream stream_;
+    mrpt::serialization::CArchive::UniquePtr archive_;
+    std::size_t entries_ = 0;
+};
+
+}  // namespace hagen

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <hagen/range_image/Label.h>
+#include <hagen/range_image/Scan.h>
+#include <string>
+#include <vector>
+
+namespace hagen {
+
+/// A folder of scans in the KITTI layout:
+///
+///     velodyne/NNNNNN.bin    float32 x, y, z [m], intensity [0..1], a point after the other
+///     labels/NNNNNN.label    uint32 a point, same order: low 16 bits the label (0 unclassified,
+///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
+///     times.txt              optional: seconds, a line a scan
+///     poses.txt              optional: 3x4 matrix, row by row, a line a scan: the sensor seen from
+///                            where the first scan was taken
+///     sensor.yaml            optional: the beams of this recording
+///
+/// All numbers are little-endian. Functions throw std::runtime_error, naming the file.
+class ScanFolder {
+   public:
+    /// Lists velodyne/*.bin in the order of their names. Throws where there are none.
+    explicit ScanFolder(std::filesystem::path folder);
+
+    const std::filesystem::path& path() const { return folder_; }
+    std::size_t size() const { return names_.size(); }
+    /// Name of a scan without its ending, "000042".
+    const std::string& name(std::size_t scan) const { return names_[scan]; }
+    std::filesystem::path scanFile(std::size_t scan) const;
+    std::filesystem::path labelFile(std::size_t scan) const;
+    /// sensor.yaml of this folder; need not exist.
+    std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
+
+    /// times.txt, an entry a scan; empty where there is no such file. Throws where lines and scans differ.
+    std::vector<double> times() const;
+    /// poses.txt, an entry a scan, rows of the 3x4 matrix one after the other; empty where there is no
+    /// such file. Throws where lines and scans differ, or a line has not 12 numbers.
+    std::vector<std::array<double, 12>> poses() const;
+
+   private:
+    std::filesystem::path folder_;
+    std::vector<std::string> names_;
+};
+
+/// Reads x, y, z and intensity; the beams remain to be located. Points that are not finite stay in.
+void readScan(const std::filesystem::path& file, Scan& scan);
+void writeScan(const std::filesystem::path& file, const Scan& scan);
+
+/// The highest component number that a label file can hold; higher ones are written as this.
+constexpr std::int32_t kMaxFileComponent = 65535;
+
+/// Reads a .label file: the low 16 bits of each entry.
+std::vector<std::uint16_t> readLabels(const std::filesystem::path& file);
+void writeLabels(const std::filesystem::path& file, const std::vector<Label>& labels,
+                 const std::vector<std::int32_t>& components);
+
+}  // namespace hagen

@@ -1,0 +1,55 @@
+#pragma once
+#include <filesystem>
+#include <hagen/range_image/SensorModel.h>
+#include <hagen/segmentation/Options.h>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hagen {
+
+/// A settings file, or a setting on the command line, that cannot be taken as it is. The message
+/// names the file and line, the key, and what is allowed.
+struct SettingsError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// All that settings files say: the filter's options, and the sensor.
+struct Settings {
+    Options options;
+
+    /// The section `sensor:` of a settings file. What is not given comes from the model.
+    struct Sensor {
+        std::optional<std::string> model;
+        std::vector<double> elevations_deg;  ///< of model `custom`, from the lowest beam to the highest
+        std::optional<float> min_range_m, max_range_m;
+    };
+    Sensor sensor;
+
+    /// The sensor that these settings describe; a VLP-16 where they name none.
+    /// Throws SettingsError for `custom` without elevations.
+    SensorModel sensorModel() const;
+};
+
+/// One key of a settings file that sets an option. The parser, the range checks and the
+/// documentation all go by this table.
+struct OptionKey {
+    std::string name, unit;
+    double least, most;  ///< allowed range, both included
+    std::string what, symbol;  ///< what it does in a line; the paper's symbol, if it has one
+    std::variant<float Options::*, int Options::*, Seeds Options::*> field;
+};
+const std::vector<OptionKey>& optionKeys();
+
+/// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a list
+/// of files) is merged before its own keys.
+/// Throws SettingsError for a file that cannot be read or parsed, a key that is unknown or there
+/// twice, and a value of the wrong type or out of range; `settings` is unchanged then.
+void mergeSettings(const std::filesystem::path& file, Settings& settings);
+
+/// Sets one option from text, as `--sweep KEY=VALUE` does. Throws SettingsError.
+void setOption(const std::string& key, const std::string& value, Settings& settings);
+
+}  // namespace hagen

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <hagen/range_image/Image.h>
+#include <hagen/range_image/Scan.h>
+#include <hagen/range_image/SensorModel.h>
+#include <vector>
+
+namespace hagen {
+
+/// The depth image of a scan, and where each return went (section III-A).
+struct RangeImage {
+    /// I_h x I_w: range of the closest return in each pixel, metres; NaN where there is none.
+    Image<float> depth_m;
+    /// The paper's depth_mapper, kept the other way round: for each return of the scan its pixel
+    /// (column * I_h + row), or kNoPixel where it lies beyond the context or out of the sensor's
+    /// range. A pixel may hold several returns; see returnsByPixel().
+    std::vector<std::int32_t> depth_mapper;
+
+    static constexpr std::int32_t kNoPixel = -1;
+};
+
+/// Stage 1, the depth image: every return to its beam's row and the closest of `columns` azimuths;
+/// the closest return of a pixel is kept. Column 0 looks backwards, the middle one along x, and
+/// columns go clockwise, so that left of the image is left of the sensor.
+/// Returns out of the sensor's range, or farther than `context_m`, stay out.
+/// Requires scan.row below sensor.rows(). Writes into `image`, whose memory is used again.
+void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
+                 RangeImage& image);
+
+/// The column of `columns` whose centre is closest to this azimuth.
+int nearestColumn(float azimuth_rad, int columns);
+
+/// The azimuth in (-pi, pi] at the centre of a column.
+float columnAzimuth(int column, int columns);
+
+/// The depth_mapper as the paper has it, pixel -> returns: those of pixel p are
+/// returns[first[p]] ... returns[first[p + 1] - 1], in the scan's order.
+struct ReturnsByPixel {
+    std::vector<std::int32_t> first;    ///< pixels + 1 entries
+    std::vector<std::int32_t> returns;  ///< indices into the scan
+};
+ReturnsByPixel returnsByPixel(const RangeImage& image);
+
+}  // namespace hagen

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+#include <hagen/segmentation/Sharpening.h>
+
+namespace hagen {
+namespace {
+
+float gaussian(float distance, float sigma) {
+    return std::exp(-0.5f * (distance / sigma) * (distance / sigma));
+}
+
+}  // namespace
+
+void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& maxima,
+                   float sigma_px, float sigma_m, Image<float>& sharpened_m) {
+    const int rows = static_cast<int>(proximity_m.rows());
+    const int columns = static_cast<int>(proximity_m.cols());
+    sharpened_m = proximity_m;
+    for (const Maximum& maximum : maxima) {
+        const float centre_m = proximity_m(maximum.row, maximum.column);
+        float weighted_sum = 0.0f, weights = 0.0f;
+        for (int column_step = -1; column_step <= 1; ++column_step) {
+            const int column = wrapColumn(maximum.column + column_step, columns);
+            for (int row_step = -1; row_step <= 1; ++row_step) {
+                const int row = maximum.row + row_step;
+                if (row < 0 || row >= rows || (row_step == 0 && column_step == 0)) continue;
+                const float neighbour_m = proximity_m(row, column);
+                if (!hasValue(neighbour_m)) continue;
+                const float distance_px = std::hypot(float(row_step), float(column_step));
+                const float weight = gaussian(std::abs(neighbour_m - centre_m), sigma_m) *
+                                     gaussian(distance_px, sigma_px);
+                weighted_sum += weight * neighbour_m;
+                weights += weight;
+            }
+        }
+        // Neighbours many sigmas away weigh nothing at all in floats: the same as having none.
+        if (weights > 0.0f) {
+            sharpened_m(maximum.row, maximum.column) = centre_m + weighted_sum / weights;
+        }
+    }
+}
+
+void mergeMaxima(const Image<float>& depth_m, const Image<float>& proximity_m,
+                 const Image<float>& sharpened_m, const std::vector<Maximum>& maxima,
+                 float min_range_m, Image<float>& merged_m) {
+    merged_m = depth_m;
+    for (const Maximum& maximum : maxima) {
+        const float before_m = proximity_m(maximum.row, maximum.column);
+        const float sharpened = sharpened_m(maximum.row, maximum.column);
+        const float nearer_by_m = 0.5f * (before_m + sharpened) - before_m;
+        float& merged = merged_m(maximum.row, maximum.column);
+        merged = std::max(merged - nearer_by_m, std::min(merged, min_range_m));
+    }
+}
+
+}  // namespace hagen

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <hagen/range_image/Label.h>
+#include <hagen/range_image/RangeImage.h>
+#include <hagen/range_image/Scan.h>
+#include <vector>
+
+namespace hagen {
+
+/// What the filter says of each return of a scan, and the returns of each kind.
+struct LabelledReturns {
+    std::vector<Label> label;             ///< an entry a return, in the scan's order
+    std::vector<std::int32_t> component;  ///< RoI component, 1 the nearest; 0 for none
+    /// Indices of the returns with each label, ascending; together every return once.
+    std::vector<std::uint32_t> roi, rou, unclassified;
+};
+
+/// Stage 9, extraction: a return takes the label and the component of its pixel, through the
+/// depth_mapper. Farther than `zone_m` it is ROU, out of the sensor's range Unclassified.
+void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
+                    const Image<Label>& labels, const Image<std::int32_t>& components, float zone_m,
+                    LabelledReturns& returns);
+
+}  // namespace hagen

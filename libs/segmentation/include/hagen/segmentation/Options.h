@@ -1,0 +1,45 @@
+#pragma once
+namespace hagen {
+
+/// How the labelling reads section III-E; see Labelling.h.
+enum class Seeds {
+    Lowest,        ///< the lowest pixel of a column is ground: what grows from it is ROU
+    TopAndNearest  ///< the literal text: what grows from the top and the nearest pixel is RoI
+};
+
+/// Every setting of the filter, under the names that settings files use. Defaults are ours;
+/// config/paper.yaml holds those of the paper.
+struct Options {
+    /// Radius of the avoidance zone: returns farther than this are ROU.
+    float zone_m = 20.0f;
+    /// Returns up to this range enter the image, as context of the zone; never less than zone_m.
+    float context_m = 20.0f;
+    /// I_w, the image's columns in a full turn.
+    int columns = 870;
+    /// Fill one-pixel holes of the depth image between two vertical neighbours that differ by less;
+    /// 0 repairs nothing.
+    float repair_max_step_m = 1.0f;
+    /// Least persistence of a maximum of proximity that is sharpened; 0 keeps every local maximum.
+    float persistence_m = 0.5f;
+    /// Standard deviations of the bilateral filter: spatial, in pixels, and of range, in metres.
+    float sharpening_sigma_px = 1.2f;
+    float sharpening_sigma_m = 1.3f;
+    /// W, rows of the trajectory matrix of the singular spectrum analysis.
+    int window_size = 8;
+    /// PC, leading components kept; PC = W smooths nothing.
+    int principal_components = 5;
+    /// beta: neighbours whose range angles differ by less are one region.
+    float beta_deg = 10.0f;
+    /// Where the regions grow from.
+    Seeds seeds = Seeds::Lowest;
+    /// RoI pixels side by side are one component where their depths differ by less.
+    float component_gap_m = 1.0f;
+    /// K, consecutive scans that are segmented together; needs poses beyond 1.
+    int window_scans = 1;
+};
+
+/// Throws std::invalid_argument, naming the setting, where settings contradict one another or the
+/// sensor's number of beams (principal_components > window_size, window_size >= beams).
+void checkOptions(const Options& options, int beams);
+
+}  // namespace hagen

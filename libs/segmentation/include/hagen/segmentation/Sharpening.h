@@ -1,0 +1,25 @@
+#pragma once
+#include <hagen/range_image/Image.h>
+#include <hagen/segmentation/PersistentMaxima.h>
+#include <vector>
+
+namespace hagen {
+
+/// Stage 4, sharpening: the modified bilateral filter of section III-B, at the maxima alone,
+///
+///   I_f(x) = I(x) + sum_i I(x_i) g_r(|I(x_i) - I(x)|) g_s(|x_i - x|) / sum_i g_r g_s
+///
+/// over those of the 8 neighbours x_i (azimuth wrapped) that are there; g_s and g_r are Gaussians of
+/// `sigma_px` pixels and `sigma_m` metres. A maximum without a neighbour, and every pixel that is no
+/// maximum, keeps its value. `sharpened_m` must not be `proximity_m`.
+void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& maxima,
+                   float sigma_px, float sigma_m, Image<float>& sharpened_m);
+
+/// Stage 5, merge: the mean of proximity and sharpened proximity, turned back into depth. Only the
+/// maxima move, and only nearer; none comes nearer than `min_range_m`, where the sharpening usually
+/// ends ("maximizing intensities"). `merged_m` must not be `depth_m`.
+void mergeMaxima(const Image<float>& depth_m, const Image<float>& proximity_m,
+                 const Image<float>& sharpened_m, const std::vector<Maximum>& maxima,
+                 float min_range_m, Image<float>& merged_m);
+
+}  // namespace hagen

@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/range_image/RangeImage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+/// A scan known by its beams alone, all that the projection looks at.
+Scan randomScan(unsigned seed, int returns) {
+    test::Random random(seed);
+    Scan scan;
+    for (int i = 0; i < returns; ++i) {
+        scan.row.push_back(static_cast<std::uint8_t>(random.whole(0, 15)));
+        scan.azimuth_rad.push_back(random.real(-3.14159f, 3.14159f));
+        scan.range_m.push_back(random.chance(0.05) ? kNoValue : random.real(0.0f, 150.0f));
+        scan.x_m.push_back(0.0f);
+    }
+    return scan;
+}
+
+TEST(RangeImage, NearestColumnIsThatOfASearchThroughAllColumns) {
+    test::Random random(3);
+    for (const int columns : {8, 360, 870, 1800}) {
+        for (int i = 0; i < 300; ++i) {
+            const float azimuth_rad = random.real(-3.14159f, 3.14159f);
+            const auto distance = [&](int column) {
+                return std::abs(std::remainder(
+                    static_cast<double>(columnAzimuth(column, columns) - azimuth_rad), 2 * kPi));
+            };
+            const int found = nearestColumn(azimuth_rad, columns);
+            for (int column = 0; column < columns; ++column) {
+                ASSERT_LE(distance(found), distance(column) + 1e-5);
+            }
+        }
+    }
+}
+
+TEST(RangeImage, ForwardIsTheMiddleAndLeftIsLeft) {
+    EXPECT_NEAR(nearestColumn(0.0f, 870), 435, 1);
+    EXPECT_NEAR(nearestColumn(static_cast<float>(kPi / 2), 870), 217, 1);
+    EXPECT_NEAR(nearestColumn(static_cast<float>(-kPi / 2), 870), 652, 1);
+}
+
+TEST(RangeImage, EveryAzimuthHasAColumnUpToBothEndsOfTheTurn) {
+    for (const float azimuth_rad : {-3.1415928f, -3.1415925f, 3.1415925f, 3.1415928f}) {
+        EXPECT_GE(nearestColumn(azimuth_rad, 870), 0);
+        EXPECT_LT(nearestColumn(azimuth_rad, 870), 870);
+    }
+}
+
+TEST(RangeImage, KeepsTheClosestReturnOfEachPixel) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Scan scan = randomScan(4, 20000);
+    RangeImage image;
+    projectScan(scan, sensor, 100, kFar, image);
+
+    Image<float> closest;
+    closest.setConstant(16, 100, kFar);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const float range_m = scan.range_m[i];
+        if (!(range_m >= sensor.min_range_m && range_m <= sensor.max_range_m)) {
+            EXPECT_EQ(image.depth_mapper[i], RangeImage::kNoPixel);
+            continue;
+        }
+        const int column = nearestColumn(scan.azimuth_rad[i], 100);
+        EXPECT_EQ(image.depth_mapper[i], column * 16 + scan.row[i]);
+        closest(scan.row[i], column) = std::min(closest(scan.row[i], column), range_m);
+    }
+    closest = (closest == kFar).select(kNoValue, closest);
+    EXPECT_TRUE(test::same(image.depth_m, closest));
+}
+
+TEST(RangeImage, DepthDoesNotDependOnTheOrderOfReturns) {
+    test::Random random(5);
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Scan scan = randomScan(5, 3000);
+    std::vector<std::size_t> order(scan.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random.engine());
+    Scan shuffled;
+    for (const std::size_t i : order) {
+        shuffled.row.push_back(scan.row[i]);
+        shuffled.azimuth_rad.push_back(scan.azimuth_rad[i]);
+        shuffled.range_m.push_back(scan.range_m[i]);
+        shuffled.x_m.push_back(0.0f);
+    }
+    RangeImage image, shuffled_image;
+    projectScan(scan, sensor, 870, kFar, image);
+    projectScan(shuffled, sensor, 870, kFar, shuffled_image);
+    EXPECT_TRUE(test::same(image.depth_m, shuffled_image.depth_m));
+}
+
+TEST(RangeImage, ReturnsBeyondTheContextStayOut) {
+    const Scan scan = randomScan(6, 3000);
+    RangeImage image;
+    projectScan(scan, sensorModel("VLP-16"), 870, 20.0f, image);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const bool inside = scan.range_m[i] >= 0.5f && scan.range_m[i] <= 20.0f;
+        EXPECT_EQ(image.depth_mapper[i] != RangeImage::kNoPixel, inside);
+    }
+}
+
+TEST(RangeImage, ReturnsByPixelHoldEachReturnOnceInItsPixel) {
+    const Scan scan = randomScan(7, 5000);
+    RangeImage image;
+    projectScan(scan, sensorModel("VLP-16"), 50, kFar, image);
+    const ReturnsByPixel by_pixel = returnsByPixel(image);
+    std::set<int> seen;
+    for (int pixel = 0; pixel < image.depth_m.size(); ++pixel) {
+        for (int k = by_pixel.first[pixel]; k < by_pixel.first[pixel + 1]; ++k) {
+            EXPECT_EQ(image.depth_mapper[by_pixel.returns[k]], pixel);
+            EXPECT_TRUE(seen.insert(by_pixel.returns[k]).second);
+        }
+    }
+    const auto mapped = std::count_if(image.depth_mapper.begin(), image.depth_mapper.end(),
+                                      [](int pixel) { return pixel != RangeImage::kNoPixel; });
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>(mapped));
+}
+
+TEST(RangeImage, AnEmptyScanGivesAnEmptyImage) {
+    RangeImage image;
+    projectScan(Scan(), sensorModel("VLP-16"), 870, kFar, image);
+    EXPECT_EQ(image.depth_m.rows(), 16);
+    EXPECT_EQ(image.depth_m.cols(), 870);
+    EXPECT_TRUE(image.depth_m.isNaN().all());
+    EXPECT_TRUE(image.depth_mapper.empty());
+}
+
+}  // namespace
+}  // namespace hagen

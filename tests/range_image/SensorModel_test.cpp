@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/range_image/SensorModel.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+TEST(SensorModel, Vlp16HasSixteenBeamsTwoDegreesApart) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    ASSERT_EQ(sensor.rows(), 16);
+    for (int row = 0; row < 16; ++row) {
+        EXPECT_NEAR(degrees(sensor.elevations_rad[row]), -15.0 + 2.0 * row, 1e-5);
+    }
+}
+
+TEST(SensorModel, EveryKnownSensorHasItsBeamsFromLowToHigh) {
+    const std::vector<std::pair<std::string, int>> beams{
+        {"VLP-16", 16}, {"HDL-32E", 32}, {"HDL-64E", 64}, {"Puck Hi-Res", 16}, {"VLP-32C", 32}};
+    ASSERT_EQ(knownSensorModels().size(), beams.size());
+    for (const auto& [name, count] : beams) {
+        const SensorModel sensor = sensorModel(name);
+        EXPECT_EQ(sensor.name, name);
+        EXPECT_EQ(sensor.rows(), count);
+        EXPECT_LT(sensor.min_range_m, sensor.max_range_m);
+        EXPECT_TRUE(std::is_sorted(sensor.elevations_rad.begin(), sensor.elevations_rad.end()));
+    }
+}
+
+TEST(SensorModel, DataSheetsEndsOfTheFieldOfView) {
+    EXPECT_NEAR(degrees(sensorModel("HDL-32E").elevations_rad.front()), -30.67, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("HDL-32E").elevations_rad.back()), 10.67, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("HDL-64E").elevations_rad.front()), -24.33, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("HDL-64E").elevations_rad.back()), 2.0, 0.01);
+}
+
+TEST(SensorModel, NearestRowIsThatOfASearchThroughAllBeams) {
+    test::Random random(1);
+    for (const std::string& name : knownSensorModels()) {
+        const SensorModel sensor = sensorModel(name);
+        for (int i = 0; i < 2000; ++i) {
+            const float elevation_rad = random.real(-1.0f, 1.0f);
+            int nearest = 0;
+            for (int row = 1; row < sensor.rows(); ++row) {
+                if (std::abs(sensor.elevations_rad[row] - elevation_rad) <
+                    std::abs(sensor.elevations_rad[nearest] - elevation_rad)) {
+                    nearest = row;
+                }
+            }
+            ASSERT_EQ(sensor.nearestRow(elevation_rad), nearest) << name << " " << elevation_rad;
+        }
+    }
+}
+
+TEST(SensorModel, EachBeamIsItsOwnNearestRow) {
+    const SensorModel sensor = sensorModel("HDL-64E");
+    for (int row = 0; row < sensor.rows(); ++row) {
+        EXPECT_EQ(sensor.nearestRow(sensor.elevations_rad[row]), row);
+    }
+}
+
+TEST(SensorModel, UnknownNameIsRefusedWithTheKnownOnes) {
+    try {
+        sensorModel("VLP-61");
+        FAIL();
+    } catch (const std::invalid_argument& e) {
+        EXPECT_NE(std::string(e.what()).find("VLP-61"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("HDL-32E"), std::string::npos);
+    }
+}
+
+TEST(SensorModel, CustomBeamsMustGoUpwards) {
+    EXPECT_EQ(customSensorModel({-10, 0, 5}).rows(), 3);
+    EXPECT_THROW(customSensorModel({}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({1}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({0, 0}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({5, -5}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({0, 91}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({0, NAN}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel(std::vector<double>(257, 1.0)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,40 @@
+#pragma once
+#include <hagen/range_image/Image.h>
+
+#include <random>
+
+namespace hagen::test {
+
+/// Random test data; the seed is the test's, so that a failure comes again.
+class Random {
+   public:
+    explicit Random(unsigned seed) : engine_(seed) {}
+
+    float real(float least, float most) {
+        return std::uniform_real_distribution<float>(least, most)(engine_);
+    }
+    int whole(int least, int most) { return std::uniform_int_distribution<int>(least, most)(engine_); }
+    bool chance(double probability) { return std::bernoulli_distribution(probability)(engine_); }
+
+    /// An image of values within [least, most], a share of them missing.
+    Image<float> image(int rows, int columns, float least, float most, double missing) {
+        Image<float> image(rows, columns);
+        for (float& pixel : image.reshaped()) {
+            pixel = chance(missing) ? kNoValue : real(least, most);
+        }
+        return image;
+    }
+
+    std::mt19937& engine() { return engine_; }
+
+   private:
+    std::mt19937 engine_;
+};
+
+/// Equal, empty pixels included.
+inline bool same(const Image<float>& a, const Image<float>& b) {
+    return a.rows() == b.rows() && a.cols() == b.cols() &&
+           ((a == b) || (a.isNaN() && b.isNaN())).all();
+}
+
+}  // namespace hagen::test

@@ -1,0 +1,32 @@
+#include "support/SimpleFirings.h"
+
+#include <hagen/range_image/Angle.h>
+
+#include <cmath>
+
+namespace hagen::test {
+
+Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
+               const Eigen::Vector3d& position_m, double range_limit_m) {
+    const SensorModel sensor = sensorModel(model.name);
+    const std::vector<std::uint8_t> rows =
+        rowsOfLasers(mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration));
+    Firings firings;
+    firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 turns a second
+    const int count = static_cast<int>(std::round(360.0 / firings.azimuth_step_deg));
+    firings.range_m.setConstant(model.lasers, count, kNoValue);
+    firings.intensity.setZero(model.lasers, count);
+    for (int firing = 0; firing < count; ++firing) {
+        for (int laser = 0; laser < model.lasers; ++laser) {
+            const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
+            const double elevation_rad = static_cast<double>(sensor.elevations_rad[rows[laser]]);
+            const Hit hit = castRay(scene, position_m, directionOf(azimuth_rad, elevation_rad));
+            if (!(hit.range_m < range_limit_m)) continue;
+            firings.range_m(laser, firing) = static_cast<float>(hit.range_m);
+            firings.intensity(laser, firing) = hit.label == Label::Roi ? 0.8f : 0.2f;
+        }
+    }
+    return firings;
+}
+
+}  // namespace hagen::test

@@ -1,0 +1,46 @@
+#pragma once
+#include <Eigen/Core>
+#include <hagen/range_image/Label.h>
+#include <hagen/range_image/Scan.h>
+#include <hagen/range_image/SensorModel.h>
+#include <limits>
+#include <vector>
+
+namespace hagen::test {
+
+/// A world of flat ground (z = 0), upright boxes and upright round poles, whose ranges and labels
+/// are known in closed form. Everything but the ground is RoI.
+struct SimpleScene {
+    struct Box {
+        Eigen::Vector3d low_m, high_m;
+    };
+    struct Pole {
+        double x_m, y_m, radius_m, height_m;
+    };
+    std::vector<Box> boxes;
+    std::vector<Pole> poles;
+    bool has_ground = true;
+};
+
+/// What a ray meets first.
+struct Hit {
+    double range_m = std::numeric_limits<double>::infinity();  ///< infinite: nothing
+    Label label = Label::Unclassified;
+};
+Hit castRay(const SimpleScene& scene, const Eigen::Vector3d& origin_m,
+            const Eigen::Vector3d& direction);
+
+/// A scan and what geometry says of each return.
+struct LabelledScan {
+    Scan scan;
+    std::vector<Label> truth;
+};
+
+/// A level scan from `position_m`, a ray through the middle of each pixel of an image with `columns`.
+LabelledScan scanScene(const SimpleScene& scene, const SensorModel& sensor, int columns,
+                       const Eigen::Vector3d& position_m);
+
+/// The direction of a beam in the sensor's frame.
+Eigen::Vector3d directionOf(double azimuth_rad, double elevation_rad);
+
+}  // namespace hagen::test
