@@ -73,7 +73,8 @@ Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
 
 void parseOption(const OptionKey& key, const YAML::Node& node, Options& options) {
     if (const auto* real = std::get_if<float Options::*>(&key.field)) {
-        options.*(*real) = parseNumber<float>(node, key.name, key.least, key.most);
+        options.*(*real) =
+            static_cast<float>(parseNumber<double>(node, key.name, key.least, key.most));
     } else if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
         options.*(*whole) = parseNumber<int>(node, key.name, key.least, key.most);
     } else {
@@ -112,9 +113,11 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sens
                 }
                 customSensorModel(sensor.elevations_deg);
             } else if (key == "min_range_m") {
-                sensor.min_range_m = parseNumber<float>(value, "sensor.min_range_m", 0, 1000);
+                sensor.min_range_m =
+                    static_cast<float>(parseNumber<double>(value, "sensor.min_range_m", 0, 1000));
             } else if (key == "max_range_m") {
-                sensor.max_range_m = parseNumber<float>(value, "sensor.max_range_m", 0, 1000);
+                sensor.max_range_m =
+                    static_cast<float>(parseNumber<double>(value, "sensor.max_range_m", 0, 1000));
             } else {
                 throw SettingsError(
                     unknownKey(key, {"model", "elevations_deg", "min_range_m", "max_range_m"}) +
@@ -134,11 +137,11 @@ YAML::Node parseFile(const fs::path& file) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
     try {
         return YAML::LoadFile(file.string());
-    } catch (const YAML::BadFile&) {
-        throw SettingsError(file.string() + ": cannot be read");
-    } catch (const YAML::Exception& e) {
+    } catch (const YAML::ParserException& e) {
         throw SettingsError(file.string() + ":" + std::to_string(e.mark.line + 1) +
                             ": not YAML: " + e.msg);
+    } catch (const std::exception&) {
+        throw SettingsError(file.string() + ": cannot be read");
     }
 }
 

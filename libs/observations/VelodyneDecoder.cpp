@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -18,28 +19,44 @@ constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
 constexpr double kHourUs = 3600e6;
 
-/// Sine, cosine and azimuth (counter-clockwise, as MRPT has it) of each azimuth a packet can name
-/// (clockwise, 0.01 degrees).
-struct AzimuthTable {
-    std::array<float, kTurn> sine, cosine, azimuth_rad;
+int wrapTurn(int reading) { return ((reading % kTurn) + kTurn) % kTurn; }
 
+/// A direction in the plane.
+struct Azimuth {
+    float sine, cosine;  ///< of the angle clockwise from x
+    float azimuth_rad;   ///< counter-clockwise from x, as MRPT has it
+};
+
+/// The directions of all azimuths that a packet can name, and of those between them.
+class AzimuthTable {
+   public:
     AzimuthTable() {
-        for (int i = 0; i < kTurn; ++i) {
-            const double clockwise_rad = radians(0.01 * i);
-            sine[i] = static_cast<float>(std::sin(clockwise_rad));
-            cosine[i] = static_cast<float>(std::cos(clockwise_rad));
-            azimuth_rad[i] =
-                static_cast<float>(clockwise_rad < kPi ? -clockwise_rad : 2 * kPi - clockwise_rad);
+        for (int reading = 0; reading < kTurn; ++reading) {
+            const double clockwise_rad = radians(azimuthOfReadingDeg(reading));
+            entries_[reading] = {static_cast<float>(std::sin(clockwise_rad)),
+                                 static_cast<float>(std::cos(clockwise_rad)),
+                                 static_cast<float>(-clockwise_rad)};
         }
     }
+
+    /// The nearest entry, turned by what is left: at most 0.005 degrees, where sin(d) = d and
+    /// cos(d) = 1 to 4e-9.
+    Azimuth operator()(float reading) const {
+        const float nearest = std::round(reading);
+        const float rest_rad = (reading - nearest) * static_cast<float>(radians(0.01));
+        const Azimuth& entry = entries_[wrapTurn(static_cast<int>(nearest))];
+        return {entry.sine + entry.cosine * rest_rad, entry.cosine - entry.sine * rest_rad,
+                entry.azimuth_rad - rest_rad};
+    }
+
+   private:
+    std::array<Azimuth, kTurn> entries_;
 };
 
 const AzimuthTable& azimuthTable() {
     static const AzimuthTable table;
     return table;
 }
-
-int wrapTurn(int hundredths_deg) { return ((hundredths_deg % kTurn) + kTurn) % kTurn; }
 
 std::string hex(unsigned value) {
     char text[8];
@@ -73,17 +90,24 @@ bool isSound(const CObservationVelodyneScan::raw_block_t& block) {
     return block.header() == CObservationVelodyneScan::UPPER_BANK && block.rotation() < kTurn;
 }
 
-/// How far the sensor turns during each block, in 0.01 degrees: to the block after it (in dual mode
-/// after its pair). The last one has none after it and turns as the one before.
-std::array<int, kBlocks> turnsOf(const Packet& packet, int blocks_per_firing) {
-    std::array<int, kBlocks> turns{};
-    for (int b = 0; b < kBlocks; ++b) {
-        const int next = b + blocks_per_firing;
-        turns[b] = next < kBlocks
-                       ? wrapTurn(packet.blocks[next].rotation() - packet.blocks[b].rotation())
-                       : turns[b - blocks_per_firing];
+int blocksPerFiring(const Packet& packet) {
+    return packet.laser_return_mode == CObservationVelodyneScan::RETMODE_DUAL ? 2 : 1;
+}
+
+/// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over the
+/// scan, so that neither the rounding of azimuths nor a broken block shifts a return.
+int turnOfBlocks(const std::vector<Packet>& packets) {
+    std::vector<int> turns;
+    for (const Packet& packet : packets) {
+        const int step = blocksPerFiring(packet);
+        for (int b = 0; b + step < kBlocks; ++b) {
+            turns.push_back(
+                wrapTurn(packet.blocks[b + step].rotation() - packet.blocks[b].rotation()));
+        }
     }
-    return turns;
+    const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+    std::nth_element(turns.begin(), middle, turns.end());
+    return *middle;
 }
 
 }  // namespace
@@ -106,14 +130,13 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
     const AzimuthTable& table = azimuthTable();
     scan.reserve(observation.scan_packets.size() * CObservationVelodyneScan::SCANS_PER_PACKET);
 
+    const int turn = turnOfBlocks(observation.scan_packets);
     std::size_t unsound_blocks = 0;
     const double first_us = observation.scan_packets.front().gps_timestamp();
     for (std::size_t p = 0; p < observation.scan_packets.size(); ++p) {
         modelOf(observation, p);
         const Packet& packet = observation.scan_packets[p];
-        const bool dual = packet.laser_return_mode == CObservationVelodyneScan::RETMODE_DUAL;
-        const int blocks_per_firing = dual ? 2 : 1;
-        const std::array<int, kBlocks> turns = turnsOf(packet, blocks_per_firing);
+        const int blocks_per_firing = blocksPerFiring(packet);
         double packet_us = packet.gps_timestamp() - first_us;
         if (packet_us < 0) packet_us += kHourUs;  // time stamps start anew every hour
 
@@ -130,9 +153,9 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
                 const int laser = i % model.lasers;
                 const auto& correction = calibration.laser_corrections[laser];
                 const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
-                const int azimuth = wrapTurn(
-                    static_cast<int>(std::lround(block.rotation() + turns[b] * turn_in_block -
-                                                 100.0 * correction.azimuthCorrection)));
+                const Azimuth azimuth =
+                    table(static_cast<float>(block.rotation() + turn * turn_in_block -
+                                             100.0 * correction.azimuthCorrection));
                 const float range_m = static_cast<float>(
                     laser_return.distance() * CObservationVelodyneScan::DISTANCE_RESOLUTION +
                     correction.distanceCorrection);
@@ -141,14 +164,13 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
                     static_cast<float>(correction.verticalOffsetCorrection *
                                        correction.sinVertCorrection);
                 const float sideways_m = static_cast<float>(correction.horizontalOffsetCorrection);
-                const float sine = table.sine[azimuth], cosine = table.cosine[azimuth];
-                scan.x_m.push_back(horizontal_m * cosine + sideways_m * sine);
-                scan.y_m.push_back(-horizontal_m * sine + sideways_m * cosine);
+                scan.x_m.push_back(horizontal_m * azimuth.cosine + sideways_m * azimuth.sine);
+                scan.y_m.push_back(-horizontal_m * azimuth.sine + sideways_m * azimuth.cosine);
                 scan.z_m.push_back(range_m * static_cast<float>(correction.sinVertCorrection) +
                                    static_cast<float>(correction.verticalOffsetCorrection));
                 scan.intensity.push_back(static_cast<float>(laser_return.intensity()) / 255.0f);
                 scan.range_m.push_back(range_m);
-                scan.azimuth_rad.push_back(table.azimuth_rad[azimuth]);
+                scan.azimuth_rad.push_back(azimuth.azimuth_rad);
                 scan.row.push_back(rows[laser]);
                 scan.time_s.push_back(
                     static_cast<float>(1e-6 * (block_us + turn_in_block * model.blockPeriodUs())));

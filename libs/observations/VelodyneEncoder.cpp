@@ -51,11 +51,16 @@ void checkSizes(const VelodyneModel& model, const Firings& firings) {
     }
 }
 
+/// The azimuth reading of a laser of a firing, unrounded and not wrapped to a turn.
+double readingOf(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
+    const double turn = firing + laser * model.laser_period_us / model.firing_period_us;
+    return 100.0 * (firings.first_azimuth_deg + turn * firings.azimuth_step_deg);
+}
+
 }  // namespace
 
 double firingAzimuthDeg(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
-    const double turn = firing + laser * model.laser_period_us / model.firing_period_us;
-    return std::fmod(firings.first_azimuth_deg + turn * firings.azimuth_step_deg, 360.0);
+    return azimuthOfReadingDeg(readingOf(model, firings, laser, firing));
 }
 
 std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& firings) {
@@ -72,9 +77,9 @@ std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& fir
             const int block_firing = first + b / blocks_per_firing * model.firings_per_block;
             // Dual mode: the last return comes first, then the strongest.
             const auto& range_m = dual && b % 2 == 0 ? firings.last_range_m : firings.range_m;
-            const double azimuth_deg = firingAzimuthDeg(model, firings, 0, block_firing);
             bytes.put16(CObservationVelodyneScan::UPPER_BANK);
-            bytes.put16(static_cast<unsigned>(std::lround(100 * azimuth_deg)) % 36000);
+            bytes.put16(static_cast<unsigned>(
+                            std::lround(readingOf(model, firings, 0, block_firing))) % 36000);
             for (int i = 0; i < kReturns; ++i) {
                 const int laser = i % model.lasers, firing = block_firing + i / model.lasers;
                 const bool fired = firing < firing_count;

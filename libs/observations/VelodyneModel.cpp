@@ -41,6 +41,11 @@ const VelodyneModel& velodyneModel(const std::string& name) {
     throw std::invalid_argument("packets of '" + name + "' are not known; VLP-16 and HDL-32E are");
 }
 
+double azimuthOfReadingDeg(double reading) {
+    const double from_behind = std::fmod(reading + 54000.0, 36000.0);
+    return from_behind * (360.0 / 35999.0) - 180.0;
+}
+
 std::vector<std::uint8_t> rowsOfLasers(const mrpt::obs::VelodyneCalibration& calibration) {
     const std::vector<std::size_t> order = lasersByElevation(calibration);
     std::vector<std::uint8_t> rows(order.size());

@@ -83,7 +83,7 @@ TEST(HagenFilter, AWallNearerThanTheLowestGroundRingIsTakenForGround) {
     scene.boxes.push_back({{5, -2, 0}, {6, 2, 30}});
     const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     HagenFilter filter(sensorModel("VLP-16"));
-    EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Roi), count(wall, Label::Roi));
+    EXPECT_GT(mistakes(wall, filter.segment(wall.scan), Label::Roi), 0.9 * count(wall, Label::Roi));
 }
 
 TEST(HagenFilter, BeyondTheZoneNothingIsAnObstacle) {

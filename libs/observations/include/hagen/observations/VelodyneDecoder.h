@@ -16,8 +16,8 @@ SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
 /// half of each block.) Strongest, last and dual mode; in dual mode both returns of a firing come
 /// out, also where they are equal.
 ///
-/// Azimuths are interpolated within a block and rounded to the 0.01 degrees of the packets. Times
-/// are those of the firings, from the first packet's time stamp on. No trigonometry a return.
+/// Azimuths are interpolated within a block; times are those of the firings, from the first packet's
+/// time stamp on. No trigonometry a return.
 ///
 /// Returns the number of blocks left out because their header is not a block's (0xEEFF) or their
 /// azimuth is no angle. Throws std::runtime_error, naming the packet, for one of an unknown model or

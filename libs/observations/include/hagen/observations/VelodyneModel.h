@@ -30,6 +30,11 @@ const VelodyneModel* findVelodyneModel(std::uint8_t id);
 /// The model with this name. Throws std::invalid_argument for others than VLP-16 and HDL-32E.
 const VelodyneModel& velodyneModel(const std::string& name);
 
+/// The direction of a packet's azimuth reading (0.01 degrees, fractions allowed): degrees clockwise from
+/// x, within +-180. As MRPT's own decoder has it, so that clouds of both lie on one another: it spreads
+/// the 36000 readings over a whole turn with both ends in it, and so points 0 to 0.01 degrees ahead.
+double azimuthOfReadingDeg(double reading);
+
 /// The image row of each laser (row 0 the lowest beam), by the calibration's elevations.
 std::vector<std::uint8_t> rowsOfLasers(const mrpt::obs::VelodyneCalibration& calibration);
 

@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/range_image/Angle.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kConfig = fs::path(HAGEN_SOURCE_DIR) / "config";
+
+class SettingsTest : public testing::Test {
+   protected:
+    Settings settingsOf(const std::string& text) {
+        Settings settings;
+        mergeSettings(folder_.write("settings.yaml", text), settings);
+        return settings;
+    }
+    /// What is said of a file that is refused; the settings must be untouched.
+    std::string refusalOf(const std::string& text) {
+        const fs::path file = folder_.write("refused.yaml", text);
+        Settings settings;
+        settings.options.beta_deg = 3.0f;
+        try {
+            mergeSettings(file, settings);
+        } catch (const SettingsError& e) {
+            EXPECT_EQ(settings.options.beta_deg, 3.0f);
+            EXPECT_FALSE(settings.sensor.model);
+            EXPECT_NE(std::string(e.what()).find("refused.yaml"), std::string::npos) << e.what();
+            return e.what();
+        }
+        ADD_FAILURE() << "taken: " << text;
+        return "";
+    }
+    static bool says(const std::string& message, const std::string& words) {
+        return message.find(words) != std::string::npos;
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(SettingsTest, OurPresetForTheVlp16IsWhatHoldsWithoutAnyFile) {
+    Settings preset;
+    mergeSettings(kConfig / "vlp16.yaml", preset);
+    const Options ours = preset.options, built_in;
+    for (const OptionKey& key : optionKeys()) {
+        std::visit([&](auto field) { EXPECT_EQ(ours.*field, built_in.*field) << key.name; }, key.field);
+    }
+    EXPECT_EQ(preset.sensorModel().elevations_rad, Settings().sensorModel().elevations_rad);
+}
+
+TEST_F(SettingsTest, PaperIsThePublishedFilter) {
+    Settings paper;
+    mergeSettings(kConfig / "paper.yaml", paper);
+    EXPECT_EQ(paper.sensorModel().rows(), 16);
+    EXPECT_EQ(paper.options.columns, 870);
+    EXPECT_EQ(paper.options.window_size, 8);
+    EXPECT_EQ(paper.options.principal_components, 5);
+    EXPECT_EQ(paper.options.beta_deg, 10.0f);
+    EXPECT_EQ(paper.options.repair_max_step_m, 0.0f);
+    EXPECT_EQ(paper.options.context_m, 20.0f);
+    EXPECT_EQ(paper.options.seeds, Seeds::Lowest);
+}
+
+TEST_F(SettingsTest, PresetsFitTheirSensors) {
+    for (const auto& [file, beams] : {std::pair{"vlp16.yaml", 16}, {"hdl32e.yaml", 32},
+                                      {"hdl64e.yaml", 64}}) {
+        Settings preset;
+        mergeSettings(kConfig / file, preset);
+        EXPECT_EQ(preset.sensorModel().rows(), beams);
+        EXPECT_NO_THROW(checkOptions(preset.options, beams));
+    }
+}
+
+TEST_F(SettingsTest, EveryKeyOfTheTableIsReadAndCheckedAtBothEnds) {
+    for (const OptionKey& key : optionKeys()) {
+        if (key.name == "seeds") continue;
+        std::ostringstream least, below;
+        least << key.name << ": " << key.least;
+        below << key.name << ": " << key.least - 1;
+        EXPECT_NO_THROW(settingsOf(least.str())) << key.name;
+        EXPECT_TRUE(says(refusalOf(below.str()), "must lie within")) << key.name;
+        refusalOf(key.name + ": soon");
+        refusalOf(key.name + ": [1, 2]");
+        refusalOf(key.name + ": .nan");
+        if (std::isfinite(key.most)) refusalOf(key.name + ": 1000000000");
+    }
+}
+
+TEST_F(SettingsTest, SeedsAreOneOfTwoWords) {
+    EXPECT_EQ(settingsOf("seeds: top_and_nearest").options.seeds, Seeds::TopAndNearest);
+    EXPECT_EQ(settingsOf("seeds: lowest").options.seeds, Seeds::Lowest);
+    EXPECT_TRUE(says(refusalOf("seeds: highest"), "'highest'"));
+}
+
+TEST_F(SettingsTest, LaterFilesOverrideEarlierOnesKeyByKey) {
+    Settings settings;
+    mergeSettings(folder_.write("a.yaml", "beta_deg: 5\nzone_m: 15\n"), settings);
+    mergeSettings(folder_.write("b.yaml", "beta_deg: 7.5\n"), settings);
+    EXPECT_EQ(settings.options.beta_deg, 7.5f);
+    EXPECT_EQ(settings.options.zone_m, 15.0f);
+}
+
+TEST_F(SettingsTest, IncludedFilesComeBeforeTheFilesOwnKeys) {
+    folder_.write("base.yaml", "beta_deg: 5\nzone_m: 15\n");
+    const Settings settings = settingsOf("beta_deg: 6\ninclude: base.yaml\n");
+    EXPECT_EQ(settings.options.beta_deg, 6.0f);
+    EXPECT_EQ(settings.options.zone_m, 15.0f);
+    folder_.write("more.yaml", "zone_m: 16\n");
+    EXPECT_EQ(settingsOf("include: [base.yaml, more.yaml]").options.zone_m, 16.0f);
+}
+
+TEST_F(SettingsTest, IncludeThatIsMissingOrGoesInACircleIsRefused) {
+    Settings settings;
+    EXPECT_THROW(mergeSettings(folder_.write("a.yaml", "include: none.yaml"), settings),
+                 SettingsError);
+    const fs::path circle = folder_.write("circle.yaml", "include: circle.yaml");
+    EXPECT_THROW(mergeSettings(circle, settings), SettingsError);
+}
+
+TEST_F(SettingsTest, AMisspeltKeyIsNamedWithTheNearestKnownOneAndItsLine) {
+    const std::string message = refusalOf("zone_m: 20\nbeta_dge: 10\n");
+    EXPECT_TRUE(says(message, "refused.yaml:2:")) << message;
+    EXPECT_TRUE(says(message, "'beta_dge'")) << message;
+    EXPECT_TRUE(says(message, "'beta_deg'")) << message;
+    EXPECT_TRUE(says(refusalOf("sensor: {modle: VLP-16}"), "'model'"));
+}
+
+TEST_F(SettingsTest, AKeyThatIsThereTwiceIsRefused) {
+    EXPECT_TRUE(says(refusalOf("zone_m: 20\nzone_m: 21\n"), "twice"));
+}
+
+TEST_F(SettingsTest, WholeNumbersMustBeWhole) {
+    EXPECT_TRUE(says(refusalOf("window_size: 8.5"), "whole number"));
+    EXPECT_TRUE(says(refusalOf("window_size: 8x"), "whole number"));
+}
+
+TEST_F(SettingsTest, WhatIsNotYamlOrNoSettingsIsRefused) {
+    EXPECT_TRUE(says(refusalOf("zone_m: [1"), "not YAML"));
+    EXPECT_TRUE(says(refusalOf("- 1\n- 2\n"), "key: value"));
+    EXPECT_TRUE(says(refusalOf("just words"), "key: value"));
+    Settings settings;
+    EXPECT_THROW(mergeSettings("/no/such/file.yaml", settings), SettingsError);
+    EXPECT_THROW(mergeSettings(folder_.path(), settings), SettingsError);
+}
+
+TEST_F(SettingsTest, AnEmptyFileChangesNothing) {
+    EXPECT_NO_THROW(settingsOf(""));
+    EXPECT_NO_THROW(settingsOf("# nothing but words\n"));
+}
+
+TEST_F(SettingsTest, TheContextMayHaveNoEnd) {
+    EXPECT_TRUE(std::isinf(settingsOf("context_m: .inf").options.context_m));
+}
+
+TEST_F(SettingsTest, CustomSensorHasItsOwnBeams) {
+    const auto sensor = settingsOf("sensor: {model: custom, elevations_deg: [-5, 0, 2.5], "
+                                   "min_range_m: 1, max_range_m: 50}")
+                            .sensorModel();
+    ASSERT_EQ(sensor.rows(), 3);
+    EXPECT_NEAR(degrees(sensor.elevations_rad[2]), 2.5, 1e-5);
+    EXPECT_EQ(sensor.min_range_m, 1.0f);
+    EXPECT_EQ(sensor.max_range_m, 50.0f);
+}
+
+TEST_F(SettingsTest, ARecordingsBeamsReplaceAPresetsModelAndTheOtherWayRound) {
+    Settings settings;
+    mergeSettings(kConfig / "vlp16.yaml", settings);
+    mergeSettings(folder_.write("a.yaml", "sensor: {model: custom, elevations_deg: [-1, 1]}"), settings);
+    EXPECT_EQ(settings.sensorModel().rows(), 2);
+    mergeSettings(kConfig / "hdl32e.yaml", settings);
+    EXPECT_EQ(settings.sensorModel().rows(), 32);
+}
+
+TEST_F(SettingsTest, SensorsThatMakeNoSenseAreRefused) {
+    EXPECT_TRUE(says(refusalOf("sensor: {model: VLP-61}"), "VLP-61"));
+    EXPECT_TRUE(says(refusalOf("sensor: VLP-16"), "sensor must hold keys"));
+    EXPECT_TRUE(says(refusalOf("sensor: {elevations_deg: [1, 2]}"), "model: custom"));
+    EXPECT_TRUE(says(refusalOf("sensor: {model: custom, elevations_deg: [2, 1]}"), "lowest"));
+    EXPECT_TRUE(says(refusalOf("sensor: {model: custom, elevations_deg: 3}"), "list"));
+    EXPECT_TRUE(says(refusalOf("sensor: {model: VLP-16, max_range_m: -1}"), "max_range_m"));
+    EXPECT_THROW(settingsOf("sensor: {model: custom}").sensorModel(), SettingsError);
+}
+
+TEST_F(SettingsTest, OneOptionFromText) {
+    Settings settings;
+    setOption("beta_deg", "12.5", settings);
+    setOption("seeds", "top_and_nearest", settings);
+    EXPECT_EQ(settings.options.beta_deg, 12.5f);
+    EXPECT_EQ(settings.options.seeds, Seeds::TopAndNearest);
+    EXPECT_THROW(setOption("beta", "12.5", settings), SettingsError);
+    EXPECT_THROW(setOption("beta_deg", "many", settings), SettingsError);
+    EXPECT_THROW(setOption("beta_deg", "", settings), SettingsError);
+    EXPECT_EQ(settings.options.beta_deg, 12.5f);
+}
+
+}  // namespace
+}  // namespace hagen

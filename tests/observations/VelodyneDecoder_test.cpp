@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+#include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/observations/VelodyneEncoder.h>
+#include <hagen/range_image/Angle.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "support/Captures.h"
+#include "support/Program.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+
+/// MRPT decodes the first 16 returns of each block; these are theirs among ours.
+std::vector<std::size_t> returnsInFirstHalfOfBlocks(const CObservationVelodyneScan& observation) {
+    std::vector<std::size_t> indices;
+    std::size_t index = 0;
+    for (const auto& packet : observation.scan_packets) {
+        for (const auto& block : packet.blocks) {
+            for (int i = 0; i < 32; ++i) {
+                if (block.laser_returns[i].distance() == 0) continue;
+                const double range_m = block.laser_returns[i].distance() * 0.002;
+                const bool in_range =
+                    range_m >= observation.minRange && range_m <= observation.maxRange;
+                if (i < 16 && in_range) indices.push_back(index);
+                ++index;
+            }
+        }
+    }
+    return indices;
+}
+
+void expectMrptAgrees(CObservationVelodyneScan observation) {
+    Scan scan;
+    EXPECT_EQ(decodePackets(observation, scan), 0u);
+    const auto shared = returnsInFirstHalfOfBlocks(observation);
+    observation.generatePointCloud();
+    const auto& cloud = observation.point_cloud;
+    ASSERT_EQ(cloud.size(), shared.size());
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+        const double distance_m =
+            std::hypot(scan.x_m[shared[i]] - cloud.x[i], scan.y_m[shared[i]] - cloud.y[i],
+                       scan.z_m[shared[i]] - cloud.z[i]);
+        ASSERT_LT(distance_m, 0.01) << "return " << i << " of MRPT's";
+        ASSERT_EQ(static_cast<int>(std::lround(255 * scan.intensity[shared[i]])), cloud.intensity[i]);
+    }
+}
+
+TEST(VelodyneDecoder, AllReturnsOfTheRealScanComeOutWhereMrptDecodesHalf) {
+    const auto observation = test::realVlp16Scan();
+    if (!observation) GTEST_SKIP() << "mrpt-common is not installed";
+    Scan scan;
+    EXPECT_EQ(decodePackets(*observation, scan), 0u);
+    EXPECT_EQ(scan.size(), 22591u);
+    expectMrptAgrees(*observation);
+}
+
+TEST(VelodyneDecoder, MrptAgreesOnCapturesOfVlp16AndHdl32e) {
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    for (const auto& [file, calibration] :
+         {std::pair{"sample_velodyne_vlp16_gps.pcap", "VLP16"}, {"sample_velodyne_hdl32.pcap", "HDL32"}}) {
+        const auto observation = test::readCapture(folder / file, calibration);
+        ASSERT_GT(observation->scan_packets.size(), 100u) << file;
+        expectMrptAgrees(*observation);
+    }
+}
+
+TEST(VelodyneDecoder, MrptAgreesOnACalibrationWithCorrections) {
+    auto observation = test::realVlp16Scan();
+    if (!observation) GTEST_SKIP() << "mrpt-common is not installed";
+    test::Random random(50);
+    for (auto& laser : observation->calibration.laser_corrections) {
+        laser.distanceCorrection = static_cast<double>(random.real(-0.2f, 0.2f));
+        laser.verticalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+        laser.horizontalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+    }
+    observation->minRange = 0.0;
+    expectMrptAgrees(*observation);
+}
+
+/// Firings of random ranges, some missing.
+Firings randomFirings(unsigned seed, const VelodyneModel& model, int count, double missing) {
+    test::Random random(seed);
+    Firings firings;
+    firings.range_m = random.image(model.lasers, count, 0.6f, 120.0f, missing);
+    firings.intensity = random.image(model.lasers, count, 0.0f, 1.0f, 0.0);
+    firings.first_azimuth_deg = 200.0;
+    return firings;
+}
+
+void expectReturns(const VelodyneModel& model, const Firings& firings, const Scan& scan) {
+    const auto calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration);
+    const auto rows = rowsOfLasers(calibration);
+    std::size_t i = 0;
+    for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
+        for (int laser = 0; laser < model.lasers; ++laser) {
+            const float range_m = firings.range_m(laser, firing);
+            if (!hasValue(range_m)) continue;
+            ASSERT_LT(i, scan.size());
+            const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
+            const double turned =
+                std::remainder(static_cast<double>(scan.azimuth_rad[i]) - azimuth_rad, 2 * kPi);
+            ASSERT_LT(std::abs(degrees(turned)), 0.016);  // azimuths are rounded twice to 0.01
+            ASSERT_NEAR(scan.range_m[i], range_m, 0.00101);
+            ASSERT_EQ(scan.row[i], rows[laser]);
+            ASSERT_NEAR(scan.intensity[i], firings.intensity(laser, firing), 0.5 / 255 + 1e-6);
+            ASSERT_NEAR(std::hypot(scan.x_m[i], scan.y_m[i], scan.z_m[i]), range_m, 0.002);
+            ASSERT_NEAR(std::remainder(std::atan2(scan.y_m[i], scan.x_m[i]) - scan.azimuth_rad[i],
+                                       static_cast<float>(2 * kPi)),
+                        0.0, 1e-5);
+            ++i;
+        }
+    }
+    ASSERT_EQ(i, scan.size());
+}
+
+TEST(VelodyneDecoder, GivesBackWhatWasEncoded) {
+    for (const char* name : {"VLP-16", "HDL-32E"}) {
+        const VelodyneModel& model = velodyneModel(name);
+        for (unsigned seed = 51; seed < 55; ++seed) {
+            const Firings firings = randomFirings(seed, model, 24 * 40, 0.3);
+            Scan scan;
+            EXPECT_EQ(decodePackets(*encodeScan(model, firings), scan), 0u);
+            expectReturns(model, firings, scan);
+        }
+    }
+}
+
+TEST(VelodyneDecoder, DualModeGivesTheLastAndTheStrongestReturnOfEveryFiring) {
+    for (const char* name : {"VLP-16", "HDL-32E"}) {
+        const VelodyneModel& model = velodyneModel(name);
+        Firings firings = randomFirings(55, model, 240, 0.0);
+        firings.last_range_m = firings.range_m + 1.0f;
+        Scan scan;
+        EXPECT_EQ(decodePackets(*encodeScan(model, firings), scan), 0u);
+        ASSERT_EQ(scan.size(), static_cast<std::size_t>(2 * firings.range_m.size()));
+
+        Scan strongest, last;  // block by block in turn
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            Scan& half = i / 32 % 2 == 0 ? last : strongest;
+            half.x_m.push_back(scan.x_m[i]);
+            half.y_m.push_back(scan.y_m[i]);
+            half.z_m.push_back(scan.z_m[i]);
+            half.range_m.push_back(scan.range_m[i]);
+            half.azimuth_rad.push_back(scan.azimuth_rad[i]);
+            half.row.push_back(scan.row[i]);
+            half.intensity.push_back(scan.intensity[i]);
+        }
+        expectReturns(model, firings, strongest);
+        firings.range_m = firings.last_range_m;
+        expectReturns(model, firings, last);
+    }
+}
+
+TEST(VelodyneDecoder, TimesGoOnFromLaserToLaserAndOverTheFullHour) {
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    Firings firings = randomFirings(56, model, 240, 0.0);
+    firings.first_time_us = 3599995000u;
+    Scan scan;
+    decodePackets(*encodeScan(model, firings), scan);
+    for (std::size_t i = 1; i < scan.size(); ++i) ASSERT_GT(scan.time_s[i], scan.time_s[i - 1]);
+    EXPECT_EQ(scan.time_s.front(), 0.0f);
+    EXPECT_NEAR(scan.time_s.back(), 1e-6 * (239 * 55.296 + 15 * 2.304), 2e-6);
+}
+
+/// Changes a byte of a packet as it would come over the network.
+void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte, std::uint8_t value) {
+    std::uint8_t bytes[CObservationVelodyneScan::PACKET_SIZE];
+    std::memcpy(bytes, &observation.scan_packets[packet], sizeof bytes);
+    bytes[byte] = value;
+    std::memcpy(static_cast<void*>(&observation.scan_packets[packet]), bytes, sizeof bytes);
+}
+
+TEST(VelodyneDecoder, BlocksWithoutAValidHeaderOrAzimuthAreLeftOutAndCounted) {
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(57, model, 240, 0.0));
+    setByte(*observation, 0, 0, 0x00);       // header of block 0
+    setByte(*observation, 3, 500 + 3, 0xff);  // azimuth of block 5
+    Scan scan;
+    EXPECT_EQ(decodePackets(*observation, scan), 2u);
+    EXPECT_EQ(scan.size(), 240u * 16 - 2 * 32);
+}
+
+TEST(VelodyneDecoder, APacketOfAnotherOrUnknownModelIsRefusedByItsNumber) {
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    for (const auto& [id, words] : {std::pair{0x21, "differs"}, {0x99, "unknown model id 0x99"}}) {
+        const auto observation = encodeScan(model, randomFirings(58, model, 240, 0.0));
+        setByte(*observation, 4, 1205, static_cast<std::uint8_t>(id));
+        Scan scan;
+        try {
+            decodePackets(*observation, scan);
+            FAIL();
+        } catch (const std::runtime_error& e) {
+            EXPECT_NE(std::string(e.what()).find("packet 4"), std::string::npos) << e.what();
+            EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+        }
+    }
+}
+
+TEST(VelodyneDecoder, NoPacketsGiveNoReturns) {
+    Scan scan;
+    EXPECT_EQ(decodePackets(CObservationVelodyneScan(), scan), 0u);
+    EXPECT_EQ(scan.size(), 0u);
+    EXPECT_THROW(sensorOf(CObservationVelodyneScan()), std::runtime_error);
+}
+
+TEST(VelodyneDecoder, WithoutACalibrationTheModelsDefaultHolds) {
+    const VelodyneModel& model = velodyneModel("HDL-32E");
+    const auto observation = encodeScan(model, randomFirings(59, model, 240, 0.1));
+    Scan with, without;
+    decodePackets(*observation, with);
+    observation->calibration.clear();
+    decodePackets(*observation, without);
+    EXPECT_EQ(with.z_m, without.z_m);
+    EXPECT_EQ(sensorOf(*observation).rows(), 32);
+}
+
+TEST(VelodyneDecoder, TheSensorHasTheObservationsRangeLimits) {
+    const auto observation =
+        encodeScan(velodyneModel("VLP-16"), randomFirings(60, velodyneModel("VLP-16"), 24, 0.0));
+    observation->minRange = 0.9;
+    observation->maxRange = 77.0;
+    EXPECT_EQ(sensorOf(*observation).min_range_m, 0.9f);
+    EXPECT_EQ(sensorOf(*observation).max_range_m, 77.0f);
+    EXPECT_EQ(sensorOf(*observation).name, "VLP-16");
+}
+
+}  // namespace
+}  // namespace hagen
