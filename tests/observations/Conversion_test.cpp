@@ -1,0 +1,273 @@
+#include <gtest/gtest.h>
+#include <hagen/observations/Conversion.h>
+#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/RawlogReader.h>
+#include <hagen/observations/RawlogWriter.h>
+#include <hagen/observations/ScanFolder.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <stdexcept>
+
+#include "support/Program.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationPointCloud;
+
+CObservation::Ptr scanFrom(double x_m, const std::string& label = "lidar") {
+    test::SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    auto scan = encodeScan(model, test::fireAt(scene, model, {x_m, 0, 2}));
+    scan->sensorLabel = label;
+    scan->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+    return scan;
+}
+
+/// Something that is no LiDAR scan.
+CObservation::Ptr pose() {
+    auto observation = mrpt::obs::CObservationRobotPose::Create();
+    observation->sensorLabel = "pose";
+    observation->timestamp = mrpt::Clock::fromDouble(100.0);
+    return observation;
+}
+
+class ConversionTest : public testing::Test {
+   protected:
+    fs::path writeLog(const std::vector<mrpt::serialization::CSerializable::Ptr>& entries) {
+        RawlogWriter writer(folder_ / "in.rawlog", true);
+        for (const auto& entry : entries) writer.write(*entry);
+        writer.commit();
+        return folder_ / "in.rawlog";
+    }
+
+    /// Class or label of each entry, those of a sensory frame in brackets.
+    static std::vector<std::string> entriesOf(const fs::path& file) {
+        std::vector<std::string> names;
+        RawlogReader reader(file);
+        while (const auto entry = reader.next()) {
+            if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
+                names.push_back(observation->sensorLabel);
+            } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+                std::string name = "[";
+                for (const auto& part : *frame) name += " " + part->sensorLabel;
+                names.push_back(name + " ]");
+            } else {
+                names.push_back(entry->GetRuntimeClass()->className);
+            }
+        }
+        return names;
+    }
+
+    Conversion conversion() {
+        Conversion conversion;
+        conversion.input = folder_ / "in.rawlog";
+        conversion.rawlog = folder_ / "out.rawlog";
+        return conversion;
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ConversionTest, KeepsEveryEntryInOrderWithTheCloudsAfterTheirScan) {
+    writeLog({pose(), scanFrom(0), pose(), scanFrom(1, ""), pose()});
+    const ConversionReport report = convert(conversion());
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"pose", "lidar", "lidar_roi", "lidar_non_roi", "pose", "",
+                                        "_roi", "_non_roi", "pose"}));
+    EXPECT_EQ(report.entries, 5u);
+    EXPECT_EQ(report.scans, 2u);
+    EXPECT_EQ(report.roi + report.rou + report.unclassified, report.returns);
+    EXPECT_GT(report.roi, 80u);
+}
+
+TEST_F(ConversionTest, InSensoryFramesTheCloudsJoinTheFrame) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(scanFrom(0, "front"));
+    frame->insert(pose());
+    frame->insert(scanFrom(0, "rear"));
+    writeLog({mrpt::obs::CActionCollection::Create(), frame});
+    EXPECT_EQ(convert(conversion()).scans, 2u);
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{
+                  "mrpt::obs::CActionCollection",
+                  "[ front pose rear front_roi front_non_roi rear_roi rear_non_roi ]"}));
+}
+
+TEST_F(ConversionTest, AgainGivesTheSameBytes) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    Conversion first = conversion(), second = conversion();
+    first.folder = folder_ / "scans";
+    second.rawlog = folder_ / "again.rawlog";
+    second.folder = folder_ / "scans_again";
+    convert(first);
+    convert(second);
+    EXPECT_EQ(test::readFile(first.rawlog), test::readFile(second.rawlog));
+    for (const char* file : {"velodyne/000001.bin", "labels/000001.label", "times.txt", "sensor.yaml"}) {
+        EXPECT_EQ(test::readFile(first.folder / file), test::readFile(second.folder / file)) << file;
+    }
+}
+
+TEST_F(ConversionTest, ItsOwnOutputIsNotSegmentedAgain) {
+    writeLog({scanFrom(0)});
+    convert(conversion());
+    Conversion again = conversion();
+    again.input = folder_ / "out.rawlog";
+    again.rawlog = folder_ / "again.rawlog";
+    EXPECT_EQ(convert(again).scans, 1u);
+    EXPECT_EQ(entriesOf(again.rawlog),
+              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "lidar_roi",
+                                        "lidar_non_roi"}));
+}
+
+TEST_F(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    Conversion both = conversion();
+    both.folder = folder_ / "scans";
+    const ConversionReport report = convert(both);
+    const ScanFolder scans(both.folder);
+    ASSERT_EQ(scans.size(), 2u);
+    EXPECT_NEAR(scans.times()[1], 1.0, 1e-6);
+    std::size_t roi = 0, returns = 0;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto labels = readLabels(scans.labelFile(i));
+        roi += std::count(labels.begin(), labels.end(), 2);
+        returns += labels.size();
+    }
+    EXPECT_EQ(roi, report.roi);
+    EXPECT_EQ(returns, report.returns);
+}
+
+TEST_F(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
+    writeLog({scanFrom(0)});
+    Conversion to_folder = conversion();
+    to_folder.folder = folder_ / "scans";
+    convert(to_folder);
+    fs::rename(folder_ / "scans/velodyne/000000.bin", folder_ / "scans/velodyne/000042.bin");
+
+    Conversion from_folder;
+    from_folder.input = folder_ / "scans";
+    from_folder.rawlog = folder_ / "from_folder.rawlog";
+    from_folder.folder = folder_ / "labels";
+    const ConversionReport report = convert(from_folder);
+    EXPECT_EQ(report.scans, 1u);
+    EXPECT_EQ(entriesOf(from_folder.rawlog),
+              (std::vector<std::string>{"velodyne", "velodyne_roi", "velodyne_non_roi"}));
+    EXPECT_EQ(readLabels(folder_ / "labels/labels/000042.label").size(), report.returns);
+    EXPECT_EQ(test::readFile(folder_ / "labels/velodyne/000042.bin"),
+              test::readFile(folder_ / "scans/velodyne/000042.bin"));
+}
+
+TEST_F(ConversionTest, ARecordingsOwnBeamsWin) {
+    fs::create_directories(folder_ / "scans/velodyne");
+    writeScan(folder_ / "scans/velodyne/000000.bin",
+              test::scanScene({}, sensorModel("HDL-32E"), 100, {0, 0, 2}).scan);
+    folder_.write("scans/sensor.yaml", "sensor: {model: HDL-32E}");
+    Conversion from_folder;
+    from_folder.input = folder_ / "scans";
+    from_folder.folder = folder_ / "labels";
+    from_folder.settings.sensor.model = "HDL-64E";
+    convert(from_folder);
+    Settings written;
+    mergeSettings(folder_ / "labels/sensor.yaml", written);
+    EXPECT_EQ(written.sensorModel().rows(), 32);
+}
+
+TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    fs::create_directories(folder_ / "scans/velodyne");
+    for (int i = 0; i < 3; ++i) {
+        writeScan(folder_ / ("scans/velodyne/00000" + std::to_string(i) + ".bin"),
+                  test::scanScene({}, sensor, 300, {static_cast<double>(i), 0, 2}).scan);
+    }
+    Conversion windowed;
+    windowed.input = folder_ / "scans";
+    windowed.folder = folder_ / "labels";
+    windowed.settings.options.window_scans = 3;
+    std::vector<std::string> remarks;
+    ConversionListener listener;
+    listener.remark = [&](const std::string& entry, const std::string& remark) {
+        remarks.push_back(entry + ": " + remark);
+    };
+    convert(windowed, listener);
+    ASSERT_EQ(remarks.size(), 3u);
+    EXPECT_NE(remarks[2].find("entry 2 (000002): "), std::string::npos) << remarks[2];
+    EXPECT_NE(remarks[2].find("no pose"), std::string::npos);
+
+    remarks.clear();
+    folder_.write("scans/poses.txt",
+                  "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n1 0 0 2 0 1 0 0 0 0 1 0\n");
+    windowed.overwrite = true;
+    EXPECT_EQ(convert(windowed, listener).scans, 3u);
+    EXPECT_TRUE(remarks.empty());
+}
+
+TEST_F(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
+    auto broken = scanFrom(0);
+    std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
+        ->scan_packets[0]
+        .velodyne_model_ID = 0x99;
+    writeLog({pose(), broken, scanFrom(1)});
+    std::string remarks;
+    ConversionListener listener;
+    listener.remark = [&](const std::string& entry, const std::string& remark) {
+        remarks += entry + ": " + remark;
+    };
+    const ConversionReport report = convert(conversion(), listener);
+    EXPECT_EQ(report.unreadable_scans, 1u);
+    EXPECT_EQ(report.scans, 1u);
+    EXPECT_NE(remarks.find("entry 1 (lidar)"), std::string::npos) << remarks;
+    EXPECT_NE(remarks.find("0x99"), std::string::npos) << remarks;
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
+}
+
+TEST_F(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
+    writeLog({scanFrom(0), scanFrom(1), scanFrom(2)});
+    const std::string bytes = test::readFile(folder_ / "in.rawlog");
+    folder_.write("in.rawlog", bytes.substr(0, bytes.size() / 2));
+    try {
+        convert(conversion());
+        FAIL();
+    } catch (const BrokenRawlog& e) {
+        EXPECT_NE(std::string(e.what()).find("entry 1"), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("out.partial.rawlog"), std::string::npos) << e.what();
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+    EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog"),
+              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi"}));
+}
+
+TEST_F(ConversionTest, TheInputIsNeverReplaced) {
+    writeLog({scanFrom(0)});
+    Conversion onto_itself = conversion();
+    onto_itself.rawlog = onto_itself.input;
+    onto_itself.overwrite = true;
+    EXPECT_THROW(convert(onto_itself), std::runtime_error);
+    EXPECT_EQ(entriesOf(folder_ / "in.rawlog").size(), 1u);
+}
+
+TEST_F(ConversionTest, OutputsThatExistAreRefused) {
+    writeLog({scanFrom(0)});
+    folder_.write("out.rawlog", "old");
+    EXPECT_THROW(convert(conversion()), std::runtime_error);
+    EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), "old");
+}
+
+TEST_F(ConversionTest, ProgressCountsEntries) {
+    writeLog({pose(), scanFrom(0), pose()});
+    std::vector<std::size_t> counts;
+    ConversionListener listener;
+    listener.progress = [&](const ConversionReport& report) { counts.push_back(report.entries); };
+    convert(conversion(), listener);
+    EXPECT_EQ(counts, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/ObservationScan.h>
+#include <mrpt/obs/CObservationComment.h>
+
+#include <stdexcept>
+
+#include "support/SimpleFirings.h"
+
+namespace hagen {
+namespace {
+
+using mrpt::obs::CObservationPointCloud;
+
+mrpt::obs::CObservationVelodyneScan::Ptr velodyneScan() {
+    const VelodyneModel& model = velodyneModel("HDL-32E");
+    return encodeScan(model, test::fireAt({}, model, {0, 0, 2}));
+}
+
+CObservationPointCloud::Ptr cloud(std::initializer_list<std::array<float, 4>> points) {
+    Scan scan;
+    for (const auto& [x, y, z, intensity] : points) {
+        scan.x_m.push_back(x);
+        scan.y_m.push_back(y);
+        scan.z_m.push_back(z);
+        scan.intensity.push_back(intensity);
+    }
+    return observationOf(scan, "lidar", mrpt::Clock::fromDouble(12.5));
+}
+
+TEST(ObservationScan, VelodyneScansAndPointCloudsAreLidarScans) {
+    EXPECT_TRUE(isLidarScan(*velodyneScan()));
+    EXPECT_TRUE(isLidarScan(*cloud({})));
+    EXPECT_FALSE(isLidarScan(mrpt::obs::CObservationComment()));
+}
+
+TEST(ObservationScan, ResultsAreNotSegmentedAgain) {
+    const auto observation = cloud({});
+    for (const char* label : {"lidar_roi", "lidar_non_roi", "_roi"}) {
+        observation->sensorLabel = label;
+        EXPECT_FALSE(isLidarScan(*observation)) << label;
+    }
+    for (const char* label : {"", "roi", "roi_lidar", "droi"}) {
+        observation->sensorLabel = label;
+        EXPECT_TRUE(isLidarScan(*observation)) << label;
+    }
+}
+
+TEST(ObservationScan, PacketsBringTheirOwnSensor) {
+    ObservedScan observed;
+    Settings settings;
+    readObservation(*velodyneScan(), settings, observed);
+    EXPECT_EQ(observed.sensor.name, "HDL-32E");
+    EXPECT_EQ(observed.remark, "");
+    settings.sensor.model = "VLP-16";
+    readObservation(*velodyneScan(), settings, observed);
+    EXPECT_EQ(observed.sensor.rows(), 32);
+    EXPECT_NE(observed.remark.find("VLP-16"), std::string::npos);
+}
+
+TEST(ObservationScan, CloudsTakeTheSettingsSensorAndKeepOrderAndIntensity) {
+    ObservedScan observed;
+    Settings settings;
+    settings.sensor.model = "HDL-64E";
+    readObservation(*cloud({{3, 0, 0, 0.25f}, {0, 4, 0, 0.5f}, {kNoValue, 1, 1, 1}}), settings, observed);
+    EXPECT_EQ(observed.sensor.rows(), 64);
+    ASSERT_EQ(observed.scan.size(), 3u);
+    EXPECT_EQ(observed.scan.range_m[0], 3.0f);
+    EXPECT_EQ(observed.scan.range_m[1], 4.0f);
+    EXPECT_FALSE(hasValue(observed.scan.range_m[2]));
+    EXPECT_EQ(observed.scan.intensity, (std::vector<float>{0.25f, 0.5f, 1.0f}));
+}
+
+TEST(ObservationScan, AVelodyneScanWithAStoredCloudAndNoPacketsGivesTheCloud) {
+    mrpt::obs::CObservationVelodyneScan observation;
+    observation.point_cloud.x = {1, 2};
+    observation.point_cloud.y = {0, 0};
+    observation.point_cloud.z = {0, 0};
+    observation.point_cloud.intensity = {255, 0};
+    ObservedScan observed;
+    readObservation(observation, Settings(), observed);
+    EXPECT_EQ(observed.scan.range_m, (std::vector<float>{1, 2}));
+    EXPECT_EQ(observed.scan.intensity, (std::vector<float>{1, 0}));
+    EXPECT_EQ(observed.remark, "");
+}
+
+TEST(ObservationScan, AScanWithoutAnythingSaysSo) {
+    ObservedScan observed;
+    readObservation(mrpt::obs::CObservationVelodyneScan(), Settings(), observed);
+    EXPECT_EQ(observed.scan.size(), 0u);
+    EXPECT_NE(observed.remark.find("no packets"), std::string::npos);
+}
+
+TEST(ObservationScan, WhatCannotBeReadThrows) {
+    ObservedScan observed;
+    EXPECT_THROW(readObservation(CObservationPointCloud(), Settings(), observed), std::runtime_error);
+    EXPECT_THROW(readObservation(mrpt::obs::CObservationComment(), Settings(), observed),
+                 std::runtime_error);
+}
+
+TEST(ObservationScan, ThePortableCopyHasThePointsAndTheHeader) {
+    const auto original = cloud({{3, 0, 1, 0.25f}, {0, 4, 2, 0.5f}});
+    original->sensorPose = mrpt::poses::CPose3D(1, 2, 3, 0, 0, 0);
+    const auto copy = portable(*original);
+    EXPECT_NE(std::dynamic_pointer_cast<PortableCloud>(copy->pointcloud), nullptr);
+    EXPECT_EQ(copy->pointcloud->getPointsBufferRef_z(), original->pointcloud->getPointsBufferRef_z());
+    EXPECT_EQ(copy->timestamp, original->timestamp);
+    EXPECT_EQ(copy->sensorLabel, "lidar");
+    EXPECT_EQ(copy->sensorPose, original->sensorPose);
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,186 @@
+#include <gtest/gtest.h>
+#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/observations/VelodyneDecoder.h>
+#include <mrpt/obs/CObservationComment.h>
+
+#include <stdexcept>
+
+#include "support/Captures.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+
+CObservationVelodyneScan::Ptr scanFrom(double x_m, const char* label = "front") {
+    test::SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    auto scan = encodeScan(model, test::fireAt(scene, model, {x_m, 0, 2}));
+    scan->sensorLabel = label;
+    scan->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+    scan->sensorPose = mrpt::poses::CPose3D(0.1, 0, -0.2, 0.3, 0, 0);
+    return scan;
+}
+
+TEST(ObservationSegmenter, IsMadeByItsName) {
+    registerHagenClasses();
+    const auto object = mrpt::rtti::classFactory("hagen::ObservationSegmenter");
+    ASSERT_NE(object, nullptr);
+    const auto segmenter = std::dynamic_pointer_cast<ObservationSegmenter>(object);
+    ASSERT_NE(segmenter, nullptr);
+    ObservationSegmenter::Output out;
+    EXPECT_TRUE(segmenter->process(*scanFrom(0), out));
+    EXPECT_EQ(std::string(segmenter->GetRuntimeClass()->className), "hagen::ObservationSegmenter");
+}
+
+TEST(ObservationSegmenter, LeavesAloneWhatIsNoLidarScan) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    EXPECT_FALSE(segmenter.process(mrpt::obs::CObservationComment(), out));
+    EXPECT_EQ(out.roi, nullptr);
+    EXPECT_FALSE(segmenter.process(*scanFrom(0, "front_non_roi"), out));
+}
+
+TEST(ObservationSegmenter, CloudsHaveTheScansTimePoseAndLabel) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    const auto scan = scanFrom(0);
+    ASSERT_TRUE(segmenter.process(*scan, out));
+    for (const auto& [cloud, label] : {std::pair{out.roi, "front_roi"}, {out.non_roi, "front_non_roi"}}) {
+        EXPECT_EQ(cloud->sensorLabel, label);
+        EXPECT_EQ(cloud->timestamp, scan->timestamp);
+        EXPECT_EQ(cloud->sensorPose, scan->sensorPose);
+        EXPECT_NE(std::dynamic_pointer_cast<PortableCloud>(cloud->pointcloud), nullptr);
+    }
+}
+
+TEST(ObservationSegmenter, EveryReturnOfTheRealScanIsInOneCloudInItsOrder) {
+    const auto scan = test::realVlp16Scan();
+    if (!scan) GTEST_SKIP() << "mrpt-common is not installed";
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    ASSERT_TRUE(segmenter.process(*scan, out));
+    EXPECT_EQ(out.roi->pointcloud->size() + out.non_roi->pointcloud->size(), 22591u);
+    Scan decoded;
+    decodePackets(*scan, decoded);
+    std::size_t next_roi = 0, next_rou = 0;
+    for (std::size_t i = 0; i < decoded.size(); ++i) {
+        const bool is_roi = out.result->returns.label[i] == Label::Roi;
+        const auto& cloud = is_roi ? *out.roi->pointcloud : *out.non_roi->pointcloud;
+        const std::size_t at = is_roi ? next_roi++ : next_rou++;
+        ASSERT_EQ(cloud.getPointsBufferRef_x()[at], decoded.x_m[i]);
+        ASSERT_EQ(cloud.getPointsBufferRef_z()[at], decoded.z_m[i]);
+    }
+}
+
+TEST(ObservationSegmenter, TheSameScanTwiceGivesTheSameLabels) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    segmenter.process(*scanFrom(0), out);
+    const auto labels = out.result->returns.label;
+    segmenter.process(*scanFrom(3), out);
+    segmenter.process(*scanFrom(0), out);
+    EXPECT_EQ(out.result->returns.label, labels);
+}
+
+TEST(ObservationSegmenter, EachSensorLabelHasItsOwnFilterAndWindow) {
+    Settings settings;
+    settings.options.window_scans = 2;
+    ObservationSegmenter segmenter;
+    segmenter.initialize(settings);
+    ObservationSegmenter::Output out;
+    const mrpt::poses::CPose3D pose;
+    segmenter.process(*scanFrom(0, "front"), out, pose);
+    segmenter.process(*scanFrom(0, "rear"), out, pose);
+    EXPECT_EQ(out.window->size(), out.scan->size());  // nothing of the front one
+    segmenter.process(*scanFrom(0, "rear"), out, pose);
+    EXPECT_EQ(out.window->size(), 2 * out.scan->size());
+}
+
+TEST(ObservationSegmenter, AWindowNeedsPosesAndSaysSo) {
+    Settings settings;
+    settings.options.window_scans = 3;
+    ObservationSegmenter segmenter;
+    segmenter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    segmenter.initialize(settings);
+    ObservationSegmenter::Output out;
+    segmenter.process(*scanFrom(0), out, mrpt::poses::CPose3D());
+    EXPECT_EQ(out.remark, "");
+    segmenter.process(*scanFrom(1), out);
+    EXPECT_NE(out.remark.find("no pose"), std::string::npos);
+    EXPECT_EQ(out.window->size(), out.scan->size());
+}
+
+TEST(ObservationSegmenter, AWindowPutsTheScansOfAMovingSensorTogether) {
+    Settings settings;
+    settings.options.window_scans = 3;
+    ObservationSegmenter segmenter;
+    segmenter.initialize(settings);
+    ObservationSegmenter::Output out;
+    for (const double x : {0.0, 1.0, 2.0}) {
+        auto scan = scanFrom(x);
+        scan->sensorPose = {};
+        segmenter.process(*scan, out, mrpt::poses::CPose3D(x, 0, 2, 0, 0, 0));
+    }
+    // Clouds are of the newest scan alone; the window's labels are there on request.
+    EXPECT_EQ(out.roi->pointcloud->size() + out.non_roi->pointcloud->size(), out.scan->size());
+    EXPECT_EQ(out.result->returns.label.size(), out.window->size());
+    EXPECT_GT(out.window->size(), 2 * out.scan->size());
+    // Seen from the newest place the pole stands at (10, 2), and the ground 2 m below.
+    int pole = 0, pole_roi = 0, ground = 0, ground_rou = 0;
+    for (std::size_t i = 0; i < out.window->size(); ++i) {
+        const float from_pole_m = std::hypot(out.window->x_m[i] - 10.0f, out.window->y_m[i] - 2.0f);
+        const bool is_ground = out.window->z_m[i] < -1.99f;
+        ASSERT_TRUE(is_ground || std::abs(from_pole_m - 0.15f) < 0.01f);
+        (is_ground ? ground : pole) += 1;
+        pole_roi += !is_ground && out.result->returns.label[i] == Label::Roi;
+        ground_rou += is_ground && out.result->returns.label[i] == Label::Rou;
+    }
+    EXPECT_GT(pole, 250);
+    EXPECT_GT(pole_roi, 0.95 * pole);
+    EXPECT_GT(ground_rou, 0.95 * ground);
+    EXPECT_GT(out.roi->pointcloud->size(), 30u);
+}
+
+TEST(ObservationSegmenter, AnotherSensorUnderTheSameLabelGetsAnotherFilter) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    segmenter.process(*scanFrom(0), out);
+    EXPECT_EQ(out.sensor->rows(), 16);
+    const VelodyneModel& model = velodyneModel("HDL-32E");
+    auto other = encodeScan(model, test::fireAt({}, model, {0, 0, 2}));
+    other->sensorLabel = "front";
+    segmenter.process(*other, out);
+    EXPECT_EQ(out.sensor->rows(), 32);
+    EXPECT_EQ(out.result->labels.rows(), 32);
+}
+
+TEST(ObservationSegmenter, RefusesSettingsThatDoNotFit) {
+    Settings settings;
+    settings.options.principal_components = 9;
+    EXPECT_THROW(ObservationSegmenter().initialize(settings), std::invalid_argument);
+}
+
+TEST(ObservationSegmenter, AScanOfAnUnknownModelThrows) {
+    auto scan = scanFrom(0);
+    scan->scan_packets[0].velodyne_model_ID = 0x77;
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    EXPECT_THROW(segmenter.process(*scan, out), std::runtime_error);
+}
+
+TEST(ObservationSegmenter, TakesTimesWhenAskedTo) {
+    ObservationSegmenter segmenter;
+    segmenter.profiler.enable();
+    ObservationSegmenter::Output out;
+    segmenter.process(*scanFrom(0), out);
+    EXPECT_GT(segmenter.profiler.getMeanTime("process"), 0.0);
+    EXPECT_GT(segmenter.profiler.getMeanTime("process.segment"), 0.0);
+    segmenter.profiler.enable(false);  // or it prints when it goes
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+#include <hagen/observations/ScanFolder.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "support/Program.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ScanFolderTest : public testing::Test {
+   protected:
+    template <class Call>
+    static std::string messageOf(Call call) {
+        try {
+            call();
+        } catch (const std::runtime_error& e) {
+            return e.what();
+        }
+        return "";
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ScanFolderTest, ListsScansByName) {
+    for (const char* name : {"000010.bin", "000002.bin", "notes.txt"}) {
+        folder_.write(std::string("velodyne/") + name, "");
+    }
+    const ScanFolder scans(folder_.path());
+    ASSERT_EQ(scans.size(), 2u);
+    EXPECT_EQ(scans.name(0), "000002");
+    EXPECT_EQ(scans.scanFile(1), folder_ / "velodyne/000010.bin");
+    EXPECT_EQ(scans.labelFile(1), folder_ / "labels/000010.label");
+    EXPECT_TRUE(scans.times().empty());
+    EXPECT_TRUE(scans.poses().empty());
+}
+
+TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
+    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("velodyne"), std::string::npos);
+    fs::create_directory(folder_ / "velodyne");
+    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("no .bin"), std::string::npos);
+}
+
+TEST_F(ScanFolderTest, ScansComeBackBitByBit) {
+    test::Random random(70);
+    Scan scan, again;
+    for (int i = 0; i < 500; ++i) {
+        scan.x_m.push_back(i == 7 ? kNoValue : random.real(-50, 50));
+        scan.y_m.push_back(random.real(-50, 50));
+        scan.z_m.push_back(random.real(-50, 50));
+        scan.intensity.push_back(random.real(0, 1));
+    }
+    writeScan(folder_ / "a.bin", scan);
+    EXPECT_EQ(fs::file_size(folder_ / "a.bin"), 500u * 16);
+    readScan(folder_ / "a.bin", again);
+    writeScan(folder_ / "b.bin", again);
+    EXPECT_EQ(test::readFile(folder_ / "a.bin"), test::readFile(folder_ / "b.bin"));
+    EXPECT_EQ(again.y_m, scan.y_m);
+}
+
+TEST_F(ScanFolderTest, LabelFilesHaveTheLabelLowAndTheComponentHigh) {
+    writeLabels(folder_ / "a.label", {Label::Unclassified, Label::Rou, Label::Roi, Label::Roi},
+                {0, 0, 3, 1234567});
+    const std::string bytes = test::readFile(folder_ / "a.label");
+    EXPECT_EQ(bytes, std::string("\0\0\0\0\1\0\0\0\2\0\3\0\2\0\xff\xff", 16));
+    EXPECT_EQ(readLabels(folder_ / "a.label"), (std::vector<std::uint16_t>{0, 1, 2, 2}));
+}
+
+TEST_F(ScanFolderTest, FilesThatAreMissingOrCutOffAreNamed) {
+    Scan scan;
+    EXPECT_NE(messageOf([&] { readScan(folder_ / "none.bin", scan); }).find("none.bin"),
+              std::string::npos);
+    folder_.write("cut.bin", std::string(17, 'x'));
+    const std::string message = messageOf([&] { readScan(folder_ / "cut.bin", scan); });
+    EXPECT_NE(message.find("cut.bin"), std::string::npos);
+    EXPECT_NE(message.find("17 bytes"), std::string::npos);
+    folder_.write("cut.label", "abc");
+    EXPECT_NE(messageOf([&] { readLabels(folder_ / "cut.label"); }).find("cut.label"), std::string::npos);
+}
+
+TEST_F(ScanFolderTest, WritingIntoNothingIsNamed) {
+    EXPECT_NE(messageOf([&] { writeScan(folder_ / "no/such/a.bin", Scan()); }).find("a.bin"),
+              std::string::npos);
+}
+
+TEST_F(ScanFolderTest, TimesAndPosesHaveALineAScan) {
+    folder_.write("velodyne/000000.bin", "");
+    folder_.write("velodyne/000001.bin", "");
+    folder_.write("times.txt", "0.0\n0.1\n\n");
+    folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 5 0 1 0 6 0 0 1 7\n");
+    const ScanFolder scans(folder_.path());
+    EXPECT_EQ(scans.times(), (std::vector<double>{0.0, 0.1}));
+    ASSERT_EQ(scans.poses().size(), 2u);
+    EXPECT_EQ(scans.poses()[1][7], 6.0);
+}
+
+TEST_F(ScanFolderTest, TimesAndPosesThatDoNotFitAreNamedByLine) {
+    folder_.write("velodyne/000000.bin", "");
+    folder_.write("times.txt", "0.0\n0.1\n");
+    folder_.write("poses.txt", "1 0 0 0\n");
+    const ScanFolder scans(folder_.path());
+    EXPECT_NE(messageOf([&] { scans.times(); }).find("2 lines for 1 scans"), std::string::npos);
+    EXPECT_NE(messageOf([&] { scans.poses(); }).find("poses.txt:1"), std::string::npos);
+    folder_.write("times.txt", "soon\n");
+    EXPECT_NE(messageOf([&] { scans.times(); }).find("times.txt:1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hagen
