@@ -1,5 +1,6 @@
 // Scores the filter on labelled scan folders, once or over a sweep of settings.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <hagen/evaluation/Scores.h>
 #include <hagen/observations/ScanFolder.h>
@@ -35,7 +36,13 @@ Scores evaluate(const std::vector<std::string>& folders, const Settings& setting
         const ScanFolder folder(path);
         Settings own = settings;
         if (std::filesystem::exists(folder.sensorFile())) mergeSettings(folder.sensorFile(), own);
-        HagenFilter filter(own.sensorModel(), own.options);
+        const SensorModel sensor = own.sensorModel();
+        try {
+            checkOptions(own.options, sensor.rows());
+        } catch (const std::invalid_argument& e) {
+            throw SettingsError(path + ": " + e.what());
+        }
+        HagenFilter filter(sensor, own.options);
         for (std::size_t i = 0; i < folder.size(); ++i) {
             readScan(folder.scanFile(i), scan);
             locateBeams(filter.sensor(), scan);
@@ -51,10 +58,18 @@ Scores evaluate(const std::vector<std::string>& folders, const Settings& setting
     return scores;
 }
 
+/// Four digits, or a dash for what is not defined.
+std::string figure(double ratio) {
+    char text[16] = "-";
+    if (!std::isnan(ratio)) std::snprintf(text, sizeof text, "%.4f", ratio);
+    return text;
+}
+
 void printRow(const std::string& what, const Scores& scores) {
     std::printf("%-28s", what.c_str());
     for (const ClassScore& score : {scores.roi, scores.rou}) {
-        std::printf("  %9.4f %9.4f %9.4f", score.precision(), score.recall(), score.f1());
+        std::printf("  %9s %9s %9s", figure(score.precision()).c_str(), figure(score.recall()).c_str(),
+                    figure(score.f1()).c_str());
     }
     std::printf("\n");
 }

@@ -76,6 +76,8 @@ class Converter {
                                   (name.empty() ? observation.sensorLabel : name) + ")";
         try {
             if (!segmenter_.process(observation, out, pose)) return false;
+        } catch (const SettingsError&) {
+            throw;
         } catch (const std::exception& e) {
             ++report_.unreadable_scans;
             listener_.remark(entry, std::string("kept, but not segmented: ") + e.what());

@@ -158,10 +158,15 @@ TEST(ObservationSegmenter, AnotherSensorUnderTheSameLabelGetsAnotherFilter) {
     EXPECT_EQ(out.result->labels.rows(), 32);
 }
 
-TEST(ObservationSegmenter, RefusesSettingsThatDoNotFit) {
+TEST(ObservationSegmenter, RefusesOptionsThatDoNotFitTheSensorAsSoonAsItIsKnown) {
     Settings settings;
-    settings.options.principal_components = 9;
-    EXPECT_THROW(ObservationSegmenter().initialize(settings), std::invalid_argument);
+    settings.options.window_size = 20;
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    EXPECT_NO_THROW(segmenter.initialize(settings));
+    EXPECT_THROW(segmenter.process(*scanFrom(0), out), SettingsError);
+    settings.sensor.model = "VLP-16";
+    EXPECT_THROW(segmenter.initialize(settings), SettingsError);
 }
 
 TEST(ObservationSegmenter, AScanOfAnUnknownModelThrows) {

@@ -41,7 +41,7 @@ struct ConversionListener {
 ///
 /// Outputs appear under their names when they are whole. Throws std::runtime_error, naming file and
 /// entry, where it fails; a log that breaks off leaves what was read before in OUT.partial.rawlog
-/// (DIR.partial), which the message says.
+/// (DIR.partial), which the message says. Throws SettingsError where options do not fit a sensor.
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener = {});
 
 }  // namespace hagen

@@ -50,13 +50,15 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
 
-    /// Takes new settings and forgets all scans. Without it, defaults hold.
+    /// Takes new settings and forgets all scans. Without it, defaults hold. Throws SettingsError where
+    /// the options do not fit the sensor that the settings name.
     void initialize(const Settings& settings);
 
     /// Segments one observation. False, and `out` untouched, for one that is no LiDAR scan.
     /// `vehicle_pose` is the vehicle in the map at the scan's time; only a window of more than one
     /// scan needs it, and without it the scan is segmented alone, which the remark says.
-    /// Throws std::runtime_error, saying why, for a scan that cannot be read.
+    /// Throws std::runtime_error, saying why, for a scan that cannot be read, and SettingsError for one
+    /// of a sensor that the options do not fit.
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const std::optional<mrpt::poses::CPose3D>& vehicle_pose = std::nullopt);
 

@@ -1,0 +1,250 @@
+// Runs the built program, as a user would.
+#include <gtest/gtest.h>
+#include <hagen/observations/RawlogReader.h>
+#include <hagen/observations/ScanFolder.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CRawlog.h>
+
+#include <set>
+
+#include "support/PolesAndWall.h"
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
+const std::string kPaper = HAGEN_SOURCE_DIR "/config/paper.yaml";
+
+class RawlogSegment : public testing::Test {
+   protected:
+    static test::Outcome run(const std::vector<std::string>& arguments) {
+        return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
+    }
+    /// A failure says why on standard error, and nothing on standard output; no output appears.
+    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
+                       const std::string& words) {
+        const std::set<fs::path> before = files();
+        const test::Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(files(), before);
+    }
+    std::set<fs::path> files() const {
+        return {fs::recursive_directory_iterator(folder_.path()), {}};
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(RawlogSegment, SegmentsTheRecordingThatComesWithTheProject) {
+    const auto outcome = run({"-i", kRecording, "-o", path("out.rawlog")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("10 LiDAR scans in 20 entries"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(path("out.rawlog")), std::string::npos);
+    EXPECT_EQ(outcome.err, "");
+
+    mrpt::obs::CRawlog rawlog;
+    ASSERT_TRUE(rawlog.loadFromRawLogFile(path("out.rawlog")));
+    ASSERT_EQ(rawlog.size(), 40u);
+    for (std::size_t i = 0; i < 40; i += 4) {
+        EXPECT_EQ(rawlog.getAsObservation(i)->sensorLabel, "pose");
+        EXPECT_EQ(rawlog.getAsObservation(i + 1)->sensorLabel, "lidar");
+        EXPECT_EQ(rawlog.getAsObservation(i + 2)->sensorLabel, "lidar_roi");
+        EXPECT_EQ(rawlog.getAsObservation(i + 3)->sensorLabel, "lidar_non_roi");
+        const auto roi = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(
+            rawlog.getAsObservation(i + 2));
+        ASSERT_NE(roi, nullptr);
+        EXPECT_GT(roi->pointcloud->size(), 1000u);
+        EXPECT_EQ(roi->timestamp, rawlog.getAsObservation(i + 1)->timestamp);
+    }
+}
+
+TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
+    if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
+    ASSERT_EQ(run({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")}).exit_code,
+              0);
+    RawlogReader reader(path("out.rawlog"));
+    ASSERT_NE(reader.next(), nullptr);
+    std::size_t points = 0;
+    for (const char* suffix : {"_roi", "_non_roi"}) {
+        const auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(reader.next());
+        ASSERT_NE(cloud, nullptr);
+        EXPECT_EQ(cloud->sensorLabel, std::string("Velodyne1_SCAN") + suffix);
+        points += cloud->pointcloud->size();
+    }
+    EXPECT_EQ(points, 22591u);
+    EXPECT_EQ(reader.next(), nullptr);
+    const ScanFolder scans(path("scans"));
+    EXPECT_EQ(fs::file_size(scans.scanFile(0)), 22591u * 16);
+    EXPECT_EQ(fs::file_size(scans.labelFile(0)), 22591u * 4);
+}
+
+TEST_F(RawlogSegment, TheSameInputGivesTheSameBytes) {
+    for (const std::string name : {"a", "b"}) {
+        ASSERT_EQ(run({"-i", kRecording, "-o", path(name), "--kitti", path(name + "_scans")}).exit_code, 0);
+    }
+    EXPECT_EQ(test::readFile(path("a")), test::readFile(path("b")));
+    EXPECT_EQ(test::readFile(path("a_scans/labels/000009.label")),
+              test::readFile(path("b_scans/labels/000009.label")));
+}
+
+TEST_F(RawlogSegment, AScanFolderGivesLabelsUnderItsOwnNames) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    const auto outcome = run({"-i", path("scans"), "--kitti", path("again"), "-c", kPaper});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const ScanFolder scans(path("again"));
+    ASSERT_EQ(scans.size(), 10u);
+    EXPECT_EQ(fs::file_size(scans.labelFile(3)) * 4, fs::file_size(scans.scanFile(3)));
+}
+
+TEST_F(RawlogSegment, LaterSettingsOverrideEarlierOnes) {
+    const auto narrow = folder_.write("narrow.yaml", "zone_m: 0.1\n");
+    const auto outcome = run({"-i", kRecording, "-o", path("out"), "-c", kPaper, "-c", narrow});
+    ASSERT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.out.find("  0    0.0 %  region of interest"), std::string::npos) << outcome.out;
+}
+
+TEST_F(RawlogSegment, QuietPrintsNothing) {
+    const auto outcome = run({"-q", "-i", kRecording, "-o", path("out")});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(RawlogSegment, OverwriteReplacesWhatIsThere) {
+    folder_.write("out.rawlog", "old");
+    folder_.write("scans/old.txt", "old");
+    ASSERT_EQ(run({"-i", kRecording, "-o", path("out.rawlog"), "--kitti", path("scans"), "--overwrite"})
+                  .exit_code,
+              0);
+    EXPECT_GT(fs::file_size(path("out.rawlog")), 1000u);
+    EXPECT_FALSE(fs::exists(path("scans/old.txt")));
+}
+
+TEST_F(RawlogSegment, HelpIsNoFailure) {
+    const auto outcome = run({"--help"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.out.find("--kitti"), std::string::npos);
+}
+
+TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
+    const fs::path log = "/usr/share/mrpt/datasets/localization_demo.rawlog";
+    if (!fs::exists(log)) GTEST_SKIP() << "mrpt-common is not installed";
+    const auto outcome = run({"-i", log, "-o", path("out.rawlog")});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("no LiDAR scan"), std::string::npos) << outcome.err;
+    RawlogReader in(log), out(path("out.rawlog"));
+    while (in.next()) ASSERT_NE(out.next(), nullptr);
+    EXPECT_EQ(out.next(), nullptr);
+}
+
+// Wrong usage: exit code 2.
+
+TEST_F(RawlogSegment, RefusesToRunWithoutInputOrOutput) {
+    expectFailure({}, 2, "--input");
+    expectFailure({"-i", kRecording}, 2, "-o or --kitti");
+}
+
+TEST_F(RawlogSegment, RefusesUnknownFlags) {
+    expectFailure({"-i", kRecording, "-o", path("out"), "--fast"}, 2, "--fast");
+}
+
+TEST_F(RawlogSegment, RefusesAnInputThatIsNotThere) {
+    expectFailure({"-i", path("none.rawlog"), "-o", path("out")}, 2, path("none.rawlog"));
+}
+
+TEST_F(RawlogSegment, RefusesMisspeltSettingsWithTheNearestKey) {
+    const auto file = folder_.write("mine.yaml", "zone: 20\n");
+    expectFailure({"-i", kRecording, "-o", path("out"), "-c", file}, 2, "'zone_m'");
+}
+
+TEST_F(RawlogSegment, RefusesSettingsOutOfRangeOrOfAnotherSensor) {
+    const auto beta = folder_.write("beta.yaml", "beta_deg: 100\n");
+    expectFailure({"-i", kRecording, "-o", path("out"), "-c", beta}, 2, "beta_deg is 100");
+    const auto window = folder_.write("window.yaml", "window_size: 20\n");
+    expectFailure({"-i", kRecording, "-o", path("out"), "-c", window}, 2, "window_size (20)");
+}
+
+TEST_F(RawlogSegment, RefusesASettingsFileThatIsNotThere) {
+    expectFailure({"-i", kRecording, "-o", path("out"), "-c", path("none.yaml")}, 2, "none.yaml");
+}
+
+// Failures while running: exit code 1.
+
+TEST_F(RawlogSegment, FailsWhereTheOutputExists) {
+    folder_.write("out.rawlog", "old");
+    expectFailure({"-i", kRecording, "-o", path("out.rawlog")}, 1, "--overwrite");
+    EXPECT_EQ(test::readFile(path("out.rawlog")), "old");
+}
+
+TEST_F(RawlogSegment, FailsOnAnEmptyFile) {
+    const auto file = folder_.write("empty.rawlog", "");
+    expectFailure({"-i", file, "-o", path("out")}, 1, "is empty");
+}
+
+TEST_F(RawlogSegment, FailsOnWhatIsNoRawlog) {
+    const auto file = folder_.write("text.rawlog", "this is no rawlog, whatever its name says\n");
+    expectFailure({"-i", file, "-o", path("out")}, 1, "text.rawlog: entry 0");
+}
+
+TEST_F(RawlogSegment, FailsOnAFolderWithoutScans) {
+    expectFailure({"-i", folder_.path(), "--kitti", path("out")}, 1, "velodyne");
+}
+
+TEST_F(RawlogSegment, FailsOnAScanThatIsCutOff) {
+    folder_.write("scans/velodyne/000000.bin", "123");
+    expectFailure({"-i", path("scans"), "--kitti", path("out")}, 1, "000000.bin");
+}
+
+TEST_F(RawlogSegment, FailsWhereTheOutputsFolderIsMissing) {
+    expectFailure({"-i", kRecording, "-o", path("none/out.rawlog")}, 1, "no such folder");
+}
+
+TEST_F(RawlogSegment, FailsToReplaceItsInput) {
+    const auto copy = folder_.write("in.rawlog", test::readFile(kRecording));
+    expectFailure({"-i", copy, "-o", copy, "--overwrite"}, 1, "is the input");
+}
+
+TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
+    const std::string bytes = test::readFile(kRecording);
+    const auto cut = folder_.write("cut.rawlog", bytes.substr(0, bytes.size() / 2));
+    const auto outcome = run({"-i", cut, "-o", path("out.rawlog")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("cut.rawlog: entry"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("out.partial.rawlog"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("out.rawlog")));
+    RawlogReader reader(path("out.partial.rawlog"));
+    while (reader.next()) {
+    }
+    EXPECT_GE(reader.entries(), 12u);
+}
+
+// The recording itself.
+
+TEST(PolesAndWall, TheRecordingIsWhatItsGeneratorMakes) {
+    RawlogReader reader(kRecording);
+    for (int scan = 0; scan < test::kPolesAndWallScans; ++scan) {
+        ASSERT_NE(reader.next(), nullptr);
+        const auto recorded =
+            std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(reader.next());
+        const auto made = test::polesAndWallScan(scan);
+        ASSERT_NE(recorded, nullptr);
+        ASSERT_EQ(recorded->scan_packets.size(), made->scan_packets.size());
+        for (std::size_t p = 0; p < made->scan_packets.size(); ++p) {
+            for (int b = 0; b < 12; ++b) {
+                for (int i = 0; i < 32; ++i) {
+                    // A last bit of a sine may differ between machines, and so a range by a unit.
+                    ASSERT_NEAR(recorded->scan_packets[p].blocks[b].laser_returns[i].distance(),
+                                made->scan_packets[p].blocks[b].laser_returns[i].distance(), 1);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(reader.next(), nullptr);
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,28 @@
+// Makes rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles towards
+// a wall, over flat ground. Usage: make-poles-and-wall OUT.rawlog
+#include <hagen/observations/RawlogWriter.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "support/PolesAndWall.h"
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: make-poles-and-wall OUT.rawlog\n");
+        return 2;
+    }
+    try {
+        hagen::RawlogWriter writer(argv[1], true);
+        for (int scan = 0; scan < hagen::test::kPolesAndWallScans; ++scan) {
+            writer.write(*hagen::test::polesAndWallPose(scan));
+            writer.write(*hagen::test::polesAndWallScan(scan));
+        }
+        writer.commit();
+        return 0;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "make-poles-and-wall: %s\n", e.what());
+        return 1;
+    }
+}
