@@ -1,9 +1,9 @@
 // Segments a log: regions of interest (near obstacles) and the rest of each LiDAR scan.
 #include <unistd.h>
 
+#include <hagen/observations/Conversion.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <hagen/observations/Conversion.h>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -17,8 +17,9 @@ constexpr std::size_t kMostRemarks = 10;  // one remark a scan would bury everyt
 
 void printSummary(const Conversion& conversion, const ConversionReport& report) {
     const auto percent = [&](std::size_t part) {
-        return report.returns == 0 ? 0.0 : 100.0 * static_cast<double>(part) /
-                                               static_cast<double>(report.returns);
+        return report.returns == 0
+                   ? 0.0
+                   : 100.0 * static_cast<double>(part) / static_cast<double>(report.returns);
     };
     std::printf("%zu LiDAR scans in %zu entries, %zu returns:\n", report.scans, report.entries,
                 report.returns);
@@ -74,7 +75,8 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Separate near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a log."};
+        "Separate near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
+        "log."};
     app.footer(
         "Examples:\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog\n"

@@ -1,11 +1,11 @@
 // Scores the filter on labelled scan folders, once or over a sweep of settings.
-#include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdio>
 #include <hagen/evaluation/Scores.h>
 #include <hagen/observations/ScanFolder.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -68,8 +68,8 @@ std::string figure(double ratio) {
 void printRow(const std::string& what, const Scores& scores) {
     std::printf("%-28s", what.c_str());
     for (const ClassScore& score : {scores.roi, scores.rou}) {
-        std::printf("  %9s %9s %9s", figure(score.precision()).c_str(), figure(score.recall()).c_str(),
-                    figure(score.f1()).c_str());
+        std::printf("  %9s %9s %9s", figure(score.precision()).c_str(),
+                    figure(score.recall()).c_str(), figure(score.f1()).c_str());
     }
     std::printf("\n");
 }

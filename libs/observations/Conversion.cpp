@@ -19,7 +19,7 @@ constexpr double kDefaultScanPeriod_s = 0.1;  // of a scan folder without times
 
 /// The outputs that were asked for.
 class Outputs {
-   public:
+ public:
     explicit Outputs(const Conversion& conversion) {
         if (!conversion.rawlog.empty()) rawlog_.emplace(conversion.rawlog, conversion.overwrite);
         if (!conversion.folder.empty()) folder_.emplace(conversion.folder, conversion.overwrite);
@@ -50,14 +50,14 @@ class Outputs {
         return names;
     }
 
-   private:
+ private:
     std::optional<RawlogWriter> rawlog_;
     std::optional<ScanFolderWriter> folder_;
 };
 
 /// One conversion on its way: segments observations, and counts.
 class Converter {
-   public:
+ public:
     Converter(const Conversion& conversion, const Settings& settings,
               const ConversionListener& listener)
         : listener_(listener), outputs_(conversion) {
@@ -94,7 +94,7 @@ class Converter {
         listener_.progress(report_);
     }
 
-   private:
+ private:
     void count(const ObservationSegmenter::Output& out) {
         const std::size_t roi = out.roi->pointcloud->size(), rou = out.non_roi->pointcloud->size();
         ++report_.scans;
@@ -166,7 +166,8 @@ ConversionReport convertFolder(const Conversion& conversion, const ConversionLis
     Scan scan;
     for (std::size_t i = 0; i < folder.size(); ++i) {
         readScan(folder.scanFile(i), scan);
-        const double time_s = times_s.empty() ? kDefaultScanPeriod_s * static_cast<double>(i) : times_s[i];
+        const double time_s =
+            times_s.empty() ? kDefaultScanPeriod_s * static_cast<double>(i) : times_s[i];
         const auto observation = observationOf(scan, "velodyne", mrpt::Clock::fromDouble(time_s));
         const auto pose = poses.empty() ? std::nullopt : std::optional(poseOf(poses[i]));
         if (converter.outputs().wantsRawlog()) {
@@ -186,7 +187,8 @@ ConversionReport convertFolder(const Conversion& conversion, const ConversionLis
 void refuseToReplaceInput(const Conversion& conversion) {
     for (const fs::path& output : {conversion.rawlog, conversion.folder}) {
         if (!output.empty() && fs::exists(output) && fs::equivalent(output, conversion.input)) {
-            throw std::runtime_error(output.string() + ": is the input; give the output another name");
+            throw std::runtime_error(output.string() +
+                                     ": is the input; give the output another name");
         }
     }
 }

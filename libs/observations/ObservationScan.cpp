@@ -33,9 +33,9 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
         const auto& cloud = observation.point_cloud;
         observed.sensor = settings.sensorModel();
         assignPoints(cloud.x, cloud.y, cloud.z, observed.scan);
-        std::transform(cloud.intensity.begin(), cloud.intensity.end(),
-                       observed.scan.intensity.begin(),
-                       [](std::uint8_t intensity) { return static_cast<float>(intensity) / 255.0f; });
+        std::transform(
+            cloud.intensity.begin(), cloud.intensity.end(), observed.scan.intensity.begin(),
+            [](std::uint8_t intensity) { return static_cast<float>(intensity) / 255.0f; });
         locateBeams(observed.sensor, observed.scan);
         observed.remark = cloud.size() == 0 ? "the scan has no packets" : "";
         return;

@@ -6,7 +6,9 @@ namespace hagen {
 
 IMPLEMENTS_MRPT_OBJECT(ObservationSegmenter, mrpt::rtti::CObject, hagen)
 
-MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses(); }
+MRPT_INITIALIZER(registerAllClasses_hagen_observations) {
+    registerHagenClasses();
+}
 
 void registerHagenClasses() {
     mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen));
@@ -82,8 +84,8 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     const Scan* window = &scan;
     if (settings_.options.window_scans > 1 && vehicle_pose) {
         const mrpt::system::CTimeLoggerEntry part(profiler, "process.window");
-        window = &lidar.window.add(scan, *vehicle_pose + mrpt::poses::CPose3D(observation.sensorPose()),
-                                   observed_.sensor);
+        window = &lidar.window.add(
+            scan, *vehicle_pose + mrpt::poses::CPose3D(observation.sensorPose()), observed_.sensor);
     } else if (settings_.options.window_scans > 1) {
         lidar.window.clear();
         remark += std::string(remark.empty() ? "" : "; ") +

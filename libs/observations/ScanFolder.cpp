@@ -1,7 +1,7 @@
+#include <hagen/observations/ScanFolder.h>
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <hagen/observations/ScanFolder.h>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -52,8 +52,8 @@ std::vector<std::vector<double>> readTable(const fs::path& file, std::size_t lin
         if (numbers.empty() && words.eof()) continue;  // a blank line
         if (numbers.size() != columns) {
             throw std::runtime_error(file.string() + ":" + std::to_string(table.size() + 1) + ": " +
-                                     std::to_string(columns) + " numbers are expected, not '" + line +
-                                     "'");
+                                     std::to_string(columns) + " numbers are expected, not '" +
+                                     line + "'");
         }
         table.push_back(numbers);
     }
@@ -69,8 +69,8 @@ std::vector<std::vector<double>> readTable(const fs::path& file, std::size_t lin
 ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
     const fs::path scans = folder_ / "velodyne";
     if (!fs::is_directory(scans)) {
-        throw std::runtime_error(folder_.string() +
-                                 ": not a scan folder: it has no folder 'velodyne' with .bin files");
+        throw std::runtime_error(
+            folder_.string() + ": not a scan folder: it has no folder 'velodyne' with .bin files");
     }
     for (const auto& entry : fs::directory_iterator(scans)) {
         if (entry.path().extension() == ".bin") names_.push_back(entry.path().stem().string());
@@ -133,7 +133,8 @@ void writeLabels(const fs::path& file, const std::vector<Label>& labels,
                  const std::vector<std::int32_t>& components) {
     std::vector<std::uint32_t> entries(labels.size());
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        const auto component = static_cast<std::uint32_t>(std::min(components[i], kMaxFileComponent));
+        const auto component =
+            static_cast<std::uint32_t>(std::min(components[i], kMaxFileComponent));
         entries[i] = component << 16 | static_cast<std::uint32_t>(labels[i]);
     }
     writeRecords(file, entries);

@@ -1,8 +1,8 @@
-#include <cstdio>
-#include <fstream>
 #include <hagen/observations/ScanFolder.h>
 #include <hagen/observations/ScanFolderWriter.h>
 #include <hagen/range_image/Angle.h>
+#include <cstdio>
+#include <fstream>
 #include <iomanip>
 #include <stdexcept>
 

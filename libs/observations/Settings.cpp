@@ -1,7 +1,7 @@
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <hagen/observations/Settings.h>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -42,10 +42,9 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known) {
-    const std::string nearest =
-        *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-            return editDistance(key, a) < editDistance(key, b);
-        });
+    const std::string nearest = *std::min_element(
+        known.begin(), known.end(),
+        [&](const auto& a, const auto& b) { return editDistance(key, a) < editDistance(key, b); });
     return "unknown key '" + key + "'; did you mean '" + nearest + "'?";
 }
 
@@ -58,8 +57,8 @@ Number parseNumber(const YAML::Node& node, const std::string& key, double least,
                             "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
     }
     if (!(value >= least && value <= most)) {  // NaN too
-        throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " + number(least) +
-                            " and " + number(most));
+        throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
+                            number(least) + " and " + number(most));
     }
     return value;
 }
@@ -128,8 +127,9 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sens
         }
     }
     if (!sensor.elevations_deg.empty() && sensor.model.value_or("") != "custom") {
-        throw SettingsError(at(file, section) +
-                            "sensor.elevations_deg goes with 'model: custom'; a known model has its own");
+        throw SettingsError(
+            at(file, section) +
+            "sensor.elevations_deg goes with 'model: custom'; a known model has its own");
     }
 }
 
@@ -218,8 +218,9 @@ const std::vector<OptionKey>& optionKeys() {
          "PC", &Options::principal_components},
         {"beta_deg", "deg", 0, 90, "neighbours whose angles differ by less are one region", "beta",
          &Options::beta_deg},
-        {"seeds", "", 0, 0, "lowest: ground seeds the ROU; top_and_nearest: the text's literal reading",
-         "", &Options::seeds},
+        {"seeds", "", 0, 0,
+         "lowest: ground seeds the ROU; top_and_nearest: the text's literal reading", "",
+         &Options::seeds},
         {"component_gap_m", "m", 0, 1000,
          "RoI pixels side by side are one obstacle where depths differ by less", "",
          &Options::component_gap_m},

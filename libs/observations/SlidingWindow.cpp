@@ -27,8 +27,8 @@ void appendMoved(const Scan& past, const mrpt::poses::CPose3D& from,
 }  // namespace
 
 SlidingWindow::SlidingWindow(int scans) : scans_(static_cast<std::size_t>(scans)) {
-    if (scans < 1) throw std::invalid_argument("a window holds 1 scan or more, not " +
-                                               std::to_string(scans));
+    if (scans < 1)
+        throw std::invalid_argument("a window holds 1 scan or more, not " + std::to_string(scans));
 }
 
 const Scan& SlidingWindow::add(const Scan& newest, const mrpt::poses::CPose3D& sensor_pose,

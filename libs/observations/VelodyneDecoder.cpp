@@ -1,10 +1,10 @@
+#include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/observations/VelodyneModel.h>
+#include <hagen/range_image/Angle.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/observations/VelodyneModel.h>
-#include <hagen/range_image/Angle.h>
 #include <stdexcept>
 #include <string>
 
@@ -19,7 +19,9 @@ constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
 constexpr double kHourUs = 3600e6;
 
-int wrapTurn(int reading) { return ((reading % kTurn) + kTurn) % kTurn; }
+int wrapTurn(int reading) {
+    return ((reading % kTurn) + kTurn) % kTurn;
+}
 
 /// A direction in the plane.
 struct Azimuth {
@@ -29,7 +31,7 @@ struct Azimuth {
 
 /// The directions of all azimuths that a packet can name, and of those between them.
 class AzimuthTable {
-   public:
+ public:
     AzimuthTable() {
         for (int reading = 0; reading < kTurn; ++reading) {
             const double clockwise_rad = radians(azimuthOfReadingDeg(reading));
@@ -49,7 +51,7 @@ class AzimuthTable {
                 entry.azimuth_rad - rest_rad};
     }
 
-   private:
+ private:
     std::array<Azimuth, kTurn> entries_;
 };
 
@@ -68,8 +70,8 @@ const VelodyneModel& modelOf(const CObservationVelodyneScan& observation, std::s
     const std::uint8_t id = observation.scan_packets[packet].velodyne_model_ID;
     const VelodyneModel* model = findVelodyneModel(id);
     if (model == nullptr) {
-        throw std::runtime_error("packet " + std::to_string(packet) + ": unknown model id " + hex(id) +
-                                 "; known are VLP-16 (0x22) and HDL-32E (0x21)");
+        throw std::runtime_error("packet " + std::to_string(packet) + ": unknown model id " +
+                                 hex(id) + "; known are VLP-16 (0x22) and HDL-32E (0x21)");
     }
     if (id != observation.scan_packets.front().velodyne_model_ID) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": model id " + hex(id) +
@@ -80,8 +82,8 @@ const VelodyneModel& modelOf(const CObservationVelodyneScan& observation, std::s
 
 const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observation,
                                          const VelodyneModel& model) {
-    const bool has_own = observation.calibration.laser_corrections.size() ==
-                         static_cast<std::size_t>(model.lasers);
+    const bool has_own =
+        observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
     return has_own ? observation.calibration
                    : VelodyneCalibration::LoadDefaultCalibration(model.calibration);
 }
@@ -94,8 +96,8 @@ int blocksPerFiring(const Packet& packet) {
     return packet.laser_return_mode == CObservationVelodyneScan::RETMODE_DUAL ? 2 : 1;
 }
 
-/// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over the
-/// scan, so that neither the rounding of azimuths nor a broken block shifts a return.
+/// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over
+/// the scan, so that neither the rounding of azimuths nor a broken block shifts a return.
 int turnOfBlocks(const std::vector<Packet>& packets) {
     std::vector<int> turns;
     for (const Packet& packet : packets) {

@@ -1,6 +1,6 @@
+#include <hagen/observations/VelodyneEncoder.h>
 #include <cmath>
 #include <cstring>
-#include <hagen/observations/VelodyneEncoder.h>
 #include <stdexcept>
 
 namespace hagen {
@@ -12,10 +12,10 @@ using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kReturns = CObservationVelodyneScan::SCANS_PER_BLOCK;
 
-/// Writes a packet byte by byte, little-endian, as it comes over the network. MRPT's struct keeps its
-/// fields private.
+/// Writes a packet byte by byte, little-endian, as it comes over the network. MRPT's struct keeps
+/// its fields private.
 class PacketBytes {
-   public:
+ public:
     void put16(unsigned value) {
         bytes_.push_back(static_cast<std::uint8_t>(value & 0xff));
         bytes_.push_back(static_cast<std::uint8_t>(value >> 8));
@@ -30,7 +30,7 @@ class PacketBytes {
         return packet;
     }
 
-   private:
+ private:
     std::vector<std::uint8_t> bytes_;
 };
 
@@ -78,8 +78,9 @@ std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& fir
             // Dual mode: the last return comes first, then the strongest.
             const auto& range_m = dual && b % 2 == 0 ? firings.last_range_m : firings.range_m;
             bytes.put16(CObservationVelodyneScan::UPPER_BANK);
-            bytes.put16(static_cast<unsigned>(
-                            std::lround(readingOf(model, firings, 0, block_firing))) % 36000);
+            bytes.put16(
+                static_cast<unsigned>(std::lround(readingOf(model, firings, 0, block_firing))) %
+                36000);
             for (int i = 0; i < kReturns; ++i) {
                 const int laser = i % model.lasers, firing = block_firing + i / model.lasers;
                 const bool fired = firing < firing_count;

@@ -1,6 +1,6 @@
+#include <hagen/observations/VelodyneModel.h>
 #include <algorithm>
 #include <cmath>
-#include <hagen/observations/VelodyneModel.h>
 #include <numeric>
 #include <stdexcept>
 
@@ -8,9 +8,8 @@ namespace hagen {
 namespace {
 
 const std::vector<VelodyneModel>& models() {
-    static const std::vector<VelodyneModel> known{
-        {"VLP-16", 0x22, 16, 2, 2.304, 55.296, "VLP16"},
-        {"HDL-32E", 0x21, 32, 1, 1.152, 46.080, "HDL32"}};
+    static const std::vector<VelodyneModel> known{{"VLP-16", 0x22, 16, 2, 2.304, 55.296, "VLP16"},
+                                                  {"HDL-32E", 0x21, 32, 1, 1.152, 46.080, "HDL32"}};
     return known;
 }
 

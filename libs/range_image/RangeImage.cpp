@@ -1,6 +1,6 @@
-#include <cmath>
 #include <hagen/range_image/Angle.h>
 #include <hagen/range_image/RangeImage.h>
+#include <cmath>
 
 namespace hagen {
 
@@ -38,7 +38,8 @@ ReturnsByPixel returnsByPixel(const RangeImage& image) {
     for (const std::int32_t pixel : image.depth_mapper) {
         if (pixel != RangeImage::kNoPixel) ++by_pixel.first[pixel + 1];
     }
-    for (std::size_t p = 1; p < by_pixel.first.size(); ++p) by_pixel.first[p] += by_pixel.first[p - 1];
+    for (std::size_t p = 1; p < by_pixel.first.size(); ++p)
+        by_pixel.first[p] += by_pixel.first[p - 1];
     by_pixel.returns.resize(by_pixel.first.back());
     std::vector<std::int32_t> next(by_pixel.first.begin(), by_pixel.first.end() - 1);
     for (std::size_t i = 0; i < image.depth_mapper.size(); ++i) {

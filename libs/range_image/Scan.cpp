@@ -1,7 +1,7 @@
-#include <algorithm>
-#include <cmath>
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/Scan.h>
+#include <algorithm>
+#include <cmath>
 
 namespace hagen {
 

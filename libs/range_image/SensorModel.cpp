@@ -1,7 +1,7 @@
-#include <algorithm>
-#include <cmath>
 #include <hagen/range_image/Angle.h>
 #include <hagen/range_image/SensorModel.h>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace hagen {
@@ -15,7 +15,7 @@ std::vector<double> evenly(int count, double lowest_deg, double step_deg) {
 }
 
 std::vector<double> hdl64Elevations() {
-    std::vector<double> elevations_deg = evenly(32, -24.33, 0.5);              // lower block
+    std::vector<double> elevations_deg = evenly(32, -24.33, 0.5);               // lower block
     const std::vector<double> upper = evenly(32, -8.0 - 1.0 / 3.0, 1.0 / 3.0);  // upper block
     elevations_deg.insert(elevations_deg.end(), upper.begin(), upper.end());
     return elevations_deg;
@@ -34,9 +34,9 @@ const std::vector<KnownSensor>& knownSensors() {
         {"HDL-64E", hdl64Elevations(), 0.9f, 130.0f},
         {"Puck Hi-Res", evenly(16, -10.0, 4.0 / 3.0), 0.5f, 120.0f},
         {"VLP-32C",
-         {-25.0,  -15.639, -11.31, -8.843, -7.254, -6.148, -5.333, -4.667, -4.0,   -3.667, -3.333,
-          -3.0,   -2.667,  -2.333, -2.0,   -1.667, -1.333, -1.0,   -0.667, -0.333, 0.0,    0.333,
-          0.667,  1.0,     1.333,  1.667,  2.333,  3.333,  4.667,  7.0,    10.333, 15.0},
+         {-25.0, -15.639, -11.31, -8.843, -7.254, -6.148, -5.333, -4.667, -4.0,   -3.667, -3.333,
+          -3.0,  -2.667,  -2.333, -2.0,   -1.667, -1.333, -1.0,   -0.667, -0.333, 0.0,    0.333,
+          0.667, 1.0,     1.333,  1.667,  2.333,  3.333,  4.667,  7.0,    10.333, 15.0},
          0.5f,
          200.0f}};
     return sensors;
@@ -88,9 +88,9 @@ SensorModel customSensorModel(const std::vector<double>& elevations_deg) {
         }
         const float elevation_rad = static_cast<float>(radians(elevation_deg));
         if (!sensor.elevations_rad.empty() && elevation_rad <= sensor.elevations_rad.back()) {
-            throw std::invalid_argument(
-                "elevations go from the lowest beam to the highest; " +
-                std::to_string(elevation_deg) + " degrees is not above the one before it");
+            throw std::invalid_argument("elevations go from the lowest beam to the highest; " +
+                                        std::to_string(elevation_deg) +
+                                        " degrees is not above the one before it");
         }
         sensor.elevations_rad.push_back(elevation_rad);
     }

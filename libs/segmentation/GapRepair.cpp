@@ -1,5 +1,5 @@
-#include <cmath>
 #include <hagen/segmentation/GapRepair.h>
+#include <cmath>
 
 namespace hagen {
 

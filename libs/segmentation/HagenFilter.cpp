@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/HagenFilter.h>
@@ -7,6 +6,7 @@
 #include <hagen/segmentation/RoiComponents.h>
 #include <hagen/segmentation/Sharpening.h>
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
+#include <algorithm>
 
 namespace hagen {
 

@@ -1,5 +1,5 @@
-#include <cmath>
 #include <hagen/segmentation/Labelling.h>
+#include <cmath>
 #include <vector>
 
 namespace hagen {

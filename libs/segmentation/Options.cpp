@@ -12,10 +12,10 @@ void checkOptions(const Options& options, int beams) {
             "): there are no more components than rows in the window");
     }
     if (options.window_size >= beams) {
-        throw std::invalid_argument(
-            "window_size (" + std::to_string(options.window_size) + ") exceeds the " +
-            std::to_string(beams - 1) + " range angles in a column of a sensor with " +
-            std::to_string(beams) + " beams: nothing would be smoothed");
+        throw std::invalid_argument("window_size (" + std::to_string(options.window_size) +
+                                    ") exceeds the " + std::to_string(beams - 1) +
+                                    " range angles in a column of a sensor with " +
+                                    std::to_string(beams) + " beams: nothing would be smoothed");
     }
 }
 

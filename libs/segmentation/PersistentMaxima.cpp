@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <hagen/segmentation/PersistentMaxima.h>
+#include <algorithm>
 
 namespace hagen {
 namespace {
@@ -9,7 +9,7 @@ constexpr int kAbsent = -1;
 /// Components of the pixels that the sinking level has reached. Each is named by its root, the
 /// pixel at which it was born.
 class Components {
-   public:
+ public:
     explicit Components(int pixels) : parent_(pixels, kAbsent) {}
 
     bool contains(int pixel) const { return parent_[pixel] != kAbsent; }
@@ -24,7 +24,7 @@ class Components {
         return pixel;
     }
 
-   private:
+ private:
     std::vector<int> parent_;
 };
 

@@ -1,5 +1,5 @@
-#include <cmath>
 #include <hagen/segmentation/RangeAngle.h>
+#include <cmath>
 #include <vector>
 
 namespace hagen {

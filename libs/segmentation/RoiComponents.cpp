@@ -1,6 +1,6 @@
+#include <hagen/segmentation/RoiComponents.h>
 #include <algorithm>
 #include <cmath>
-#include <hagen/segmentation/RoiComponents.h>
 #include <vector>
 
 namespace hagen {

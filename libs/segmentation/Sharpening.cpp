@@ -1,6 +1,6 @@
+#include <hagen/segmentation/Sharpening.h>
 #include <algorithm>
 #include <cmath>
-#include <hagen/segmentation/Sharpening.h>
 
 namespace hagen {
 namespace {

@@ -1,12 +1,12 @@
-#include <Eigen/Dense>
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
+#include <Eigen/Dense>
 
 namespace hagen {
 namespace {
 
 /// Smooths one series in place.
 class Ssa {
-   public:
+ public:
     Ssa(int window_size, int principal_components)
         : window_size_(window_size), principal_components_(principal_components) {}
 
@@ -24,7 +24,7 @@ class Ssa {
         hankelize(series);
     }
 
-   private:
+ private:
     /// Value n becomes the mean of the n-th antidiagonal, the entries (w, n - w).
     void hankelize(Eigen::Ref<Eigen::ArrayXf> series) const {
         for (Eigen::Index n = 0; n < series.size(); ++n) {

@@ -18,7 +18,7 @@ const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall
 const std::string kPaper = HAGEN_SOURCE_DIR "/config/paper.yaml";
 
 class RawlogSegment : public testing::Test {
-   protected:
+ protected:
     static test::Outcome run(const std::vector<std::string>& arguments) {
         return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
     }
@@ -65,13 +65,15 @@ TEST_F(RawlogSegment, SegmentsTheRecordingThatComesWithTheProject) {
 
 TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
     if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
-    ASSERT_EQ(run({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")}).exit_code,
-              0);
+    ASSERT_EQ(
+        run({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")}).exit_code,
+        0);
     RawlogReader reader(path("out.rawlog"));
     ASSERT_NE(reader.next(), nullptr);
     std::size_t points = 0;
     for (const char* suffix : {"_roi", "_non_roi"}) {
-        const auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(reader.next());
+        const auto cloud =
+            std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(reader.next());
         ASSERT_NE(cloud, nullptr);
         EXPECT_EQ(cloud->sensorLabel, std::string("Velodyne1_SCAN") + suffix);
         points += cloud->pointcloud->size();
@@ -85,7 +87,9 @@ TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
 
 TEST_F(RawlogSegment, TheSameInputGivesTheSameBytes) {
     for (const std::string name : {"a", "b"}) {
-        ASSERT_EQ(run({"-i", kRecording, "-o", path(name), "--kitti", path(name + "_scans")}).exit_code, 0);
+        ASSERT_EQ(
+            run({"-i", kRecording, "-o", path(name), "--kitti", path(name + "_scans")}).exit_code,
+            0);
     }
     EXPECT_EQ(test::readFile(path("a")), test::readFile(path("b")));
     EXPECT_EQ(test::readFile(path("a_scans/labels/000009.label")),
@@ -105,7 +109,8 @@ TEST_F(RawlogSegment, LaterSettingsOverrideEarlierOnes) {
     const auto narrow = folder_.write("narrow.yaml", "zone_m: 0.1\n");
     const auto outcome = run({"-i", kRecording, "-o", path("out"), "-c", kPaper, "-c", narrow});
     ASSERT_EQ(outcome.exit_code, 0);
-    EXPECT_NE(outcome.out.find("  0    0.0 %  region of interest"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("  0    0.0 %  region of interest"), std::string::npos)
+        << outcome.out;
 }
 
 TEST_F(RawlogSegment, QuietPrintsNothing) {
@@ -117,9 +122,10 @@ TEST_F(RawlogSegment, QuietPrintsNothing) {
 TEST_F(RawlogSegment, OverwriteReplacesWhatIsThere) {
     folder_.write("out.rawlog", "old");
     folder_.write("scans/old.txt", "old");
-    ASSERT_EQ(run({"-i", kRecording, "-o", path("out.rawlog"), "--kitti", path("scans"), "--overwrite"})
-                  .exit_code,
-              0);
+    ASSERT_EQ(
+        run({"-i", kRecording, "-o", path("out.rawlog"), "--kitti", path("scans"), "--overwrite"})
+            .exit_code,
+        0);
     EXPECT_GT(fs::file_size(path("out.rawlog")), 1000u);
     EXPECT_FALSE(fs::exists(path("scans/old.txt")));
 }

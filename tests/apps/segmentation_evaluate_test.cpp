@@ -24,14 +24,15 @@ std::vector<double> row(const std::string& table, const std::string& name) {
         words >> first;
         if (first != name) continue;
         std::vector<double> figures;
-        for (std::string word; words >> word;) figures.push_back(word == "-" ? NAN : std::stod(word));
+        for (std::string word; words >> word;)
+            figures.push_back(word == "-" ? NAN : std::stod(word));
         return figures;
     }
     return {};
 }
 
 class SegmentationEvaluate : public testing::Test {
-   protected:
+ protected:
     static test::Outcome run(const std::vector<std::string>& arguments) {
         return test::run(HAGEN_SEGMENTATION_EVALUATE, arguments);
     }
@@ -65,7 +66,8 @@ TEST_F(SegmentationEvaluate, APoleOnFlatGroundIsFoundWhole) {
 }
 
 TEST_F(SegmentationEvaluate, ASweepHasARowForEachValue) {
-    const auto outcome = run({"-i", labelledPole(), "--sweep", "zone_m=5,20", "--sweep", "beta_deg=10"});
+    const auto outcome =
+        run({"-i", labelledPole(), "--sweep", "zone_m=5,20", "--sweep", "beta_deg=10"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(row(outcome.out, "zone_m=5").at(1), 0.0) << outcome.out;  // the pole is farther
     EXPECT_EQ(row(outcome.out, "zone_m=20").at(1), 1.0);

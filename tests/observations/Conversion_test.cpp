@@ -39,7 +39,7 @@ CObservation::Ptr pose() {
 }
 
 class ConversionTest : public testing::Test {
-   protected:
+ protected:
     fs::path writeLog(const std::vector<mrpt::serialization::CSerializable::Ptr>& entries) {
         RawlogWriter writer(folder_ / "in.rawlog", true);
         for (const auto& entry : entries) writer.write(*entry);
@@ -54,7 +54,8 @@ class ConversionTest : public testing::Test {
         while (const auto entry = reader.next()) {
             if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
                 names.push_back(observation->sensorLabel);
-            } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+            } else if (const auto frame =
+                           std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
                 std::string name = "[";
                 for (const auto& part : *frame) name += " " + part->sensorLabel;
                 names.push_back(name + " ]");
@@ -109,8 +110,10 @@ TEST_F(ConversionTest, AgainGivesTheSameBytes) {
     convert(first);
     convert(second);
     EXPECT_EQ(test::readFile(first.rawlog), test::readFile(second.rawlog));
-    for (const char* file : {"velodyne/000001.bin", "labels/000001.label", "times.txt", "sensor.yaml"}) {
-        EXPECT_EQ(test::readFile(first.folder / file), test::readFile(second.folder / file)) << file;
+    for (const char* file :
+         {"velodyne/000001.bin", "labels/000001.label", "times.txt", "sensor.yaml"}) {
+        EXPECT_EQ(test::readFile(first.folder / file), test::readFile(second.folder / file))
+            << file;
     }
 }
 

@@ -62,7 +62,8 @@ TEST(ObservationScan, CloudsTakeTheSettingsSensorAndKeepOrderAndIntensity) {
     ObservedScan observed;
     Settings settings;
     settings.sensor.model = "HDL-64E";
-    readObservation(*cloud({{3, 0, 0, 0.25f}, {0, 4, 0, 0.5f}, {kNoValue, 1, 1, 1}}), settings, observed);
+    readObservation(*cloud({{3, 0, 0, 0.25f}, {0, 4, 0, 0.5f}, {kNoValue, 1, 1, 1}}), settings,
+                    observed);
     EXPECT_EQ(observed.sensor.rows(), 64);
     ASSERT_EQ(observed.scan.size(), 3u);
     EXPECT_EQ(observed.scan.range_m[0], 3.0f);
@@ -93,7 +94,8 @@ TEST(ObservationScan, AScanWithoutAnythingSaysSo) {
 
 TEST(ObservationScan, WhatCannotBeReadThrows) {
     ObservedScan observed;
-    EXPECT_THROW(readObservation(CObservationPointCloud(), Settings(), observed), std::runtime_error);
+    EXPECT_THROW(readObservation(CObservationPointCloud(), Settings(), observed),
+                 std::runtime_error);
     EXPECT_THROW(readObservation(mrpt::obs::CObservationComment(), Settings(), observed),
                  std::runtime_error);
 }
@@ -103,7 +105,8 @@ TEST(ObservationScan, ThePortableCopyHasThePointsAndTheHeader) {
     original->sensorPose = mrpt::poses::CPose3D(1, 2, 3, 0, 0, 0);
     const auto copy = portable(*original);
     EXPECT_NE(std::dynamic_pointer_cast<PortableCloud>(copy->pointcloud), nullptr);
-    EXPECT_EQ(copy->pointcloud->getPointsBufferRef_z(), original->pointcloud->getPointsBufferRef_z());
+    EXPECT_EQ(copy->pointcloud->getPointsBufferRef_z(),
+              original->pointcloud->getPointsBufferRef_z());
     EXPECT_EQ(copy->timestamp, original->timestamp);
     EXPECT_EQ(copy->sensorLabel, "lidar");
     EXPECT_EQ(copy->sensorPose, original->sensorPose);

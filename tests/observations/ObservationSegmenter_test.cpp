@@ -49,7 +49,8 @@ TEST(ObservationSegmenter, CloudsHaveTheScansTimePoseAndLabel) {
     ObservationSegmenter::Output out;
     const auto scan = scanFrom(0);
     ASSERT_TRUE(segmenter.process(*scan, out));
-    for (const auto& [cloud, label] : {std::pair{out.roi, "front_roi"}, {out.non_roi, "front_non_roi"}}) {
+    for (const auto& [cloud, label] :
+         {std::pair{out.roi, "front_roi"}, {out.non_roi, "front_non_roi"}}) {
         EXPECT_EQ(cloud->sensorLabel, label);
         EXPECT_EQ(cloud->timestamp, scan->timestamp);
         EXPECT_EQ(cloud->sensorPose, scan->sensorPose);

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 class ScanFolderTest : public testing::Test {
-   protected:
+ protected:
     template <class Call>
     static std::string messageOf(Call call) {
         try {
@@ -40,9 +40,11 @@ TEST_F(ScanFolderTest, ListsScansByName) {
 }
 
 TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
-    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("velodyne"), std::string::npos);
+    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("velodyne"),
+              std::string::npos);
     fs::create_directory(folder_ / "velodyne");
-    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("no .bin"), std::string::npos);
+    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("no .bin"),
+              std::string::npos);
 }
 
 TEST_F(ScanFolderTest, ScansComeBackBitByBit) {
@@ -79,7 +81,8 @@ TEST_F(ScanFolderTest, FilesThatAreMissingOrCutOffAreNamed) {
     EXPECT_NE(message.find("cut.bin"), std::string::npos);
     EXPECT_NE(message.find("17 bytes"), std::string::npos);
     folder_.write("cut.label", "abc");
-    EXPECT_NE(messageOf([&] { readLabels(folder_ / "cut.label"); }).find("cut.label"), std::string::npos);
+    EXPECT_NE(messageOf([&] { readLabels(folder_ / "cut.label"); }).find("cut.label"),
+              std::string::npos);
 }
 
 TEST_F(ScanFolderTest, WritingIntoNothingIsNamed) {

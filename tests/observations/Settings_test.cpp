@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 const fs::path kConfig = fs::path(HAGEN_SOURCE_DIR) / "config";
 
 class SettingsTest : public testing::Test {
-   protected:
+ protected:
     Settings settingsOf(const std::string& text) {
         Settings settings;
         mergeSettings(folder_.write("settings.yaml", text), settings);
@@ -47,7 +47,8 @@ TEST_F(SettingsTest, OurPresetForTheVlp16IsWhatHoldsWithoutAnyFile) {
     mergeSettings(kConfig / "vlp16.yaml", preset);
     const Options ours = preset.options, built_in;
     for (const OptionKey& key : optionKeys()) {
-        std::visit([&](auto field) { EXPECT_EQ(ours.*field, built_in.*field) << key.name; }, key.field);
+        std::visit([&](auto field) { EXPECT_EQ(ours.*field, built_in.*field) << key.name; },
+                   key.field);
     }
     EXPECT_EQ(preset.sensorModel().elevations_rad, Settings().sensorModel().elevations_rad);
 }
@@ -66,8 +67,8 @@ TEST_F(SettingsTest, PaperIsThePublishedFilter) {
 }
 
 TEST_F(SettingsTest, PresetsFitTheirSensors) {
-    for (const auto& [file, beams] : {std::pair{"vlp16.yaml", 16}, {"hdl32e.yaml", 32},
-                                      {"hdl64e.yaml", 64}}) {
+    for (const auto& [file, beams] :
+         {std::pair{"vlp16.yaml", 16}, {"hdl32e.yaml", 32}, {"hdl64e.yaml", 64}}) {
         Settings preset;
         mergeSettings(kConfig / file, preset);
         EXPECT_EQ(preset.sensorModel().rows(), beams);
@@ -157,8 +158,9 @@ TEST_F(SettingsTest, TheContextMayHaveNoEnd) {
 }
 
 TEST_F(SettingsTest, CustomSensorHasItsOwnBeams) {
-    const auto sensor = settingsOf("sensor: {model: custom, elevations_deg: [-5, 0, 2.5], "
-                                   "min_range_m: 1, max_range_m: 50}")
+    const auto sensor = settingsOf(
+                            "sensor: {model: custom, elevations_deg: [-5, 0, 2.5], "
+                            "min_range_m: 1, max_range_m: 50}")
                             .sensorModel();
     ASSERT_EQ(sensor.rows(), 3);
     EXPECT_NEAR(degrees(sensor.elevations_rad[2]), 2.5, 1e-5);
@@ -169,7 +171,8 @@ TEST_F(SettingsTest, CustomSensorHasItsOwnBeams) {
 TEST_F(SettingsTest, ARecordingsBeamsReplaceAPresetsModelAndTheOtherWayRound) {
     Settings settings;
     mergeSettings(kConfig / "vlp16.yaml", settings);
-    mergeSettings(folder_.write("a.yaml", "sensor: {model: custom, elevations_deg: [-1, 1]}"), settings);
+    mergeSettings(folder_.write("a.yaml", "sensor: {model: custom, elevations_deg: [-1, 1]}"),
+                  settings);
     EXPECT_EQ(settings.sensorModel().rows(), 2);
     mergeSettings(kConfig / "hdl32e.yaml", settings);
     EXPECT_EQ(settings.sensorModel().rows(), 32);

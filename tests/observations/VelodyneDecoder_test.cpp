@@ -47,7 +47,8 @@ void expectMrptAgrees(CObservationVelodyneScan observation) {
             std::hypot(scan.x_m[shared[i]] - cloud.x[i], scan.y_m[shared[i]] - cloud.y[i],
                        scan.z_m[shared[i]] - cloud.z[i]);
         ASSERT_LT(distance_m, 0.01) << "return " << i << " of MRPT's";
-        ASSERT_EQ(static_cast<int>(std::lround(255 * scan.intensity[shared[i]])), cloud.intensity[i]);
+        ASSERT_EQ(static_cast<int>(std::lround(255 * scan.intensity[shared[i]])),
+                  cloud.intensity[i]);
     }
 }
 
@@ -63,8 +64,8 @@ TEST(VelodyneDecoder, AllReturnsOfTheRealScanComeOutWhereMrptDecodesHalf) {
 TEST(VelodyneDecoder, MrptAgreesOnCapturesOfVlp16AndHdl32e) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
-    for (const auto& [file, calibration] :
-         {std::pair{"sample_velodyne_vlp16_gps.pcap", "VLP16"}, {"sample_velodyne_hdl32.pcap", "HDL32"}}) {
+    for (const auto& [file, calibration] : {std::pair{"sample_velodyne_vlp16_gps.pcap", "VLP16"},
+                                            {"sample_velodyne_hdl32.pcap", "HDL32"}}) {
         const auto observation = test::readCapture(folder / file, calibration);
         ASSERT_GT(observation->scan_packets.size(), 100u) << file;
         expectMrptAgrees(*observation);
@@ -95,7 +96,8 @@ Firings randomFirings(unsigned seed, const VelodyneModel& model, int count, doub
 }
 
 void expectReturns(const VelodyneModel& model, const Firings& firings, const Scan& scan) {
-    const auto calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration);
+    const auto calibration =
+        mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration);
     const auto rows = rowsOfLasers(calibration);
     std::size_t i = 0;
     for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
@@ -170,7 +172,8 @@ TEST(VelodyneDecoder, TimesGoOnFromLaserToLaserAndOverTheFullHour) {
 }
 
 /// Changes a byte of a packet as it would come over the network.
-void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte, std::uint8_t value) {
+void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte,
+             std::uint8_t value) {
     std::uint8_t bytes[CObservationVelodyneScan::PACKET_SIZE];
     std::memcpy(bytes, &observation.scan_packets[packet], sizeof bytes);
     bytes[byte] = value;
@@ -180,7 +183,7 @@ void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte
 TEST(VelodyneDecoder, BlocksWithoutAValidHeaderOrAzimuthAreLeftOutAndCounted) {
     const VelodyneModel& model = velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(57, model, 240, 0.0));
-    setByte(*observation, 0, 0, 0x00);       // header of block 0
+    setByte(*observation, 0, 0, 0x00);        // header of block 0
     setByte(*observation, 3, 500 + 3, 0xff);  // azimuth of block 5
     Scan scan;
     EXPECT_EQ(decodePackets(*observation, scan), 2u);

@@ -23,7 +23,8 @@ TEST(VelodyneModel, DefaultCalibrationsHaveTheBeamsOfTheDataSheets) {
 TEST(VelodyneModel, RowsFollowElevationNotLaserNumber) {
     const auto rows = rowsOfLasers(VelodyneCalibration::LoadDefaultCalibration("VLP16"));
     // The VLP-16 fires -15, 1, -13, 3, ... degrees.
-    EXPECT_EQ(rows, (std::vector<std::uint8_t>{0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15}));
+    EXPECT_EQ(rows,
+              (std::vector<std::uint8_t>{0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15}));
 }
 
 TEST(VelodyneModel, ABlockHoldsThirtyTwoReturns) {

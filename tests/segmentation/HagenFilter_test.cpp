@@ -51,7 +51,8 @@ TEST(HagenFilter, AWallIsAnObstacleAndTheGroundBeforeItIsNot) {
     const auto& result = filter.segment(wall.scan);
     EXPECT_GT(count(wall, Label::Roi), 1500);
     EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
-    // Where a beam meets the ground just before the wall, its slope to the beam above is the wall's.
+    // Where a beam meets the ground just before the wall, its slope to the beam above is the
+    // wall's.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
 }

@@ -29,7 +29,8 @@ Image<Label> slowLabels(const Image<float>& depth_m, const Image<float>& angle_r
             if (highest < 0) highest = row;
             if (nearest < 0 || depth_m(row, column) <= depth_m(nearest, column)) nearest = row;
         }
-        if (ground && lowest >= 0 && hasValue(angle_rad(lowest, column))) reached(lowest, column) = true;
+        if (ground && lowest >= 0 && hasValue(angle_rad(lowest, column)))
+            reached(lowest, column) = true;
         if (!ground && highest >= 0) reached(highest, column) = reached(nearest, column) = true;
     }
     for (bool changed = true; changed;) {
@@ -104,8 +105,7 @@ TEST(Labelling, GrowsAroundTheBackOfTheTurn) {
     Image<float> angle_rad = Image<float>::Constant(2, 5, 1.5f);
     angle_rad.row(0) << 0.0f, 1.0f, 1.0f, 1.0f, 1.0f;
     angle_rad(1, 0) = angle_rad(1, 4) = 0.0f;
-    const Image<Label> labels =
-        labelled(Image<float>::Constant(2, 5, 10.0f), angle_rad, 0.1f);
+    const Image<Label> labels = labelled(Image<float>::Constant(2, 5, 10.0f), angle_rad, 0.1f);
     EXPECT_EQ(labels(1, 4), Label::Rou);
     EXPECT_EQ(labels(1, 2), Label::Roi);
 }

@@ -15,9 +15,9 @@ std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persist
     return maxima;
 }
 
-/// The definition, with no sweep and no union-find: a pixel dies at the highest level at which a path
-/// joins it to an older pixel, that is the greatest, over all paths to any older pixel, of the lowest
-/// proximity on the path. Found by widest paths between all pairs (Floyd and Warshall).
+/// The definition, with no sweep and no union-find: a pixel dies at the highest level at which a
+/// path joins it to an older pixel, that is the greatest, over all paths to any older pixel, of the
+/// lowest proximity on the path. Found by widest paths between all pairs (Floyd and Warshall).
 std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min_persistence_m) {
     const int rows = static_cast<int>(proximity_m.rows());
     const int columns = static_cast<int>(proximity_m.cols());

@@ -18,7 +18,8 @@ Image<float> anglesOf(const Image<float>& depth_m, const SensorModel& sensor) {
 TEST(RangeAngle, LevelGroundIsZero) {
     const SensorModel sensor = sensorModel("VLP-16");
     Image<float> depth_m = Image<float>::Constant(16, 3, kNoValue);
-    for (int row = 0; row < 8; ++row) depth_m.row(row) = -2.0f / std::sin(sensor.elevations_rad[row]);
+    for (int row = 0; row < 8; ++row)
+        depth_m.row(row) = -2.0f / std::sin(sensor.elevations_rad[row]);
     const Image<float> angles_rad = anglesOf(depth_m, sensor);
     for (int row = 0; row < 7; ++row) EXPECT_NEAR(angles_rad(row, 0), 0.0f, 1e-4f);
     for (int row = 7; row < 15; ++row) EXPECT_FALSE(hasValue(angles_rad(row, 0)));
@@ -27,7 +28,8 @@ TEST(RangeAngle, LevelGroundIsZero) {
 TEST(RangeAngle, AWallIsNinetyDegrees) {
     const SensorModel sensor = sensorModel("HDL-32E");
     Image<float> depth_m(32, 2);
-    for (int row = 0; row < 32; ++row) depth_m.row(row) = 10.0f / std::cos(sensor.elevations_rad[row]);
+    for (int row = 0; row < 32; ++row)
+        depth_m.row(row) = 10.0f / std::cos(sensor.elevations_rad[row]);
     EXPECT_LT((anglesOf(depth_m, sensor) - static_cast<float>(kPi / 2)).abs().maxCoeff(), 1e-4f);
 }
 
@@ -38,8 +40,8 @@ TEST(RangeAngle, ASlopeHasItsOwnAngle) {
     Image<float> depth_m(16, 1);
     for (int row = 0; row < 16; ++row) {
         const double elevation = static_cast<double>(sensor.elevations_rad[row]);
-        depth_m(row, 0) = static_cast<float>(
-            20 * slope / (slope * std::cos(elevation) - std::sin(elevation)));
+        depth_m(row, 0) =
+            static_cast<float>(20 * slope / (slope * std::cos(elevation) - std::sin(elevation)));
     }
     const Image<float> angles_rad = anglesOf(depth_m, sensor);
     for (int row = 0; row < 15; ++row) EXPECT_NEAR(degrees(angles_rad(row, 0)), 30.0, 0.01);

@@ -54,10 +54,10 @@ TEST(RoiComponents, AreTheClassesOfTheNeighbourRelation) {
                     for (const auto& [other_row, other_column] :
                          {std::pair{row + 1, column}, {row, (column + 1) % columns}}) {
                         if (other_row >= rows) continue;
-                        const bool joined =
-                            labels(row, column) == Label::Roi &&
-                            labels(other_row, other_column) == Label::Roi &&
-                            std::abs(depth_m(row, column) - depth_m(other_row, other_column)) < 1.0f;
+                        const bool joined = labels(row, column) == Label::Roi &&
+                                            labels(other_row, other_column) == Label::Roi &&
+                                            std::abs(depth_m(row, column) -
+                                                     depth_m(other_row, other_column)) < 1.0f;
                         int &a = classes(row, column), &b = classes(other_row, other_column);
                         if (!joined || a == b) continue;
                         a = b = std::min(a, b);

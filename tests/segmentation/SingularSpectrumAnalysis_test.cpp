@@ -24,12 +24,14 @@ Eigen::VectorXd oracle(const Eigen::VectorXd& series, int window_size, int princ
     for (int i = 0; i < window_size; ++i) {
         for (int j = 0; j < k; ++j) trajectory(i, j) = series(i + j);
     }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(trajectory, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(trajectory,
+                                                Eigen::ComputeThinU | Eigen::ComputeThinV);
     Eigen::MatrixXd leading = Eigen::MatrixXd::Zero(window_size, k);
     const int components =
         std::min(principal_components, static_cast<int>(svd.singularValues().size()));
     for (int c = 0; c < components; ++c) {
-        leading += svd.singularValues()(c) * svd.matrixU().col(c) * svd.matrixV().col(c).transpose();
+        leading +=
+            svd.singularValues()(c) * svd.matrixU().col(c) * svd.matrixV().col(c).transpose();
     }
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(n), counts = Eigen::VectorXd::Zero(n);
     for (int i = 0; i < window_size; ++i) {

@@ -17,8 +17,8 @@ CObservationVelodyneScan::Ptr realVlp16Scan() {
 
 CObservationVelodyneScan::Ptr readCapture(const std::filesystem::path& pcap,
                                           const char* calibration) {
-    // A pcap file: a header of 24 bytes; a frame: 16 bytes, the last 8 its lengths, then Ethernet, IP
-    // and UDP headers of 42 bytes, then the packet.
+    // A pcap file: a header of 24 bytes; a frame: 16 bytes, the last 8 its lengths, then Ethernet,
+    // IP and UDP headers of 42 bytes, then the packet.
     constexpr std::size_t kFileHeader = 24, kFrameHeader = 16, kNetworkHeaders = 42;
     const std::string bytes = readFile(pcap);
     auto scan = CObservationVelodyneScan::Create();
@@ -28,7 +28,8 @@ CObservationVelodyneScan::Ptr readCapture(const std::filesystem::path& pcap,
         at += kFrameHeader;
         if (length == kNetworkHeaders + CObservationVelodyneScan::PACKET_SIZE) {
             auto& packet = scan->scan_packets.emplace_back();
-            std::memcpy(static_cast<void*>(&packet), bytes.data() + at + kNetworkHeaders, sizeof packet);
+            std::memcpy(static_cast<void*>(&packet), bytes.data() + at + kNetworkHeaders,
+                        sizeof packet);
         }
         at += length;
     }

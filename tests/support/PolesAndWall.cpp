@@ -18,7 +18,9 @@ SimpleScene polesAndWall() {
     return scene;
 }
 
-mrpt::Clock::time_point timeOf(int scan) { return mrpt::Clock::fromDouble(kStart_s + kPeriod_s * scan); }
+mrpt::Clock::time_point timeOf(int scan) {
+    return mrpt::Clock::fromDouble(kStart_s + kPeriod_s * scan);
+}
 
 }  // namespace
 

@@ -7,7 +7,7 @@ namespace hagen::test {
 
 /// A folder of its own for a test, gone with it.
 class TemporaryFolder {
-   public:
+ public:
     TemporaryFolder();
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -18,7 +18,7 @@ class TemporaryFolder {
     /// Writes a text file and returns its path.
     std::filesystem::path write(const std::string& name, const std::string& text) const;
 
-   private:
+ private:
     std::filesystem::path path_;
 };
 

@@ -7,13 +7,15 @@ namespace hagen::test {
 
 /// Random test data; the seed is the test's, so that a failure comes again.
 class Random {
-   public:
+ public:
     explicit Random(unsigned seed) : engine_(seed) {}
 
     float real(float least, float most) {
         return std::uniform_real_distribution<float>(least, most)(engine_);
     }
-    int whole(int least, int most) { return std::uniform_int_distribution<int>(least, most)(engine_); }
+    int whole(int least, int most) {
+        return std::uniform_int_distribution<int>(least, most)(engine_);
+    }
     bool chance(double probability) { return std::bernoulli_distribution(probability)(engine_); }
 
     /// An image of values within [least, most], a share of them missing.
@@ -27,7 +29,7 @@ class Random {
 
     std::mt19937& engine() { return engine_; }
 
-   private:
+ private:
     std::mt19937 engine_;
 };
 

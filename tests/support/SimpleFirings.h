@@ -5,7 +5,8 @@
 
 namespace hagen::test {
 
-/// What a level Velodyne at `position_m` measures in a full turn; `range_limit_m` and beyond: nothing.
+/// What a level Velodyne at `position_m` measures in a full turn; `range_limit_m` and beyond:
+/// nothing.
 Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
                const Eigen::Vector3d& position_m, double range_limit_m = 100.0);
 

@@ -1,8 +1,8 @@
 #include "support/SimpleScene.h"
 
-#include <cmath>
 #include <hagen/range_image/Angle.h>
 #include <hagen/range_image/RangeImage.h>
+#include <cmath>
 
 namespace hagen::test {
 namespace {

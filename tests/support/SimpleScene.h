@@ -1,8 +1,8 @@
 #pragma once
-#include <Eigen/Core>
 #include <hagen/range_image/Label.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
+#include <Eigen/Core>
 #include <limits>
 #include <vector>
 
@@ -36,7 +36,8 @@ struct LabelledScan {
     std::vector<Label> truth;
 };
 
-/// A level scan from `position_m`, a ray through the middle of each pixel of an image with `columns`.
+/// A level scan from `position_m`, a ray through the middle of each pixel of an image with
+/// `columns`.
 LabelledScan scanScene(const SimpleScene& scene, const SensorModel& sensor, int columns,
                        const Eigen::Vector3d& position_m);
 

@@ -1,5 +1,5 @@
-// Makes rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles towards
-// a wall, over flat ground. Usage: make-poles-and-wall OUT.rawlog
+// Makes rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles
+// towards a wall, over flat ground. Usage: make-poles-and-wall OUT.rawlog
 #include <hagen/observations/RawlogWriter.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 

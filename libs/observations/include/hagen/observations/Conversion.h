@@ -1,8 +1,8 @@
 #pragma once
+#include <hagen/observations/Settings.h>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <hagen/observations/Settings.h>
 
 namespace hagen {
 
@@ -34,10 +34,10 @@ struct ConversionListener {
 
 /// Segments a whole log, one entry in memory at a time.
 ///
-/// A segmented rawlog keeps every entry of the input in its order. After each LiDAR observation come
-/// its `_roi` and `_non_roi` clouds; in a sensory frame they join the frame. A scan folder as input
-/// becomes one observation a scan. The written scan folder has the names and the order of points of
-/// the one read, or counts the scans of a log.
+/// A segmented rawlog keeps every entry of the input in its order. After each LiDAR observation
+/// come its `_roi` and `_non_roi` clouds; in a sensory frame they join the frame. A scan folder as
+/// input becomes one observation a scan. The written scan folder has the names and the order of
+/// points of the one read, or counts the scans of a log.
 ///
 /// Outputs appear under their names when they are whole. Throws std::runtime_error, naming file and
 /// entry, where it fails; a log that breaks off leaves what was read before in OUT.partial.rawlog

@@ -24,10 +24,10 @@ struct ObservedScan {
 };
 
 /// Reads a scan in its sensor's frame. The sensor is the recording's own where it tells (packets),
-/// else that of the settings (clouds). A Velodyne scan without packets but with a stored cloud gives
-/// that cloud.
-/// Throws std::runtime_error, saying why, for packets that cannot be decoded and for a cloud that is
-/// missing; `observed` is used again, so that reading many scans allocates little.
+/// else that of the settings (clouds). A Velodyne scan without packets but with a stored cloud
+/// gives that cloud. Throws std::runtime_error, saying why, for packets that cannot be decoded and
+/// for a cloud that is missing; `observed` is used again, so that reading many scans allocates
+/// little.
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed);
 
@@ -36,6 +36,7 @@ mrpt::obs::CObservationPointCloud::Ptr observationOf(const Scan& scan, const std
                                                      mrpt::Clock::time_point time);
 
 /// The same observation with a cloud that every MRPT from 2.5 to 3 reads; intensities are lost.
-mrpt::obs::CObservationPointCloud::Ptr portable(const mrpt::obs::CObservationPointCloud& observation);
+mrpt::obs::CObservationPointCloud::Ptr portable(
+    const mrpt::obs::CObservationPointCloud& observation);
 
 }  // namespace hagen

@@ -24,16 +24,16 @@ namespace hagen {
 ///     hagen::ObservationSegmenter::Output out;
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
-/// Takes every LiDAR scan of a log, of several sensors too: each sensor label has its own filter and
-/// its own window.
+/// Takes every LiDAR scan of a log, of several sensors too: each sensor label has its own filter
+/// and its own window.
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
     DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen)
 
-   public:
+ public:
     struct Output {
         /// RoI and ROU of the scan: its time stamp and sensor pose, its label with `_roi` and
-        /// `_non_roi` behind it. Points in the sensor's frame; returns out of the sensor's range are
-        /// in neither.
+        /// `_non_roi` behind it. Points in the sensor's frame; returns out of the sensor's range
+        /// are in neither.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
         /// The scan's returns, and what each stage made of them; valid until the next call of
@@ -50,22 +50,22 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
 
-    /// Takes new settings and forgets all scans. Without it, defaults hold. Throws SettingsError where
-    /// the options do not fit the sensor that the settings name.
+    /// Takes new settings and forgets all scans. Without it, defaults hold. Throws SettingsError
+    /// where the options do not fit the sensor that the settings name.
     void initialize(const Settings& settings);
 
     /// Segments one observation. False, and `out` untouched, for one that is no LiDAR scan.
     /// `vehicle_pose` is the vehicle in the map at the scan's time; only a window of more than one
     /// scan needs it, and without it the scan is segmented alone, which the remark says.
-    /// Throws std::runtime_error, saying why, for a scan that cannot be read, and SettingsError for one
-    /// of a sensor that the options do not fit.
+    /// Throws std::runtime_error, saying why, for a scan that cannot be read, and SettingsError for
+    /// one of a sensor that the options do not fit.
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const std::optional<mrpt::poses::CPose3D>& vehicle_pose = std::nullopt);
 
     /// Times of each part of process(). Off at first: it prints its report when it goes.
     mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
 
-   private:
+ private:
     /// What belongs to one sensor label.
     struct Lidar {
         HagenFilter filter;

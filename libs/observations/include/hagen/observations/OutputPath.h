@@ -6,10 +6,10 @@ namespace hagen {
 /// A file or folder that is written beside its place under a temporary name, and appears under its
 /// own only when it is whole.
 class OutputPath {
-   public:
+ public:
     /// Clears away what an earlier, interrupted run has left under the temporary name.
-    /// Throws std::runtime_error where `path` exists and `overwrite` is not set, and where its folder
-    /// is missing.
+    /// Throws std::runtime_error where `path` exists and `overwrite` is not set, and where its
+    /// folder is missing.
     OutputPath(std::filesystem::path path, bool overwrite);
     /// Removes what was written, unless commit() or keepPartial() was called.
     ~OutputPath();
@@ -25,7 +25,7 @@ class OutputPath {
     /// Names it as part of an output: "x.rawlog" becomes "x.partial.rawlog". Returns that name.
     std::filesystem::path keepPartial();
 
-   private:
+ private:
     void moveTo(const std::filesystem::path& name);
 
     std::filesystem::path path_, temporary_;

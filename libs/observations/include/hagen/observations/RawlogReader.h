@@ -1,17 +1,17 @@
 #pragma once
-#include <cstddef>
-#include <filesystem>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
+#include <cstddef>
+#include <filesystem>
 
 #include <memory>
 #include <stdexcept>
 
 namespace hagen {
 
-/// A rawlog that ends in the middle of an entry, or holds one that cannot be read. The message names
-/// the file, the entry and its byte.
+/// A rawlog that ends in the middle of an entry, or holds one that cannot be read. The message
+/// names the file, the entry and its byte.
 struct BrokenRawlog : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -19,7 +19,7 @@ struct BrokenRawlog : std::runtime_error {
 /// Reads a rawlog entry by entry, in memory for one entry. An entry is an object of the file: an
 /// observation, an action collection, a sensory frame, or whatever else the log holds.
 class RawlogReader {
-   public:
+ public:
     /// Throws std::runtime_error, naming the file, where it cannot be opened or is empty.
     explicit RawlogReader(const std::filesystem::path& file);
 
@@ -29,7 +29,7 @@ class RawlogReader {
     /// Entries read so far.
     std::size_t entries() const { return entries_; }
 
-   private:
+ private:
     std::filesystem::path file_;
     mrpt::io::CFileGZInputStream stream_;
     mrpt::serialization::CArchive::UniquePtr archive_;

@@ -1,15 +1,15 @@
 #pragma once
-#include <filesystem>
 #include <hagen/observations/OutputPath.h>
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
+#include <filesystem>
 
 namespace hagen {
 
 /// Writes a rawlog (gzip level 1, what MRPT's own tools do) that appears under its name when whole.
 class RawlogWriter {
-   public:
+ public:
     /// Throws std::runtime_error, naming the file; see OutputPath.
     RawlogWriter(const std::filesystem::path& file, bool overwrite);
 
@@ -21,7 +21,7 @@ class RawlogWriter {
     /// Ends the file as OUT.partial.rawlog and returns that name.
     std::filesystem::path keepPartial();
 
-   private:
+ private:
     OutputPath path_;
     mrpt::io::CFileGZOutputStream stream_;
     mrpt::serialization::CArchive::UniquePtr archive_;

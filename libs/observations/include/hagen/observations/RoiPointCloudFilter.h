@@ -9,10 +9,11 @@ namespace hagen {
 /// The filter where MRPT expects a point-cloud filter, such as in its reactive navigation: of one
 /// LiDAR scan's points it keeps the RoI. Points out of the sensor's range are deleted too.
 class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
-   public:
-    /// `sensor_pose`: the sensor in the cloud's frame; identity where points are in the sensor's own.
-    /// Throws like HagenFilter.
-    explicit RoiPointCloudFilter(const Settings& settings, const mrpt::poses::CPose3D& sensor_pose = {});
+ public:
+    /// `sensor_pose`: the sensor in the cloud's frame; identity where points are in the sensor's
+    /// own. Throws like HagenFilter.
+    explicit RoiPointCloudFilter(const Settings& settings,
+                                 const mrpt::poses::CPose3D& sensor_pose = {});
 
     /// Deletes all but the RoI points. `params` as MRPT has it: a mask of what was deleted, and the
     /// wish not to delete. Time stamp and reference pose play no part: the filter uses no map.
@@ -20,7 +21,7 @@ class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
                 const mrpt::poses::CPose3D& pc_reference_pose,
                 TExtraFilterParams* params = nullptr) override;
 
-   private:
+ private:
     mrpt::poses::CPose3D sensor_pose_;
     HagenFilter filter_;
     Scan scan_;

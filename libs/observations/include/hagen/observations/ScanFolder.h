@@ -1,9 +1,9 @@
 #pragma once
+#include <hagen/range_image/Label.h>
+#include <hagen/range_image/Scan.h>
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <hagen/range_image/Label.h>
-#include <hagen/range_image/Scan.h>
 #include <string>
 #include <vector>
 
@@ -21,7 +21,7 @@ namespace hagen {
 ///
 /// All numbers are little-endian. Functions throw std::runtime_error, naming the file.
 class ScanFolder {
-   public:
+ public:
     /// Lists velodyne/*.bin in the order of their names. Throws where there are none.
     explicit ScanFolder(std::filesystem::path folder);
 
@@ -34,13 +34,14 @@ class ScanFolder {
     /// sensor.yaml of this folder; need not exist.
     std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
 
-    /// times.txt, an entry a scan; empty where there is no such file. Throws where lines and scans differ.
+    /// times.txt, an entry a scan; empty where there is no such file. Throws where lines and scans
+    /// differ.
     std::vector<double> times() const;
-    /// poses.txt, an entry a scan, rows of the 3x4 matrix one after the other; empty where there is no
-    /// such file. Throws where lines and scans differ, or a line has not 12 numbers.
+    /// poses.txt, an entry a scan, rows of the 3x4 matrix one after the other; empty where there is
+    /// no such file. Throws where lines and scans differ, or a line has not 12 numbers.
     std::vector<std::array<double, 12>> poses() const;
 
-   private:
+ private:
     std::filesystem::path folder_;
     std::vector<std::string> names_;
 };

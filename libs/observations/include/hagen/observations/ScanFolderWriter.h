@@ -1,19 +1,19 @@
 #pragma once
-#include <cstddef>
-#include <filesystem>
 #include <hagen/observations/OutputPath.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/Extraction.h>
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace hagen {
 
-/// Writes segmented scans as a scan folder (see ScanFolder.h) that appears under its name when whole:
-/// velodyne/, labels/, times.txt (seconds since the first scan) and sensor.yaml.
+/// Writes segmented scans as a scan folder (see ScanFolder.h) that appears under its name when
+/// whole: velodyne/, labels/, times.txt (seconds since the first scan) and sensor.yaml.
 class ScanFolderWriter {
-   public:
+ public:
     /// Throws std::runtime_error, naming the folder; see OutputPath.
     ScanFolderWriter(const std::filesystem::path& folder, bool overwrite);
 
@@ -25,7 +25,7 @@ class ScanFolderWriter {
     void commit();
     std::filesystem::path keepPartial();
 
-   private:
+ private:
     void writeTimes() const;
 
     OutputPath path_;

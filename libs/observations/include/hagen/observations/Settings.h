@@ -1,7 +1,7 @@
 #pragma once
-#include <filesystem>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/Options.h>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,7 +23,8 @@ struct Settings {
     /// The section `sensor:` of a settings file. What is not given comes from the model.
     struct Sensor {
         std::optional<std::string> model;
-        std::vector<double> elevations_deg;  ///< of model `custom`, from the lowest beam to the highest
+        std::vector<double>
+            elevations_deg;  ///< of model `custom`, from the lowest beam to the highest
         std::optional<float> min_range_m, max_range_m;
     };
     Sensor sensor;
@@ -37,16 +38,16 @@ struct Settings {
 /// documentation all go by this table.
 struct OptionKey {
     std::string name, unit;
-    double least, most;  ///< allowed range, both included
+    double least, most;        ///< allowed range, both included
     std::string what, symbol;  ///< what it does in a line; the paper's symbol, if it has one
     std::variant<float Options::*, int Options::*, Seeds Options::*> field;
 };
 const std::vector<OptionKey>& optionKeys();
 
-/// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a list
-/// of files) is merged before its own keys.
-/// Throws SettingsError for a file that cannot be read or parsed, a key that is unknown or there
-/// twice, and a value of the wrong type or out of range; `settings` is unchanged then.
+/// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a
+/// list of files) is merged before its own keys. Throws SettingsError for a file that cannot be
+/// read or parsed, a key that is unknown or there twice, and a value of the wrong type or out of
+/// range; `settings` is unchanged then.
 void mergeSettings(const std::filesystem::path& file, Settings& settings);
 
 /// Sets one option from text, as `--sweep KEY=VALUE` does. Throws SettingsError.

@@ -1,15 +1,15 @@
 #pragma once
-#include <deque>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <mrpt/poses/CPose3D.h>
+#include <deque>
 
 namespace hagen {
 
-/// Stage 10, the sliding window (section I): the last K scans as one, seen from where the newest was
-/// taken. The only memory from scan to scan that this project has.
+/// Stage 10, the sliding window (section I): the last K scans as one, seen from where the newest
+/// was taken. The only memory from scan to scan that this project has.
 class SlidingWindow {
-   public:
+ public:
     /// Throws std::invalid_argument for fewer than 1 scan.
     explicit SlidingWindow(int scans);
 
@@ -23,7 +23,7 @@ class SlidingWindow {
     /// Forgets all scans, as after a jump of the pose.
     void clear() { past_.clear(); }
 
-   private:
+ private:
     struct PastScan {
         Scan scan;
         mrpt::poses::CPose3D sensor_pose;

@@ -1,14 +1,14 @@
 #pragma once
-#include <cstddef>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
+#include <cstddef>
 
 namespace hagen {
 
-/// The sensor that took these packets: its calibration's beams (the model's default calibration where
-/// the observation has none) and the observation's range limits.
-/// Throws std::runtime_error for a model that is neither VLP-16 nor HDL-32E.
+/// The sensor that took these packets: its calibration's beams (the model's default calibration
+/// where the observation has none) and the observation's range limits. Throws std::runtime_error
+/// for a model that is neither VLP-16 nor HDL-32E.
 SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
 
 /// Decodes all raw packets of an observation: every return with a range above zero, in the order of
@@ -16,12 +16,12 @@ SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
 /// half of each block.) Strongest, last and dual mode; in dual mode both returns of a firing come
 /// out, also where they are equal.
 ///
-/// Azimuths are interpolated within a block; times are those of the firings, from the first packet's
-/// time stamp on. No trigonometry a return.
+/// Azimuths are interpolated within a block; times are those of the firings, from the first
+/// packet's time stamp on. No trigonometry a return.
 ///
 /// Returns the number of blocks left out because their header is not a block's (0xEEFF) or their
-/// azimuth is no angle. Throws std::runtime_error, naming the packet, for one of an unknown model or
-/// of another model than the first packet's.
+/// azimuth is no angle. Throws std::runtime_error, naming the packet, for one of an unknown model
+/// or of another model than the first packet's.
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
 
 }  // namespace hagen

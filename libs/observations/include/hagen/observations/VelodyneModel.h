@@ -1,7 +1,7 @@
 #pragma once
-#include <cstdint>
 #include <hagen/range_image/SensorModel.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,16 +10,17 @@ namespace hagen {
 /// How a Velodyne sensor fires, as its manual tells; shared by the packet decoder and encoder. A
 /// packet holds 12 blocks, a block 32 returns: the lasers of one firing after the other.
 struct VelodyneModel {
-    std::string name;            ///< as in settings: "VLP-16"
-    std::uint8_t id;             ///< product id in the packet's last byte
-    int lasers;                  ///< returns of one firing
-    int firings_per_block;       ///< lasers * firings_per_block = 32
-    double laser_period_us;      ///< from one laser of a firing to the next
-    double firing_period_us;     ///< from one firing to the next
-    std::string calibration;     ///< its name in mrpt::obs::VelodyneCalibration
+    std::string name;         ///< as in settings: "VLP-16"
+    std::uint8_t id;          ///< product id in the packet's last byte
+    int lasers;               ///< returns of one firing
+    int firings_per_block;    ///< lasers * firings_per_block = 32
+    double laser_period_us;   ///< from one laser of a firing to the next
+    double firing_period_us;  ///< from one firing to the next
+    std::string calibration;  ///< its name in mrpt::obs::VelodyneCalibration
 
     double blockPeriodUs() const { return firings_per_block * firing_period_us; }
-    /// Where in its block's rotation a laser fires: 0 with the block's azimuth, 1 with the next one's.
+    /// Where in its block's rotation a laser fires: 0 with the block's azimuth, 1 with the next
+    /// one's.
     double turnWithinBlock(int firing, int laser) const {
         return (firing * firing_period_us + laser * laser_period_us) / blockPeriodUs();
     }
@@ -30,9 +31,10 @@ const VelodyneModel* findVelodyneModel(std::uint8_t id);
 /// The model with this name. Throws std::invalid_argument for others than VLP-16 and HDL-32E.
 const VelodyneModel& velodyneModel(const std::string& name);
 
-/// The direction of a packet's azimuth reading (0.01 degrees, fractions allowed): degrees clockwise from
-/// x, within +-180. As MRPT's own decoder has it, so that clouds of both lie on one another: it spreads
-/// the 36000 readings over a whole turn with both ends in it, and so points 0 to 0.01 degrees ahead.
+/// The direction of a packet's azimuth reading (0.01 degrees, fractions allowed): degrees clockwise
+/// from x, within +-180. As MRPT's own decoder has it, so that clouds of both lie on one another:
+/// it spreads the 36000 readings over a whole turn with both ends in it, and so points 0 to 0.01
+/// degrees ahead.
 double azimuthOfReadingDeg(double reading);
 
 /// The image row of each laser (row 0 the lowest beam), by the calibration's elevations.

@@ -1,8 +1,8 @@
 #pragma once
-#include <cstdint>
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
+#include <cstdint>
 #include <vector>
 
 namespace hagen {

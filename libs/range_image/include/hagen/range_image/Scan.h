@@ -1,7 +1,7 @@
 #pragma once
+#include <hagen/range_image/SensorModel.h>
 #include <cstddef>
 #include <cstdint>
-#include <hagen/range_image/SensorModel.h>
 #include <vector>
 
 namespace hagen {
@@ -10,8 +10,8 @@ namespace hagen {
 /// All arrays have the same size, but for those marked optional, which may be empty.
 struct Scan {
     std::vector<float> x_m, y_m, z_m;
-    std::vector<float> intensity;    ///< 0..1
-    std::vector<float> range_m;      ///< distance from the sensor; NaN where a coordinate is not finite
+    std::vector<float> intensity;  ///< 0..1
+    std::vector<float> range_m;  ///< distance from the sensor; NaN where a coordinate is not finite
     std::vector<float> azimuth_rad;  ///< atan2(y, x) of the firing, counter-clockwise from x
     std::vector<std::uint8_t> row;   ///< image row: the beam, counted from the lowest
     std::vector<float> time_s;       ///< optional: time of the return since the scan's first firing

@@ -7,8 +7,8 @@ namespace hagen {
 /// The geometry of a rotating LiDAR.
 struct SensorModel {
     std::string name;
-    /// Elevation of each beam above the sensor's xy plane, strictly increasing: entry r is image row
-    /// r, row 0 the lowest beam.
+    /// Elevation of each beam above the sensor's xy plane, strictly increasing: entry r is image
+    /// row r, row 0 the lowest beam.
     std::vector<float> elevations_rad;
     /// Returns nearer or farther than these are unclassified.
     float min_range_m = 0.5f;

@@ -1,8 +1,8 @@
 #pragma once
-#include <cstdint>
 #include <hagen/range_image/Label.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/Scan.h>
+#include <cstdint>
 #include <vector>
 
 namespace hagen {

@@ -12,18 +12,18 @@ namespace hagen {
 /// Everything the filter made of one scan: each stage's image, and in the end each return's label.
 /// Images are I_h x I_w (range angles: I_h - 1 rows), NaN where a pixel has no value.
 struct SegmentationResult {
-    RangeImage range_image;           ///< stage 1
-    Image<float> repaired_m;          ///< stage 2, the depth image without its one-pixel holes
-    Image<float> proximity_m;         ///< zone_m - depth, at least 0
-    std::vector<Maximum> maxima;      ///< stage 3, with birth, death and persistence
-    Image<float> sharpened_m;         ///< stage 4, in proximity
-    Image<float> merged_m;            ///< stage 5, depth again
-    Image<float> range_angle_rad;     ///< stage 6
-    Image<float> smoothed_rad;        ///< stage 7
-    Image<float> pixel_angle_rad;     ///< the angle that each pixel carries into the labelling
-    Image<Label> labels;              ///< stage 8, limited to the zone
-    Image<std::int32_t> components;   ///< obstacles, numbered from the nearest
-    LabelledReturns returns;          ///< stage 9, for each return of the scan
+    RangeImage range_image;          ///< stage 1
+    Image<float> repaired_m;         ///< stage 2, the depth image without its one-pixel holes
+    Image<float> proximity_m;        ///< zone_m - depth, at least 0
+    std::vector<Maximum> maxima;     ///< stage 3, with birth, death and persistence
+    Image<float> sharpened_m;        ///< stage 4, in proximity
+    Image<float> merged_m;           ///< stage 5, depth again
+    Image<float> range_angle_rad;    ///< stage 6
+    Image<float> smoothed_rad;       ///< stage 7
+    Image<float> pixel_angle_rad;    ///< the angle that each pixel carries into the labelling
+    Image<Label> labels;             ///< stage 8, limited to the zone
+    Image<std::int32_t> components;  ///< obstacles, numbered from the nearest
+    LabelledReturns returns;         ///< stage 9, for each return of the scan
 };
 
 /// The filter "Hagen" for one sensor: separates near obstacles (RoI) from ground and far returns
@@ -34,18 +34,19 @@ struct SegmentationResult {
 ///     const SegmentationResult& result = filter.segment(scan);
 ///     for (const auto i : result.returns.roi) avoid(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
 class HagenFilter {
-   public:
-    /// Throws std::invalid_argument where options and sensor do not fit together; see checkOptions().
+ public:
+    /// Throws std::invalid_argument where options and sensor do not fit together; see
+    /// checkOptions().
     explicit HagenFilter(SensorModel sensor, Options options = {});
 
-    /// The result stays valid until the next call. Any scan will do, an empty one too; its rows must
-    /// be those of this filter's sensor.
+    /// The result stays valid until the next call. Any scan will do, an empty one too; its rows
+    /// must be those of this filter's sensor.
     const SegmentationResult& segment(const Scan& scan);
 
     const SensorModel& sensor() const { return sensor_; }
     const Options& options() const { return options_; }
 
-   private:
+ private:
     SensorModel sensor_;
     Options options_;
     SegmentationResult result_;

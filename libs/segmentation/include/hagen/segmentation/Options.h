@@ -14,7 +14,8 @@ struct Options {
     float zone_m = 20.0f;
     /// Returns up to this range enter the image, as context of the zone; never less than zone_m.
     float context_m = 20.0f;
-    /// I_w, the image's columns in a full turn.
+    /// I_w, the image's columns in a full turn; no more than the sensor fires in one, for a column
+    /// without returns separates its neighbours.
     int columns = 870;
     /// Fill one-pixel holes of the depth image between two vertical neighbours that differ by less;
     /// 0 repairs nothing.

@@ -1,7 +1,7 @@
 #pragma once
-#include <cstdint>
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/Label.h>
+#include <cstdint>
 
 namespace hagen {
 

@@ -9,9 +9,9 @@ namespace hagen {
 ///
 ///   I_f(x) = I(x) + sum_i I(x_i) g_r(|I(x_i) - I(x)|) g_s(|x_i - x|) / sum_i g_r g_s
 ///
-/// over those of the 8 neighbours x_i (azimuth wrapped) that are there; g_s and g_r are Gaussians of
-/// `sigma_px` pixels and `sigma_m` metres. A maximum without a neighbour, and every pixel that is no
-/// maximum, keeps its value. `sharpened_m` must not be `proximity_m`.
+/// over those of the 8 neighbours x_i (azimuth wrapped) that are there; g_s and g_r are Gaussians
+/// of `sigma_px` pixels and `sigma_m` metres. A maximum without a neighbour, and every pixel that
+/// is no maximum, keeps its value. `sharpened_m` must not be `proximity_m`.
 void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& maxima,
                    float sigma_px, float sigma_m, Image<float>& sharpened_m);
 

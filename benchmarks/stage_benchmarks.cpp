@@ -1,0 +1,120 @@
+// Times each stage of the published filter, and the whole, on the real VLP-16 scan of mrpt-common;
+// beside them, in the same run, MRPT's own decoder, which reads half of that scan.
+#include <benchmark/benchmark.h>
+#include <hagen/observations/RawlogReader.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/GapRepair.h>
+#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/segmentation/Labelling.h>
+#include <hagen/segmentation/RangeAngle.h>
+#include <hagen/segmentation/RoiComponents.h>
+#include <hagen/segmentation/Sharpening.h>
+#include <hagen/segmentation/SingularSpectrumAnalysis.h>
+
+#include <iostream>
+
+namespace {
+
+using namespace hagen;
+using mrpt::obs::CObservationVelodyneScan;
+
+const char* const kRealScan = "/usr/share/mrpt/datasets/test_velodyne_VLP16.rawlog";
+
+Options paperOptions() {
+    Settings settings;
+    mergeSettings(HAGEN_SOURCE_DIR "/config/paper.yaml", settings);
+    return settings.options;
+}
+
+/// The scan, and what each stage made of it: the inputs of the next one.
+struct Fixture {
+    CObservationVelodyneScan::Ptr observation =
+        std::dynamic_pointer_cast<CObservationVelodyneScan>(RawlogReader(kRealScan).next());
+    SensorModel sensor = sensorOf(*observation);
+    Options options = paperOptions();
+    Scan scan;
+    HagenFilter filter{sensor, options};
+    SegmentationResult result;
+
+    Fixture() {
+        decodePackets(*observation, scan);
+        result = filter.segment(scan);
+    }
+};
+
+Fixture& fixture() {
+    static Fixture instance;
+    return instance;
+}
+
+/// Registers one stage: `run` takes the fixture and writes into its own buffers.
+template <class Run>
+void add(const char* name, Run run) {
+    benchmark::RegisterBenchmark(name, [run](benchmark::State& state) {
+        Fixture& f = fixture();
+        for (auto _ : state) {
+            run(f);
+            benchmark::ClobberMemory();
+        }
+    })->Unit(benchmark::kMicrosecond);
+}
+
+void addAll() {
+    add("mrpt decode (half of the scan)", [](Fixture& f) { f.observation->generatePointCloud(); });
+    add("decode", [](Fixture& f) { decodePackets(*f.observation, f.scan); });
+    add("1 depth image", [](Fixture& f) {
+        projectScan(f.scan, f.sensor, f.options.columns, f.options.context_m, f.result.range_image);
+    });
+    add("2 gap repair",
+        [](Fixture& f) { repairGaps(f.result.range_image.depth_m, 1.0f, f.result.sharpened_m); });
+    add("3 local maxima", [](Fixture& f) {
+        findPersistentMaxima(f.result.proximity_m, f.options.persistence_m, f.result.maxima);
+    });
+    add("4+5 sharpening and merge", [](Fixture& f) {
+        sharpenMaxima(f.result.proximity_m, f.result.maxima, f.options.sharpening_sigma_px,
+                      f.options.sharpening_sigma_m, f.result.sharpened_m);
+        mergeMaxima(f.result.repaired_m, f.result.proximity_m, f.result.sharpened_m,
+                    f.result.maxima, f.sensor.min_range_m, f.result.merged_m);
+    });
+    add("6 range angles",
+        [](Fixture& f) { rangeAngles(f.result.merged_m, f.sensor, f.result.range_angle_rad); });
+    add("7 singular spectrum analysis", [](Fixture& f) {
+        smoothColumns(f.result.range_angle_rad, f.options.window_size,
+                      f.options.principal_components, f.result.smoothed_rad);
+    });
+    add("8 labelling", [](Fixture& f) {
+        labelRegions(f.result.repaired_m, f.result.pixel_angle_rad,
+                     static_cast<float>(radians(f.options.beta_deg)), f.options.seeds,
+                     f.result.labels);
+    });
+    add("  obstacles numbered", [](Fixture& f) {
+        numberRoiComponents(f.result.repaired_m, f.result.labels, f.options.component_gap_m,
+                            f.result.components);
+    });
+    add("9 extraction", [](Fixture& f) {
+        extractReturns(f.scan, f.sensor, f.result.range_image, f.result.labels, f.result.components,
+                       f.options.zone_m, f.result.returns);
+    });
+    add("whole, from packets to labels", [](Fixture& f) {
+        decodePackets(*f.observation, f.scan);
+        f.filter.segment(f.scan);
+    });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    try {
+        fixture();
+    } catch (const std::exception& e) {
+        std::cerr << "stage-benchmarks: " << e.what() << " (install mrpt-common)\n";
+        return 1;
+    }
+    addAll();
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

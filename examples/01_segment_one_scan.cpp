@@ -1,0 +1,38 @@
+// The filter alone, without MRPT: points in, obstacles out.
+#include <hagen/segmentation/HagenFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+int main() {
+    // A scan is x, y, z in the sensor's frame. Here: flat ground 1.5 m below, and a pillar of 0.3
+    // m.
+    const hagen::SensorModel sensor = hagen::sensorModel("VLP-16");
+    hagen::Scan scan;
+    for (int firing = 0; firing < 900; ++firing) {
+        for (const float elevation_rad : sensor.elevations_rad) {
+            const float azimuth_rad = static_cast<float>(firing) * 0.00698132f;  // 0.4 degrees
+            const bool meets_pillar = std::abs(azimuth_rad - 0.5f) < 0.02f;
+            const float ground_m = elevation_rad < 0 ? 1.5f / std::tan(-elevation_rad) : 1e9f;
+            const float horizontal_m = meets_pillar ? std::min(8.0f, ground_m) : ground_m;
+            if (horizontal_m > 100.0f) continue;
+            scan.x_m.push_back(horizontal_m * std::cos(azimuth_rad));
+            scan.y_m.push_back(horizontal_m * std::sin(azimuth_rad));
+            scan.z_m.push_back(horizontal_m * std::tan(elevation_rad));
+            scan.intensity.push_back(0.0f);
+        }
+    }
+    hagen::locateBeams(sensor,
+                       scan);  // ranges, azimuths and rows, where the sensor did not tell them
+
+    hagen::HagenFilter filter(sensor);  // keep it: its memory is used again for every scan
+    const hagen::SegmentationResult& result = filter.segment(scan);
+    std::printf("%zu returns: %zu RoI, %zu ROU\n", scan.size(), result.returns.roi.size(),
+                result.returns.rou.size());
+    for (const auto i : result.returns.roi) {
+        std::printf("  obstacle %d at x %.2f y %.2f z %.2f m\n", result.returns.component[i],
+                    static_cast<double>(scan.x_m[i]), static_cast<double>(scan.y_m[i]),
+                    static_cast<double>(scan.z_m[i]));
+    }
+}

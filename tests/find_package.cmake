@@ -1,0 +1,15 @@
+# Installs the build tree into a clean prefix, builds examples/find_package against it, and runs it.
+set(prefix ${BUILD}/find_package/prefix)
+set(build ${BUILD}/find_package/build)
+file(REMOVE_RECURSE ${BUILD}/find_package)
+foreach(
+  step
+  "${CMAKE_COMMAND};--install;${BUILD};--prefix;${prefix}"
+  "${CMAKE_COMMAND};-S;${SOURCE}/examples/find_package;-B;${build};-DCMAKE_PREFIX_PATH=${prefix}"
+  "${CMAKE_COMMAND};--build;${build}"
+  "${build}/uses_hagen")
+  execute_process(COMMAND ${step} RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "failed: ${step}")
+  endif()
+endforeach()
