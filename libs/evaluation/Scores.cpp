@@ -17,15 +17,9 @@ void addReturn(bool is, bool found, ClassScore& score) {
 
 }  // namespace
 
-double ClassScore::precision() const {
-    return ratio(hits, hits + false_alarms);
-}
-double ClassScore::recall() const {
-    return ratio(hits, hits + misses);
-}
-double ClassScore::f1() const {
-    return ratio(2 * hits, 2 * hits + misses + false_alarms);
-}
+double ClassScore::precision() const { return ratio(hits, hits + false_alarms); }
+double ClassScore::recall() const { return ratio(hits, hits + misses); }
+double ClassScore::f1() const { return ratio(2 * hits, 2 * hits + misses + false_alarms); }
 
 void addScores(const Scan& scan, const std::vector<std::uint16_t>& truth,
                const std::vector<Label>& found, float max_range_m, Scores& scores) {

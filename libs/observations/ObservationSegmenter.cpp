@@ -6,9 +6,7 @@ namespace hagen {
 
 IMPLEMENTS_MRPT_OBJECT(ObservationSegmenter, mrpt::rtti::CObject, hagen)
 
-MRPT_INITIALIZER(registerAllClasses_hagen_observations) {
-    registerHagenClasses();
-}
+MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses(); }
 
 void registerHagenClasses() {
     mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen));

@@ -19,9 +19,7 @@ constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
 constexpr double kHourUs = 3600e6;
 
-int wrapTurn(int reading) {
-    return ((reading % kTurn) + kTurn) % kTurn;
-}
+int wrapTurn(int reading) { return ((reading % kTurn) + kTurn) % kTurn; }
 
 /// A direction in the plane.
 struct Azimuth {

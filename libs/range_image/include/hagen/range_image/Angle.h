@@ -5,11 +5,7 @@ namespace hagen {
 constexpr double kPi = 3.14159265358979323846;
 
 /// Angles are radians in code and degrees in files and flags; these two are the border.
-constexpr double radians(double degrees) {
-    return degrees * (kPi / 180.0);
-}
-constexpr double degrees(double radians) {
-    return radians * (180.0 / kPi);
-}
+constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
+constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
 
 }  // namespace hagen

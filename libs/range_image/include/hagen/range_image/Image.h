@@ -13,9 +13,7 @@ using Image = Eigen::Array<T, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// What a pixel without a value holds, in every image of floats.
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
-inline bool hasValue(float pixel) {
-    return !std::isnan(pixel);
-}
+inline bool hasValue(float pixel) { return !std::isnan(pixel); }
 
 /// A column one to the left or right of a valid one, wrapped around.
 inline int wrapColumn(int column, int columns) {
