@@ -1,21 +1,33 @@
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/RawlogReader.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <fstream>
-#include <regex>
 #include <string>
 
 namespace hagen {
 namespace {
 
+bool isClassName(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || (c != 0 && std::strchr("_:<>,", c) != nullptr);
+    });
+}
+
 /// The words of an MRPT exception that a user can use, out of its back traces.
 std::string reasonOf(const std::exception& exception) {
     const std::string text = exception.what();
     if (text.find("(EOF?)") != std::string::npos) return "the file ends in the middle of it";
-    static const std::regex unknown_class("has class '([\\w:<>, ]+)' which is not registered");
-    std::smatch match;
-    if (std::regex_search(text, match, unknown_class)) {
-        return "it is of class '" + match[1].str() + "', which this program does not know";
+    const std::string mark = "Stored object has class '";
+    const std::size_t start = text.find(mark);
+    if (start != std::string::npos) {
+        const std::size_t name = start + mark.size();
+        const std::string class_name = text.substr(name, text.find('\'', name) - name);
+        if (isClassName(class_name)) {
+            return "it is of class '" + class_name + "', which this program does not know";
+        }
     }
     return "it is no MRPT object";
 }

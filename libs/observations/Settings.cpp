@@ -135,6 +135,7 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sens
 
 YAML::Node parseFile(const fs::path& file) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
+    if (fs::is_directory(file)) throw SettingsError(file.string() + ": is a folder, not a file");
     try {
         return YAML::LoadFile(file.string());
     } catch (const YAML::ParserException& e) {

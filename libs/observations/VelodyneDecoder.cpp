@@ -13,11 +13,42 @@ namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
 using mrpt::obs::VelodyneCalibration;
-using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
 
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
 constexpr double kHourUs = 3600e6;
+
+/// A raw packet, read byte by byte: MRPT's struct is packed, and its accessors bind references to
+/// numbers that are not aligned. Little-endian, as it came over the network.
+class Packet {
+ public:
+    explicit Packet(const CObservationVelodyneScan::TVelodyneRawPacket& raw)
+        : bytes_(reinterpret_cast<const std::uint8_t*>(&raw)) {}
+
+    bool isSound(int block) const {
+        return number(block * kBlockBytes, 2) == CObservationVelodyneScan::UPPER_BANK &&
+               azimuth(block) < kTurn;
+    }
+    int azimuth(int block) const { return static_cast<int>(number(block * kBlockBytes + 2, 2)); }
+    unsigned distance(int block, int i) const { return number(returnAt(block, i), 2); }
+    unsigned intensity(int block, int i) const { return bytes_[returnAt(block, i) + 2]; }
+    unsigned time_us() const { return number(kBlocks * kBlockBytes, 4); }
+    int blocksPerFiring() const {
+        return bytes_[kBlocks * kBlockBytes + 4] == CObservationVelodyneScan::RETMODE_DUAL ? 2 : 1;
+    }
+    std::uint8_t modelId() const { return bytes_[kBlocks * kBlockBytes + 5]; }
+
+ private:
+    static constexpr int kBlockBytes = CObservationVelodyneScan::SIZE_BLOCK;
+    static int returnAt(int block, int i) { return block * kBlockBytes + 4 + 3 * i; }
+    unsigned number(int at, int bytes) const {
+        unsigned value = 0;
+        for (int i = 0; i < bytes; ++i) value |= unsigned{bytes_[at + i]} << (8 * i);
+        return value;
+    }
+
+    const std::uint8_t* bytes_;
+};
 
 int wrapTurn(int reading) { return ((reading % kTurn) + kTurn) % kTurn; }
 
@@ -53,11 +84,6 @@ class AzimuthTable {
     std::array<Azimuth, kTurn> entries_;
 };
 
-const AzimuthTable& azimuthTable() {
-    static const AzimuthTable table;
-    return table;
-}
-
 std::string hex(unsigned value) {
     char text[8];
     std::snprintf(text, sizeof text, "0x%02x", value);
@@ -65,13 +91,13 @@ std::string hex(unsigned value) {
 }
 
 const VelodyneModel& modelOf(const CObservationVelodyneScan& observation, std::size_t packet) {
-    const std::uint8_t id = observation.scan_packets[packet].velodyne_model_ID;
+    const std::uint8_t id = Packet(observation.scan_packets[packet]).modelId();
     const VelodyneModel* model = findVelodyneModel(id);
     if (model == nullptr) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": unknown model id " +
                                  hex(id) + "; known are VLP-16 (0x22) and HDL-32E (0x21)");
     }
-    if (id != observation.scan_packets.front().velodyne_model_ID) {
+    if (id != Packet(observation.scan_packets.front()).modelId()) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": model id " + hex(id) +
                                  " differs from the first packet's");
     }
@@ -86,28 +112,61 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
                    : VelodyneCalibration::LoadDefaultCalibration(model.calibration);
 }
 
-bool isSound(const CObservationVelodyneScan::raw_block_t& block) {
-    return block.header() == CObservationVelodyneScan::UPPER_BANK && block.rotation() < kTurn;
-}
-
-int blocksPerFiring(const Packet& packet) {
-    return packet.laser_return_mode == CObservationVelodyneScan::RETMODE_DUAL ? 2 : 1;
-}
-
 /// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over
 /// the scan, so that neither the rounding of azimuths nor a broken block shifts a return.
-int turnOfBlocks(const std::vector<Packet>& packets) {
+int turnOfBlocks(const CObservationVelodyneScan& observation) {
     std::vector<int> turns;
-    for (const Packet& packet : packets) {
-        const int step = blocksPerFiring(packet);
+    for (const auto& raw : observation.scan_packets) {
+        const Packet packet(raw);
+        const int step = packet.blocksPerFiring();
         for (int b = 0; b + step < kBlocks; ++b) {
-            turns.push_back(
-                wrapTurn(packet.blocks[b + step].rotation() - packet.blocks[b].rotation()));
+            if (!packet.isSound(b) || !packet.isSound(b + step)) continue;
+            turns.push_back(wrapTurn(packet.azimuth(b + step) - packet.azimuth(b)));
         }
     }
+    if (turns.empty()) return 0;
     const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
     std::nth_element(turns.begin(), middle, turns.end());
     return *middle;
+}
+
+/// A laser's calibration, as the decoder needs it.
+struct Laser {
+    float sine, cosine;                  ///< of its elevation
+    float distance_m, up_m, sideways_m;  ///< added to what it measures
+    double azimuth_reading;              ///< taken from the azimuth, 0.01 degrees
+    std::uint8_t row;
+};
+
+std::vector<Laser> lasersOf(const VelodyneCalibration& calibration) {
+    const std::vector<std::uint8_t> rows = rowsOfLasers(calibration);
+    std::vector<Laser> lasers;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& correction = calibration.laser_corrections[i];
+        lasers.push_back({static_cast<float>(correction.sinVertCorrection),
+                          static_cast<float>(correction.cosVertCorrection),
+                          static_cast<float>(correction.distanceCorrection),
+                          static_cast<float>(correction.verticalOffsetCorrection),
+                          static_cast<float>(correction.horizontalOffsetCorrection),
+                          100.0 * correction.azimuthCorrection, rows[i]});
+    }
+    return lasers;
+}
+
+/// Appends where a return lies: its coordinates, range, azimuth and row.
+void appendReturn(const Laser& laser, double reading, unsigned distance, Scan& scan) {
+    static const AzimuthTable azimuths;
+    const Azimuth azimuth = azimuths(static_cast<float>(reading - laser.azimuth_reading));
+    const float range_m =
+        static_cast<float>(distance) * CObservationVelodyneScan::DISTANCE_RESOLUTION +
+        laser.distance_m;
+    const float horizontal_m = range_m * laser.cosine + laser.up_m * laser.sine;
+    scan.x_m.push_back(horizontal_m * azimuth.cosine + laser.sideways_m * azimuth.sine);
+    scan.y_m.push_back(-horizontal_m * azimuth.sine + laser.sideways_m * azimuth.cosine);
+    scan.z_m.push_back(range_m * laser.sine + laser.up_m);
+    scan.range_m.push_back(range_m);
+    scan.azimuth_rad.push_back(azimuth.azimuth_rad);
+    scan.row.push_back(laser.row);
 }
 
 }  // namespace
@@ -125,53 +184,31 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
     scan.clear();
     if (observation.scan_packets.empty()) return 0;
     const VelodyneModel& model = modelOf(observation, 0);
-    const VelodyneCalibration& calibration = calibrationOf(observation, model);
-    const std::vector<std::uint8_t> rows = rowsOfLasers(calibration);
-    const AzimuthTable& table = azimuthTable();
+    const std::vector<Laser> lasers = lasersOf(calibrationOf(observation, model));
+    const int turn = turnOfBlocks(observation);
+    const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
     scan.reserve(observation.scan_packets.size() * CObservationVelodyneScan::SCANS_PER_PACKET);
 
-    const int turn = turnOfBlocks(observation.scan_packets);
     std::size_t unsound_blocks = 0;
-    const double first_us = observation.scan_packets.front().gps_timestamp();
     for (std::size_t p = 0; p < observation.scan_packets.size(); ++p) {
-        modelOf(observation, p);
-        const Packet& packet = observation.scan_packets[p];
-        const int blocks_per_firing = blocksPerFiring(packet);
-        double packet_us = packet.gps_timestamp() - first_us;
+        modelOf(observation, p);  // refuses a packet of another model
+        const Packet packet(observation.scan_packets[p]);
+        double packet_us = static_cast<double>(packet.time_us()) - first_us;
         if (packet_us < 0) packet_us += kHourUs;  // time stamps start anew every hour
-
         for (int b = 0; b < kBlocks; ++b) {
-            const auto& block = packet.blocks[b];
-            if (!isSound(block)) {
+            if (!packet.isSound(b)) {
                 ++unsound_blocks;
                 continue;
             }
-            const double block_us = packet_us + b / blocks_per_firing * model.blockPeriodUs();
+            const double block_us =
+                packet_us + b / packet.blocksPerFiring() * model.blockPeriodUs();
             for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
-                const auto& laser_return = block.laser_returns[i];
-                if (laser_return.distance() == 0) continue;  // nothing came back
+                if (packet.distance(b, i) == 0) continue;  // nothing came back
                 const int laser = i % model.lasers;
-                const auto& correction = calibration.laser_corrections[laser];
                 const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
-                const Azimuth azimuth =
-                    table(static_cast<float>(block.rotation() + turn * turn_in_block -
-                                             100.0 * correction.azimuthCorrection));
-                const float range_m = static_cast<float>(
-                    laser_return.distance() * CObservationVelodyneScan::DISTANCE_RESOLUTION +
-                    correction.distanceCorrection);
-                const float horizontal_m =
-                    range_m * static_cast<float>(correction.cosVertCorrection) +
-                    static_cast<float>(correction.verticalOffsetCorrection *
-                                       correction.sinVertCorrection);
-                const float sideways_m = static_cast<float>(correction.horizontalOffsetCorrection);
-                scan.x_m.push_back(horizontal_m * azimuth.cosine + sideways_m * azimuth.sine);
-                scan.y_m.push_back(-horizontal_m * azimuth.sine + sideways_m * azimuth.cosine);
-                scan.z_m.push_back(range_m * static_cast<float>(correction.sinVertCorrection) +
-                                   static_cast<float>(correction.verticalOffsetCorrection));
-                scan.intensity.push_back(static_cast<float>(laser_return.intensity()) / 255.0f);
-                scan.range_m.push_back(range_m);
-                scan.azimuth_rad.push_back(azimuth.azimuth_rad);
-                scan.row.push_back(rows[laser]);
+                appendReturn(lasers[laser], packet.azimuth(b) + turn * turn_in_block,
+                             packet.distance(b, i), scan);
+                scan.intensity.push_back(static_cast<float>(packet.intensity(b, i)) / 255.0f);
                 scan.time_s.push_back(
                     static_cast<float>(1e-6 * (block_us + turn_in_block * model.blockPeriodUs())));
             }
