@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <hagen/observations/OptionKeys.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
 

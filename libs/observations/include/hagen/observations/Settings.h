@@ -5,7 +5,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace hagen {
@@ -33,16 +32,6 @@ struct Settings {
     /// Throws SettingsError for `custom` without elevations.
     SensorModel sensorModel() const;
 };
-
-/// One key of a settings file that sets an option. The parser, the range checks and the
-/// documentation all go by this table.
-struct OptionKey {
-    std::string name, unit;
-    double least, most;        ///< allowed range, both included
-    std::string what, symbol;  ///< what it does in a line; the paper's symbol, if it has one
-    std::variant<float Options::*, int Options::*, Seeds Options::*> field;
-};
-const std::vector<OptionKey>& optionKeys();
 
 /// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a
 /// list of files) is merged before its own keys. Throws SettingsError for a file that cannot be

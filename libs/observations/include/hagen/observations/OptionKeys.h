@@ -1,0 +1,19 @@
+#pragma once
+#include <hagen/segmentation/Options.h>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hagen {
+
+/// One key of a settings file that sets an option. The parser, the range checks and the
+/// documentation all go by this table.
+struct OptionKey {
+    std::string name, unit;
+    double least, most;        ///< allowed range, both included
+    std::string what, symbol;  ///< what it does in a line; the paper's symbol, if it has one
+    std::variant<float Options::*, int Options::*, Seeds Options::*> field;
+};
+const std::vector<OptionKey>& optionKeys();
+
+}  // namespace hagen
