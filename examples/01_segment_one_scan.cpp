@@ -6,8 +6,7 @@
 #include <cstdio>
 
 int main() {
-    // A scan is x, y, z in the sensor's frame. Here: flat ground 1.5 m below, and a pillar of 0.3
-    // m.
+    // A scan is x, y, z in the sensor's frame. Here: flat ground 1.5 m below, and a narrow pillar.
     const hagen::SensorModel sensor = hagen::sensorModel("VLP-16");
     hagen::Scan scan;
     for (int firing = 0; firing < 900; ++firing) {
@@ -23,10 +22,11 @@ int main() {
             scan.intensity.push_back(0.0f);
         }
     }
-    hagen::locateBeams(sensor,
-                       scan);  // ranges, azimuths and rows, where the sensor did not tell them
+    // Ranges, azimuths and rows, where the sensor did not tell them.
+    hagen::locateBeams(sensor, scan);
 
-    hagen::HagenFilter filter(sensor);  // keep it: its memory is used again for every scan
+    // Keep the filter: its memory is used again for every scan.
+    hagen::HagenFilter filter(sensor);
     const hagen::SegmentationResult& result = filter.segment(scan);
     std::printf("%zu returns: %zu RoI, %zu ROU\n", scan.size(), result.returns.roi.size(),
                 result.returns.rou.size());

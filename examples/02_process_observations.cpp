@@ -1,11 +1,29 @@
-// The filter as an MRPT observation processor: prints the nearest obstacle of each scan of a
-// rawlog.
+// The filter as an MRPT observation processor: prints the nearest obstacle of each scan of a rawlog,
+// observation by observation or by sensory frames.
 #include <hagen/observations/ObservationSegmenter.h>
 #include <hagen/observations/RawlogReader.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
+
+namespace {
+
+void printNearest(const mrpt::obs::CObservation& observation,
+                  hagen::ObservationSegmenter& segmenter) {
+    hagen::ObservationSegmenter::Output out;
+    if (!segmenter.process(observation, out)) return;  // no LiDAR scan
+    std::printf("%s: %zu RoI points", observation.sensorLabel.c_str(), out.roi->pointcloud->size());
+    float nearest_m = -1.0f;
+    for (const auto i : out.result->returns.roi) {
+        const float range_m = out.scan->range_m[i];
+        if (nearest_m < 0.0f || range_m < nearest_m) nearest_m = range_m;
+    }
+    if (nearest_m >= 0.0f) std::printf(", the nearest at %.2f m", static_cast<double>(nearest_m));
+    std::printf("\n");
+}
+
+}  // namespace
 
 int main(int argc, char** argv) try {
     if (argc < 2) {
@@ -18,16 +36,12 @@ int main(int argc, char** argv) try {
     segmenter.initialize(settings);
 
     hagen::RawlogReader reader(argv[1]);
-    hagen::ObservationSegmenter::Output out;
     while (const auto entry = reader.next()) {
-        const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry);
-        if (!observation || !segmenter.process(*observation, out)) continue;
-        float nearest_m = settings.options.zone_m;
-        for (const auto i : out.result->returns.roi) {
-            nearest_m = std::min(nearest_m, out.scan->range_m[i]);
+        if (const auto alone = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry)) {
+            printNearest(*alone, segmenter);
+        } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+            for (const auto& observation : *frame) printNearest(*observation, segmenter);
         }
-        std::printf("%s: %zu RoI points, the nearest at %.2f m\n", observation->sensorLabel.c_str(),
-                    out.roi->pointcloud->size(), static_cast<double>(nearest_m));
     }
     return 0;
 } catch (const std::exception& e) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,25 +14,32 @@ namespace {
 using namespace hagen;
 
 constexpr int kFailed = 1, kWrongUsage = 2;
-constexpr std::size_t kMostRemarks = 10;  // one remark a scan would bury everything else
+
+std::string counted(std::size_t number, const std::string& one, const std::string& many) {
+    return std::to_string(number) + " " + (number == 1 ? one : many);
+}
 
 void printSummary(const Conversion& conversion, const ConversionReport& report) {
-    const auto percent = [&](std::size_t part) {
-        return report.returns == 0
-                   ? 0.0
-                   : 100.0 * static_cast<double>(part) / static_cast<double>(report.returns);
+    std::printf("%s in %s, %zu returns:\n",
+                counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
+                counted(report.entries, "entry", "entries").c_str(), report.returns);
+    const auto line = [&](std::size_t part, const std::string& what) {
+        const double share = report.returns == 0 ? 0.0
+                                                 : 100.0 * static_cast<double>(part) /
+                                                       static_cast<double>(report.returns);
+        std::printf("  %9zu  %5.1f %%  %s\n", part, share, what.c_str());
     };
-    std::printf("%zu LiDAR scans in %zu entries, %zu returns:\n", report.scans, report.entries,
-                report.returns);
-    std::printf("  %9zu  %5.1f %%  region of interest: near obstacles\n", report.roi,
-                percent(report.roi));
-    std::printf("  %9zu  %5.1f %%  region of uninterest: ground, farther than %g m\n", report.rou,
-                percent(report.rou), static_cast<double>(conversion.settings.options.zone_m));
-    std::printf("  %9zu  %5.1f %%  unclassified: out of the sensor's range\n", report.unclassified,
-                percent(report.unclassified));
+    char zone[32];
+    std::snprintf(zone, sizeof zone, "%g", static_cast<double>(conversion.settings.options.zone_m));
+    line(report.roi, "region of interest: near obstacles");
+    line(report.rou, std::string("region of uninterest: ground, or farther than ") + zone + " m");
+    line(report.unclassified, "unclassified: out of the sensor's range");
     if (report.unreadable_scans > 0) {
-        std::printf("  %zu scans could not be read and were kept as they are\n",
-                    report.unreadable_scans);
+        std::printf("%s could not be read, kept as before\n",
+                    counted(report.unreadable_scans, "scan", "scans").c_str());
+    }
+    for (const auto& [label, sensor] : report.sensors) {
+        std::printf("sensor %s: %s\n", label.c_str(), sensor.c_str());
     }
     if (!conversion.rawlog.empty()) {
         std::printf("segmented rawlog: %s\n", conversion.rawlog.c_str());
@@ -41,15 +49,17 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     }
 }
 
+/// Converts, with remarks and progress on standard error. A remark is printed where it first comes
+/// up, and counted from then on.
 ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
     const bool on_terminal = !quiet && isatty(STDERR_FILENO) != 0;
     const char* const clear_line = on_terminal ? "\r\033[K" : "";
-    std::size_t remarks = 0;
+    const std::string input = conversion.input.string();
+    std::map<std::string, std::size_t> remarks;
     ConversionListener listener;
     listener.remark = [&](const std::string& entry, const std::string& remark) {
-        if (quiet || ++remarks > kMostRemarks) return;
-        std::cerr << clear_line << conversion.input.string() << ": " << entry << ": " << remark
-                  << "\n";
+        if (quiet || remarks[remark]++ > 0) return;
+        std::cerr << clear_line << input << ": " << entry << ": " << remark << "\n";
     };
     if (on_terminal) {
         listener.progress = [&](const ConversionReport& report) {
@@ -59,16 +69,21 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
     }
     const ConversionReport report = convert(conversion, listener);
     std::cerr << clear_line;
-    if (remarks > kMostRemarks) {
-        std::cerr << conversion.input.string() << ": ... and " << remarks - kMostRemarks
-                  << " more remarks like these\n";
+    for (const auto& [remark, times] : remarks) {
+        if (times < 2) continue;
+        std::cerr << input << ": the same of " << times - 1 << " more: " << remark << "\n";
     }
     if (!quiet && report.scans == 0) {
-        std::cerr << conversion.input.string()
+        std::cerr << input
                   << ": no LiDAR scan was segmented; scans are CObservationVelodyneScan or "
                      "CObservationPointCloud\n";
     }
     return report;
+}
+
+int fail(int exit_code, const std::string& message) {
+    std::cerr << "rawlog-segment: " << message << "\n";
+    return exit_code;
 }
 
 }  // namespace
@@ -81,17 +96,23 @@ int main(int argc, char** argv) {
         "Examples:\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --kitti labels -c config/paper.yaml\n"
-        "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml");
+        "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
+        "Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
     Conversion conversion;
     std::vector<std::string> configs;
     bool quiet = false;
+    const CLI::Validator not_empty(
+        [](const std::string& name) { return name.empty() ? "the name is empty" : ""; }, "PATH");
+    app.set_version_flag("--version", "rawlog-segment " HAGEN_VERSION);
     app.add_option("-i,--input", conversion.input, "a .rawlog, or a scan folder (KITTI layout)")
         ->required()
         ->check(CLI::ExistingPath);
     auto* rawlog = app.add_option("-o,--output", conversion.rawlog,
-                                  "segmented rawlog: all entries, and two clouds a scan");
+                                  "segmented rawlog: all entries, and two clouds a scan")
+                       ->check(not_empty);
     auto* folder = app.add_option("--kitti", conversion.folder,
-                                  "scan folder to write: velodyne/*.bin, labels/*.label");
+                                  "scan folder to write: velodyne/*.bin, labels/*.label")
+                       ->check(not_empty);
     app.add_option("-c,--config", configs, "settings file; may be repeated, later ones win");
     app.add_flag("--overwrite", conversion.overwrite, "replace outputs that exist");
     app.add_flag("-q,--quiet", quiet, "print errors only");
@@ -103,17 +124,18 @@ int main(int argc, char** argv) {
         for (const std::string& config : configs) mergeSettings(config, conversion.settings);
         const ConversionReport report = convertAloud(conversion, quiet);
         if (!quiet) printSummary(conversion, report);
+        if (std::fflush(stdout) != 0) return fail(kFailed, "the summary cannot be printed");
         return 0;
-    } catch (const CLI::CallForHelp& e) {
+    } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
         app.exit(e);
         return kWrongUsage;
     } catch (const SettingsError& e) {
-        std::cerr << "rawlog-segment: " << e.what() << "\n";
-        return kWrongUsage;
+        return fail(kWrongUsage, e.what());
+    } catch (const std::filesystem::filesystem_error& e) {
+        return fail(kFailed, e.path1().string() + ": " + e.code().message());
     } catch (const std::exception& e) {
-        std::cerr << "rawlog-segment: " << e.what() << "\n";
-        return kFailed;
+        return fail(kFailed, e.what());
     }
 }

@@ -14,18 +14,24 @@ namespace {
 
 using namespace hagen;
 
-/// A setting and the values to try: "beta_deg=5,7.5,10".
-struct Sweep {
-    std::string key;
-    std::vector<std::string> values;
+/// A row of the table: a name, and the settings it is about.
+struct Row {
+    std::string name;
+    Settings settings;
 };
 
-Sweep parseSweep(const std::string& text) {
+/// Adds a row for each value of "beta_deg=5,7.5,10".
+void addSweep(const std::string& text, const Settings& settings, std::vector<Row>& rows) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals + 1 == text.size()) {
         throw CLI::ValidationError("--sweep", "expected KEY=VALUE,VALUE,..., not '" + text + "'");
     }
-    return {text.substr(0, equals), CLI::detail::split(text.substr(equals + 1), ',')};
+    const std::string key = text.substr(0, equals);
+    for (const std::string& value : CLI::detail::split(text.substr(equals + 1), ',')) {
+        Row row{key + "=" + value, settings};
+        setOption(key, value, row.settings);
+        rows.push_back(row);
+    }
 }
 
 Scores evaluate(const std::vector<std::string>& folders, const Settings& settings,
@@ -58,6 +64,11 @@ Scores evaluate(const std::vector<std::string>& folders, const Settings& setting
     return scores;
 }
 
+void printHeader() {
+    std::printf("%-28s  %29s  %29s\n", "", "RoI precision    recall        F1",
+                "ROU precision    recall        F1");
+}
+
 /// Four digits, or a dash for what is not defined.
 std::string figure(double ratio) {
     char text[16] = "-";
@@ -78,32 +89,35 @@ void printRow(const std::string& what, const Scores& scores) {
 
 int main(int argc, char** argv) {
     CLI::App app{"Score the filter on labelled scan folders (KITTI layout; labels 1 ROU, 2 RoI)."};
+    app.footer(
+        "Prints precision, recall and F1 of each class over all returns of all scans; returns with "
+        "true label 0 are left out.\n"
+        "Example:\n"
+        "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10");
+    app.set_version_flag("--version", "segmentation-evaluate " HAGEN_VERSION);
     std::vector<std::string> folders, configs, sweep_texts;
     float max_range_m = 20.0f;
     app.add_option("-i,--input", folders, "labelled scan folders")->required();
     app.add_option("-c,--config", configs, "settings file; may be repeated, later ones win");
-    app.add_option("--sweep", sweep_texts, "KEY=VALUE,VALUE,...: a row for each value");
+    app.add_option("--sweep", sweep_texts,
+                   "KEY=VALUE,VALUE,...: a row for each value; each sweep by itself");
     app.add_option("--max-range-m", max_range_m, "score returns up to this range")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(0.1, 1000.0));
     try {
         app.parse(argc, argv);
         Settings settings;
         for (const std::string& config : configs) mergeSettings(config, settings);
-        std::vector<Sweep> sweeps;
-        for (const std::string& text : sweep_texts) sweeps.push_back(parseSweep(text));
-        std::printf("%-28s  %29s  %29s\n", "", "RoI precision    recall        F1",
-                    "ROU precision    recall        F1");
-        if (sweeps.empty()) printRow("all", evaluate(folders, settings, max_range_m));
-        for (const Sweep& sweep : sweeps) {
-            for (const std::string& value : sweep.values) {
-                Settings swept = settings;
-                setOption(sweep.key, value, swept);
-                printRow(sweep.key + "=" + value, evaluate(folders, swept, max_range_m));
-            }
+        std::vector<Row> rows;
+        if (sweep_texts.empty()) rows.push_back({"all", settings});
+        for (const std::string& text : sweep_texts) addSweep(text, settings, rows);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const Scores scores = evaluate(folders, rows[i].settings, max_range_m);
+            if (i == 0) printHeader();
+            printRow(rows[i].name, scores);
         }
         return 0;
-    } catch (const CLI::CallForHelp& e) {
+    } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
         app.exit(e);

@@ -1,10 +1,20 @@
+// A project of your own: segments one scan of an installed Hagen's choice of sensor.
 #include <hagen/observations/ObservationSegmenter.h>
 
 #include <cstdio>
 
 int main() {
-    hagen::registerHagenClasses();
-    const auto segmenter = mrpt::rtti::classFactory("hagen::ObservationSegmenter");
-    std::printf("%s\n", segmenter ? segmenter->GetRuntimeClass()->className : "not found");
-    return segmenter ? 0 : 1;
+    // Any observation of your log; here a cloud of one point straight ahead.
+    hagen::Scan scan;
+    scan.x_m = {5.0f};
+    scan.y_m = {0.0f};
+    scan.z_m = {0.1f};
+    scan.intensity = {0.5f};
+    const auto observation = hagen::observationOf(scan, "lidar", mrpt::Clock::now());
+
+    hagen::ObservationSegmenter segmenter;
+    hagen::ObservationSegmenter::Output out;
+    if (!segmenter.process(*observation, out)) return 1;
+    std::printf("%s: %zu points\n", out.roi->sensorLabel.c_str(), out.roi->pointcloud->size());
+    return out.roi->pointcloud->size() == 1 ? 0 : 1;
 }

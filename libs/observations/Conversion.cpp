@@ -25,6 +25,10 @@ class Outputs {
         if (!conversion.folder.empty()) folder_.emplace(conversion.folder, conversion.overwrite);
     }
 
+    void copyPoses(const fs::path& poses_file) {
+        if (folder_) folder_->copyPoses(poses_file);
+    }
+
     bool wantsRawlog() const { return rawlog_.has_value(); }
 
     void writeEntry(const mrpt::serialization::CSerializable& entry) {
@@ -84,7 +88,7 @@ class Converter {
             return false;
         }
         if (!out.remark.empty()) listener_.remark(entry, out.remark);
-        count(out);
+        count(out, observation.sensorLabel);
         outputs_.writeScan(out, name);
         return true;
     }
@@ -95,13 +99,16 @@ class Converter {
     }
 
  private:
-    void count(const ObservationSegmenter::Output& out) {
+    void count(const ObservationSegmenter::Output& out, const std::string& label) {
         const std::size_t roi = out.roi->pointcloud->size(), rou = out.non_roi->pointcloud->size();
         ++report_.scans;
         report_.returns += out.scan->size();
         report_.roi += roi;
         report_.rou += rou;
         report_.unclassified += out.scan->size() - roi - rou;
+        report_.sensors[label] =
+            out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams" +
+            (out.is_sensor_assumed ? " (assumed; sensor.model in the settings names another)" : "");
     }
 
     const ConversionListener& listener_;
@@ -180,16 +187,34 @@ ConversionReport convertFolder(const Conversion& conversion, const ConversionLis
         }
         converter.countEntry();
     }
+    if (!poses.empty()) converter.outputs().copyPoses(folder.posesFile());
     converter.outputs().commit();
     return converter.report();
 }
 
-void refuseToReplaceInput(const Conversion& conversion) {
+/// Whether `inner` is `outer`, or lies in it.
+bool isWithin(const fs::path& inner, const fs::path& outer) {
+    const auto resolved = [](const fs::path& path) {
+        const fs::path whole = fs::weakly_canonical(fs::absolute(path));
+        return whole.has_filename() ? whole : whole.parent_path();  // "folder/"
+    };
+    const fs::path below = resolved(inner), above = resolved(outer);
+    return std::mismatch(above.begin(), above.end(), below.begin(), below.end()).first ==
+           above.end();
+}
+
+void checkOutputs(const Conversion& conversion) {
     for (const fs::path& output : {conversion.rawlog, conversion.folder}) {
-        if (!output.empty() && fs::exists(output) && fs::equivalent(output, conversion.input)) {
+        if (!output.empty() && isWithin(conversion.input, output)) {
             throw std::runtime_error(output.string() +
-                                     ": is the input; give the output another name");
+                                     ": is the input, or holds it; give the output another name");
         }
+    }
+    if (!conversion.rawlog.empty() && !conversion.folder.empty() &&
+        (isWithin(conversion.rawlog, conversion.folder) ||
+         isWithin(conversion.folder, conversion.rawlog))) {
+        throw std::runtime_error(conversion.rawlog.string() + " and " + conversion.folder.string() +
+                                 ": one output lies in the other; give them apart");
     }
 }
 
@@ -199,7 +224,7 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     if (!fs::exists(conversion.input)) {
         throw std::runtime_error(conversion.input.string() + ": no such file or folder");
     }
-    refuseToReplaceInput(conversion);
+    checkOutputs(conversion);
     return fs::is_directory(conversion.input) ? convertFolder(conversion, listener)
                                               : convertRawlog(conversion, listener);
 }

@@ -32,6 +32,7 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
     if (observation.scan_packets.empty()) {
         const auto& cloud = observation.point_cloud;
         observed.sensor = settings.sensorModel();
+        observed.is_sensor_assumed = !settings.sensor.model;
         assignPoints(cloud.x, cloud.y, cloud.z, observed.scan);
         std::transform(
             cloud.intensity.begin(), cloud.intensity.end(), observed.scan.intensity.begin(),
@@ -59,6 +60,7 @@ void readCloud(const CObservationPointCloud& observation, const Settings& settin
     if (!observation.pointcloud) throw std::runtime_error("the observation holds no point cloud");
     const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
     observed.sensor = settings.sensorModel();
+    observed.is_sensor_assumed = !settings.sensor.model;
     assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
                  cloud.getPointsBufferRef_z(), observed.scan);
     if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
@@ -79,6 +81,7 @@ bool isLidarScan(const mrpt::obs::CObservation& observation) {
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed) {
     observed.remark.clear();
+    observed.is_sensor_assumed = false;
     if (const auto* packets = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
         readVelodyneScan(*packets, settings, observed);
     } else if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {

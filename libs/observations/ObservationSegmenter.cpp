@@ -102,6 +102,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.window = window;
     out.result = &result;
     out.sensor = &lidar.filter.sensor();
+    out.is_sensor_assumed = observed_.is_sensor_assumed;
     out.remark = remark;
     return true;
 }

@@ -5,7 +5,7 @@
 namespace hagen {
 
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, bool overwrite)
-    : path_(file, overwrite) {
+    : path_(file, OutputPath::Kind::File, overwrite) {
     if (!stream_.open(path_.temporary().string())) {
         throw std::runtime_error(path_.temporary().string() + ": cannot be written");
     }

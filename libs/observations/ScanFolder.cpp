@@ -95,7 +95,7 @@ std::vector<double> ScanFolder::times() const {
 
 std::vector<std::array<double, 12>> ScanFolder::poses() const {
     std::vector<std::array<double, 12>> poses;
-    for (const auto& line : readTable(folder_ / "poses.txt", size(), 12)) {
+    for (const auto& line : readTable(posesFile(), size(), 12)) {
         std::copy(line.begin(), line.end(), poses.emplace_back().begin());
     }
     return poses;

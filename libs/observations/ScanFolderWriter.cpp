@@ -37,7 +37,7 @@ void writeSensor(const fs::path& file, const SensorModel& sensor) {
 }  // namespace
 
 ScanFolderWriter::ScanFolderWriter(const fs::path& folder, bool overwrite)
-    : path_(folder, overwrite) {
+    : path_(folder, OutputPath::Kind::ScanFolder, overwrite) {
     fs::create_directories(path_.temporary() / "velodyne");
     fs::create_directories(path_.temporary() / "labels");
 }
@@ -60,6 +60,10 @@ void ScanFolderWriter::writeTimes() const {
     out << std::fixed << std::setprecision(6);
     for (const double time_s : times_s_) out << time_s - times_s_.front() << "\n";
     checkWritten(out, file);
+}
+
+void ScanFolderWriter::copyPoses(const fs::path& poses_file) {
+    fs::copy_file(poses_file, path_.temporary() / "poses.txt");
 }
 
 void ScanFolderWriter::commit() {

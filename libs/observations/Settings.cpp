@@ -155,10 +155,16 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, S
     if (!node.IsSequence() && !node.IsScalar()) {
         throw SettingsError(at(file, node) + "include must be a file name or a list of them");
     }
-    if (node.IsScalar()) mergeFile(file.parent_path() / node.Scalar(), includes + 1, settings);
-    for (const YAML::Node& name : names) {
-        mergeFile(file.parent_path() / name.as<std::string>(""), includes + 1, settings);
-    }
+    const auto merge = [&](const std::string& name) {
+        const fs::path included = file.parent_path() / name;
+        if (!fs::exists(included)) {
+            throw SettingsError(at(file, node) + "includes " + included.string() +
+                                ", which is not there");
+        }
+        mergeFile(included, includes + 1, settings);
+    };
+    if (node.IsScalar()) merge(node.Scalar());
+    for (const YAML::Node& name : names) merge(name.as<std::string>(""));
 }
 
 void mergeFile(const fs::path& file, int includes, Settings& settings) {

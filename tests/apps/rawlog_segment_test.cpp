@@ -113,6 +113,24 @@ TEST_F(RawlogSegment, LaterSettingsOverrideEarlierOnes) {
         << outcome.out;
 }
 
+TEST_F(RawlogSegment, SaysWhichSensorItTookAndWhetherItHadToGuess) {
+    EXPECT_NE(run({"-i", kRecording, "--kitti", path("scans")})
+                  .out.find("sensor lidar: VLP-16, 16 beams\n"),
+              std::string::npos);
+    fs::remove(path("scans/sensor.yaml"));
+    EXPECT_NE(run({"-i", path("scans"), "--kitti", path("again")}).out.find("16 beams (assumed"),
+              std::string::npos);
+}
+
+TEST_F(RawlogSegment, ARemarkThatComesWithEveryScanIsPrintedOnce) {
+    const auto window = folder_.write("window.yaml", "window_scans: 3\n");
+    const auto outcome = run({"-i", kRecording, "-o", path("out"), "-c", window});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("entry 1 (lidar): window_scans"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("the same of 9 more"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
+}
+
 TEST_F(RawlogSegment, QuietPrintsNothing) {
     const auto outcome = run({"-q", "-i", kRecording, "-o", path("out")});
     EXPECT_EQ(outcome.exit_code, 0);
@@ -121,18 +139,20 @@ TEST_F(RawlogSegment, QuietPrintsNothing) {
 
 TEST_F(RawlogSegment, OverwriteReplacesWhatIsThere) {
     folder_.write("out.rawlog", "old");
-    folder_.write("scans/old.txt", "old");
+    folder_.write("scans/velodyne/000077.bin", "old");
     ASSERT_EQ(
         run({"-i", kRecording, "-o", path("out.rawlog"), "--kitti", path("scans"), "--overwrite"})
             .exit_code,
         0);
     EXPECT_GT(fs::file_size(path("out.rawlog")), 1000u);
-    EXPECT_FALSE(fs::exists(path("scans/old.txt")));
+    EXPECT_FALSE(fs::exists(path("scans/velodyne/000077.bin")));
 }
 
-TEST_F(RawlogSegment, HelpIsNoFailure) {
+TEST_F(RawlogSegment, HelpAndVersionAreNoFailures) {
     const auto outcome = run({"--help"});
     EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(run({"--version"}).exit_code, 0);
+    EXPECT_NE(run({"--version"}).out.find("rawlog-segment 0."), std::string::npos);
     EXPECT_NE(outcome.out.find("--kitti"), std::string::npos);
 }
 
@@ -152,6 +172,11 @@ TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
 TEST_F(RawlogSegment, RefusesToRunWithoutInputOrOutput) {
     expectFailure({}, 2, "--input");
     expectFailure({"-i", kRecording}, 2, "-o or --kitti");
+}
+
+TEST_F(RawlogSegment, RefusesOutputsWithoutAName) {
+    expectFailure({"-i", kRecording, "-o", ""}, 2, "the name is empty");
+    expectFailure({"-i", kRecording, "--kitti", ""}, 2, "the name is empty");
 }
 
 TEST_F(RawlogSegment, RefusesUnknownFlags) {
@@ -209,9 +234,32 @@ TEST_F(RawlogSegment, FailsWhereTheOutputsFolderIsMissing) {
     expectFailure({"-i", kRecording, "-o", path("none/out.rawlog")}, 1, "no such folder");
 }
 
-TEST_F(RawlogSegment, FailsToReplaceItsInput) {
-    const auto copy = folder_.write("in.rawlog", test::readFile(kRecording));
+TEST_F(RawlogSegment, FailsToReplaceItsInputOrAnythingThatHoldsIt) {
+    const auto copy = folder_.write("logs/in.rawlog", test::readFile(kRecording));
     expectFailure({"-i", copy, "-o", copy, "--overwrite"}, 1, "is the input");
+    expectFailure({"-i", copy, "--kitti", path("logs"), "--overwrite"}, 1, "holds it");
+    expectFailure({"-i", copy, "--kitti", path("logs/"), "--overwrite"}, 1, "holds it");
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    expectFailure({"-i", path("scans"), "--kitti", path("scans"), "--overwrite"}, 1,
+                  "is the input");
+    expectFailure({"-i", path("scans"), "--kitti", path("scans/velodyne"), "--overwrite"}, 1,
+                  "no part of a scan folder");
+}
+
+TEST_F(RawlogSegment, FailsToReplaceWhatIsNotItsOwn) {
+    folder_.write("work/src/main.cpp", "");
+    expectFailure({"-i", kRecording, "--kitti", path("work"), "--overwrite"}, 1, "'src'");
+    expectFailure({"-i", kRecording, "-o", path("work"), "--overwrite"}, 1, "is no file");
+    expectFailure({"-i", kRecording, "-o", "/dev/null", "--overwrite"}, 1, "is no file");
+    folder_.write("notes.txt", "mine");
+    expectFailure({"-i", kRecording, "--kitti", path("notes.txt"), "--overwrite"}, 1,
+                  "is no folder");
+    EXPECT_EQ(test::readFile(path("notes.txt")), "mine");
+}
+
+TEST_F(RawlogSegment, FailsWhereOneOutputLiesInTheOther) {
+    expectFailure({"-i", kRecording, "-o", path("same"), "--kitti", path("same")}, 1, "apart");
+    expectFailure({"-i", kRecording, "-o", path("same/x"), "--kitti", path("same")}, 1, "apart");
 }
 
 TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {

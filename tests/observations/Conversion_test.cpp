@@ -209,6 +209,7 @@ TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     windowed.overwrite = true;
     EXPECT_EQ(convert(windowed, listener).scans, 3u);
     EXPECT_TRUE(remarks.empty());
+    EXPECT_EQ(ScanFolder(folder_ / "labels").poses().size(), 3u);
 }
 
 TEST_F(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {

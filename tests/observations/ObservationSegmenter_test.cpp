@@ -113,6 +113,9 @@ TEST(ObservationSegmenter, AWindowNeedsPosesAndSaysSo) {
     segmenter.process(*scanFrom(1), out);
     EXPECT_NE(out.remark.find("no pose"), std::string::npos);
     EXPECT_EQ(out.window->size(), out.scan->size());
+    // Poses are back: the window starts anew, for what came before may lie anywhere.
+    segmenter.process(*scanFrom(2), out, mrpt::poses::CPose3D());
+    EXPECT_EQ(out.window->size(), out.scan->size());
 }
 
 TEST(ObservationSegmenter, AWindowPutsTheScansOfAMovingSensorTogether) {
@@ -185,7 +188,7 @@ TEST(ObservationSegmenter, TakesTimesWhenAskedTo) {
     segmenter.process(*scanFrom(0), out);
     EXPECT_GT(segmenter.profiler.getMeanTime("process"), 0.0);
     EXPECT_GT(segmenter.profiler.getMeanTime("process.segment"), 0.0);
-    segmenter.profiler.enable(false);  // or it prints when it goes
+    segmenter.profiler.clear(true);  // or it prints when it goes
 }
 
 }  // namespace

@@ -10,10 +10,11 @@ namespace hagen {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr auto kFile = OutputPath::Kind::File, kScanFolder = OutputPath::Kind::ScanFolder;
 
 TEST(OutputPath, AFileAppearsWhenItIsWhole) {
     const test::TemporaryFolder folder;
-    OutputPath output(folder / "a.rawlog", false);
+    OutputPath output(folder / "a.rawlog", kFile, false);
     std::ofstream(output.temporary()) << "new";
     EXPECT_FALSE(fs::exists(folder / "a.rawlog"));
     output.commit();
@@ -23,8 +24,8 @@ TEST(OutputPath, AFileAppearsWhenItIsWhole) {
 TEST(OutputPath, WhatExistsIsReplacedOnlyWhereWanted) {
     const test::TemporaryFolder folder;
     folder.write("a.rawlog", "old");
-    EXPECT_THROW(OutputPath(folder / "a.rawlog", false), std::runtime_error);
-    OutputPath output(folder / "a.rawlog", true);
+    EXPECT_THROW(OutputPath(folder / "a.rawlog", kFile, false), std::runtime_error);
+    OutputPath output(folder / "a.rawlog", kFile, true);
     std::ofstream(output.temporary()) << "new";
     EXPECT_EQ(test::readFile(folder / "a.rawlog"), "old");
     output.commit();
@@ -33,13 +34,13 @@ TEST(OutputPath, WhatExistsIsReplacedOnlyWhereWanted) {
 
 TEST(OutputPath, AFolderIsReplacedWhole) {
     const test::TemporaryFolder folder;
-    folder.write("out/old.txt", "old");
-    OutputPath output(folder / "out/", true);
+    folder.write("out/velodyne/000000.bin", "old");
+    OutputPath output(folder / "out/", kScanFolder, true);
     fs::create_directory(output.temporary());
     std::ofstream(output.temporary() / "new.txt") << "new";
     output.commit();
     EXPECT_TRUE(fs::exists(folder / "out/new.txt"));
-    EXPECT_FALSE(fs::exists(folder / "out/old.txt"));
+    EXPECT_FALSE(fs::exists(folder / "out/velodyne"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
@@ -47,7 +48,7 @@ TEST(OutputPath, GivenUpLeavesWhatWasThere) {
     const test::TemporaryFolder folder;
     folder.write("a.rawlog", "old");
     {
-        OutputPath output(folder / "a.rawlog", true);
+        OutputPath output(folder / "a.rawlog", kFile, true);
         std::ofstream(output.temporary()) << "half";
     }
     EXPECT_EQ(test::readFile(folder / "a.rawlog"), "old");
@@ -56,7 +57,7 @@ TEST(OutputPath, GivenUpLeavesWhatWasThere) {
 
 TEST(OutputPath, APartSaysSoInItsName) {
     const test::TemporaryFolder folder;
-    OutputPath output(folder / "a.rawlog", false);
+    OutputPath output(folder / "a.rawlog", kFile, false);
     std::ofstream(output.temporary()) << "half";
     EXPECT_EQ(output.keepPartial(), folder / "a.partial.rawlog");
     EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "half");
@@ -65,18 +66,52 @@ TEST(OutputPath, APartSaysSoInItsName) {
 TEST(OutputPath, AFolderThatIsNotThereIsNamed) {
     const test::TemporaryFolder folder;
     try {
-        OutputPath output(folder / "none/a.rawlog", false);
+        OutputPath output(folder / "none/a.rawlog", kFile, false);
         FAIL();
     } catch (const std::runtime_error& e) {
         EXPECT_NE(std::string(e.what()).find((folder / "none").string()), std::string::npos);
     }
 }
 
-TEST(OutputPath, ClearsAwayWhatAnInterruptedRunLeft) {
+TEST(OutputPath, APartNeverReplacesAnother) {
     const test::TemporaryFolder folder;
-    folder.write("out.tmp/velodyne/000000.bin", "stale");
-    OutputPath output(folder / "out", false);
-    EXPECT_FALSE(fs::exists(output.temporary()));
+    folder.write("a.partial.rawlog", "of another run");
+    OutputPath output(folder / "a.rawlog", kFile, true);
+    std::ofstream(output.temporary()) << "half";
+    EXPECT_EQ(output.keepPartial(), folder / "a.partial-2.rawlog");
+    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "of another run");
+}
+
+TEST(OutputPath, OnlyItsOwnKindIsReplaced) {
+    const test::TemporaryFolder folder;
+    folder.write("file", "");
+    folder.write("scans/velodyne/000000.bin", "");
+    folder.write("work/velodyne/000000.bin", "");
+    folder.write("work/notes.txt", "");
+    EXPECT_THROW(OutputPath(folder / "scans", kFile, true), std::runtime_error);
+    EXPECT_THROW(OutputPath(folder / "file", kScanFolder, true), std::runtime_error);
+    EXPECT_THROW(OutputPath("/dev/null", kFile, true), std::runtime_error);
+    EXPECT_NO_THROW(OutputPath(folder / "scans", kScanFolder, true));
+    try {
+        OutputPath output(folder / "work", kScanFolder, true);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("'notes.txt'"), std::string::npos) << e.what();
+    }
+    EXPECT_TRUE(fs::exists(folder / "work/notes.txt"));
+}
+
+TEST(OutputPath, NeighboursWithLikeNamesAreLeftAlone) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"out.tmp/x", "out.old/x", "out.partial/x"}) folder.write(name, "mine");
+    folder.write("out/velodyne/000000.bin", "old");
+    OutputPath output(folder / "out", kScanFolder, true);
+    fs::create_directory(output.temporary());
+    output.commit();
+    for (const char* name : {"out.tmp/x", "out.old/x", "out.partial/x"}) {
+        EXPECT_EQ(test::readFile(folder / name), "mine");
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 4);
 }
 
 }  // namespace

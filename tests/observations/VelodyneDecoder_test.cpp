@@ -171,6 +171,18 @@ TEST(VelodyneDecoder, TimesGoOnFromLaserToLaserAndOverTheFullHour) {
     EXPECT_NEAR(scan.time_s.back(), 1e-6 * (239 * 55.296 + 15 * 2.304), 2e-6);
 }
 
+TEST(VelodyneDecoder, BothReturnsOfAFiringHaveItsTime) {
+    const VelodyneModel& model = velodyneModel("HDL-32E");
+    Firings firings = randomFirings(61, model, 60, 0.0);
+    firings.last_range_m = firings.range_m;
+    Scan scan;
+    decodePackets(*encodeScan(model, firings), scan);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const int firing = static_cast<int>(i) / 64, laser = static_cast<int>(i) % 32;
+        ASSERT_NEAR(scan.time_s[i], 1e-6 * (46.08 * firing + 1.152 * laser), 2e-6);
+    }
+}
+
 /// Changes a byte of a packet as it would come over the network.
 void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte,
              std::uint8_t value) {

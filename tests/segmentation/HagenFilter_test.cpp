@@ -101,6 +101,17 @@ TEST(HagenFilter, BeyondTheZoneNothingIsAnObstacle) {
     }
 }
 
+TEST(HagenFilter, TheImageNeverEndsBeforeTheZone) {
+    SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const auto pole = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    Options options;
+    HagenFilter as_far(sensorModel("VLP-16"), options);
+    options.context_m = 5.0f;
+    HagenFilter nearer(sensorModel("VLP-16"), options);
+    EXPECT_EQ(nearer.segment(pole.scan).returns.label, as_far.segment(pole.scan).returns.label);
+}
+
 Scan randomScan(unsigned seed, const SensorModel& sensor) {
     test::Random random(seed);
     Scan scan;

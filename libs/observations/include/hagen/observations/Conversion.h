@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <string>
 
 namespace hagen {
 
@@ -21,6 +23,8 @@ struct ConversionReport {
     std::size_t scans = 0;    ///< of them, or in them: LiDAR scans that were segmented
     std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
     std::size_t unreadable_scans = 0;  ///< kept, but not segmented; each was named in a remark
+    /// The sensor of each sensor label, as a user should read it: "VLP-16, 16 beams".
+    std::map<std::string, std::string> sensors;
 };
 
 /// What a conversion tells while it goes on.

@@ -18,6 +18,7 @@ bool isLidarScan(const mrpt::obs::CObservation& observation);
 struct ObservedScan {
     Scan scan;
     SensorModel sensor;
+    bool is_sensor_assumed = false;  ///< neither the recording nor the settings tell the sensor
     /// What a user should know: packet blocks left out, or settings that the recording overrules.
     /// Empty where there is nothing.
     std::string remark;

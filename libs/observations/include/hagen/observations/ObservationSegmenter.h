@@ -43,6 +43,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         const Scan* window = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
+        bool is_sensor_assumed = false;  ///< a VLP-16, for neither recording nor settings tell
 
         /// What a user should know about this scan; empty where there is nothing. Logged, too.
         std::string remark;

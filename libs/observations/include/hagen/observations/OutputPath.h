@@ -7,27 +7,29 @@ namespace hagen {
 /// own only when it is whole.
 class OutputPath {
  public:
-    /// Clears away what an earlier, interrupted run has left under the temporary name.
-    /// Throws std::runtime_error where `path` exists and `overwrite` is not set, and where its
-    /// folder is missing.
-    OutputPath(std::filesystem::path path, bool overwrite);
+    enum class Kind { File, ScanFolder };
+
+    /// Throws std::runtime_error, naming the path, where it exists and `overwrite` is not set;
+    /// where it exists and is of another kind (a folder for a file, a device, a folder that holds
+    /// anything but a scan folder's files): such are never replaced; and where its folder is
+    /// missing.
+    OutputPath(std::filesystem::path path, Kind kind, bool overwrite);
     /// Removes what was written, unless commit() or keepPartial() was called.
     ~OutputPath();
     OutputPath(const OutputPath&) = delete;
     OutputPath& operator=(const OutputPath&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// Where to write: beside path(), on the same file system.
+    /// Where to write: beside path(), on the same file system, a name that nothing has.
     const std::filesystem::path& temporary() const { return temporary_; }
 
     /// Gives what was written its name; replaces what had it.
-    void commit() { moveTo(path_); }
-    /// Names it as part of an output: "x.rawlog" becomes "x.partial.rawlog". Returns that name.
+    void commit();
+    /// Names it as part of an output: "x.rawlog" becomes "x.partial.rawlog", or
+    /// "x.partial-2.rawlog" where that is taken. Returns that name.
     std::filesystem::path keepPartial();
 
  private:
-    void moveTo(const std::filesystem::path& name);
-
     std::filesystem::path path_, temporary_;
 };
 

@@ -31,8 +31,9 @@ class ScanFolder {
     const std::string& name(std::size_t scan) const { return names_[scan]; }
     std::filesystem::path scanFile(std::size_t scan) const;
     std::filesystem::path labelFile(std::size_t scan) const;
-    /// sensor.yaml of this folder; need not exist.
+    /// sensor.yaml and poses.txt of this folder; need not exist.
     std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
+    std::filesystem::path posesFile() const { return folder_ / "poses.txt"; }
 
     /// times.txt, an entry a scan; empty where there is no such file. Throws where lines and scans
     /// differ.

@@ -22,6 +22,9 @@ class ScanFolderWriter {
     void write(const Scan& scan, const LabelledReturns& returns, const SensorModel& sensor,
                double time_s, const std::string& name = "");
 
+    /// Copies the recording's poses.txt along.
+    void copyPoses(const std::filesystem::path& poses_file);
+
     void commit();
     std::filesystem::path keepPartial();
 
