@@ -1,5 +1,6 @@
 // Times each stage of the published filter, and the whole, on the real VLP-16 scan of mrpt-common;
-// beside them, in the same run, MRPT's own decoder, which reads half of that scan.
+// beside them, in the same run, MRPT's own decoder, which reads half of that scan. "paper pipeline" is the
+// whole, from packets to labels.
 #include <benchmark/benchmark.h>
 #include <hagen/observations/RawlogReader.h>
 #include <hagen/observations/Settings.h>
@@ -62,7 +63,7 @@ void add(const char* name, Run run) {
 }
 
 void addAll() {
-    add("mrpt decode (half of the scan)", [](Fixture& f) { f.observation->generatePointCloud(); });
+    add("mrpt decode", [](Fixture& f) { f.observation->generatePointCloud(); });
     add("decode", [](Fixture& f) { decodePackets(*f.observation, f.scan); });
     add("1 depth image", [](Fixture& f) {
         projectScan(f.scan, f.sensor, f.options.columns, f.options.context_m, f.result.range_image);
@@ -89,7 +90,7 @@ void addAll() {
                      static_cast<float>(radians(f.options.beta_deg)), f.options.seeds,
                      f.result.labels);
     });
-    add("  obstacles numbered", [](Fixture& f) {
+    add("obstacles numbered", [](Fixture& f) {
         numberRoiComponents(f.result.repaired_m, f.result.labels, f.options.component_gap_m,
                             f.result.components);
     });
@@ -97,7 +98,7 @@ void addAll() {
         extractReturns(f.scan, f.sensor, f.result.range_image, f.result.labels, f.result.components,
                        f.options.zone_m, f.result.returns);
     });
-    add("whole, from packets to labels", [](Fixture& f) {
+    add("paper pipeline", [](Fixture& f) {
         decodePackets(*f.observation, f.scan);
         f.filter.segment(f.scan);
     });

@@ -14,6 +14,7 @@ namespace {
 using namespace hagen;
 
 constexpr int kFailed = 1, kWrongUsage = 2;
+constexpr std::size_t kMostRemarks = 10;  // one a scan would bury everything else
 
 std::string counted(std::size_t number, const std::string& one, const std::string& many) {
     return std::to_string(number) + " " + (number == 1 ? one : many);
@@ -55,11 +56,22 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
     const bool on_terminal = !quiet && isatty(STDERR_FILENO) != 0;
     const char* const clear_line = on_terminal ? "\r\033[K" : "";
     const std::string input = conversion.input.string();
+    const auto tell = [&](const std::string& entry, const std::string& what) {
+        std::cerr << clear_line << input << ": " << entry << ": " << what << "\n";
+    };
     std::map<std::string, std::size_t> remarks;
+    std::size_t untold = 0;
     ConversionListener listener;
+    listener.unreadable = [&](const std::string& entry, const std::string& why) {
+        tell(entry, "kept, but not segmented: " + why);
+    };
     listener.remark = [&](const std::string& entry, const std::string& remark) {
         if (quiet || remarks[remark]++ > 0) return;
-        std::cerr << clear_line << input << ": " << entry << ": " << remark << "\n";
+        if (remarks.size() > kMostRemarks) {
+            ++untold;
+        } else {
+            tell(entry, remark);
+        }
     };
     if (on_terminal) {
         listener.progress = [&](const ConversionReport& report) {
@@ -73,6 +85,7 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
         if (times < 2) continue;
         std::cerr << input << ": the same of " << times - 1 << " more: " << remark << "\n";
     }
+    if (untold > 0) std::cerr << input << ": and " << untold << " remarks more\n";
     if (!quiet && report.scans == 0) {
         std::cerr << input
                   << ": no LiDAR scan was segmented; scans are CObservationVelodyneScan or "
@@ -124,6 +137,9 @@ int main(int argc, char** argv) {
         for (const std::string& config : configs) mergeSettings(config, conversion.settings);
         const ConversionReport report = convertAloud(conversion, quiet);
         if (!quiet) printSummary(conversion, report);
+        if (report.scans == 0 && report.unreadable_scans > 0) {
+            return fail(kFailed, "none of the LiDAR scans could be read");
+        }
         if (std::fflush(stdout) != 0) return fail(kFailed, "the summary cannot be printed");
         return 0;
     } catch (const CLI::Success& e) {  // --help, --version

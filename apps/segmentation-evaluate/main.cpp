@@ -34,6 +34,13 @@ void addSweep(const std::string& text, const Settings& settings, std::vector<Row
     }
 }
 
+/// Throws where settings ask for what this program does not do.
+void checkWindow(const Settings& settings) {
+    if (settings.options.window_scans > 1) {
+        throw SettingsError("window_scans is above 1; scans are scored one by one here");
+    }
+}
+
 Scores evaluate(const std::vector<std::string>& folders, const Settings& settings,
                 float max_range_m) {
     Scores scores;
@@ -42,13 +49,7 @@ Scores evaluate(const std::vector<std::string>& folders, const Settings& setting
         const ScanFolder folder(path);
         Settings own = settings;
         if (std::filesystem::exists(folder.sensorFile())) mergeSettings(folder.sensorFile(), own);
-        const SensorModel sensor = own.sensorModel();
-        try {
-            checkOptions(own.options, sensor.rows());
-        } catch (const std::invalid_argument& e) {
-            throw SettingsError(path + ": " + e.what());
-        }
-        HagenFilter filter(sensor, own.options);
+        HagenFilter filter = filterFor(own.sensorModel(), own.options);
         for (std::size_t i = 0; i < folder.size(); ++i) {
             readScan(folder.scanFile(i), scan);
             locateBeams(filter.sensor(), scan);
@@ -111,6 +112,7 @@ int main(int argc, char** argv) {
         std::vector<Row> rows;
         if (sweep_texts.empty()) rows.push_back({"all", settings});
         for (const std::string& text : sweep_texts) addSweep(text, settings, rows);
+        for (const Row& row : rows) checkWindow(row.settings);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const Scores scores = evaluate(folders, rows[i].settings, max_range_m);
             if (i == 0) printHeader();

@@ -1,5 +1,5 @@
 #include <hagen/observations/Conversion.h>
-#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/MrptMessage.h>
 #include <hagen/observations/ObservationSegmenter.h>
 #include <hagen/observations/RawlogReader.h>
 #include <hagen/observations/RawlogWriter.h>
@@ -35,8 +35,15 @@ class Outputs {
         if (rawlog_) rawlog_->write(entry);
     }
 
-    void writeScan(const ObservationSegmenter::Output& out, const std::string& name) {
+    void writeScan(const ObservationSegmenter::Output& out, const std::string& label,
+                   const std::string& name) {
         if (!folder_) return;
+        if (!label_) label_ = label;
+        if (label != *label_) {
+            throw std::runtime_error("the log has scans of '" + *label_ + "' and of '" + label +
+                                     "', but a scan folder holds those of one sensor; leave out "
+                                     "--kitti");
+        }
         const double time_s = mrpt::Clock::toDouble(out.roi->timestamp);
         folder_->write(*out.scan, out.result->returns, *out.sensor, time_s, name);
     }
@@ -57,6 +64,7 @@ class Outputs {
  private:
     std::optional<RawlogWriter> rawlog_;
     std::optional<ScanFolderWriter> folder_;
+    std::optional<std::string> label_;  ///< of the scans in folder_
 };
 
 /// One conversion on its way: segments observations, and counts.
@@ -82,14 +90,16 @@ class Converter {
             if (!segmenter_.process(observation, out, pose)) return false;
         } catch (const SettingsError&) {
             throw;
+        } catch (const std::bad_alloc&) {
+            throw;
         } catch (const std::exception& e) {
             ++report_.unreadable_scans;
-            listener_.remark(entry, std::string("kept, but not segmented: ") + e.what());
+            listener_.unreadable(entry, messageOf(e));
             return false;
         }
         if (!out.remark.empty()) listener_.remark(entry, out.remark);
         count(out, observation.sensorLabel);
-        outputs_.writeScan(out, name);
+        outputs_.writeScan(out, observation.sensorLabel, name);
         return true;
     }
 
@@ -172,7 +182,13 @@ ConversionReport convertFolder(const Conversion& conversion, const ConversionLis
     Converter converter(conversion, settings, listener);
     Scan scan;
     for (std::size_t i = 0; i < folder.size(); ++i) {
-        readScan(folder.scanFile(i), scan);
+        try {
+            readScan(folder.scanFile(i), scan);
+        } catch (const std::runtime_error& e) {
+            if (i == 0) throw;
+            throw std::runtime_error(std::string(e.what()) + "; the " + std::to_string(i) +
+                                     " scans before it are in" + converter.outputs().keepPartial());
+        }
         const double time_s =
             times_s.empty() ? kDefaultScanPeriod_s * static_cast<double>(i) : times_s[i];
         const auto observation = observationOf(scan, "velodyne", mrpt::Clock::fromDouble(time_s));

@@ -27,6 +27,16 @@ void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates&
     scan.intensity.assign(x.size(), 0.0f);
 }
 
+/// Intensities within 0..1; a cloud that counts to 255, as many drivers do, is scaled.
+template <class Intensities>
+void assignIntensities(const Intensities& intensities, Scan& scan) {
+    const auto most = std::max_element(intensities.begin(), intensities.end());
+    const float full = most != intensities.end() && *most > 1.0f ? 255.0f : 1.0f;
+    scan.intensity.resize(intensities.size());
+    std::transform(intensities.begin(), intensities.end(), scan.intensity.begin(),
+                   [&](float intensity) { return std::clamp(intensity / full, 0.0f, 1.0f); });
+}
+
 void readVelodyneScan(const CObservationVelodyneScan& observation, const Settings& settings,
                       ObservedScan& observed) {
     if (observation.scan_packets.empty()) {
@@ -42,6 +52,11 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
         return;
     }
     observed.sensor = sensorOf(observation);
+    // Settings may narrow what the sensor sees, not widen it.
+    SensorModel& sensor = observed.sensor;
+    sensor.min_range_m = std::max(sensor.min_range_m, settings.sensor.min_range_m.value_or(0.0f));
+    sensor.max_range_m =
+        std::min(sensor.max_range_m, settings.sensor.max_range_m.value_or(sensor.max_range_m));
     const std::size_t unsound_blocks = decodePackets(observation, observed.scan);
     if (unsound_blocks > 0) {
         observed.remark = std::to_string(unsound_blocks) + " of " +
@@ -63,9 +78,8 @@ void readCloud(const CObservationPointCloud& observation, const Settings& settin
     observed.is_sensor_assumed = !settings.sensor.model;
     assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
                  cloud.getPointsBufferRef_z(), observed.scan);
-    if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
-        const auto& intensity = xyzi->getPointsBufferRef_intensity();
-        observed.scan.intensity.assign(intensity.begin(), intensity.end());
+    if (const auto* with_intensity = dynamic_cast<const IntensityCloud*>(&cloud)) {
+        assignIntensities(with_intensity->getPointsBufferRef_intensity(), observed.scan);
     }
     locateBeams(observed.sensor, observed.scan);
 }
@@ -93,7 +107,7 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
 
 CObservationPointCloud::Ptr observationOf(const Scan& scan, const std::string& label,
                                           mrpt::Clock::time_point time) {
-    auto points = mrpt::maps::CPointsMapXYZI::Create();
+    auto points = IntensityCloud::Create();
     points->reserve(scan.size());
     for (std::size_t i = 0; i < scan.size(); ++i) {
         points->insertPointFast(scan.x_m[i], scan.y_m[i], scan.z_m[i]);

@@ -21,14 +21,6 @@ bool isSameSensor(const SensorModel& a, const SensorModel& b) {
            a.max_range_m == b.max_range_m;
 }
 
-HagenFilter makeFilter(const SensorModel& sensor, const Options& options) {
-    try {
-        return HagenFilter(sensor, options);
-    } catch (const std::invalid_argument& e) {
-        throw SettingsError(e.what());
-    }
-}
-
 /// The returns of `scan` among `indices`; those of a window that lie beyond it are older scans'.
 CObservationPointCloud::Ptr cloudOf(const mrpt::obs::CObservation& observation,
                                     const std::string& suffix, const Scan& scan,
@@ -50,7 +42,7 @@ CObservationPointCloud::Ptr cloudOf(const mrpt::obs::CObservation& observation,
 }  // namespace
 
 void ObservationSegmenter::initialize(const Settings& settings) {
-    if (settings.sensor.model) makeFilter(settings.sensorModel(), settings.options);
+    if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);
     settings_ = settings;
     lidars_.clear();
 }
@@ -62,7 +54,7 @@ ObservationSegmenter::Lidar& ObservationSegmenter::lidarOf(const std::string& la
         if (isSameSensor(known->second.filter.sensor(), sensor)) return known->second;
         lidars_.erase(known);  // another sensor under the same label
     }
-    Lidar lidar{makeFilter(sensor, settings_.options),
+    Lidar lidar{filterFor(sensor, settings_.options),
                 SlidingWindow(settings_.options.window_scans)};
     return lidars_.emplace(label, std::move(lidar)).first->second;
 }

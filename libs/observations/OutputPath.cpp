@@ -87,9 +87,10 @@ void OutputPath::commit() {
 }
 
 fs::path OutputPath::keepPartial() {
+    const bool is_folder = fs::is_directory(temporary_);
     fs::path stem = path_;
-    stem.replace_extension();
-    const fs::path name = freeName(stem, ".partial", path_.extension());
+    if (!is_folder) stem.replace_extension();
+    const fs::path name = freeName(stem, ".partial", is_folder ? fs::path() : path_.extension());
     fs::rename(temporary_, name);
     return name;
 }

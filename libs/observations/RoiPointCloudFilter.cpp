@@ -5,7 +5,7 @@ namespace hagen {
 
 RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
                                          const mrpt::poses::CPose3D& sensor_pose)
-    : sensor_pose_(sensor_pose), filter_(settings.sensorModel(), settings.options) {}
+    : sensor_pose_(sensor_pose), filter_(filterFor(settings.sensorModel(), settings.options)) {}
 
 void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
                                  mrpt::system::TTimeStamp /*pc_timestamp*/,

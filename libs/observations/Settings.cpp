@@ -1,8 +1,9 @@
 #include <yaml-cpp/yaml.h>
 
-#include <hagen/observations/OptionKeys.h>
 #include <hagen/observations/Settings.h>
+#include <hagen/segmentation/OptionKeys.h>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -50,8 +51,10 @@ std::string unknownKey(const std::string& key, const std::vector<std::string>& k
 /// A number within [least, most], or a SettingsError that says what is allowed.
 template <class Number>
 Number parseNumber(const YAML::Node& node, const std::string& key, double least, double most) {
-    Number value{};
-    if (!node.IsScalar() || !YAML::convert<Number>::decode(node, value)) {
+    // Read as a real number also where a whole one is meant: YAML takes 010 for octal.
+    double value = 0;
+    const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
+    if (!is_number || (std::is_integral_v<Number> && value != std::floor(value))) {
         throw SettingsError(key + " must be a " + (std::is_integral_v<Number> ? "whole " : "") +
                             "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
     }
@@ -59,7 +62,7 @@ Number parseNumber(const YAML::Node& node, const std::string& key, double least,
         throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
                             number(least) + " and " + number(most));
     }
-    return value;
+    return static_cast<Number>(value);
 }
 
 Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
@@ -71,8 +74,7 @@ Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
 
 void parseOption(const OptionKey& key, const YAML::Node& node, Options& options) {
     if (const auto* real = std::get_if<float Options::*>(&key.field)) {
-        options.*(*real) =
-            static_cast<float>(parseNumber<double>(node, key.name, key.least, key.most));
+        options.*(*real) = parseNumber<float>(node, key.name, key.least, key.most);
     } else if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
         options.*(*whole) = parseNumber<int>(node, key.name, key.least, key.most);
     } else {
@@ -92,8 +94,12 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sens
         throw SettingsError(at(file, section) + "sensor must hold keys, such as 'model: VLP-16'");
     }
     if (section["model"]) sensor = {};  // another sensor: nothing of the one before holds
+    std::set<std::string> seen;
     for (const auto& entry : section) {
         const std::string key = entry.first.Scalar();
+        if (!seen.insert(key).second) {
+            throw SettingsError(at(file, entry.first) + "key 'sensor." + key + "' is there twice");
+        }
         const YAML::Node& value = entry.second;
         try {
             if (key == "model") {
@@ -111,11 +117,9 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sens
                 }
                 customSensorModel(sensor.elevations_deg);
             } else if (key == "min_range_m") {
-                sensor.min_range_m =
-                    static_cast<float>(parseNumber<double>(value, "sensor.min_range_m", 0, 1000));
+                sensor.min_range_m = parseNumber<float>(value, "sensor.min_range_m", 0, 1000);
             } else if (key == "max_range_m") {
-                sensor.max_range_m =
-                    static_cast<float>(parseNumber<double>(value, "sensor.max_range_m", 0, 1000));
+                sensor.max_range_m = parseNumber<float>(value, "sensor.max_range_m", 0, 1000);
             } else {
                 throw SettingsError(
                     unknownKey(key, {"model", "elevations_deg", "min_range_m", "max_range_m"}) +
@@ -136,7 +140,13 @@ YAML::Node parseFile(const fs::path& file) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
     if (fs::is_directory(file)) throw SettingsError(file.string() + ": is a folder, not a file");
     try {
-        return YAML::LoadFile(file.string());
+        const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
+        if (documents.size() > 1) {
+            throw SettingsError(file.string() + ": holds several documents (---); one is taken");
+        }
+        return documents.empty() ? YAML::Node() : documents.front();
+    } catch (const SettingsError&) {
+        throw;
     } catch (const YAML::ParserException& e) {
         throw SettingsError(file.string() + ":" + std::to_string(e.mark.line + 1) +
                             ": not YAML: " + e.msg);
@@ -209,7 +219,21 @@ SensorModel Settings::sensorModel() const {
                             : hagen::sensorModel(sensor.model.value_or("VLP-16"));
     model.min_range_m = sensor.min_range_m.value_or(model.min_range_m);
     model.max_range_m = sensor.max_range_m.value_or(model.max_range_m);
+    if (!(model.min_range_m < model.max_range_m)) {
+        throw SettingsError("sensor.min_range_m (" +
+                            number(static_cast<double>(model.min_range_m)) +
+                            ") is not below sensor.max_range_m (" +
+                            number(static_cast<double>(model.max_range_m)) + ")");
+    }
     return model;
+}
+
+HagenFilter filterFor(const SensorModel& sensor, const Options& options) {
+    try {
+        return HagenFilter(sensor, options);
+    } catch (const std::invalid_argument& e) {
+        throw SettingsError(e.what());
+    }
 }
 
 void mergeSettings(const std::filesystem::path& file, Settings& settings) {

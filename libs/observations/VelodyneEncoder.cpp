@@ -1,4 +1,5 @@
 #include <hagen/observations/VelodyneEncoder.h>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -37,6 +38,17 @@ class PacketBytes {
 unsigned distanceUnits(float range_m) {
     const float units = std::round(range_m / CObservationVelodyneScan::DISTANCE_RESOLUTION);
     return units >= 1.0f && units <= 65535.0f ? static_cast<unsigned>(units) : 0u;  // NaN: 0
+}
+
+unsigned intensityUnits(float intensity) {
+    if (!(intensity > 0.0f)) return 0;  // NaN too
+    return static_cast<unsigned>(std::lround(255.0f * std::min(intensity, 1.0f)));
+}
+
+unsigned azimuthUnits(double reading) {
+    const long units = std::lround(reading) % CObservationVelodyneScan::ROTATION_MAX_UNITS;
+    return static_cast<unsigned>(units < 0 ? units + CObservationVelodyneScan::ROTATION_MAX_UNITS
+                                           : units);
 }
 
 void checkSizes(const VelodyneModel& model, const Firings& firings) {
@@ -78,16 +90,12 @@ std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& fir
             // Dual mode: the last return comes first, then the strongest.
             const auto& range_m = dual && b % 2 == 0 ? firings.last_range_m : firings.range_m;
             bytes.put16(CObservationVelodyneScan::UPPER_BANK);
-            bytes.put16(
-                static_cast<unsigned>(std::lround(readingOf(model, firings, 0, block_firing))) %
-                36000);
+            bytes.put16(azimuthUnits(readingOf(model, firings, 0, block_firing)));
             for (int i = 0; i < kReturns; ++i) {
                 const int laser = i % model.lasers, firing = block_firing + i / model.lasers;
                 const bool fired = firing < firing_count;
                 bytes.put16(fired ? distanceUnits(range_m(laser, firing)) : 0);
-                bytes.put8(fired ? static_cast<unsigned>(
-                                       std::lround(255.0f * firings.intensity(laser, firing)))
-                                 : 0);
+                bytes.put8(fired ? intensityUnits(firings.intensity(laser, firing)) : 0);
             }
         }
         const auto time_us = static_cast<std::uint32_t>(

@@ -41,7 +41,8 @@ const VelodyneModel& velodyneModel(const std::string& name) {
 }
 
 double azimuthOfReadingDeg(double reading) {
-    const double from_behind = std::fmod(reading + 54000.0, 36000.0);
+    double from_behind = std::fmod(reading + 18000.0, 36000.0);
+    if (from_behind < 0) from_behind += 36000.0;
     return from_behind * (360.0 / 35999.0) - 180.0;
 }
 

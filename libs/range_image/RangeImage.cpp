@@ -18,10 +18,9 @@ void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float
                  RangeImage& image) {
     image.depth_m.setConstant(sensor.rows(), columns, kNoValue);
     image.depth_mapper.resize(scan.size());
-    const float max_range_m = std::min(context_m, sensor.max_range_m);
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const float range_m = scan.range_m[i];
-        if (!(range_m >= sensor.min_range_m && range_m <= max_range_m)) {  // NaN too
+        if (!sensor.sees(range_m) || range_m > context_m) {
             image.depth_mapper[i] = RangeImage::kNoPixel;
             continue;
         }

@@ -1,6 +1,21 @@
 #include <hagen/segmentation/Extraction.h>
+#include <algorithm>
 
 namespace hagen {
+namespace {
+
+/// Numbers components 1, 2, ... in their order, without those that no return is in: they are of
+/// repaired pixels alone.
+void renumber(std::vector<std::int32_t>& component) {
+    const auto most = std::max_element(component.begin(), component.end());
+    if (most == component.end()) return;
+    std::vector<std::int32_t> number(static_cast<std::size_t>(*most) + 1, 0);
+    for (const std::int32_t c : component) number[c] = c > 0;
+    for (std::size_t c = 1; c < number.size(); ++c) number[c] += number[c - 1];
+    for (std::int32_t& c : component) c = c > 0 ? number[c] : 0;
+}
+
+}  // namespace
 
 void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
                     const Image<Label>& labels, const Image<std::int32_t>& components, float zone_m,
@@ -10,20 +25,22 @@ void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImag
     for (auto* indices : {&returns.roi, &returns.rou, &returns.unclassified}) indices->clear();
 
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        const float range_m = scan.range_m[i];
         const auto index = static_cast<std::uint32_t>(i);
-        if (!(range_m >= sensor.min_range_m && range_m <= sensor.max_range_m)) {  // NaN too
+        const std::int32_t pixel = image.depth_mapper[i];
+        const bool is_far = scan.range_m[i] > zone_m || pixel == RangeImage::kNoPixel;
+        if (!sensor.sees(scan.range_m[i])) {
             returns.label[i] = Label::Unclassified;
             returns.unclassified.push_back(index);
-        } else if (range_m > zone_m || labels.data()[image.depth_mapper[i]] == Label::Rou) {
+        } else if (is_far || labels.data()[pixel] == Label::Rou) {
             returns.label[i] = Label::Rou;
             returns.rou.push_back(index);
         } else {
             returns.label[i] = Label::Roi;
-            returns.component[i] = components.data()[image.depth_mapper[i]];
+            returns.component[i] = components.data()[pixel];
             returns.roi.push_back(index);
         }
     }
+    renumber(returns.component);
 }
 
 }  // namespace hagen

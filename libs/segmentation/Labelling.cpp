@@ -47,18 +47,14 @@ void growRegions(const Image<float>& angle_rad, float beta_rad, Label label,
 
     for (std::size_t next = 0; next < queue.size(); ++next) {
         const int row = queue[next] % rows, column = queue[next] / rows;
-        const auto visit = [&](int neighbour_row, int neighbour_column) {
-            if (labels(neighbour_row, neighbour_column) == label) return;
+        forEachOf4Neighbours(row, column, rows, columns, [&](int to_row, int to_column) {
+            if (labels(to_row, to_column) == label) return;
             const float difference_rad =
-                std::abs(angle_rad(neighbour_row, neighbour_column) - angle_rad(row, column));
+                std::abs(angle_rad(to_row, to_column) - angle_rad(row, column));
             if (!(difference_rad < beta_rad)) return;  // too far apart, or no angle
-            labels(neighbour_row, neighbour_column) = label;
-            queue.push_back(neighbour_column * rows + neighbour_row);
-        };
-        if (row > 0) visit(row - 1, column);
-        if (row + 1 < rows) visit(row + 1, column);
-        visit(row, wrapColumn(column - 1, columns));
-        visit(row, wrapColumn(column + 1, columns));
+            labels(to_row, to_column) = label;
+            queue.push_back(to_column * rows + to_row);
+        });
     }
 }
 

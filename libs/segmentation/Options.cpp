@@ -1,10 +1,22 @@
+#include <hagen/segmentation/OptionKeys.h>
 #include <hagen/segmentation/Options.h>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 namespace hagen {
 
 void checkOptions(const Options& options, int beams) {
+    for (const OptionKey& key : optionKeys()) {
+        const double value =
+            std::visit([&](auto field) { return static_cast<double>(options.*field); }, key.field);
+        if (!(value >= key.least && value <= key.most)) {  // NaN too
+            std::ostringstream message;
+            message << key.name << " is " << value << ", but must lie within " << key.least
+                    << " and " << key.most;
+            throw std::invalid_argument(message.str());
+        }
+    }
     if (options.principal_components > options.window_size) {
         throw std::invalid_argument(
             "principal_components (" + std::to_string(options.principal_components) +

@@ -29,19 +29,14 @@ void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels
         queue.assign(1, closest);
         for (std::size_t next = 0; next < queue.size(); ++next) {
             const int row = queue[next] % rows, column = queue[next] / rows;
-            const auto visit = [&](int neighbour_row, int neighbour_column) {
-                if (labels(neighbour_row, neighbour_column) != Label::Roi) return;
-                if (components(neighbour_row, neighbour_column) != 0) return;
-                const float gap_m =
-                    std::abs(depth_m(neighbour_row, neighbour_column) - depth_m(row, column));
+            forEachOf4Neighbours(row, column, rows, columns, [&](int to_row, int to_column) {
+                if (labels(to_row, to_column) != Label::Roi) return;
+                if (components(to_row, to_column) != 0) return;
+                const float gap_m = std::abs(depth_m(to_row, to_column) - depth_m(row, column));
                 if (!(gap_m < max_gap_m)) return;
-                components(neighbour_row, neighbour_column) = number;
-                queue.push_back(neighbour_column * rows + neighbour_row);
-            };
-            if (row > 0) visit(row - 1, column);
-            if (row + 1 < rows) visit(row + 1, column);
-            visit(row, wrapColumn(column - 1, columns));
-            visit(row, wrapColumn(column + 1, columns));
+                components(to_row, to_column) = number;
+                queue.push_back(to_column * rows + to_row);
+            });
         }
     }
 }

@@ -183,15 +183,53 @@ TEST_F(ConversionTest, ARecordingsOwnBeamsWin) {
 }
 
 TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
+    // The first scan sees a thin slab above the ground; the second sees the ground alone, whose
+    // returns keep their label only where the first is put 5 m to the side, as poses.txt says.
     const SensorModel sensor = sensorModel("VLP-16");
+    test::SimpleScene scene;
+    scene.poles.push_back({10, 0, 0.5, 6});
     fs::create_directories(folder_ / "scans/velodyne");
-    for (int i = 0; i < 3; ++i) {
-        writeScan(folder_ / ("scans/velodyne/00000" + std::to_string(i) + ".bin"),
-                  test::scanScene({}, sensor, 300, {static_cast<double>(i), 0, 2}).scan);
-    }
+    writeScan(folder_ / "scans/velodyne/000000.bin",
+              test::scanScene(scene, sensor, 870, {0, 0, 2}).scan);
+    writeScan(folder_ / "scans/velodyne/000001.bin",
+              test::scanScene({}, sensor, 870, {0, 0, 2}).scan);
     Conversion windowed;
     windowed.input = folder_ / "scans";
     windowed.folder = folder_ / "labels";
+    windowed.overwrite = true;
+    windowed.settings.options.window_scans = 2;
+    std::vector<std::string> remarks;
+    ConversionListener listener;
+    listener.remark = [&](const std::string& entry, const std::string& remark) {
+        remarks.push_back(entry + ": " + remark);
+    };
+    // Bearing of the ground returns that share their pixels with the pole, as labelled.
+    const auto roiBearings = [&](const std::string& second_pose) {
+        folder_.write("scans/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n" + second_pose);
+        convert(windowed, listener);
+        const auto labels = readLabels(folder_ / "labels/labels/000001.label");
+        Scan scan;
+        readScan(folder_ / "labels/velodyne/000001.bin", scan);
+        std::vector<double> bearings_deg;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (labels[i] != 2) continue;
+            bearings_deg.push_back(std::atan2(scan.y_m[i], scan.x_m[i]) * 57.29578);
+        }
+        return bearings_deg;
+    };
+    const auto straight = roiBearings("1 0 0 0 0 1 0 0 0 0 1 0\n");
+    ASSERT_FALSE(straight.empty());
+    for (const double bearing_deg : straight) EXPECT_NEAR(bearing_deg, 0.0, 5.0);
+    const auto aside = roiBearings("1 0 0 0 0 1 0 -5 0 0 1 0\n");  // the pole is 5 m to the left
+    ASSERT_FALSE(aside.empty());
+    for (const double bearing_deg : aside) EXPECT_NEAR(bearing_deg, 26.57, 5.0);
+    EXPECT_TRUE(remarks.empty());
+    EXPECT_EQ(ScanFolder(folder_ / "labels").poses().size(), 2u);
+}
+
+TEST_F(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    Conversion windowed = conversion();
     windowed.settings.options.window_scans = 3;
     std::vector<std::string> remarks;
     ConversionListener listener;
@@ -199,17 +237,9 @@ TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
         remarks.push_back(entry + ": " + remark);
     };
     convert(windowed, listener);
-    ASSERT_EQ(remarks.size(), 3u);
-    EXPECT_NE(remarks[2].find("entry 2 (000002): "), std::string::npos) << remarks[2];
-    EXPECT_NE(remarks[2].find("no pose"), std::string::npos);
-
-    remarks.clear();
-    folder_.write("scans/poses.txt",
-                  "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n1 0 0 2 0 1 0 0 0 0 1 0\n");
-    windowed.overwrite = true;
-    EXPECT_EQ(convert(windowed, listener).scans, 3u);
-    EXPECT_TRUE(remarks.empty());
-    EXPECT_EQ(ScanFolder(folder_ / "labels").poses().size(), 3u);
+    ASSERT_EQ(remarks.size(), 2u);
+    EXPECT_EQ(remarks[1].rfind("entry 1 (lidar): ", 0), 0u) << remarks[1];
+    EXPECT_NE(remarks[1].find("no pose"), std::string::npos);
 }
 
 TEST_F(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
@@ -220,8 +250,8 @@ TEST_F(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
     writeLog({pose(), broken, scanFrom(1)});
     std::string remarks;
     ConversionListener listener;
-    listener.remark = [&](const std::string& entry, const std::string& remark) {
-        remarks += entry + ": " + remark;
+    listener.unreadable = [&](const std::string& entry, const std::string& why) {
+        remarks += entry + ": " + why;
     };
     const ConversionReport report = convert(conversion(), listener);
     EXPECT_EQ(report.unreadable_scans, 1u);
@@ -246,6 +276,57 @@ TEST_F(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog"),
               (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi"}));
+}
+
+TEST_F(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    Conversion to_folder = conversion();
+    to_folder.folder = folder_ / "scans.v1";
+    convert(to_folder);
+    folder_.write("scans.v1/velodyne/000001.bin", "cut");
+    Conversion from_folder;
+    from_folder.input = folder_ / "scans.v1";
+    from_folder.folder = folder_ / "labels.v1";
+    try {
+        convert(from_folder);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("000001.bin"), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("labels.v1.partial"), std::string::npos) << e.what();
+    }
+    EXPECT_EQ(ScanFolder(folder_ / "labels.v1.partial").size(), 1u);
+}
+
+TEST_F(ConversionTest, AScanFolderHoldsOneSensor) {
+    writeLog({scanFrom(0, "front"), scanFrom(0, "rear")});
+    Conversion both = conversion();
+    both.folder = folder_ / "scans";
+    try {
+        convert(both);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("'front' and of 'rear'"), std::string::npos)
+            << e.what();
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "scans"));
+    EXPECT_EQ(convert(conversion()).scans, 2u);
+}
+
+TEST_F(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
+    writeLog({scanFrom(0)});
+    Conversion to_folder = conversion();
+    to_folder.folder = folder_ / "scans";
+    convert(to_folder);
+    folder_.write("scans/times.txt", "7.25\n");
+    Conversion from_folder;
+    from_folder.input = folder_ / "scans";
+    from_folder.rawlog = folder_ / "timed.rawlog";
+    convert(from_folder);
+    RawlogReader reader(from_folder.rawlog);
+    while (const auto entry = reader.next()) {
+        const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
+        EXPECT_NEAR(mrpt::Clock::toDouble(observation->timestamp), 7.25, 1e-6);
+    }
 }
 
 TEST_F(ConversionTest, TheInputIsNeverReplaced) {

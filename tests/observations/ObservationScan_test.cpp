@@ -72,6 +72,24 @@ TEST(ObservationScan, CloudsTakeTheSettingsSensorAndKeepOrderAndIntensity) {
     EXPECT_EQ(observed.scan.intensity, (std::vector<float>{0.25f, 0.5f, 1.0f}));
 }
 
+TEST(ObservationScan, IntensitiesThatCountTo255AreScaled) {
+    ObservedScan observed;
+    readObservation(*cloud({{3, 0, 0, 51.0f}, {0, 4, 0, 255.0f}}), Settings(), observed);
+    EXPECT_EQ(observed.scan.intensity, (std::vector<float>{0.2f, 1.0f}));
+    EXPECT_TRUE(observed.is_sensor_assumed);
+}
+
+TEST(ObservationScan, SettingsMayNarrowWhatTheSensorSees) {
+    ObservedScan observed;
+    Settings settings;
+    settings.sensor.max_range_m = 10.0f;
+    settings.sensor.min_range_m = 0.1f;
+    readObservation(*velodyneScan(), settings, observed);
+    EXPECT_EQ(observed.sensor.max_range_m, 10.0f);
+    EXPECT_EQ(observed.sensor.min_range_m, 0.5f);  // the recording's own
+    EXPECT_FALSE(observed.is_sensor_assumed);
+}
+
 TEST(ObservationScan, AVelodyneScanWithAStoredCloudAndNoPacketsGivesTheCloud) {
     mrpt::obs::CObservationVelodyneScan observation;
     observation.point_cloud.x = {1, 2};

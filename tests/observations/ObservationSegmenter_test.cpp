@@ -125,9 +125,11 @@ TEST(ObservationSegmenter, AWindowPutsTheScansOfAMovingSensorTogether) {
     segmenter.initialize(settings);
     ObservationSegmenter::Output out;
     for (const double x : {0.0, 1.0, 2.0}) {
+        // The sensor sits turned and aside on its vehicle, and sees the same.
         auto scan = scanFrom(x);
-        scan->sensorPose = {};
-        segmenter.process(*scan, out, mrpt::poses::CPose3D(x, 0, 2, 0, 0, 0));
+        scan->sensorPose = mrpt::poses::CPose3D(0.2, -0.1, 0.5, 1.0, 0, 0);
+        const mrpt::poses::CPose3D sensor_in_map(x, 0, 2, 0, 0, 0);
+        segmenter.process(*scan, out, sensor_in_map + (-scan->sensorPose));
     }
     // Clouds are of the newest scan alone; the window's labels are there on request.
     EXPECT_EQ(out.roi->pointcloud->size() + out.non_roi->pointcloud->size(), out.scan->size());

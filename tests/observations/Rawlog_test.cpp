@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/observations/RawlogReader.h>
 #include <hagen/observations/RawlogWriter.h>
+#include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
@@ -66,26 +67,79 @@ TEST(Rawlog, TheSameEntriesGiveTheSameBytes) {
     EXPECT_EQ(test::readFile(folder / "a.rawlog"), test::readFile(folder / "b.rawlog"));
 }
 
+/// Reads a file to its end, or to its break. Entries read, and what was said of a break.
+std::pair<std::size_t, std::string> readAll(const fs::path& file) {
+    RawlogReader reader(file);
+    try {
+        while (reader.next()) {
+        }
+    } catch (const BrokenRawlog& e) {
+        EXPECT_NE(std::string(e.what()).find(file.string()), std::string::npos) << e.what();
+        return {reader.entries(), e.what()};
+    }
+    return {reader.entries(), ""};
+}
+
 TEST(Rawlog, ALogCutOffAnywhereGivesItsWholeEntriesAndThenSaysWhere) {
     const test::TemporaryFolder folder;
-    writeLog(folder / "whole.rawlog", 20);
-    const std::string bytes = test::readFile(folder / "whole.rawlog");
-    int named = 0, cuts = 0;
-    for (std::size_t length = 200; length + 8 < bytes.size(); length += 97) {
-        RawlogReader reader(folder.write("cut.rawlog", bytes.substr(0, length)));
-        ++cuts;
-        try {
-            while (reader.next()) {
-            }
-        } catch (const BrokenRawlog& e) {
-            const std::string entry = "entry " + std::to_string(reader.entries());
-            EXPECT_NE(std::string(e.what()).find(entry), std::string::npos) << e.what();
-            EXPECT_NE(std::string(e.what()).find("cut.rawlog"), std::string::npos);
-            ++named;
+    for (const int entries : {3, 20}) {
+        writeLog(folder / "whole.rawlog", entries);
+        const std::string bytes = test::readFile(folder / "whole.rawlog");
+        for (std::size_t length = 1; length < bytes.size(); ++length) {
+            const auto [read, broken] =
+                readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+            ASSERT_NE(broken, "") << length << " of " << bytes.size();
+            ASSERT_LE(read, static_cast<std::size_t>(entries));
         }
-        EXPECT_LT(reader.entries(), 20u);
+        EXPECT_EQ(readAll(folder / "whole.rawlog"),
+                  (std::pair<std::size_t, std::string>(entries, "")));
     }
-    EXPECT_EQ(named, cuts);
+}
+
+TEST(Rawlog, AnUnpackedLogCutOffAnywhereSaysSo) {
+    const test::TemporaryFolder folder;
+    std::string bytes;
+    {
+        mrpt::io::CFileOutputStream stream((folder / "plain.rawlog").string());
+        auto archive = mrpt::serialization::archiveFrom(stream);
+        for (int i = 0; i < 3; ++i) archive << comment("plain " + std::to_string(i));
+    }
+    bytes = test::readFile(folder / "plain.rawlog");
+    EXPECT_EQ(readAll(folder / "plain.rawlog").first, 3u);
+    const std::size_t entry = bytes.size() / 3;  // all are of one size
+    for (std::size_t length = 1; length < bytes.size(); ++length) {
+        const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+        ASSERT_EQ(read, length / entry);
+        ASSERT_EQ(broken.empty(), length % entry == 0) << length;
+    }
+}
+
+TEST(Rawlog, DamagedBytesAreTold) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "whole.rawlog", 20);
+    std::string bytes = test::readFile(folder / "whole.rawlog");
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x10);
+    EXPECT_NE(readAll(folder.write("damaged.rawlog", bytes)).second, "");
+}
+
+TEST(Rawlog, GzipMembersOneAfterTheOtherAreOneLog) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 3);
+    const std::string bytes = test::readFile(folder / "a.rawlog");
+    EXPECT_EQ(readAll(folder.write("twice.rawlog", bytes + bytes)).first, 6u);
+}
+
+TEST(Rawlog, AClassThatIsNotKnownIsNamed) {
+    const test::TemporaryFolder folder;
+    mrpt::obs::CObservationRobotPose pose;
+    {
+        mrpt::io::CFileOutputStream stream((folder / "plain.rawlog").string());
+        mrpt::serialization::archiveFrom(stream) << pose;
+    }
+    std::string bytes = test::readFile(folder / "plain.rawlog");
+    bytes.replace(bytes.find("RobotPose"), 9, "RobotMood");
+    EXPECT_NE(readAll(folder.write("mood.rawlog", bytes)).second.find("CObservationRobotMood"),
+              std::string::npos);
 }
 
 TEST(Rawlog, WhatIsNoRawlogIsRefused) {

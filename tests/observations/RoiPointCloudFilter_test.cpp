@@ -72,7 +72,7 @@ TEST(RoiPointCloudFilter, AnEmptyCloudStaysEmpty) {
 TEST(RoiPointCloudFilter, RefusesSettingsThatDoNotFit) {
     Settings settings;
     settings.options.window_size = 40;
-    EXPECT_THROW(RoiPointCloudFilter{settings}, std::invalid_argument);
+    EXPECT_THROW(RoiPointCloudFilter{settings}, SettingsError);
 }
 
 }  // namespace

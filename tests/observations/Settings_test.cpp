@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <hagen/observations/OptionKeys.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/OptionKeys.h>
 
 #include <cmath>
 #include <fstream>
@@ -133,17 +133,20 @@ TEST_F(SettingsTest, AMisspeltKeyIsNamedWithTheNearestKnownOneAndItsLine) {
 
 TEST_F(SettingsTest, AKeyThatIsThereTwiceIsRefused) {
     EXPECT_TRUE(says(refusalOf("zone_m: 20\nzone_m: 21\n"), "twice"));
+    EXPECT_TRUE(says(refusalOf("sensor: {model: VLP-16, model: HDL-32E}"), "'sensor.model'"));
 }
 
 TEST_F(SettingsTest, WholeNumbersMustBeWhole) {
     EXPECT_TRUE(says(refusalOf("window_size: 8.5"), "whole number"));
     EXPECT_TRUE(says(refusalOf("window_size: 8x"), "whole number"));
+    EXPECT_EQ(settingsOf("window_size: 010").options.window_size, 10);  // not octal
 }
 
 TEST_F(SettingsTest, WhatIsNotYamlOrNoSettingsIsRefused) {
     EXPECT_TRUE(says(refusalOf("zone_m: [1"), "not YAML"));
     EXPECT_TRUE(says(refusalOf("- 1\n- 2\n"), "key: value"));
     EXPECT_TRUE(says(refusalOf("just words"), "key: value"));
+    EXPECT_TRUE(says(refusalOf("zone_m: 20\n---\nzone: 30\n"), "several documents"));
     Settings settings;
     EXPECT_THROW(mergeSettings("/no/such/file.yaml", settings), SettingsError);
     EXPECT_THROW(mergeSettings(folder_.path(), settings), SettingsError);
@@ -187,6 +190,8 @@ TEST_F(SettingsTest, SensorsThatMakeNoSenseAreRefused) {
     EXPECT_TRUE(says(refusalOf("sensor: {model: custom, elevations_deg: 3}"), "list"));
     EXPECT_TRUE(says(refusalOf("sensor: {model: VLP-16, max_range_m: -1}"), "max_range_m"));
     EXPECT_THROW(settingsOf("sensor: {model: custom}").sensorModel(), SettingsError);
+    EXPECT_THROW(settingsOf("sensor: {min_range_m: 50, max_range_m: 10}").sensorModel(),
+                 SettingsError);
 }
 
 TEST_F(SettingsTest, OneOptionFromText) {

@@ -183,6 +183,20 @@ TEST(VelodyneDecoder, BothReturnsOfAFiringHaveItsTime) {
     }
 }
 
+TEST(VelodyneDecoder, AzimuthCorrectionsAreTakenFromTheReading) {
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(62, model, 24, 0.0));
+    Scan plain, corrected;
+    decodePackets(*observation, plain);
+    for (auto& laser : observation->calibration.laser_corrections) laser.azimuthCorrection = 3.0;
+    decodePackets(*observation, corrected);
+    // Readings go clockwise, azimuth_rad the other way round.
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const float turned = corrected.azimuth_rad[i] - plain.azimuth_rad[i];
+        ASSERT_NEAR(degrees(std::remainder(turned, static_cast<float>(2 * kPi))), 3.0, 1e-3);
+    }
+}
+
 /// Changes a byte of a packet as it would come over the network.
 void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte,
              std::uint8_t value) {

@@ -53,6 +53,17 @@ TEST(VelodyneEncoder, RangesThatAPacketCannotHoldAreNoReturns) {
     EXPECT_EQ(packets[0].blocks[0].laser_returns[0].distance(), 65535);
 }
 
+TEST(VelodyneEncoder, AzimuthsWrapAndIntensitiesAreLimited) {
+    Firings firings = firingsAt(10.0f, 16, 24);
+    firings.first_azimuth_deg = -10.0;
+    firings.intensity.setConstant(7.0f);
+    firings.intensity(3, 0) = kNoValue;
+    const auto packets = encodePackets(velodyneModel("VLP-16"), firings);
+    EXPECT_EQ(packets[0].blocks[0].rotation(), 35000);
+    EXPECT_EQ(packets[0].blocks[0].laser_returns[0].intensity(), 255);
+    EXPECT_EQ(packets[0].blocks[0].laser_returns[3].intensity(), 0);
+}
+
 TEST(VelodyneEncoder, TheLastPacketIsFilledUpWithNothing) {
     const auto packets = encodePackets(velodyneModel("VLP-16"), firingsAt(10.0f, 16, 25));
     ASSERT_EQ(packets.size(), 2u);

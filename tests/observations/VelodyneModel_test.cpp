@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <hagen/observations/VelodyneModel.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace hagen {
@@ -34,6 +35,23 @@ TEST(VelodyneModel, ABlockHoldsThirtyTwoReturns) {
         EXPECT_EQ(model.turnWithinBlock(0, 0), 0.0);
         EXPECT_LT(model.turnWithinBlock(model.firings_per_block - 1, model.lasers - 1), 1.0);
         EXPECT_EQ(findVelodyneModel(model.id), &model);
+    }
+}
+
+TEST(VelodyneModel, FiresAsTheManualsSay) {
+    EXPECT_EQ(velodyneModel("VLP-16").laser_period_us, 2.304);
+    EXPECT_EQ(velodyneModel("VLP-16").firing_period_us, 55.296);
+    EXPECT_EQ(velodyneModel("HDL-32E").laser_period_us, 1.152);
+    EXPECT_EQ(velodyneModel("HDL-32E").firing_period_us, 46.080);
+}
+
+TEST(VelodyneModel, AzimuthReadingsGoClockwiseAroundTheTurn) {
+    for (const double reading :
+         {0.0, 4500.0, 9000.0, 17999.0, 27000.0, 35999.0, -9000.0, 45000.0}) {
+        const double turned = std::remainder(azimuthOfReadingDeg(reading) - 0.01 * reading, 360.0);
+        EXPECT_GE(turned, 0.0);
+        EXPECT_LE(turned, 0.01 + 1e-9);
+        EXPECT_LE(std::abs(azimuthOfReadingDeg(reading)), 180.02);
     }
 }
 

@@ -42,7 +42,25 @@ TEST(Extraction, EveryReturnTakesItsPixelsLabelAndComponent) {
     EXPECT_EQ(example.returns.label[0], Label::Roi);
     EXPECT_EQ(example.returns.label[1], Label::Roi);  // farther, in the same pixel
     EXPECT_EQ(example.returns.label[3], Label::Rou);
-    EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{7, 7, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{1, 1, 0, 0, 0, 0, 0}));
+}
+
+TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
+    Example example;
+    example.labels.data()[example.image.depth_mapper[3]] = Label::Roi;
+    example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other, 7
+    extractReturns(example.scan, example.sensor, example.image, example.labels, example.components,
+                   20.0f, example.returns);
+    EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
+}
+
+TEST(Extraction, WhatTheImageDoesNotReachIsRou) {
+    Example example;
+    projectScan(example.scan, example.sensor, 8, 10.0f, example.image);  // cut before the zone
+    extractReturns(example.scan, example.sensor, example.image, example.labels, example.components,
+                   20.0f, example.returns);
+    EXPECT_EQ(example.returns.label[0], Label::Roi);
+    EXPECT_EQ(example.returns.label[1], Label::Rou);
 }
 
 TEST(Extraction, BeyondTheZoneIsRouWhateverThePixelSays) {

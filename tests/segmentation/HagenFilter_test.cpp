@@ -1,6 +1,12 @@
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/segmentation/Labelling.h>
+#include <hagen/segmentation/RangeAngle.h>
+#include <hagen/segmentation/RoiComponents.h>
+#include <hagen/segmentation/Sharpening.h>
+#include <hagen/segmentation/SingularSpectrumAnalysis.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -115,7 +121,7 @@ TEST(HagenFilter, TheImageNeverEndsBeforeTheZone) {
 Scan randomScan(unsigned seed, const SensorModel& sensor) {
     test::Random random(seed);
     Scan scan;
-    const int returns = random.whole(0, 20000);
+    const int returns = random.whole(1000, 20000);
     for (int i = 0; i < returns; ++i) {
         const float spread = random.chance(0.1) ? 200.0f : 20.0f;
         scan.x_m.push_back(random.chance(0.01) ? kNoValue : random.real(-spread, spread));
@@ -181,6 +187,68 @@ TEST(HagenFilter, EveryIntermediateImageIsThere) {
     EXPECT_EQ(r.range_angle_rad.rows(), 15);
     EXPECT_EQ(r.smoothed_rad.rows(), 15);
     EXPECT_FALSE(r.maxima.empty());
+}
+
+// Each image is what its stage makes of the one before, with every option off its default: no stage
+// is left out, none gets another's option.
+TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
+    SensorModel sensor = sensorModel("HDL-32E");
+    sensor.min_range_m = 2.0f;
+    Options o;
+    o.zone_m = 15.0f;
+    o.context_m = 25.0f;
+    o.columns = 400;
+    o.repair_max_step_m = 3.0f;
+    o.persistence_m = 0.3f;
+    o.sharpening_sigma_px = 0.7f;
+    o.sharpening_sigma_m = 2.5f;
+    o.window_size = 10;
+    o.principal_components = 3;
+    o.beta_deg = 12.0f;
+    o.component_gap_m = 0.4f;
+    for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
+        o.seeds = seeds;
+        const Scan scan = randomScan(42, sensor);
+        HagenFilter filter(sensor, o);
+        const SegmentationResult& r = filter.segment(scan);
+
+        RangeImage image;
+        Image<float> repaired, proximity, sharpened, merged, angles, smoothed, carried;
+        std::vector<Maximum> maxima;
+        Image<Label> labels;
+        Image<std::int32_t> components;
+        LabelledReturns returns;
+        projectScan(scan, sensor, 400, 25.0f, image);
+        repairGaps(image.depth_m, 3.0f, repaired);
+        proximityOf(repaired, 15.0f, proximity);
+        findPersistentMaxima(proximity, 0.3f, maxima);
+        sharpenMaxima(proximity, maxima, 0.7f, 2.5f, sharpened);
+        mergeMaxima(repaired, proximity, sharpened, maxima, 2.0f, merged);
+        rangeAngles(merged, sensor, angles);
+        smoothColumns(angles, 10, 3, smoothed);
+        carryAngles(smoothed, carried);
+        labelRegions(repaired, carried, static_cast<float>(radians(12.0)), seeds, labels);
+        limitToZone(repaired, 15.0f, labels);
+        numberRoiComponents(repaired, labels, 0.4f, components);
+        extractReturns(scan, sensor, image, labels, components, 15.0f, returns);
+
+        EXPECT_TRUE(test::same(r.range_image.depth_m, image.depth_m));
+        EXPECT_TRUE(test::same(r.repaired_m, repaired));
+        EXPECT_FALSE(test::same(repaired, image.depth_m));
+        EXPECT_TRUE(test::same(r.proximity_m, proximity));
+        EXPECT_EQ(r.maxima.size(), maxima.size());
+        EXPECT_TRUE(test::same(r.sharpened_m, sharpened));
+        EXPECT_TRUE(test::same(r.merged_m, merged));
+        EXPECT_FALSE(test::same(merged, repaired));
+        EXPECT_TRUE(test::same(r.range_angle_rad, angles));
+        EXPECT_TRUE(test::same(r.smoothed_rad, smoothed));
+        EXPECT_FALSE(test::same(smoothed, angles));
+        EXPECT_TRUE(test::same(r.pixel_angle_rad, carried));
+        EXPECT_TRUE((r.labels == labels).all());
+        EXPECT_TRUE((r.components == components).all());
+        EXPECT_EQ(r.returns.label, returns.label);
+        EXPECT_EQ(r.returns.component, returns.component);
+    }
 }
 
 TEST(HagenFilter, RefusesOptionsThatDoNotFitTheSensor) {

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <hagen/segmentation/OptionKeys.h>
 #include <hagen/segmentation/Options.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace hagen {
 namespace {
@@ -15,6 +17,24 @@ TEST(Options, MoreComponentsThanTheWindowAreRefused) {
     Options options;
     options.principal_components = options.window_size + 1;
     EXPECT_THROW(checkOptions(options, 16), std::invalid_argument);
+}
+
+TEST(Options, EveryOptionHasItsRange) {
+    for (const OptionKey& key : optionKeys()) {
+        Options options;
+        std::visit(
+            [&](auto field) {
+                using Value = std::decay_t<decltype(options.*field)>;
+                options.*field = static_cast<Value>(key.least - 1.0);
+            },
+            key.field);
+        try {
+            checkOptions(options, 64);
+            ADD_FAILURE() << key.name;
+        } catch (const std::invalid_argument& e) {
+            EXPECT_EQ(std::string(e.what()).rfind(key.name, 0), 0u) << e.what();
+        }
+    }
 }
 
 TEST(Options, AWindowLongerThanAColumnIsRefused) {

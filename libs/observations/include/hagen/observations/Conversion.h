@@ -22,7 +22,7 @@ struct ConversionReport {
     std::size_t entries = 0;  ///< entries of the input; all are in the output
     std::size_t scans = 0;    ///< of them, or in them: LiDAR scans that were segmented
     std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
-    std::size_t unreadable_scans = 0;  ///< kept, but not segmented; each was named in a remark
+    std::size_t unreadable_scans = 0;  ///< kept, but not segmented; the listener was told of each
     /// The sensor of each sensor label, as a user should read it: "VLP-16, 16 beams".
     std::map<std::string, std::string> sensors;
 };
@@ -33,6 +33,9 @@ struct ConversionListener {
     std::function<void(const ConversionReport&)> progress = [](const auto&) {};
     /// About one entry: what it is ("entry 12 (lidar)"), and what a user should know.
     std::function<void(const std::string& entry, const std::string& remark)> remark =
+        [](const auto&, const auto&) {};
+    /// About a scan that is kept, but could not be segmented: what it is, and why.
+    std::function<void(const std::string& entry, const std::string& why)> unreadable =
         [](const auto&, const auto&) {};
 };
 

@@ -18,5 +18,7 @@ inline void registerMrptClasses() {
 
 /// The cloud class that every MRPT from 2.5 to 3 reads.
 using PortableCloud = mrpt::maps::CSimplePointsMap;
+/// The one that has intensities.
+using IntensityCloud = mrpt::maps::CPointsMapXYZI;
 
 }  // namespace hagen

@@ -1,5 +1,5 @@
 #pragma once
-#include <mrpt/io/CFileGZInputStream.h>
+#include <hagen/observations/GzipInput.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 #include <cstddef>
@@ -31,7 +31,7 @@ class RawlogReader {
 
  private:
     std::filesystem::path file_;
-    mrpt::io::CFileGZInputStream stream_;
+    GzipInput stream_;
     mrpt::serialization::CArchive::UniquePtr archive_;
     std::size_t entries_ = 0;
 };

@@ -11,7 +11,7 @@ namespace hagen {
 class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
  public:
     /// `sensor_pose`: the sensor in the cloud's frame; identity where points are in the sensor's
-    /// own. Throws like HagenFilter.
+    /// own. Throws SettingsError where the options do not fit the sensor.
     explicit RoiPointCloudFilter(const Settings& settings,
                                  const mrpt::poses::CPose3D& sensor_pose = {});
 

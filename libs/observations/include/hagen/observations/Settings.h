@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/range_image/SensorModel.h>
+#include <hagen/segmentation/HagenFilter.h>
 #include <hagen/segmentation/Options.h>
 #include <filesystem>
 #include <optional>
@@ -32,6 +33,9 @@ struct Settings {
     /// Throws SettingsError for `custom` without elevations.
     SensorModel sensorModel() const;
 };
+
+/// The filter for a sensor. Throws SettingsError where the options do not fit it.
+HagenFilter filterFor(const SensorModel& sensor, const Options& options);
 
 /// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a
 /// list of files) is merged before its own keys. Throws SettingsError for a file that cannot be

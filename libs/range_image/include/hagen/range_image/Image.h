@@ -20,4 +20,13 @@ inline int wrapColumn(int column, int columns) {
     return column < 0 ? column + columns : column >= columns ? column - columns : column;
 }
 
+/// Calls visit(row, column) for the pixels above, below and to both sides of one.
+template <class Visit>
+void forEachOf4Neighbours(int row, int column, int rows, int columns, Visit visit) {
+    if (row > 0) visit(row - 1, column);
+    if (row + 1 < rows) visit(row + 1, column);
+    visit(row, wrapColumn(column - 1, columns));
+    visit(row, wrapColumn(column + 1, columns));
+}
+
 }  // namespace hagen

@@ -14,6 +14,9 @@ struct SensorModel {
     float min_range_m = 0.5f;
     float max_range_m = 130.0f;
 
+    /// Whether a return at this range is within the sensor's limits; NaN is not.
+    bool sees(float range_m) const { return range_m >= min_range_m && range_m <= max_range_m; }
+
     int rows() const { return static_cast<int>(elevations_rad.size()); }
 
     /// The row whose beam is closest in elevation (the lower one of two equally close).

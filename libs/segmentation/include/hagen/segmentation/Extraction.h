@@ -16,7 +16,8 @@ struct LabelledReturns {
 };
 
 /// Stage 9, extraction: a return takes the label and the component of its pixel, through the
-/// depth_mapper. Farther than `zone_m` it is ROU, out of the sensor's range Unclassified.
+/// depth_mapper. Farther than `zone_m`, or than the image reaches, it is ROU; out of the sensor's
+/// range Unclassified. Components keep their order and are numbered 1, 2, ... without gaps.
 void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
                     const Image<Label>& labels, const Image<std::int32_t>& components, float zone_m,
                     LabelledReturns& returns);

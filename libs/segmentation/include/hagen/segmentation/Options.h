@@ -39,8 +39,9 @@ struct Options {
     int window_scans = 1;
 };
 
-/// Throws std::invalid_argument, naming the setting, where settings contradict one another or the
-/// sensor's number of beams (principal_components > window_size, window_size >= beams).
+/// Throws std::invalid_argument, naming the setting, where one is out of its range (OptionKeys.h),
+/// or they contradict one another or the sensor's number of beams (principal_components >
+/// window_size, window_size >= beams).
 void checkOptions(const Options& options, int beams);
 
 }  // namespace hagen

@@ -1,4 +1,4 @@
-#include <hagen/observations/OptionKeys.h>
+#include <hagen/segmentation/OptionKeys.h>
 #include <limits>
 
 namespace hagen {
@@ -27,7 +27,7 @@ const std::vector<OptionKey>& optionKeys() {
          "PC", &Options::principal_components},
         {"beta_deg", "deg", 0, 90, "neighbours whose angles differ by less are one region", "beta",
          &Options::beta_deg},
-        {"seeds", "", 0, 0,
+        {"seeds", "", 0, 1,
          "lowest: ground seeds the ROU; top_and_nearest: the text's literal reading", "",
          &Options::seeds},
         {"component_gap_m", "m", 0, 1000,

@@ -1,0 +1,24 @@
+#include <hagen/observations/MrptMessage.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace hagen {
+
+std::string messageOf(const std::exception& exception) {
+    std::string text = exception.what();
+    // The innermost message comes last.
+    const std::string mark = "Message: ";
+    const std::size_t message = text.rfind(mark);
+    if (message != std::string::npos) {
+        const std::size_t start = text.find_first_not_of(' ', message + mark.size());
+        if (start == std::string::npos) return "";
+        text = text.substr(start, text.find('\n', start) - start);
+    }
+    const bool is_text = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isprint(c) != 0 || std::isspace(c) != 0;
+    });
+    return is_text ? text : "";
+}
+
+}  // namespace hagen
