@@ -5,7 +5,7 @@ file(REMOVE_RECURSE ${BUILD}/find_package)
 foreach(
   step
   "${CMAKE_COMMAND};--install;${BUILD};--prefix;${prefix}"
-  "${CMAKE_COMMAND};-S;${SOURCE}/examples/find_package;-B;${build};-DCMAKE_PREFIX_PATH=${prefix}"
+  "${CMAKE_COMMAND};-G;${GENERATOR};-S;${SOURCE}/examples/find_package;-B;${build};-DCMAKE_PREFIX_PATH=${prefix}"
   "${CMAKE_COMMAND};--build;${build}"
   "${build}/uses_hagen")
   execute_process(COMMAND ${step} RESULT_VARIABLE result)

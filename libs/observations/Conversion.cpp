@@ -94,7 +94,8 @@ class Converter {
             throw;
         } catch (const std::exception& e) {
             ++report_.unreadable_scans;
-            listener_.unreadable(entry, messageOf(e));
+            const std::string why = messageOf(e);
+            listener_.unreadable(entry, why.empty() ? "MRPT does not say why" : why);
             return false;
         }
         if (!out.remark.empty()) listener_.remark(entry, out.remark);

@@ -48,10 +48,9 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
                             std::to_string(byte) + " (unpacked) cannot be read: " +
                             (stream_.fault().empty() ? why : stream_.fault()));
     };
+    mrpt::serialization::CSerializable::Ptr object;
     try {
-        auto object = archive_->ReadObject();
-        ++entries_;
-        return object;
+        object = archive_->ReadObject();
     } catch (const mrpt::serialization::CExceptionEOF&) {
         if (!stream_.fault().empty()) throw broken("");
         if (stream_.getPosition() != byte) throw broken("the file ends in the middle of it");
@@ -60,6 +59,9 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     } catch (const std::exception& e) {
         throw broken(reasonOf(e));
     }
+    if (!object) throw broken("it is an empty object");
+    ++entries_;
+    return object;
 }
 
 }  // namespace hagen
