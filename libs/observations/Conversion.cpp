@@ -5,6 +5,7 @@
 #include <hagen/observations/RawlogWriter.h>
 #include <hagen/observations/ScanFolder.h>
 #include <hagen/observations/ScanFolderWriter.h>
+#include <hagen/observations/Trajectory.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <optional>
@@ -129,12 +130,15 @@ class Converter {
 };
 
 /// One entry of a rawlog, with the clouds that come with it.
-void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converter& converter) {
+void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry,
+                  const Trajectory& trajectory, Converter& converter) {
     ObservationSegmenter::Output out;
     if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
         std::vector<CObservation::Ptr> clouds;
         for (const CObservation::Ptr& observation : *frame) {
-            if (!converter.segment(*observation, out)) continue;
+            if (!converter.segment(*observation, out, trajectory.at(observation->timestamp))) {
+                continue;
+            }
             clouds.push_back(out.roi);
             clouds.push_back(out.non_roi);
         }
@@ -144,7 +148,8 @@ void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converte
     }
     converter.outputs().writeEntry(*entry);
     const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
-    if (observation && converter.segment(*observation, out)) {
+    if (observation &&
+        converter.segment(*observation, out, trajectory.at(observation->timestamp))) {
         converter.outputs().writeEntry(*out.roi);
         converter.outputs().writeEntry(*out.non_roi);
     }
@@ -153,9 +158,12 @@ void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converte
 ConversionReport convertRawlog(const Conversion& conversion, const ConversionListener& listener) {
     RawlogReader reader(conversion.input);
     Converter converter(conversion, conversion.settings, listener);
+    // A pose may come after the scan it is needed for, so the log is read for them beforehand.
+    const bool needs_poses = conversion.settings.options.window_scans > 1;
+    const Trajectory trajectory = needs_poses ? readTrajectory(conversion.input) : Trajectory();
     try {
         while (const auto entry = reader.next()) {
-            convertEntry(entry, converter);
+            convertEntry(entry, trajectory, converter);
             converter.countEntry();
         }
     } catch (const BrokenRawlog& e) {

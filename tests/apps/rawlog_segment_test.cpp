@@ -123,11 +123,20 @@ TEST_F(RawlogSegment, SaysWhichSensorItTookAndWhetherItHadToGuess) {
               std::string::npos);
 }
 
-TEST_F(RawlogSegment, ARemarkThatComesWithEveryScanIsPrintedOnce) {
+TEST_F(RawlogSegment, AWindowTakesThePosesOfTheRecording) {
     const auto window = folder_.write("window.yaml", "window_scans: 3\n");
     const auto outcome = run({"-i", kRecording, "-o", path("out"), "-c", window});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_NE(outcome.err.find("entry 1 (lidar): window_scans"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(RawlogSegment, ARemarkThatComesWithEveryScanIsPrintedOnce) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code,
+              0);  // no poses.txt in it
+    const auto window = folder_.write("window.yaml", "window_scans: 3\n");
+    const auto outcome = run({"-i", path("scans"), "-o", path("out"), "-c", window});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("entry 0 (000000): window_scans"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("the same of 9 more"), std::string::npos) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
 }

@@ -227,6 +227,29 @@ TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     EXPECT_EQ(ScanFolder(folder_ / "labels").poses().size(), 2u);
 }
 
+TEST_F(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
+    const auto poseAt = [](double x_m) {
+        auto observation = mrpt::obs::CObservationRobotPose::Create();
+        observation->sensorLabel = "pose";
+        observation->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+        observation->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0, 0, 0);
+        return observation;
+    };
+    // The pose of the second scan's time lies between two others, the later one behind it in the
+    // log.
+    writeLog({poseAt(0), scanFrom(0), poseAt(0.05), scanFrom(0.1), poseAt(0.15), scanFrom(3)});
+    Conversion windowed = conversion();
+    windowed.settings.options.window_scans = 3;
+    std::vector<std::string> remarks;
+    ConversionListener listener;
+    listener.remark = [&](const std::string& entry, const std::string& remark) {
+        remarks.push_back(entry + ": " + remark);
+    };
+    EXPECT_EQ(convert(windowed, listener).scans, 3u);
+    ASSERT_EQ(remarks.size(), 1u);  // of the scan that no pose is near
+    EXPECT_EQ(remarks[0].rfind("entry 5 (lidar): ", 0), 0u) << remarks[0];
+}
+
 TEST_F(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
     writeLog({scanFrom(0), scanFrom(1)});
     Conversion windowed = conversion();

@@ -46,6 +46,9 @@ struct ConversionListener {
 /// input becomes one observation a scan. The written scan folder has the names and the order of
 /// points of the one read, or counts the scans of a log.
 ///
+/// With a window of several scans, poses come from the log's CObservationRobotPose or the folder's
+/// poses.txt; a scan without one is segmented alone, which a remark says.
+///
 /// Outputs appear under their names when they are whole. Throws std::runtime_error, naming file and
 /// entry, where it fails; a log that breaks off leaves what was read before in OUT.partial.rawlog
 /// (DIR.partial), which the message says. Throws SettingsError where options do not fit a sensor.
