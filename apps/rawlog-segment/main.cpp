@@ -2,11 +2,13 @@
 #include <unistd.h>
 
 #include <hagen/observations/Conversion.h>
+#include <hagen/segmentation/OptionKeys.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -94,6 +96,24 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
     return report;
 }
 
+/// The table of settings: key, default, range and unit, meaning.
+void printConfigKeys() {
+    std::printf("%-20s %-8s %-24s %s\n", "key", "default", "range", "meaning");
+    for (const OptionKey& key : optionKeys()) {
+        const double value =
+            std::visit([](auto field) { return static_cast<double>(Options().*field); }, key.field);
+        char standard[32], range[64];
+        std::snprintf(standard, sizeof standard, "%g", value);
+        std::snprintf(range, sizeof range, "%g ... %g %s", key.least, key.most, key.unit.c_str());
+        const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
+        std::printf("%-20s %-8s %-24s %s%s\n", key.name.c_str(), is_word ? "lowest" : standard,
+                    is_word ? "lowest, top_and_nearest" : range, key.what.c_str(),
+                    key.symbol.empty() ? "" : (" (the paper's " + key.symbol + ")").c_str());
+    }
+    std::printf(
+        "sensor: {model, elevations_deg, min_range_m, max_range_m}; include: FILE or a list\n");
+}
+
 int fail(int exit_code, const std::string& message) {
     std::cerr << "rawlog-segment: " << message << "\n";
     return exit_code;
@@ -116,6 +136,13 @@ int main(int argc, char** argv) {
     bool quiet = false;
     const CLI::Validator not_empty(
         [](const std::string& name) { return name.empty() ? "the name is empty" : ""; }, "PATH");
+    app.add_flag_callback(
+        "--config-keys",
+        [] {
+            printConfigKeys();
+            throw CLI::Success();
+        },
+        "list the keys of settings files, and stop");
     app.set_version_flag("--version", "rawlog-segment " HAGEN_VERSION);
     app.add_option("-i,--input", conversion.input, "a .rawlog, or a scan folder (KITTI layout)")
         ->required()

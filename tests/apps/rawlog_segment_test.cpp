@@ -3,6 +3,7 @@
 #include <hagen/observations/RawlogReader.h>
 #include <hagen/observations/RawlogWriter.h>
 #include <hagen/observations/ScanFolder.h>
+#include <hagen/segmentation/OptionKeys.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CRawlog.h>
 
@@ -164,6 +165,16 @@ TEST_F(RawlogSegment, HelpAndVersionAreNoFailures) {
     EXPECT_EQ(run({"--version"}).exit_code, 0);
     EXPECT_NE(run({"--version"}).out.find("rawlog-segment 0."), std::string::npos);
     EXPECT_NE(outcome.out.find("--kitti"), std::string::npos);
+}
+
+TEST_F(RawlogSegment, ListsEveryKeyOfSettingsFiles) {
+    const auto outcome = run({"--config-keys"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "");
+    for (const OptionKey& key : optionKeys()) {
+        EXPECT_NE(outcome.out.find("\n" + key.name + " "), std::string::npos) << key.name;
+        EXPECT_NE(outcome.out.find(key.what), std::string::npos) << key.name;
+    }
 }
 
 TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {

@@ -21,13 +21,7 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 
 CObservation::Ptr scanFrom(double x_m, const std::string& label = "lidar") {
-    test::SimpleScene scene;
-    scene.poles.push_back({12, 2, 0.15, 8});
-    const VelodyneModel& model = velodyneModel("VLP-16");
-    auto scan = encodeScan(model, test::fireAt(scene, model, {x_m, 0, 2}));
-    scan->sensorLabel = label;
-    scan->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
-    return scan;
+    return test::poleScanFrom(x_m, label);
 }
 
 /// Something that is no LiDAR scan.
@@ -71,6 +65,14 @@ class ConversionTest : public testing::Test {
         conversion.input = folder_ / "in.rawlog";
         conversion.rawlog = folder_ / "out.rawlog";
         return conversion;
+    }
+
+    /// The log as a scan folder.
+    void convertToFolder(const std::string& name) {
+        Conversion to_folder = conversion();
+        to_folder.rawlog.clear();
+        to_folder.folder = folder_ / name;
+        convert(to_folder);
     }
 
     test::TemporaryFolder folder_;
@@ -149,9 +151,7 @@ TEST_F(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
 
 TEST_F(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
     writeLog({scanFrom(0)});
-    Conversion to_folder = conversion();
-    to_folder.folder = folder_ / "scans";
-    convert(to_folder);
+    convertToFolder("scans");
     fs::rename(folder_ / "scans/velodyne/000000.bin", folder_ / "scans/velodyne/000042.bin");
 
     Conversion from_folder;
@@ -183,8 +183,9 @@ TEST_F(ConversionTest, ARecordingsOwnBeamsWin) {
 }
 
 TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
-    // The first scan sees a thin slab above the ground; the second sees the ground alone, whose
-    // returns keep their label only where the first is put 5 m to the side, as poses.txt says.
+    // The first scan sees a pole straight ahead, the second flat ground alone. Put together, ground
+    // that shares a pixel with the pole is RoI: ahead, or aside where poses.txt says that the
+    // sensor has moved.
     const SensorModel sensor = sensorModel("VLP-16");
     test::SimpleScene scene;
     scene.poles.push_back({10, 0, 0.5, 6});
@@ -303,9 +304,7 @@ TEST_F(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
 
 TEST_F(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
     writeLog({scanFrom(0), scanFrom(1)});
-    Conversion to_folder = conversion();
-    to_folder.folder = folder_ / "scans.v1";
-    convert(to_folder);
+    convertToFolder("scans.v1");
     folder_.write("scans.v1/velodyne/000001.bin", "cut");
     Conversion from_folder;
     from_folder.input = folder_ / "scans.v1";
@@ -337,9 +336,7 @@ TEST_F(ConversionTest, AScanFolderHoldsOneSensor) {
 
 TEST_F(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
     writeLog({scanFrom(0)});
-    Conversion to_folder = conversion();
-    to_folder.folder = folder_ / "scans";
-    convert(to_folder);
+    convertToFolder("scans");
     folder_.write("scans/times.txt", "7.25\n");
     Conversion from_folder;
     from_folder.input = folder_ / "scans";

@@ -15,12 +15,7 @@ namespace {
 using mrpt::obs::CObservationVelodyneScan;
 
 CObservationVelodyneScan::Ptr scanFrom(double x_m, const char* label = "front") {
-    test::SimpleScene scene;
-    scene.poles.push_back({12, 2, 0.15, 8});
-    const VelodyneModel& model = velodyneModel("VLP-16");
-    auto scan = encodeScan(model, test::fireAt(scene, model, {x_m, 0, 2}));
-    scan->sensorLabel = label;
-    scan->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+    auto scan = test::poleScanFrom(x_m, label);
     scan->sensorPose = mrpt::poses::CPose3D(0.1, 0, -0.2, 0.3, 0, 0);
     return scan;
 }

@@ -48,6 +48,15 @@ TEST(Trajectory, IsNotKnownBeyondItsEndsNorInItsGaps) {
     EXPECT_TRUE(trajectory.at(at(0.05)));
 }
 
+TEST(Trajectory, AGapOfMoreThanAFifthOfASecondIsNotBridged) {
+    for (const auto& [gap_s, is_known] : {std::pair{0.19, true}, {0.21, false}}) {
+        Trajectory trajectory;
+        trajectory.add(at(0.0), CPose3D());
+        trajectory.add(at(gap_s), CPose3D());
+        EXPECT_EQ(trajectory.at(at(gap_s / 2)).has_value(), is_known) << gap_s;
+    }
+}
+
 mrpt::obs::CObservationRobotPose::Ptr pose(double seconds, double x_m) {
     auto observation = mrpt::obs::CObservationRobotPose::Create();
     observation->timestamp = at(seconds);

@@ -29,4 +29,14 @@ Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
     return firings;
 }
 
+mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label) {
+    SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    auto scan = encodeScan(model, fireAt(scene, model, {x_m, 0, 2}));
+    scan->sensorLabel = label;
+    scan->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+    return scan;
+}
+
 }  // namespace hagen::test

@@ -1,5 +1,5 @@
 #pragma once
-// The one place for what differs between MRPT versions.
+// Names for what MRPT 2.5 and later versions have different classes for.
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>

@@ -13,7 +13,8 @@ class RawlogWriter {
     /// Throws std::runtime_error, naming the file; see OutputPath.
     RawlogWriter(const std::filesystem::path& file, bool overwrite);
 
-    /// Throws std::runtime_error where the entry cannot be written, as on a full disk.
+    /// Throws std::runtime_error where the entry cannot be written. MRPT's stream packs what it is
+    /// given first, so that a full disk may show some entries later, and not at all in the last.
     void write(const mrpt::serialization::CSerializable& entry);
 
     /// Ends the file and gives it its name.

@@ -15,8 +15,8 @@ class SlidingWindow {
 
     /// Adds a scan taken at `sensor_pose` (sensor in the map) and forgets the one K scans ago.
     /// Gives the returns of the newest scan, as they are, followed by those of the scans before it,
-    /// newest first, moved into the newest one's frame; their beams are located anew with `sensor`,
-    /// and they have no time. The result stays valid until the next call.
+    /// newest first, moved into the newest one's frame; their beams are located anew with `sensor`.
+    /// A window has no times (time_s is empty). The result stays valid until the next call.
     const Scan& add(const Scan& newest, const mrpt::poses::CPose3D& sensor_pose,
                     const SensorModel& sensor);
 

@@ -6,8 +6,8 @@
 
 namespace hagen {
 
-/// One key of a settings file that sets an option. The parser, the range checks and the
-/// documentation all go by this table.
+/// One key of a settings file that sets an option. Parsing, range checks, sweeps and
+/// `rawlog-segment --config-keys` all go by this table.
 struct OptionKey {
     std::string name, unit;
     double least, most;        ///< allowed range, both included
