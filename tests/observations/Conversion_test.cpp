@@ -67,6 +67,14 @@ class ConversionTest : public testing::Test {
         return conversion;
     }
 
+    static ConversionListener remarksInto(std::vector<std::string>& remarks) {
+        ConversionListener listener;
+        listener.remark = [&](const std::string& entry, const std::string& remark) {
+            remarks.push_back(entry + ": " + remark);
+        };
+        return listener;
+    }
+
     /// The log as a scan folder.
     void convertToFolder(const std::string& name) {
         Conversion to_folder = conversion();
@@ -200,10 +208,7 @@ TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     windowed.overwrite = true;
     windowed.settings.options.window_scans = 2;
     std::vector<std::string> remarks;
-    ConversionListener listener;
-    listener.remark = [&](const std::string& entry, const std::string& remark) {
-        remarks.push_back(entry + ": " + remark);
-    };
+    const ConversionListener listener = remarksInto(remarks);
     // Bearing of the ground returns that share their pixels with the pole, as labelled.
     const auto roiBearings = [&](const std::string& second_pose) {
         folder_.write("scans/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n" + second_pose);
@@ -242,10 +247,7 @@ TEST_F(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
     Conversion windowed = conversion();
     windowed.settings.options.window_scans = 3;
     std::vector<std::string> remarks;
-    ConversionListener listener;
-    listener.remark = [&](const std::string& entry, const std::string& remark) {
-        remarks.push_back(entry + ": " + remark);
-    };
+    const ConversionListener listener = remarksInto(remarks);
     EXPECT_EQ(convert(windowed, listener).scans, 3u);
     ASSERT_EQ(remarks.size(), 1u);  // of the scan that no pose is near
     EXPECT_EQ(remarks[0].rfind("entry 5 (lidar): ", 0), 0u) << remarks[0];
@@ -256,10 +258,7 @@ TEST_F(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
     Conversion windowed = conversion();
     windowed.settings.options.window_scans = 3;
     std::vector<std::string> remarks;
-    ConversionListener listener;
-    listener.remark = [&](const std::string& entry, const std::string& remark) {
-        remarks.push_back(entry + ": " + remark);
-    };
+    const ConversionListener listener = remarksInto(remarks);
     convert(windowed, listener);
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_EQ(remarks[1].rfind("entry 1 (lidar): ", 0), 0u) << remarks[1];
