@@ -2,7 +2,7 @@
 // beside them, in the same run, MRPT's own decoder, which reads half of that scan. "paper pipeline" is the
 // whole, from packets to labels.
 #include <benchmark/benchmark.h>
-#include <hagen/observations/RawlogReader.h>
+#include <hagen/logs/RawlogReader.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>

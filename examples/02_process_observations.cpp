@@ -1,7 +1,7 @@
 // The filter as an MRPT observation processor: prints the nearest obstacle of each scan of a
 // rawlog, observation by observation or by sensory frames.
 #include <hagen/observations/ObservationSegmenter.h>
-#include <hagen/observations/RawlogReader.h>
+#include <hagen/logs/RawlogReader.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <cstdio>

@@ -1,117 +1,72 @@
 // Segments a log: regions of interest (near obstacles) and the rest of each LiDAR scan.
-#include <unistd.h>
+#include <hagen/logs/Conversion.h>
+#include <hagen/logs/ScanFolder.h>
 
-#include <hagen/observations/Conversion.h>
-#include <hagen/segmentation/OptionKeys.h>
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <string>
-#include <variant>
 #include <vector>
+
+#include "Progress.h"
+#include "Reports.h"
 
 namespace {
 
 using namespace hagen;
 
 constexpr int kFailed = 1, kWrongUsage = 2;
-constexpr std::size_t kMostRemarks = 10;  // one a scan would bury everything else
 
-std::string counted(std::size_t number, const std::string& one, const std::string& many) {
-    return std::to_string(number) + " " + (number == 1 ? one : many);
-}
+volatile std::sig_atomic_t is_interrupted = 0;
 
-void printSummary(const Conversion& conversion, const ConversionReport& report) {
-    std::printf("%s in %s, %zu returns:\n",
-                counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
-                counted(report.entries, "entry", "entries").c_str(), report.returns);
-    const auto line = [&](std::size_t part, const std::string& what) {
-        const double share = report.returns == 0 ? 0.0
-                                                 : 100.0 * static_cast<double>(part) /
-                                                       static_cast<double>(report.returns);
-        std::printf("  %9zu  %5.1f %%  %s\n", part, share, what.c_str());
-    };
-    char zone[32];
-    std::snprintf(zone, sizeof zone, "%g", static_cast<double>(conversion.settings.options.zone_m));
-    line(report.roi, "region of interest: near obstacles");
-    line(report.rou, std::string("region of uninterest: ground, or farther than ") + zone + " m");
-    line(report.unclassified, "unclassified: out of the sensor's range");
-    if (report.unreadable_scans > 0) {
-        std::printf("%s could not be read, kept as before\n",
-                    counted(report.unreadable_scans, "scan", "scans").c_str());
-    }
-    for (const auto& [label, sensor] : report.sensors) {
-        std::printf("sensor %s: %s\n", label.c_str(), sensor.c_str());
-    }
-    if (!conversion.rawlog.empty()) {
-        std::printf("segmented rawlog: %s\n", conversion.rawlog.c_str());
-    }
-    if (!conversion.folder.empty()) {
-        std::printf("scans and labels: %s\n", conversion.folder.c_str());
+/// The first signal ends the conversion in an orderly way, a second one at once.
+void catchSignals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction action {};
+        sigaction(signal, nullptr, &action);
+        if (action.sa_handler == SIG_IGN) continue;  // as nohup wants it
+        action = {};
+        action.sa_handler = [](int) { is_interrupted = 1; };
+        action.sa_flags = SA_RESETHAND;
+        sigaction(signal, &action, nullptr);
     }
 }
 
-/// Converts, with remarks and progress on standard error. A remark is printed where it first comes
-/// up, and counted from then on.
 ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
-    const bool on_terminal = !quiet && isatty(STDERR_FILENO) != 0;
-    const char* const clear_line = on_terminal ? "\r\033[K" : "";
-    const std::string input = conversion.input.string();
-    const auto tell = [&](const std::string& entry, const std::string& what) {
-        std::cerr << clear_line << input << ": " << entry << ": " << what << "\n";
-    };
-    std::map<std::string, std::size_t> remarks;
-    std::size_t untold = 0;
-    ConversionListener listener;
-    listener.unreadable = [&](const std::string& entry, const std::string& why) {
-        tell(entry, "kept, but not segmented: " + why);
-    };
-    listener.remark = [&](const std::string& entry, const std::string& remark) {
-        if (quiet || remarks[remark]++ > 0) return;
-        if (remarks.size() > kMostRemarks) {
-            ++untold;
-        } else {
-            tell(entry, remark);
-        }
-    };
-    if (on_terminal) {
-        listener.progress = [&](const ConversionReport& report) {
-            std::cerr << "\r" << report.entries << " entries, " << report.scans << " scans"
-                      << std::flush;
-        };
+    Progress progress(conversion.input.string(), quiet);
+    ConversionListener listener = progress.listener();
+    listener.keep_going = [] { return is_interrupted == 0; };
+    ConversionReport report;
+    try {
+        report = convert(conversion, listener);
+    } catch (...) {
+        progress.finish();
+        throw;
     }
-    const ConversionReport report = convert(conversion, listener);
-    std::cerr << clear_line;
-    for (const auto& [remark, times] : remarks) {
-        if (times < 2) continue;
-        std::cerr << input << ": the same of " << times - 1 << " more: " << remark << "\n";
-    }
-    if (untold > 0) std::cerr << input << ": and " << untold << " remarks more\n";
+    progress.finish();
     if (!quiet && report.scans == 0) {
-        std::cerr << input
+        std::cerr << conversion.input.string()
                   << ": no LiDAR scan was segmented; scans are CObservationVelodyneScan or "
                      "CObservationPointCloud\n";
+    }
+    if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
+        std::cerr << conversion.poses.string()
+                  << ": is not used: only a window (window_scans) and --kitti need poses\n";
     }
     return report;
 }
 
-/// The table of settings: key, default, range and unit, meaning.
-void printConfigKeys() {
-    std::printf("%-20s %-8s %-24s %s\n", "key", "default", "range", "meaning");
-    for (const OptionKey& key : optionKeys()) {
-        const double value =
-            std::visit([](auto field) { return static_cast<double>(Options().*field); }, key.field);
-        char standard[32], range[64];
-        std::snprintf(standard, sizeof standard, "%g", value);
-        std::snprintf(range, sizeof range, "%g ... %g %s", key.least, key.most, key.unit.c_str());
-        const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
-        std::printf("%-20s %-8s %-24s %s%s\n", key.name.c_str(), is_word ? "lowest" : standard,
-                    is_word ? "lowest, top_and_nearest" : range, key.what.c_str(),
-                    key.symbol.empty() ? "" : (" (the paper's " + key.symbol + ")").c_str());
+/// The settings in force, with a scan folder's own.
+void printSettings(const Conversion& conversion) {
+    Settings settings = conversion.settings;
+    if (std::filesystem::is_directory(conversion.input)) {
+        const ScanFolder folder(conversion.input);
+        if (std::filesystem::exists(folder.sensorFile())) {
+            mergeSettings(folder.sensorFile(), settings);
+        }
     }
-    std::printf(
-        "sensor: {model, elevations_deg, min_range_m, max_range_m}; include: FILE or a list\n");
+    std::cout << dumpSettings(settings);
 }
 
 int fail(int exit_code, const std::string& message) {
@@ -119,55 +74,128 @@ int fail(int exit_code, const std::string& message) {
     return exit_code;
 }
 
+/// What the command line says.
+struct CommandLine {
+    Conversion conversion;
+    std::vector<std::string> configs;
+    bool is_quiet = false, dumps_settings = false;
+};
+
+void declare(CLI::App& app, CommandLine& line) {
+    Conversion& conversion = line.conversion;
+    const CLI::Validator not_empty(
+        [](const std::string& name) { return name.empty() ? "the name is empty" : ""; }, "PATH");
+
+    app.add_option("-i,--input", conversion.input, "a .rawlog, or a scan folder (KITTI layout)")
+        ->check(CLI::ExistingPath)
+        ->group("Input");
+    app.add_option("--from", conversion.from,
+                   "first entry to convert, counted from 0; of a scan "
+                   "folder: scan")
+        ->group("Input");
+    app.add_option("--to", conversion.to, "last entry to convert")->group("Input");
+    app.add_option("--sensor-label", conversion.sensor_labels,
+                   "segment this LiDAR alone; may be repeated")
+        ->allow_extra_args(false)
+        ->group("Input");
+    app.add_option("--poses", conversion.poses,
+                   "where the vehicle was (TUM), or the sensor scan by scan (KITTI); wins over the "
+                   "log's own")
+        ->check(CLI::ExistingFile)
+        ->group("Input");
+
+    auto* rawlog = app.add_option("-o,--output", conversion.rawlog,
+                                  "segmented rawlog: all entries, and two clouds a scan")
+                       ->check(not_empty)
+                       ->group("Output");
+    app.add_flag("--preview", conversion.preview,
+                 "add a scene to each scan, which RawLogViewer shows in colour")
+        ->needs(rawlog)
+        ->group("Output");
+    app.add_option("--cloud", conversion.cloud_class,
+                   "clouds of coordinates (simple), or with "
+                   "intensities (xyzi)")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, CloudClass>{
+            {"simple", CloudClass::Simple}, {"xyzi", CloudClass::WithIntensity}}))
+        ->option_text("simple|xyzi")
+        ->needs(rawlog)
+        ->group("Output");
+    app.add_option("--kitti", conversion.folder,
+                   "scan folder: velodyne/*.bin, labels/*.label; of several LiDARs one each in it")
+        ->check(not_empty)
+        ->group("Output");
+    app.add_option("--stats", conversion.stats, "JSON: settings, counts, latencies, each scan")
+        ->check(not_empty)
+        ->group("Output");
+    app.add_flag("--overwrite", conversion.overwrite, "replace outputs that exist")
+        ->group("Output");
+    app.add_flag("-q,--quiet", line.is_quiet, "print errors only")->group("Output");
+
+    app.add_option("-c,--config", line.configs, "settings file; may be repeated, later ones win")
+        ->allow_extra_args(false)
+        ->group("Settings");
+    app.add_flag("--config-dump", line.dumps_settings, "print the settings in force, and stop")
+        ->group("Settings");
+    app.add_flag_callback(
+           "--config-keys",
+           [] {
+               printSettingsKeys();
+               throw CLI::Success();
+           },
+           "print the table of all settings, and stop")
+        ->group("Settings");
+    app.set_version_flag("--version", "rawlog-segment " HAGEN_VERSION);
+}
+
+/// What one flag alone cannot tell.
+void check(const CommandLine& line) {
+    const Conversion& conversion = line.conversion;
+    if (line.dumps_settings) return;
+    if (conversion.input.empty()) throw CLI::RequiredError("--input");
+    if (conversion.rawlog.empty() && conversion.folder.empty() && conversion.pictures.empty() &&
+        conversion.stats.empty()) {
+        throw CLI::RequiredError("an output (-o, --kitti, --pictures or --stats)");
+    }
+    if (conversion.from > conversion.to) {
+        throw CLI::ValidationError("--from", "is beyond --to");
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Separate near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
-        "log."};
-    app.footer(
         "Examples:\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog\n"
+        "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview --stats flight.json\n"
         "  rawlog-segment -i flight.rawlog --kitti labels -c config/paper.yaml\n"
+        "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
-        "Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
-    Conversion conversion;
-    std::vector<std::string> configs;
-    bool quiet = false;
-    const CLI::Validator not_empty(
-        [](const std::string& name) { return name.empty() ? "the name is empty" : ""; }, "PATH");
-    app.add_flag_callback(
-        "--config-keys",
-        [] {
-            printConfigKeys();
-            throw CLI::Success();
-        },
-        "list the keys of settings files, and stop");
-    app.set_version_flag("--version", "rawlog-segment " HAGEN_VERSION);
-    app.add_option("-i,--input", conversion.input, "a .rawlog, or a scan folder (KITTI layout)")
-        ->required()
-        ->check(CLI::ExistingPath);
-    auto* rawlog = app.add_option("-o,--output", conversion.rawlog,
-                                  "segmented rawlog: all entries, and two clouds a scan")
-                       ->check(not_empty);
-    auto* folder = app.add_option("--kitti", conversion.folder,
-                                  "scan folder to write: velodyne/*.bin, labels/*.label")
-                       ->check(not_empty);
-    app.add_option("-c,--config", configs, "settings file; may be repeated, later ones win");
-    app.add_flag("--overwrite", conversion.overwrite, "replace outputs that exist");
-    app.add_flag("-q,--quiet", quiet, "print errors only");
+        "\n"
+        "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
+        "log."};
+    app.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    CommandLine line;
+    declare(app, line);
     try {
         app.parse(argc, argv);
-        if (rawlog->count() == 0 && folder->count() == 0) {
-            throw CLI::RequiredError("an output (-o or --kitti)");
+        check(line);
+        for (const std::string& config : line.configs) {
+            mergeSettings(config, line.conversion.settings);
         }
-        for (const std::string& config : configs) mergeSettings(config, conversion.settings);
-        const ConversionReport report = convertAloud(conversion, quiet);
-        if (!quiet) printSummary(conversion, report);
-        if (report.scans == 0 && report.unreadable_scans > 0) {
-            return fail(kFailed, "none of the LiDAR scans could be read");
+        if (line.dumps_settings) {
+            printSettings(line.conversion);
+        } else {
+            catchSignals();
+            const ConversionReport report = convertAloud(line.conversion, line.is_quiet);
+            if (!line.is_quiet) printSummary(line.conversion, report);
+            if (report.scans == 0 && report.unreadable_scans > 0) {
+                return fail(kFailed, "none of the LiDAR scans could be read");
+            }
         }
-        if (std::fflush(stdout) != 0) return fail(kFailed, "the summary cannot be printed");
+        if (std::fflush(stdout) != 0 || !std::cout.flush()) {
+            return fail(kFailed, "the summary cannot be printed");
+        }
         return 0;
     } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);

@@ -1,6 +1,6 @@
 // Scores the filter on labelled scan folders, once or over a sweep of settings.
 #include <hagen/evaluation/Scores.h>
-#include <hagen/observations/ScanFolder.h>
+#include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <CLI/CLI.hpp>

@@ -5,6 +5,7 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 
@@ -105,34 +106,36 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
     }
 }
 
+mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
+                                    CloudClass cloud_class) {
+    const auto end = std::lower_bound(indices.begin(), indices.end(), scan.size());
+    const auto fill = [&](auto points, const auto& insert) {
+        points->reserve(static_cast<std::size_t>(end - indices.begin()));
+        for (auto i = indices.begin(); i != end; ++i) {
+            points->insertPointFast(scan.x_m[*i], scan.y_m[*i], scan.z_m[*i]);
+            insert(*points, *i);
+        }
+        return points;
+    };
+    if (cloud_class == CloudClass::Simple) return fill(PortableCloud::Create(), [](auto&, auto) {});
+    return fill(IntensityCloud::Create(), [&](IntensityCloud& points, std::uint32_t i) {
+        points.setPointIntensity(points.size() - 1, scan.intensity[i]);
+    });
+}
+
+mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, CloudClass cloud_class) {
+    std::vector<std::uint32_t> all(scan.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return cloudOf(scan, all, cloud_class);
+}
+
 CObservationPointCloud::Ptr observationOf(const Scan& scan, const std::string& label,
-                                          mrpt::Clock::time_point time) {
-    auto points = IntensityCloud::Create();
-    points->reserve(scan.size());
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        points->insertPointFast(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
-        points->setPointIntensity(i, scan.intensity[i]);
-    }
+                                          mrpt::Clock::time_point time, CloudClass cloud_class) {
     auto observation = CObservationPointCloud::Create();
     observation->timestamp = time;
     observation->sensorLabel = label;
-    observation->pointcloud = points;
+    observation->pointcloud = cloudOf(scan, cloud_class);
     return observation;
-}
-
-CObservationPointCloud::Ptr portable(const CObservationPointCloud& observation) {
-    auto points = PortableCloud::Create();
-    const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
-    points->setAllPoints(
-        {cloud.getPointsBufferRef_x().begin(), cloud.getPointsBufferRef_x().end()},
-        {cloud.getPointsBufferRef_y().begin(), cloud.getPointsBufferRef_y().end()},
-        {cloud.getPointsBufferRef_z().begin(), cloud.getPointsBufferRef_z().end()});
-    auto copy = CObservationPointCloud::Create();
-    copy->timestamp = observation.timestamp;
-    copy->sensorLabel = observation.sensorLabel;
-    copy->sensorPose = observation.sensorPose;
-    copy->pointcloud = points;
-    return copy;
 }
 
 }  // namespace hagen

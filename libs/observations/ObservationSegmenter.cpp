@@ -1,4 +1,4 @@
-#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/Deskew.h>
 #include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/core/initializer.h>
 
@@ -21,22 +21,19 @@ bool isSameSensor(const SensorModel& a, const SensorModel& b) {
            a.max_range_m == b.max_range_m;
 }
 
-/// The returns of `scan` among `indices`; those of a window that lie beyond it are older scans'.
-CObservationPointCloud::Ptr cloudOf(const mrpt::obs::CObservation& observation,
-                                    const std::string& suffix, const Scan& scan,
-                                    const std::vector<std::uint32_t>& indices) {
-    auto points = PortableCloud::Create();
-    points->reserve(indices.size());
-    for (const std::uint32_t i : indices) {
-        if (i >= scan.size()) break;  // ascending
-        points->insertPointFast(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
-    }
-    auto cloud = CObservationPointCloud::Create();
-    cloud->timestamp = observation.timestamp;
-    cloud->sensorLabel = observation.sensorLabel + suffix;
-    cloud->sensorPose = mrpt::poses::CPose3D(observation.sensorPose());
-    cloud->pointcloud = points;
-    return cloud;
+CObservationPointCloud::Ptr partOf(const mrpt::obs::CObservation& observation,
+                                   const std::string& suffix,
+                                   const mrpt::maps::CPointsMap::Ptr& points) {
+    auto part = CObservationPointCloud::Create();
+    part->timestamp = observation.timestamp;
+    part->sensorLabel = observation.sensorLabel + suffix;
+    part->sensorPose = mrpt::poses::CPose3D(observation.sensorPose());
+    part->pointcloud = points;
+    return part;
+}
+
+void append(const std::string& remark, std::string& remarks) {
+    remarks += (remarks.empty() ? "" : "; ") + remark;
 }
 
 }  // namespace
@@ -59,8 +56,32 @@ ObservationSegmenter::Lidar& ObservationSegmenter::lidarOf(const std::string& la
     return lidars_.emplace(label, std::move(lidar)).first->second;
 }
 
+const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observation,
+                                           const Trajectory& vehicle, Lidar& lidar,
+                                           std::string& remark) {
+    const Scan& scan = observed_.scan;
+    if (settings_.options.window_scans == 1) return scan;
+    const auto vehicle_pose = vehicle.at(observation.timestamp);
+    if (!vehicle_pose) {
+        lidar.window.clear();
+        append("window_scans is above 1, but there is no pose: the scan is segmented alone",
+               remark);
+        return scan;
+    }
+    const mrpt::system::CTimeLoggerEntry part(profiler, "process.window");
+    const mrpt::poses::CPose3D sensor_on_vehicle(observation.sensorPose());
+    deskewed_ = scan;
+    if (scan.time_s.empty()) {
+        append("its returns carry no times: the window moves it as a whole", remark);
+    } else if (!deskew(vehicle, observation.timestamp, sensor_on_vehicle, observed_.sensor,
+                       deskewed_)) {
+        append("poses do not reach to its end: the window moves it as a whole", remark);
+    }
+    return lidar.window.add(deskewed_, *vehicle_pose + sensor_on_vehicle, observed_.sensor);
+}
+
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
-                                   const std::optional<mrpt::poses::CPose3D>& vehicle_pose) {
+                                   const Trajectory& vehicle) {
     if (!isLidarScan(observation)) return false;
     const mrpt::system::CTimeLoggerEntry whole(profiler, "process");
     {
@@ -71,30 +92,24 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     Lidar& lidar = lidarOf(observation.sensorLabel, observed_.sensor);
 
     std::string remark = observed_.remark;
-    const Scan* window = &scan;
-    if (settings_.options.window_scans > 1 && vehicle_pose) {
-        const mrpt::system::CTimeLoggerEntry part(profiler, "process.window");
-        window = &lidar.window.add(
-            scan, *vehicle_pose + mrpt::poses::CPose3D(observation.sensorPose()), observed_.sensor);
-    } else if (settings_.options.window_scans > 1) {
-        lidar.window.clear();
-        remark += std::string(remark.empty() ? "" : "; ") +
-                  "window_scans is above 1, but there is no pose: the scan is segmented alone";
-    }
+    const Scan& window = windowOf(observation, vehicle, lidar, remark);
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
 
     profiler.enter("process.segment");
-    const SegmentationResult& result = lidar.filter.segment(*window);
+    const SegmentationResult& result = lidar.filter.segment(window);
     profiler.leave("process.segment");
 
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
-    out.roi = cloudOf(observation, "_roi", scan, result.returns.roi);
-    out.non_roi = cloudOf(observation, "_non_roi", scan, result.returns.rou);
+    // Indices beyond the scan are those of older ones in its window.
+    out.roi = partOf(observation, "_roi", cloudOf(scan, result.returns.roi, cloud_class));
+    out.non_roi = partOf(observation, "_non_roi", cloudOf(scan, result.returns.rou, cloud_class));
     out.scan = &scan;
-    out.window = window;
+    out.window = &window;
     out.result = &result;
     out.sensor = &lidar.filter.sensor();
     out.is_sensor_assumed = observed_.is_sensor_assumed;
+    out.sensor_pose = vehicle.at(observation.timestamp);
+    if (out.sensor_pose) *out.sensor_pose += mrpt::poses::CPose3D(observation.sensorPose());
     out.remark = remark;
     return true;
 }

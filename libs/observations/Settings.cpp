@@ -3,7 +3,10 @@
 #include <hagen/observations/Settings.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iomanip>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -20,10 +23,12 @@ std::string at(const fs::path& file, const YAML::Node& node) {
     return file.string() + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
 }
 
-std::string number(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
+/// The shortest text that reads back as the same number.
+template <class Number>
+std::string number(Number value) {
+    char text[64];
+    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    return {text, end};
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
@@ -82,6 +87,34 @@ void parseOption(const OptionKey& key, const YAML::Node& node, Options& options)
     }
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+constexpr double kMostRange_m = 1000;
+
+/// The keys of the section `sensor:`.
+const std::vector<SettingsKey>& sensorKeys() {
+    static const std::vector<SettingsKey> keys{
+        {"model", "", "VLP-16", joined(knownSensorModels(), ", ") + ", custom",
+         "the sensor of clouds; packets tell theirs", ""},
+        {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
+         "the beams of a custom sensor, lowest first", ""},
+        {"min_range_m", "m", "the model's", "0 ... " + number(kMostRange_m),
+         "nearer returns are unclassified", ""},
+        {"max_range_m", "m", "the model's", "0 ... " + number(kMostRange_m),
+         "farther returns are unclassified", ""}};
+    return keys;
+}
+
+std::vector<std::string> namesOf(const std::vector<SettingsKey>& keys) {
+    std::vector<std::string> names;
+    for (const SettingsKey& key : keys) names.push_back(key.name);
+    return names;
+}
+
 const OptionKey* findOption(const std::string& name) {
     for (const OptionKey& key : optionKeys()) {
         if (key.name == name) return &key;
@@ -117,13 +150,13 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sens
                 }
                 customSensorModel(sensor.elevations_deg);
             } else if (key == "min_range_m") {
-                sensor.min_range_m = parseNumber<float>(value, "sensor.min_range_m", 0, 1000);
+                sensor.min_range_m =
+                    parseNumber<float>(value, "sensor.min_range_m", 0, kMostRange_m);
             } else if (key == "max_range_m") {
-                sensor.max_range_m = parseNumber<float>(value, "sensor.max_range_m", 0, 1000);
+                sensor.max_range_m =
+                    parseNumber<float>(value, "sensor.max_range_m", 0, kMostRange_m);
             } else {
-                throw SettingsError(
-                    unknownKey(key, {"model", "elevations_deg", "min_range_m", "max_range_m"}) +
-                    " (in 'sensor')");
+                throw SettingsError(unknownKey(key, namesOf(sensorKeys())) + " (in 'sensor')");
             }
         } catch (const std::exception& e) {
             throw SettingsError(at(file, value) + e.what());
@@ -220,10 +253,9 @@ SensorModel Settings::sensorModel() const {
     model.min_range_m = sensor.min_range_m.value_or(model.min_range_m);
     model.max_range_m = sensor.max_range_m.value_or(model.max_range_m);
     if (!(model.min_range_m < model.max_range_m)) {
-        throw SettingsError("sensor.min_range_m (" +
-                            number(static_cast<double>(model.min_range_m)) +
-                            ") is not below sensor.max_range_m (" +
-                            number(static_cast<double>(model.max_range_m)) + ")");
+        throw SettingsError("sensor.min_range_m (" + number(model.min_range_m) +
+                            ") is not below sensor.max_range_m (" + number(model.max_range_m) +
+                            ")");
     }
     return model;
 }
@@ -240,6 +272,54 @@ void mergeSettings(const std::filesystem::path& file, Settings& settings) {
     Settings merged = settings;
     mergeFile(file, 0, merged);
     settings = merged;
+}
+
+std::string dumpSettings(const Settings& settings) {
+    std::ostringstream text;
+    const auto line = [&](const std::string& key, const std::string& value, const SettingsKey& k) {
+        text << std::left << std::setw(32) << (key + ": " + value) << " # "
+             << (k.unit.empty() ? "" : "[" + k.unit + "] ") << k.what
+             << (k.symbol.empty() ? "" : " (the paper's " + k.symbol + ")") << "\n";
+    };
+    for (const OptionKey& key : optionKeys()) {
+        line(key.name, textOf(key, settings.options),
+             {key.name, key.unit, "", "", key.what, key.symbol});
+    }
+    const Settings::Sensor& sensor = settings.sensor;
+    std::map<std::string, std::string> values;
+    if (sensor.model) values["model"] = *sensor.model;
+    std::vector<std::string> elevations;
+    for (const double elevation : sensor.elevations_deg) elevations.push_back(number(elevation));
+    if (!elevations.empty()) values["elevations_deg"] = "[" + joined(elevations, ", ") + "]";
+    const auto limit = [&](const char* key, std::optional<float> value) {
+        if (value) values[key] = number(*value);
+    };
+    limit("min_range_m", sensor.min_range_m);
+    limit("max_range_m", sensor.max_range_m);
+    if (values.empty()) {
+        text << "# sensor: of the recording, or a VLP-16\n";
+    } else {
+        text << "sensor:\n";
+        for (const SettingsKey& key : sensorKeys()) {
+            const auto value = values.find(key.name);
+            if (value != values.end()) line("  " + key.name, value->second, key);
+        }
+    }
+    return text.str();
+}
+
+std::vector<SettingsKey> settingsKeys() {
+    std::vector<SettingsKey> keys;
+    for (const OptionKey& key : optionKeys()) {
+        keys.push_back(
+            {key.name, key.unit, textOf(key, Options()), rangeOf(key), key.what, key.symbol});
+    }
+    for (SettingsKey key : sensorKeys()) {
+        key.name = "sensor." + key.name;
+        keys.push_back(key);
+    }
+    keys.push_back({"include", "", "", "a file, or a list", "files merged before this one", ""});
+    return keys;
 }
 
 void setOption(const std::string& key, const std::string& value, Settings& settings) {

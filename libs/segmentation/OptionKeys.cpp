@@ -1,7 +1,18 @@
 #include <hagen/segmentation/OptionKeys.h>
+#include <charconv>
 #include <limits>
 
 namespace hagen {
+namespace {
+
+/// The shortest text that reads back as the same number.
+std::string shortest(float value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    return {text, end};
+}
+
+}  // namespace
 
 const std::vector<OptionKey>& optionKeys() {
     static const std::vector<OptionKey> keys{
@@ -36,6 +47,22 @@ const std::vector<OptionKey>& optionKeys() {
         {"window_scans", "scans", 1, 100, "consecutive scans segmented together; needs poses", "K",
          &Options::window_scans}};
     return keys;
+}
+
+std::string textOf(const OptionKey& key, const Options& options) {
+    if (const auto* seeds = std::get_if<Seeds Options::*>(&key.field)) {
+        return options.*(*seeds) == Seeds::Lowest ? "lowest" : "top_and_nearest";
+    }
+    if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
+        return std::to_string(options.*(*whole));
+    }
+    return shortest(options.*std::get<float Options::*>(key.field));
+}
+
+std::string rangeOf(const OptionKey& key) {
+    if (std::holds_alternative<Seeds Options::*>(key.field)) return "lowest, top_and_nearest";
+    return shortest(static_cast<float>(key.least)) + " ... " +
+           shortest(static_cast<float>(key.most));
 }
 
 }  // namespace hagen

@@ -1,7 +1,7 @@
 // Runs the built program, as a user would.
 #include <gtest/gtest.h>
-#include <hagen/observations/ScanFolder.h>
-#include <hagen/observations/ScanFolderWriter.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanFolderWriter.h>
 
 #include <cmath>
 #include <sstream>
@@ -45,9 +45,10 @@ class SegmentationEvaluate : public testing::Test {
         LabelledReturns truth;
         truth.label = labelled.truth;
         truth.component.assign(truth.label.size(), 0);
-        ScanFolderWriter writer(folder_ / "pole", true);
-        writer.write(labelled.scan, truth, sensor, 0.0);
-        writer.commit();
+        std::filesystem::create_directories(folder_ / "pole");
+        ScanFolderWriter writer(folder_ / "pole");
+        writer.write("000000", labelled.scan, truth, sensor, 0.0);
+        writer.finish();
         return (folder_ / "pole").string();
     }
     void expectFailure(const std::vector<std::string>& arguments, int exit_code,

@@ -118,16 +118,22 @@ TEST(ObservationScan, WhatCannotBeReadThrows) {
                  std::runtime_error);
 }
 
-TEST(ObservationScan, ThePortableCopyHasThePointsAndTheHeader) {
-    const auto original = cloud({{3, 0, 1, 0.25f}, {0, 4, 2, 0.5f}});
-    original->sensorPose = mrpt::poses::CPose3D(1, 2, 3, 0, 0, 0);
-    const auto copy = portable(*original);
-    EXPECT_NE(std::dynamic_pointer_cast<PortableCloud>(copy->pointcloud), nullptr);
-    EXPECT_EQ(copy->pointcloud->getPointsBufferRef_z(),
-              original->pointcloud->getPointsBufferRef_z());
-    EXPECT_EQ(copy->timestamp, original->timestamp);
-    EXPECT_EQ(copy->sensorLabel, "lidar");
-    EXPECT_EQ(copy->sensorPose, original->sensorPose);
+TEST(ObservationScan, CloudsHaveTheReturnsAskedForWithOrWithoutIntensities) {
+    Scan scan;
+    scan.x_m = {1, 2, 3};
+    scan.y_m = {4, 5, 6};
+    scan.z_m = {7, 8, 9};
+    scan.intensity = {0.25f, 0.5f, 0.75f};
+    // Index 3 is beyond the scan: one of an older scan in its window.
+    const auto simple = cloudOf(scan, {0, 2, 3}, CloudClass::Simple);
+    EXPECT_NE(std::dynamic_pointer_cast<PortableCloud>(simple), nullptr);
+    EXPECT_EQ(simple->getPointsBufferRef_z(), (mrpt::aligned_std_vector<float>{7, 9}));
+    const auto full = std::dynamic_pointer_cast<IntensityCloud>(
+        cloudOf(scan, {0, 2, 3}, CloudClass::WithIntensity));
+    ASSERT_NE(full, nullptr);
+    EXPECT_EQ(full->getPointsBufferRef_x(), (mrpt::aligned_std_vector<float>{1, 3}));
+    EXPECT_EQ(full->getPointIntensity(1), 0.75f);
+    EXPECT_EQ(cloudOf(scan, CloudClass::Simple)->size(), 3u);
 }
 
 }  // namespace

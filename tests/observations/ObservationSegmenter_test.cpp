@@ -20,6 +20,15 @@ CObservationVelodyneScan::Ptr scanFrom(double x_m, const char* label = "front") 
     return scan;
 }
 
+/// A vehicle that stands still, from one second past the scans' time to another.
+Trajectory standingAt(const mrpt::poses::CPose3D& pose, double from_s, double to_s) {
+    Trajectory vehicle;
+    for (double s = from_s; s <= to_s; s += 0.1) {
+        vehicle.add(mrpt::Clock::fromDouble(100.0 + s), pose);
+    }
+    return vehicle;
+}
+
 TEST(ObservationSegmenter, IsMadeByItsName) {
     registerHagenClasses();
     const auto object = mrpt::rtti::classFactory("hagen::ObservationSegmenter");
@@ -88,11 +97,11 @@ TEST(ObservationSegmenter, EachSensorLabelHasItsOwnFilterAndWindow) {
     ObservationSegmenter segmenter;
     segmenter.initialize(settings);
     ObservationSegmenter::Output out;
-    const mrpt::poses::CPose3D pose;
-    segmenter.process(*scanFrom(0, "front"), out, pose);
-    segmenter.process(*scanFrom(0, "rear"), out, pose);
+    const Trajectory vehicle = standingAt({}, 0, 1);
+    segmenter.process(*scanFrom(0, "front"), out, vehicle);
+    segmenter.process(*scanFrom(0, "rear"), out, vehicle);
     EXPECT_EQ(out.window->size(), out.scan->size());  // nothing of the front one
-    segmenter.process(*scanFrom(0, "rear"), out, pose);
+    segmenter.process(*scanFrom(0, "rear"), out, vehicle);
     EXPECT_EQ(out.window->size(), 2 * out.scan->size());
 }
 
@@ -103,13 +112,15 @@ TEST(ObservationSegmenter, AWindowNeedsPosesAndSaysSo) {
     segmenter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     segmenter.initialize(settings);
     ObservationSegmenter::Output out;
-    segmenter.process(*scanFrom(0), out, mrpt::poses::CPose3D());
+    segmenter.process(*scanFrom(0), out, standingAt({}, 0, 1));
     EXPECT_EQ(out.remark, "");
+    EXPECT_TRUE(out.sensor_pose);
     segmenter.process(*scanFrom(1), out);
+    EXPECT_FALSE(out.sensor_pose);
     EXPECT_NE(out.remark.find("no pose"), std::string::npos);
     EXPECT_EQ(out.window->size(), out.scan->size());
     // Poses are back: the window starts anew, for what came before may lie anywhere.
-    segmenter.process(*scanFrom(2), out, mrpt::poses::CPose3D());
+    segmenter.process(*scanFrom(2), out, standingAt({}, 2, 3));
     EXPECT_EQ(out.window->size(), out.scan->size());
 }
 
@@ -124,7 +135,7 @@ TEST(ObservationSegmenter, AWindowPutsTheScansOfAMovingSensorTogether) {
         auto scan = scanFrom(x);
         scan->sensorPose = mrpt::poses::CPose3D(0.2, -0.1, 0.5, 1.0, 0, 0);
         const mrpt::poses::CPose3D sensor_in_map(x, 0, 2, 0, 0, 0);
-        segmenter.process(*scan, out, sensor_in_map + (-scan->sensorPose));
+        segmenter.process(*scan, out, standingAt(sensor_in_map + (-scan->sensorPose), x, x + 1));
     }
     // Clouds are of the newest scan alone; the window's labels are there on request.
     EXPECT_EQ(out.roi->pointcloud->size() + out.non_roi->pointcloud->size(), out.scan->size());
@@ -144,6 +155,35 @@ TEST(ObservationSegmenter, AWindowPutsTheScansOfAMovingSensorTogether) {
     EXPECT_GT(pole_roi, 0.95 * pole);
     EXPECT_GT(ground_rou, 0.95 * ground);
     EXPECT_GT(out.roi->pointcloud->size(), 30u);
+}
+
+TEST(ObservationSegmenter, AWindowTellsWhereItCannotMoveEachReturnByItself) {
+    Settings settings;
+    settings.options.window_scans = 2;
+    ObservationSegmenter segmenter;
+    segmenter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    segmenter.initialize(settings);
+    ObservationSegmenter::Output out;
+    Trajectory vehicle;  // known at the scan's start alone
+    vehicle.add(mrpt::Clock::fromDouble(100.0), {});
+    segmenter.process(*scanFrom(0), out, vehicle);
+    EXPECT_NE(out.remark.find("poses do not reach to its end"), std::string::npos) << out.remark;
+    const auto cloud = observationOf(Scan(*out.scan), "cloud", mrpt::Clock::fromDouble(100.0));
+    segmenter.process(*cloud, out, vehicle);
+    EXPECT_NE(out.remark.find("carry no times"), std::string::npos) << out.remark;
+}
+
+TEST(ObservationSegmenter, CloudsKeepIntensitiesWhereWanted) {
+    ObservationSegmenter segmenter;
+    segmenter.cloud_class = CloudClass::WithIntensity;
+    ObservationSegmenter::Output out;
+    segmenter.process(*scanFrom(0), out);
+    const auto roi = std::dynamic_pointer_cast<IntensityCloud>(out.roi->pointcloud);
+    ASSERT_NE(roi, nullptr);
+    ASSERT_GT(roi->size(), 0u);
+    for (std::size_t i = 0; i < roi->size(); ++i) {
+        ASSERT_EQ(roi->getPointIntensity(i), out.scan->intensity[out.result->returns.roi[i]]);
+    }
 }
 
 TEST(ObservationSegmenter, AnotherSensorUnderTheSameLabelGetsAnotherFilter) {

@@ -1,6 +1,6 @@
 #include "support/Captures.h"
 
-#include <hagen/observations/RawlogReader.h>
+#include <hagen/logs/RawlogReader.h>
 
 #include <cstring>
 

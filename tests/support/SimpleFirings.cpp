@@ -7,7 +7,8 @@
 namespace hagen::test {
 
 Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
-               const Eigen::Vector3d& position_m, double range_limit_m) {
+               const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
+               double range_limit_m) {
     const SensorModel sensor = sensorModel(model.name);
     const std::vector<std::uint8_t> rows =
         rowsOfLasers(mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration));
@@ -17,10 +18,12 @@ Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
     firings.range_m.setConstant(model.lasers, count, kNoValue);
     firings.intensity.setZero(model.lasers, count);
     for (int firing = 0; firing < count; ++firing) {
+        const double time_s = 1e-6 * model.firing_period_us * firing;
+        const Eigen::Vector3d from_m = position_m + time_s * velocity_m_s;
         for (int laser = 0; laser < model.lasers; ++laser) {
             const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
             const double elevation_rad = static_cast<double>(sensor.elevations_rad[rows[laser]]);
-            const Hit hit = castRay(scene, position_m, directionOf(azimuth_rad, elevation_rad));
+            const Hit hit = castRay(scene, from_m, directionOf(azimuth_rad, elevation_rad));
             if (!(hit.range_m < range_limit_m)) continue;
             firings.range_m(laser, firing) = static_cast<float>(hit.range_m);
             firings.intensity(laser, firing) = hit.label == Label::Roi ? 0.8f : 0.2f;

@@ -1,6 +1,6 @@
 // Makes rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles
 // towards a wall, over flat ground. Usage: make-poles-and-wall OUT.rawlog
-#include <hagen/observations/RawlogWriter.h>
+#include <hagen/logs/RawlogWriter.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cstdio>
@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
             writer.write(*hagen::test::polesAndWallPose(scan));
             writer.write(*hagen::test::polesAndWallScan(scan));
         }
+        writer.write(*hagen::test::polesAndWallPose(hagen::test::kPolesAndWallScans));
         writer.commit();
         return 0;
     } catch (const std::exception& e) {

@@ -3,10 +3,13 @@
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <mrpt/core/Clock.h>
+#include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace hagen {
 
@@ -32,12 +35,21 @@ struct ObservedScan {
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed);
 
-/// An observation of these returns, with their intensities.
-mrpt::obs::CObservationPointCloud::Ptr observationOf(const Scan& scan, const std::string& label,
-                                                     mrpt::Clock::time_point time);
+/// What a cloud is made of.
+enum class CloudClass {
+    Simple,        ///< CSimplePointsMap: coordinates alone; every MRPT from 2.5 to 3 reads it
+    WithIntensity  ///< CPointsMapXYZI: intensities, too
+};
 
-/// The same observation with a cloud that every MRPT from 2.5 to 3 reads; intensities are lost.
-mrpt::obs::CObservationPointCloud::Ptr portable(
-    const mrpt::obs::CObservationPointCloud& observation);
+/// The returns of a scan as an MRPT cloud; of those with these indices (ascending), of which any
+/// beyond the scan are passed over.
+mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, CloudClass cloud_class);
+mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
+                                    CloudClass cloud_class);
+
+/// An observation of these returns.
+mrpt::obs::CObservationPointCloud::Ptr observationOf(
+    const Scan& scan, const std::string& label, mrpt::Clock::time_point time,
+    CloudClass cloud_class = CloudClass::WithIntensity);
 
 }  // namespace hagen

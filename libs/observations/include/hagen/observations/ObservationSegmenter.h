@@ -2,6 +2,7 @@
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/SlidingWindow.h>
+#include <hagen/observations/Trajectory.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -32,18 +33,21 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
  public:
     struct Output {
         /// RoI and ROU of the scan: its time stamp and sensor pose, its label with `_roi` and
-        /// `_non_roi` behind it. Points in the sensor's frame; returns out of the sensor's range
-        /// are in neither.
+        /// `_non_roi` behind it. Points in the sensor's frame, as measured; returns out of the
+        /// sensor's range are in neither.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
         /// The scan's returns, and what each stage made of them; valid until the next call of
         /// process(). With a window of several scans `result` is about `window`, whose first
-        /// scan->size() returns are the scan's.
+        /// scan->size() returns are the scan's, moved to where they would have been seen at the
+        /// scan's time.
         const Scan* scan = nullptr;
         const Scan* window = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
         bool is_sensor_assumed = false;  ///< a VLP-16, for neither recording nor settings tell
+        /// The sensor in the map at the scan's time, where the trajectory tells it.
+        std::optional<mrpt::poses::CPose3D> sensor_pose;
 
         /// What a user should know about this scan; empty where there is nothing. Logged, too.
         std::string remark;
@@ -56,12 +60,19 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     void initialize(const Settings& settings);
 
     /// Segments one observation. False, and `out` untouched, for one that is no LiDAR scan.
-    /// `vehicle_pose` is the vehicle in the map at the scan's time; only a window of more than one
-    /// scan needs it, and without it the scan is segmented alone, which the remark says.
+    ///
+    /// A window of more than one scan needs to know where the vehicle was: `vehicle`. Each return
+    /// is moved by the pose at its own time, where returns have times and poses reach to the scan's
+    /// end, else the scan as a whole by the pose at its time; without that it is segmented alone.
+    /// The remark says which of these fell short.
+    ///
     /// Throws std::runtime_error, saying why, for a scan that cannot be read, and SettingsError for
     /// one of a sensor that the options do not fit.
     bool process(const mrpt::obs::CObservation& observation, Output& out,
-                 const std::optional<mrpt::poses::CPose3D>& vehicle_pose = std::nullopt);
+                 const Trajectory& vehicle = Trajectory());
+
+    /// What the clouds are made of.
+    CloudClass cloud_class = CloudClass::Simple;
 
     /// Times of each part of process(). Off at first: it prints its report when it goes.
     mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
@@ -73,10 +84,15 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         SlidingWindow window;
     };
     Lidar& lidarOf(const std::string& label, const SensorModel& sensor);
+    /// What the filter shall see of the scan in observed_, and a word where that is not all it
+    /// could be.
+    const Scan& windowOf(const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
+                         Lidar& lidar, std::string& remark);
 
     Settings settings_;
     std::map<std::string, Lidar> lidars_;
     ObservedScan observed_;
+    Scan deskewed_;
 };
 
 /// Makes this project's classes known to mrpt::rtti::classFactory(). Happens by itself where the

@@ -43,6 +43,18 @@ HagenFilter filterFor(const SensorModel& sensor, const Options& options);
 /// range; `settings` is unchanged then.
 void mergeSettings(const std::filesystem::path& file, Settings& settings);
 
+/// The settings in force as a settings file, each key with its unit and meaning in a comment. It
+/// reads back as the same settings.
+std::string dumpSettings(const Settings& settings);
+
+/// A line of the table of keys that settings files may hold.
+struct SettingsKey {
+    std::string name, unit, standard, range, what;
+    std::string symbol;  ///< the paper's; empty where it has none
+};
+/// Every key: those of optionKeys(), the sensor's, and `include`.
+std::vector<SettingsKey> settingsKeys();
+
 /// Sets one option from text, as `--sweep KEY=VALUE` does. Throws SettingsError.
 void setOption(const std::string& key, const std::string& value, Settings& settings);
 

@@ -3,7 +3,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/poses/CPose3DInterpolator.h>
 
-#include <filesystem>
+#include <cstddef>
 #include <optional>
 
 namespace hagen {
@@ -19,13 +19,11 @@ class Trajectory {
     /// two such within 0.2 s of one another, nor one of that very time.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
 
+    /// Poses it was given, one a time.
+    std::size_t size() const { return poses_.size(); }
+
  private:
     mrpt::poses::CPose3DInterpolator poses_;
 };
-
-/// The poses that a rawlog tells: those of its CObservationRobotPose entries, alone or in sensory
-/// frames. Reads the log once, to its end or its first break.
-/// Throws std::runtime_error, naming the file, where it cannot be opened.
-Trajectory readTrajectory(const std::filesystem::path& rawlog);
 
 }  // namespace hagen

@@ -16,4 +16,9 @@ struct OptionKey {
 };
 const std::vector<OptionKey>& optionKeys();
 
+/// The value of an option, as a settings file has it: "20", "lowest".
+std::string textOf(const OptionKey& key, const Options& options);
+/// The values that a settings file may give: "0.1 ... 1000", "lowest, top_and_nearest".
+std::string rangeOf(const OptionKey& key);
+
 }  // namespace hagen

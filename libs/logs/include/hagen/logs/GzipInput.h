@@ -19,6 +19,8 @@ class GzipInput : public mrpt::io::CStream {
     std::size_t Read(void* buffer, std::size_t count) override;
     /// Unpacked bytes read so far.
     std::uint64_t getPosition() const override { return position_; }
+    /// Bytes of the file taken so far.
+    std::uint64_t packedPosition() const;
 
     /// What is wrong with the file where no more can be read: it is cut off, or its bytes are
     /// damaged. Empty where it ended as it should.

@@ -7,12 +7,15 @@ namespace hagen {
 /// own only when it is whole.
 class OutputPath {
  public:
-    enum class Kind { File, ScanFolder };
+    enum class Kind {
+        File,
+        ScanFolders,  ///< a scan folder, or a folder of such
+        Pictures      ///< a folder of PNG files, or of folders of such
+    };
 
     /// Throws std::runtime_error, naming the path, where it exists and `overwrite` is not set;
     /// where it exists and is of another kind (a folder for a file, a device, a folder that holds
-    /// anything but a scan folder's files): such are never replaced; and where its folder is
-    /// missing.
+    /// anything but the kind's files): such are never replaced; and where its folder is missing.
     OutputPath(std::filesystem::path path, Kind kind, bool overwrite);
     /// Removes what was written, unless commit() or keepPartial() was called.
     ~OutputPath();

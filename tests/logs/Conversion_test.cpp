@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
-#include <hagen/observations/Conversion.h>
+#include <hagen/logs/Conversion.h>
+#include <hagen/logs/PoseFile.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/RawlogWriter.h>
+#include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/MrptCompat.h>
-#include <hagen/observations/RawlogReader.h>
-#include <hagen/observations/RawlogWriter.h>
-#include <hagen/observations/ScanFolder.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation3DScene.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -229,8 +231,10 @@ TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     const auto aside = roiBearings("1 0 0 0 0 1 0 -5 0 0 1 0\n");  // the pole is 5 m to the left
     ASSERT_FALSE(aside.empty());
     for (const double bearing_deg : aside) EXPECT_NEAR(bearing_deg, 26.57, 5.0);
-    EXPECT_TRUE(remarks.empty());
-    EXPECT_EQ(ScanFolder(folder_ / "labels").poses().size(), 2u);
+    for (const std::string& remark : remarks) {
+        EXPECT_NE(remark.find("carry no times"), std::string::npos) << remark;
+    }
+    EXPECT_EQ(readKittiPoses(folder_ / "labels/poses.txt").size(), 2u);
 }
 
 TEST_F(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
@@ -243,14 +247,15 @@ TEST_F(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
     };
     // The pose of the second scan's time lies between two others, the later one behind it in the
     // log.
-    writeLog({poseAt(0), scanFrom(0), poseAt(0.05), scanFrom(0.1), poseAt(0.15), scanFrom(3)});
+    writeLog({poseAt(0), scanFrom(0), poseAt(0.05), scanFrom(0.1), poseAt(0.15), poseAt(0.25),
+              scanFrom(3)});
     Conversion windowed = conversion();
     windowed.settings.options.window_scans = 3;
     std::vector<std::string> remarks;
     const ConversionListener listener = remarksInto(remarks);
     EXPECT_EQ(convert(windowed, listener).scans, 3u);
     ASSERT_EQ(remarks.size(), 1u);  // of the scan that no pose is near
-    EXPECT_EQ(remarks[0].rfind("entry 5 (lidar): ", 0), 0u) << remarks[0];
+    EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
 }
 
 TEST_F(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
@@ -318,19 +323,84 @@ TEST_F(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
     EXPECT_EQ(ScanFolder(folder_ / "labels.v1.partial").size(), 1u);
 }
 
-TEST_F(ConversionTest, AScanFolderHoldsOneSensor) {
-    writeLog({scanFrom(0, "front"), scanFrom(0, "rear")});
-    Conversion both = conversion();
-    both.folder = folder_ / "scans";
+TEST_F(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
+    writeLog({scanFrom(0, "front"), scanFrom(0, "rear"), scanFrom(1, "front"), scanFrom(1, "a/b")});
+    Conversion all = conversion();
+    all.folder = folder_ / "scans";
+    convert(all);
+    EXPECT_EQ(ScanFolder(folder_ / "scans/front").size(), 2u);
+    EXPECT_EQ(ScanFolder(folder_ / "scans/rear").size(), 1u);
+    EXPECT_EQ(ScanFolder(folder_ / "scans/a_b").size(), 1u);
+    all.overwrite = true;
+    all.sensor_labels = {"rear"};
+    const ConversionReport report = convert(all);
+    EXPECT_EQ(report.entries, 4u);
+    EXPECT_EQ(report.scans, 1u);
+    EXPECT_EQ(ScanFolder(folder_ / "scans").size(), 1u);
+    EXPECT_EQ(
+        entriesOf(folder_ / "out.rawlog"),
+        (std::vector<std::string>{"front", "rear", "rear_roi", "rear_non_roi", "front", "a/b"}));
+}
+
+TEST_F(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
+    writeLog({scanFrom(0, "front"), pose()});
+    Conversion other = conversion();
+    other.sensor_labels = {"rear"};
     try {
-        convert(both);
+        convert(other);
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("'front' and of 'rear'"), std::string::npos)
+        EXPECT_NE(std::string(e.what()).find("no LiDAR scan of 'rear'; it has 'front'"),
+                  std::string::npos)
             << e.what();
     }
-    EXPECT_FALSE(fs::exists(folder_ / "scans"));
-    EXPECT_EQ(convert(conversion()).scans, 2u);
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+}
+
+TEST_F(ConversionTest, EntriesFromAndToAreIncluded) {
+    writeLog({pose(), scanFrom(0), pose(), scanFrom(1), pose()});
+    Conversion part = conversion();
+    part.from = 1;
+    part.to = 3;
+    const ConversionReport report = convert(part);
+    EXPECT_EQ(report.entries, 3u);
+    EXPECT_EQ(report.left_out_before, 1u);
+    EXPECT_EQ(report.scan_reports.at(1).entry, 3u);
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "pose", "lidar",
+                                        "lidar_roi", "lidar_non_roi"}));
+    part.overwrite = true;
+    part.from = part.to = 5;
+    EXPECT_THROW(convert(part), std::runtime_error);
+}
+
+TEST_F(ConversionTest, APreviewFollowsTheClouds) {
+    writeLog({scanFrom(0)});
+    Conversion with_preview = conversion();
+    with_preview.preview = true;
+    convert(with_preview);
+    RawlogReader reader(folder_ / "out.rawlog");
+    for (int i = 0; i < 3; ++i) ASSERT_NE(reader.next(), nullptr);
+    const auto preview = std::dynamic_pointer_cast<mrpt::obs::CObservation3DScene>(reader.next());
+    ASSERT_NE(preview, nullptr);
+    EXPECT_NE(preview->scene, nullptr);
+    EXPECT_EQ(reader.next(), nullptr);
+}
+
+TEST_F(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
+    writeLog({pose(), scanFrom(0), pose()});
+    int asked = 0;
+    ConversionListener listener;
+    listener.keep_going = [&] { return ++asked <= 2; };
+    try {
+        convert(conversion(), listener);
+        FAIL();
+    } catch (const Interrupted& e) {
+        EXPECT_NE(std::string(e.what()).find("the 2 entries before it are in"), std::string::npos)
+            << e.what();
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+    EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);
 }
 
 TEST_F(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {

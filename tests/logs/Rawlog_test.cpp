@@ -1,7 +1,7 @@
 // RawlogReader and RawlogWriter, each the other's check, and MRPT's own CRawlog theirs.
 #include <gtest/gtest.h>
-#include <hagen/observations/RawlogReader.h>
-#include <hagen/observations/RawlogWriter.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/RawlogWriter.h>
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>

@@ -1,9 +1,9 @@
 #pragma once
 #include <hagen/range_image/Label.h>
 #include <hagen/range_image/Scan.h>
-#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,8 +15,10 @@ namespace hagen {
 ///     labels/NNNNNN.label    uint32 a point, same order: low 16 bits the label (0 unclassified,
 ///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
 ///     times.txt              optional: seconds, a line a scan
-///     poses.txt              optional: 3x4 matrix, row by row, a line a scan: the sensor seen from
-///                            where the first scan was taken
+///     poses.tum              optional: the sensor in the map, by the clock of times.txt
+///     poses.txt              optional: the sensor at each scan, seen from where the first was
+///     taken
+///                            (with a calib.txt, as KITTI's odometry benchmark has it: the camera)
 ///     sensor.yaml            optional: the beams of this recording
 ///
 /// All numbers are little-endian. Functions throw std::runtime_error, naming the file.
@@ -31,23 +33,28 @@ class ScanFolder {
     const std::string& name(std::size_t scan) const { return names_[scan]; }
     std::filesystem::path scanFile(std::size_t scan) const;
     std::filesystem::path labelFile(std::size_t scan) const;
-    /// sensor.yaml and poses.txt of this folder; need not exist.
+    /// Files of this folder that need not exist.
     std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
-    std::filesystem::path posesFile() const { return folder_ / "poses.txt"; }
+    std::filesystem::path tumFile() const { return folder_ / "poses.tum"; }
+    std::filesystem::path kittiPosesFile() const { return folder_ / "poses.txt"; }
+    std::filesystem::path calibrationFile() const { return folder_ / "calib.txt"; }
 
     /// times.txt, an entry a scan; empty where there is no such file. Throws where lines and scans
     /// differ.
     std::vector<double> times() const;
-    /// poses.txt, an entry a scan, rows of the 3x4 matrix one after the other; empty where there is
-    /// no such file. Throws where lines and scans differ, or a line has not 12 numbers.
-    std::vector<std::array<double, 12>> poses() const;
 
  private:
     std::filesystem::path folder_;
     std::vector<std::string> names_;
 };
 
+/// A scan that cannot be read; the message names its file.
+struct BrokenScan : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Reads x, y, z and intensity; the beams remain to be located. Points that are not finite stay in.
+/// Throws BrokenScan.
 void readScan(const std::filesystem::path& file, Scan& scan);
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
-#include <hagen/observations/OutputPath.h>
+#include <hagen/logs/OutputPath.h>
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -10,14 +11,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All that a scan folder holds; one with anything else in it is somebody's work.
-bool isPartOfScanFolder(const std::string& name) {
-    static const std::array<const char*, 5> kParts{"velodyne", "labels", "times.txt", "poses.txt",
-                                                   "sensor.yaml"};
-    for (const char* part : kParts) {
-        if (name == part) return true;
+/// Whether a file or folder below an output is part of such an output; anything else is somebody's
+/// work.
+bool isPart(const fs::path& path, OutputPath::Kind kind) {
+    static const std::array<const char*, 6> kScanFolderParts{
+        "velodyne", "labels", "times.txt", "poses.txt", "poses.tum", "sensor.yaml"};
+    if (kind == OutputPath::Kind::Pictures) {
+        return fs::is_regular_file(path) && path.extension() == ".png";
     }
-    return false;
+    return std::find(kScanFolderParts.begin(), kScanFolderParts.end(), path.filename()) !=
+           kScanFolderParts.end();
+}
+
+/// The first thing in a folder that is no part of such an output, `depth` folders down; empty where
+/// there is none.
+fs::path foreignPart(const fs::path& folder, OutputPath::Kind kind, int depth) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (isPart(entry.path(), kind)) continue;
+        if (depth == 0 || !entry.is_directory() || entry.is_symlink()) return entry.path();
+        const fs::path foreign = foreignPart(entry.path(), kind, depth - 1);
+        if (!foreign.empty()) return foreign;
+    }
+    return {};
 }
 
 void checkReplaceable(const fs::path& path, OutputPath::Kind kind) {
@@ -32,13 +47,13 @@ void checkReplaceable(const fs::path& path, OutputPath::Kind kind) {
         throw std::runtime_error(path.string() +
                                  ": is no folder, and is not replaced; give another name");
     }
-    for (const auto& entry : fs::directory_iterator(path)) {
-        const std::string name = entry.path().filename().string();
-        if (!isPartOfScanFolder(name)) {
-            throw std::runtime_error(path.string() + ": holds '" + name +
-                                     "', no part of a scan folder, and is not replaced; give "
-                                     "another name");
-        }
+    const bool is_of_pictures = kind == OutputPath::Kind::Pictures;
+    const fs::path foreign = foreignPart(path, kind, is_of_pictures ? 2 : 1);
+    if (!foreign.empty()) {
+        throw std::runtime_error(path.string() + ": holds '" +
+                                 foreign.lexically_relative(path).string() + "', no part of " +
+                                 (is_of_pictures ? "a folder of pictures" : "a scan folder") +
+                                 ", and is not replaced; give another name");
     }
 }
 

@@ -1,9 +1,8 @@
-#include <hagen/observations/ScanFolder.h>
+#include <hagen/logs/NumberTable.h>
+#include <hagen/logs/ScanFolder.h>
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 #include <stdexcept>
 
 namespace hagen {
@@ -17,17 +16,17 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files n
 template <class Record>
 std::vector<Record> readRecords(const fs::path& file) {
     std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+    if (!in) throw BrokenScan(file.string() + ": cannot be read");
     const auto bytes = static_cast<std::size_t>(in.tellg());
     if (bytes % sizeof(Record) != 0) {
-        throw std::runtime_error(file.string() + ": " + std::to_string(bytes) +
-                                 " bytes are no whole number of " + std::to_string(sizeof(Record)) +
-                                 "-byte points; is it cut off?");
+        throw BrokenScan(file.string() + ": " + std::to_string(bytes) +
+                         " bytes are no whole number of " + std::to_string(sizeof(Record)) +
+                         "-byte points; is it cut off?");
     }
     std::vector<Record> records(bytes / sizeof(Record));
     in.seekg(0);
     in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(bytes));
-    if (!in) throw std::runtime_error(file.string() + ": cannot be read to its end");
+    if (!in) throw BrokenScan(file.string() + ": cannot be read to its end");
     return records;
 }
 
@@ -38,30 +37,6 @@ void writeRecords(const fs::path& file, const std::vector<Record>& records) {
               static_cast<std::streamsize>(records.size() * sizeof(Record)));
     out.close();
     if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
-}
-
-/// The lines of a table with `columns` numbers each; empty where there is no such file.
-std::vector<std::vector<double>> readTable(const fs::path& file, std::size_t lines,
-                                           std::size_t columns) {
-    std::vector<std::vector<double>> table;
-    if (!fs::exists(file)) return table;
-    std::ifstream in(file);
-    for (std::string line; std::getline(in, line);) {
-        std::istringstream words(line);
-        const std::vector<double> numbers{std::istream_iterator<double>(words), {}};
-        if (numbers.empty() && words.eof()) continue;  // a blank line
-        if (numbers.size() != columns) {
-            throw std::runtime_error(file.string() + ":" + std::to_string(table.size() + 1) + ": " +
-                                     std::to_string(columns) + " numbers are expected, not '" +
-                                     line + "'");
-        }
-        table.push_back(numbers);
-    }
-    if (table.size() != lines) {
-        throw std::runtime_error(file.string() + ": has " + std::to_string(table.size()) +
-                                 " lines for " + std::to_string(lines) + " scans");
-    }
-    return table;
 }
 
 }  // namespace
@@ -88,17 +63,18 @@ fs::path ScanFolder::labelFile(std::size_t scan) const {
 }
 
 std::vector<double> ScanFolder::times() const {
+    const fs::path file = folder_ / "times.txt";
     std::vector<double> times_s;
-    for (const auto& line : readTable(folder_ / "times.txt", size(), 1)) times_s.push_back(line[0]);
-    return times_s;
-}
-
-std::vector<std::array<double, 12>> ScanFolder::poses() const {
-    std::vector<std::array<double, 12>> poses;
-    for (const auto& line : readTable(posesFile(), size(), 12)) {
-        std::copy(line.begin(), line.end(), poses.emplace_back().begin());
+    if (!fs::exists(file)) return times_s;
+    for (const NumberLine& line : readNumberTable(file)) {
+        checkColumns(file, line, 1, "seconds");
+        times_s.push_back(line.numbers[0]);
     }
-    return poses;
+    if (times_s.size() != size()) {
+        throw std::runtime_error(file.string() + ": has " + std::to_string(times_s.size()) +
+                                 " lines for " + std::to_string(size()) + " scans");
+    }
+    return times_s;
 }
 
 void readScan(const fs::path& file, Scan& scan) {

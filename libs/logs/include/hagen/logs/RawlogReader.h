@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/observations/GzipInput.h>
+#include <hagen/logs/GzipInput.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 #include <cstddef>
@@ -28,6 +28,8 @@ class RawlogReader {
 
     /// Entries read so far.
     std::size_t entries() const { return entries_; }
+    /// How much of the file is read, 0 ... 1.
+    double fractionRead() const;
 
  private:
     std::filesystem::path file_;

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <hagen/observations/ScanFolder.h>
+#include <hagen/logs/ScanFolder.h>
 
 #include <cstring>
 #include <stdexcept>
@@ -36,7 +36,6 @@ TEST_F(ScanFolderTest, ListsScansByName) {
     EXPECT_EQ(scans.scanFile(1), folder_ / "velodyne/000010.bin");
     EXPECT_EQ(scans.labelFile(1), folder_ / "labels/000010.label");
     EXPECT_TRUE(scans.times().empty());
-    EXPECT_TRUE(scans.poses().empty());
 }
 
 TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
@@ -90,24 +89,19 @@ TEST_F(ScanFolderTest, WritingIntoNothingIsNamed) {
               std::string::npos);
 }
 
-TEST_F(ScanFolderTest, TimesAndPosesHaveALineAScan) {
+TEST_F(ScanFolderTest, TimesHaveALineAScan) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("velodyne/000001.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n\n");
-    folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 5 0 1 0 6 0 0 1 7\n");
     const ScanFolder scans(folder_.path());
     EXPECT_EQ(scans.times(), (std::vector<double>{0.0, 0.1}));
-    ASSERT_EQ(scans.poses().size(), 2u);
-    EXPECT_EQ(scans.poses()[1][7], 6.0);
 }
 
-TEST_F(ScanFolderTest, TimesAndPosesThatDoNotFitAreNamedByLine) {
+TEST_F(ScanFolderTest, TimesThatDoNotFitAreNamedByLine) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n");
-    folder_.write("poses.txt", "1 0 0 0\n");
     const ScanFolder scans(folder_.path());
     EXPECT_NE(messageOf([&] { scans.times(); }).find("2 lines for 1 scans"), std::string::npos);
-    EXPECT_NE(messageOf([&] { scans.poses(); }).find("poses.txt:1"), std::string::npos);
     folder_.write("times.txt", "soon\n");
     EXPECT_NE(messageOf([&] { scans.times(); }).find("times.txt:1"), std::string::npos);
 }

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <hagen/observations/OutputPath.h>
+#include <hagen/logs/OutputPath.h>
 
 #include <fstream>
 #include <stdexcept>
@@ -10,7 +10,8 @@ namespace hagen {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr auto kFile = OutputPath::Kind::File, kScanFolder = OutputPath::Kind::ScanFolder;
+constexpr auto kFile = OutputPath::Kind::File, kScanFolder = OutputPath::Kind::ScanFolders,
+               kPictures = OutputPath::Kind::Pictures;
 
 TEST(OutputPath, AFileAppearsWhenItIsWhole) {
     const test::TemporaryFolder folder;
@@ -99,6 +100,22 @@ TEST(OutputPath, OnlyItsOwnKindIsReplaced) {
         EXPECT_NE(std::string(e.what()).find("'notes.txt'"), std::string::npos) << e.what();
     }
     EXPECT_TRUE(fs::exists(folder / "work/notes.txt"));
+}
+
+TEST(OutputPath, FoldersOfAPartASensorAreOfTheirKindToo) {
+    const test::TemporaryFolder folder;
+    folder.write("scans/front/velodyne/000000.bin", "");
+    folder.write("scans/rear/labels/000000.label", "");
+    folder.write("pictures/front/000000/1_depth.png", "");
+    folder.write("pictures/rear/000000/1_depth.png", "");
+    EXPECT_NO_THROW(OutputPath(folder / "scans", kScanFolder, true));
+    EXPECT_NO_THROW(OutputPath(folder / "pictures", kPictures, true));
+    EXPECT_THROW(OutputPath(folder / "pictures", kScanFolder, true), std::runtime_error);
+    EXPECT_THROW(OutputPath(folder / "scans", kPictures, true), std::runtime_error);
+    folder.write("scans/front/notes.txt", "");
+    folder.write("pictures/rear/000000/more/1_depth.png", "");
+    EXPECT_THROW(OutputPath(folder / "scans", kScanFolder, true), std::runtime_error);
+    EXPECT_THROW(OutputPath(folder / "pictures", kPictures, true), std::runtime_error);
 }
 
 TEST(OutputPath, NeighboursWithLikeNamesAreLeftAlone) {

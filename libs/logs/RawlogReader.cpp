@@ -1,6 +1,6 @@
+#include <hagen/logs/RawlogReader.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/MrptMessage.h>
-#include <hagen/observations/RawlogReader.h>
 
 #include <fstream>
 #include <string>
@@ -39,6 +39,11 @@ RawlogReader::RawlogReader(const std::filesystem::path& file)
       stream_(file),
       archive_(mrpt::serialization::archiveUniquePtrFrom(stream_)) {
     registerMrptClasses();
+}
+
+double RawlogReader::fractionRead() const {
+    return static_cast<double>(stream_.packedPosition()) /
+           static_cast<double>(std::filesystem::file_size(file_));
 }
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::next() {

@@ -1,6 +1,6 @@
 #include <zlib.h>
 
-#include <hagen/observations/GzipInput.h>
+#include <hagen/logs/GzipInput.h>
 #include <stdexcept>
 
 namespace hagen {
@@ -17,6 +17,10 @@ std::size_t GzipInput::Read(void* buffer, std::size_t count) {
     if (bytes < 0) return 0;  // fault() tells why
     position_ += static_cast<std::uint64_t>(bytes);
     return static_cast<std::size_t>(bytes);
+}
+
+std::uint64_t GzipInput::packedPosition() const {
+    return static_cast<std::uint64_t>(gzoffset(file_.get()));
 }
 
 std::string GzipInput::fault() const {

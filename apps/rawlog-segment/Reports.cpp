@@ -1,0 +1,89 @@
+#include "Reports.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace {
+
+using hagen::Conversion;
+using hagen::ConversionReport;
+
+std::string counted(std::size_t number, const std::string& one, const std::string& many) {
+    return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+void printEntries(const Conversion& conversion, const ConversionReport& report) {
+    const std::size_t last = report.left_out_before + report.entries - 1;
+    const bool is_cut =
+        conversion.from > 0 || conversion.to < std::numeric_limits<std::size_t>::max();
+    std::printf("%s in %s%s, %zu returns:\n",
+                counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
+                counted(report.entries, "entry", "entries").c_str(),
+                is_cut ? (" (" + std::to_string(report.left_out_before) + " to " +
+                          std::to_string(last) + " of the input; the others are left out)")
+                             .c_str()
+                       : "",
+                report.returns);
+}
+
+}  // namespace
+
+void printSummary(const Conversion& conversion, const ConversionReport& report) {
+    printEntries(conversion, report);
+    const auto line = [&](std::size_t part, const std::string& what) {
+        const double share = report.returns == 0 ? 0.0
+                                                 : 100.0 * static_cast<double>(part) /
+                                                       static_cast<double>(report.returns);
+        std::printf("  %9zu  %5.1f %%  %s\n", part, share, what.c_str());
+    };
+    char zone[32];
+    std::snprintf(zone, sizeof zone, "%g", static_cast<double>(report.settings.options.zone_m));
+    line(report.roi, "region of interest: near obstacles");
+    line(report.rou, std::string("region of uninterest: ground, or farther than ") + zone + " m");
+    line(report.unclassified, "unclassified: out of the sensor's range");
+    if (report.unreadable_scans > 0) {
+        std::printf("%s could not be read, kept as before\n",
+                    counted(report.unreadable_scans, "scan", "scans").c_str());
+    }
+    for (const auto& [label, sensor] : report.sensors) {
+        std::printf("sensor %s: %s\n", label.c_str(), sensor.c_str());
+    }
+    if (!report.poses.empty()) {
+        std::printf("poses of %zu of %s: %s\n", report.scans_with_pose,
+                    counted(report.scans, "scan", "scans").c_str(), report.poses.c_str());
+    }
+    const auto output = [](const char* what, const std::filesystem::path& path) {
+        if (!path.empty()) std::printf("%s: %s\n", what, path.c_str());
+    };
+    output("segmented rawlog", conversion.rawlog);
+    output("scans and labels", conversion.folder);
+    output("pictures", conversion.pictures);
+    output("statistics", conversion.stats);
+}
+
+void printSettingsKeys() {
+    using Row = std::array<std::string, 6>;
+    std::vector<Row> rows{{"key", "unit", "default", "range", "meaning", "in the paper"}};
+    for (const hagen::SettingsKey& key : hagen::settingsKeys()) {
+        rows.push_back({key.name, key.unit, key.standard, key.range, key.what, key.symbol});
+    }
+    std::array<std::size_t, 6> widths{};
+    for (const Row& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths[i] = std::max(widths[i], row[i].size());
+        }
+    }
+    const auto print = [&](const Row& row, char fill) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            std::printf("| %s%s ", row[i].c_str(),
+                        std::string(widths[i] - row[i].size(), fill).c_str());
+        }
+        std::printf("|\n");
+    };
+    print(rows[0], ' ');
+    print({}, '-');
+    for (std::size_t i = 1; i < rows.size(); ++i) print(rows[i], ' ');
+}

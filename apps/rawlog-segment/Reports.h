@@ -1,0 +1,8 @@
+#pragma once
+#include <hagen/logs/Conversion.h>
+
+/// What a conversion found and wrote, on standard output.
+void printSummary(const hagen::Conversion& conversion, const hagen::ConversionReport& report);
+
+/// Every key of settings files with default, range and meaning, as a Markdown table.
+void printSettingsKeys();

@@ -1,0 +1,67 @@
+#include "ConversionOutputs.h"
+
+#include <hagen/logs/Statistics.h>
+
+namespace hagen {
+
+namespace fs = std::filesystem;
+
+ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_(conversion) {
+    const bool overwrite = conversion.overwrite;
+    if (!conversion.rawlog.empty()) rawlog_.emplace(conversion.rawlog, overwrite);
+    if (!conversion.folder.empty()) {
+        folders_.emplace(conversion.folder, OutputPath::Kind::ScanFolders, overwrite);
+    }
+    if (!conversion.pictures.empty()) {
+        pictures_.emplace(conversion.pictures, OutputPath::Kind::Pictures, overwrite);
+    }
+    if (!conversion.stats.empty()) {
+        stats_.emplace(conversion.stats, OutputPath::Kind::File, overwrite);
+    }
+}
+
+std::string ConversionOutputs::writeScan(const ObservationSegmenter::Output& segmented,
+                                         const std::string& sensor_label, const std::string& name) {
+    const std::size_t number = scans_[sensor_label]++;
+    const std::string own_name = name.empty() ? scanName(number) : name;
+    if (folders_) {
+        auto writer = folder_writers_.find(sensor_label);
+        if (writer == folder_writers_.end()) {
+            writer = folder_writers_
+                         .emplace(sensor_label, ScanFolderWriter(folders_->folderOf(sensor_label)))
+                         .first;
+        }
+        const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
+        writer->second.write(own_name, *segmented.scan, segmented.result->returns,
+                             *segmented.sensor, time_s, segmented.sensor_pose);
+    }
+    return own_name;
+}
+
+void ConversionOutputs::finish(const ConversionReport& report) {
+    for (const auto& [label, writer] : folder_writers_) writer.finish();
+    if (stats_) writeStatistics(stats_->temporary(), conversion_, report);
+}
+
+void ConversionOutputs::commit(const ConversionReport& report) {
+    finish(report);
+    if (stats_) stats_->commit();
+    if (pictures_) pictures_->commit();
+    if (folders_) folders_->commit();
+    if (rawlog_) rawlog_->commit();
+}
+
+std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
+    finish(report);
+    std::string names;
+    const auto keep = [&](auto& output) {
+        if (output) names += " " + output->keepPartial().string();
+    };
+    keep(rawlog_);
+    keep(folders_);
+    keep(pictures_);
+    keep(stats_);
+    return names;
+}
+
+}  // namespace hagen

@@ -1,0 +1,45 @@
+#pragma once
+#include <hagen/logs/Conversion.h>
+#include <hagen/logs/RawlogWriter.h>
+#include <hagen/logs/ScanFolderWriter.h>
+#include <hagen/logs/SensorFolders.h>
+#include <hagen/observations/ObservationSegmenter.h>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace hagen {
+
+/// The outputs of a conversion that were asked for.
+class ConversionOutputs {
+ public:
+    /// Throws std::runtime_error, naming an output that cannot be written.
+    explicit ConversionOutputs(const Conversion& conversion);
+
+    bool wantsRawlog() const { return rawlog_.has_value(); }
+
+    void writeEntry(const mrpt::serialization::CSerializable& entry) {
+        if (rawlog_) rawlog_->write(entry);
+    }
+
+    /// Adds a segmented scan of this sensor to folders and pictures; an empty name: the next
+    /// number. Returns the name it has there.
+    std::string writeScan(const ObservationSegmenter::Output& segmented,
+                          const std::string& sensor_label, const std::string& name);
+
+    void commit(const ConversionReport& report);
+    /// Keeps what is there under names that say it is a part, and says which.
+    std::string keepPartial(const ConversionReport& report);
+
+ private:
+    void finish(const ConversionReport& report);
+
+    const Conversion& conversion_;
+    std::optional<RawlogWriter> rawlog_;
+    std::optional<SensorFolders> folders_, pictures_;
+    std::optional<OutputPath> stats_;
+    std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
+    std::map<std::string, std::size_t> scans_;                ///< written so far
+};
+
+}  // namespace hagen

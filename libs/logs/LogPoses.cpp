@@ -1,0 +1,77 @@
+#include <hagen/logs/LogPoses.h>
+#include <hagen/logs/PoseFile.h>
+
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::poses::CPose3D;
+using ScanPlaces = std::vector<RawlogSurvey::ScanPlace>;
+
+Trajectory trajectoryOfTum(const fs::path& file) {
+    Trajectory trajectory;
+    for (const TimedPose& pose : readTumPoses(file)) {
+        trajectory.add(mrpt::Clock::fromDouble(pose.time_s), pose.pose);
+    }
+    return trajectory;
+}
+
+Trajectory trajectoryOfKitti(const fs::path& file, const std::vector<CPose3D>& sensor_poses,
+                             const ScanPlaces& scans) {
+    if (sensor_poses.size() != scans.size()) {
+        throw std::runtime_error(file.string() + ": has " + std::to_string(sensor_poses.size()) +
+                                 " poses for " + std::to_string(scans.size()) + " scans");
+    }
+    Trajectory trajectory;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        trajectory.add(scans[i].time, sensor_poses[i] + (-scans[i].sensor_on_vehicle));
+    }
+    return trajectory;
+}
+
+/// The poses of a file of either kind.
+Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& scans) {
+    return kindOfPoseFile(file) == PoseFileKind::Tum
+               ? trajectoryOfTum(file)
+               : trajectoryOfKitti(file, readKittiPoses(file), scans);
+}
+
+/// poses.txt of a scan folder; beside a calib.txt they are the camera's, as KITTI has it.
+std::vector<CPose3D> ownKittiPoses(const ScanFolder& folder) {
+    std::vector<CPose3D> poses = readKittiPoses(folder.kittiPosesFile());
+    if (!fs::exists(folder.calibrationFile())) return poses;
+    const CPose3D lidar_in_camera = readKittiCalibration(folder.calibrationFile());
+    for (CPose3D& pose : poses) pose = (-lidar_in_camera) + pose + lidar_in_camera;
+    return poses;
+}
+
+}  // namespace
+
+LogPoses posesOfRawlog(const RawlogSurvey& survey, const fs::path& file) {
+    if (file.empty()) return {survey.trajectory, survey.source};
+    if (kindOfPoseFile(file) == PoseFileKind::Kitti && survey.scans.size() != 1) {
+        throw std::runtime_error(
+            file.string() + ": a KITTI file counts the scans of one LiDAR, and the log has " +
+            std::to_string(survey.scans.size()) + "; give poses with times (TUM)");
+    }
+    const ScanPlaces none;
+    return {trajectoryOf(file, survey.scans.empty() ? none : survey.scans.begin()->second),
+            file.string()};
+}
+
+LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& times_s,
+                           const fs::path& file) {
+    ScanPlaces scans;
+    for (const double time_s : times_s) scans.push_back({mrpt::Clock::fromDouble(time_s), {}});
+    if (!file.empty()) return {trajectoryOf(file, scans), file.string()};
+    if (fs::exists(folder.tumFile())) {
+        return {trajectoryOfTum(folder.tumFile()), folder.tumFile().string()};
+    }
+    if (!fs::exists(folder.kittiPosesFile())) return {};
+    return {trajectoryOfKitti(folder.kittiPosesFile(), ownKittiPoses(folder), scans),
+            folder.kittiPosesFile().string()};
+}
+
+}  // namespace hagen

@@ -1,0 +1,51 @@
+#include <hagen/logs/NumberTable.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line,
+                         const std::string& why) {
+    throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
+}
+
+}  // namespace
+
+std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    if (!in || std::filesystem::is_directory(file)) {
+        throw std::runtime_error(file.string() + ": cannot be read");
+    }
+    std::vector<NumberLine> table;
+    std::size_t line = 0;
+    for (std::string text; std::getline(in, text);) {
+        ++line;
+        std::istringstream words(text);
+        NumberLine entry{line, {}};
+        for (std::string word; words >> word;) {
+            if (entry.numbers.empty() && word[0] == '#') break;
+            char* end = nullptr;
+            const double number = std::strtod(word.c_str(), &end);
+            if (*end != '\0' || !std::isfinite(number)) {
+                refuse(file, line, "'" + word + "' is no number");
+            }
+            entry.numbers.push_back(number);
+        }
+        if (!entry.numbers.empty()) table.push_back(std::move(entry));
+    }
+    return table;
+}
+
+void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,
+                  const std::string& what) {
+    if (line.numbers.size() == columns) return;
+    refuse(file, line.line,
+           std::to_string(columns) + " numbers are expected (" + what + "), not " +
+               std::to_string(line.numbers.size()));
+}
+
+}  // namespace hagen

@@ -1,0 +1,133 @@
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/RawlogSurvey.h>
+#include <hagen/observations/ObservationScan.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <array>
+#include <utility>
+
+namespace hagen {
+namespace {
+
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CActionRobotMovement2D;
+using mrpt::obs::CActionRobotMovement3D;
+using mrpt::obs::CObservation;
+using mrpt::poses::CPose3D;
+
+/// A trajectory out of what actions say of the way from one frame to the next.
+class SummedMovement {
+ public:
+    void move(mrpt::Clock::time_point time, const CPose3D& increment) {
+        pose_ = pose_ + increment;
+        is_placed_ = time != INVALID_TIMESTAMP;
+        has_moved_ = true;
+        if (is_placed_) trajectory_.add(time, pose_);
+    }
+    /// A sensory frame of this time: where the actions before it led to.
+    void arrive(mrpt::Clock::time_point time) {
+        if (!is_placed_) trajectory_.add(time, pose_);
+        is_placed_ = true;
+    }
+    /// What was summed; nothing where nothing moved.
+    Trajectory trajectory() const { return has_moved_ ? trajectory_ : Trajectory(); }
+
+ private:
+    CPose3D pose_;
+    bool is_placed_ = false;  ///< pose_ is in the trajectory
+    bool has_moved_ = false;
+    Trajectory trajectory_;
+};
+
+/// Gathers every source of poses.
+class Surveyor {
+ public:
+    void see(const CActionCollection& actions) {
+        if (const auto movement = actions.getActionByClass<CActionRobotMovement3D>()) {
+            summed_3d_.move(movement->timestamp, movement->poseChange.mean);
+        }
+        if (const auto movement = actions.getActionByClass<CActionRobotMovement2D>()) {
+            summed_2d_.move(movement->timestamp, CPose3D(movement->poseChange->getMeanVal()));
+        }
+    }
+
+    void see(const mrpt::obs::CSensoryFrame& frame) {
+        if (frame.size() > 0) {
+            const auto time = (*frame.begin())->timestamp;
+            summed_3d_.arrive(time);
+            summed_2d_.arrive(time);
+        }
+        for (const auto& observation : frame) see(*observation);
+    }
+
+    void see(const CObservation& observation) {
+        const std::string& label = observation.sensorLabel;
+        if (const auto* pose =
+                dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
+            // What tells the pose may sit aside of the vehicle's own frame.
+            robot_poses_[label].add(pose->timestamp, pose->pose.mean + (-pose->sensorPose));
+        } else if (const auto* odometry =
+                       dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
+            odometry_[label].add(odometry->timestamp, CPose3D(odometry->odometry));
+        } else if (isLidarScan(observation)) {
+            scans_[label].push_back({observation.timestamp, CPose3D(observation.sensorPose())});
+        }
+    }
+
+    RawlogSurvey survey() && {
+        RawlogSurvey survey;
+        survey.scans = std::move(scans_);
+        const std::map<std::string, Trajectory> summed_3d{{"", summed_3d_.trajectory()}};
+        const std::map<std::string, Trajectory> summed_2d{{"", summed_2d_.trajectory()}};
+        using BySensor = std::map<std::string, Trajectory>;
+        const std::array<std::pair<std::string, const BySensor*>, 4> sources{
+            {{"CObservationRobotPose", &robot_poses_},
+             {"CActionRobotMovement3D", &summed_3d},
+             {"CObservationOdometry", &odometry_},
+             {"CActionRobotMovement2D", &summed_2d}}};
+        for (const auto& [kind, trajectories] : sources) {
+            for (const auto& [label, trajectory] : *trajectories) {
+                if (trajectory.size() <= survey.trajectory.size()) continue;
+                survey.trajectory = trajectory;
+                survey.source = kind + (label.empty() ? "" : " '" + label + "'");
+            }
+            if (!survey.source.empty()) break;
+        }
+        return survey;
+    }
+
+ private:
+    std::map<std::string, Trajectory> robot_poses_, odometry_;  ///< by sensor label
+    SummedMovement summed_3d_, summed_2d_;
+    std::map<std::string, std::vector<RawlogSurvey::ScanPlace>> scans_;
+};
+
+}  // namespace
+
+RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
+                          const std::function<bool()>& keep_going) {
+    Surveyor surveyor;
+    RawlogReader reader(rawlog);
+    try {
+        while (const auto entry = keep_going() ? reader.next() : nullptr) {
+            if (const auto one = std::dynamic_pointer_cast<CObservation>(entry)) {
+                surveyor.see(*one);
+            } else if (const auto frame =
+                           std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+                surveyor.see(*frame);
+            } else if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(entry)) {
+                surveyor.see(*actions);
+            }
+        }
+    } catch (const BrokenRawlog&) {
+        // Whoever converts the log tells of the break; what came before it is good.
+    }
+    return std::move(surveyor).survey();
+}
+
+}  // namespace hagen

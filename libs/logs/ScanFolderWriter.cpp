@@ -1,0 +1,75 @@
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanFolderWriter.h>
+#include <hagen/range_image/Angle.h>
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+void checkWritten(std::ofstream& out, const fs::path& file) {
+    out.close();
+    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+void writeSensor(const fs::path& file, const SensorModel& sensor) {
+    std::ofstream out(file);
+    out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
+        << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
+    for (int row = 0; row < sensor.rows(); ++row) {
+        out << (row > 0 ? ", " : "") << degrees(sensor.elevations_rad[row]);
+    }
+    out << "]\n  min_range_m: " << sensor.min_range_m << "\n  max_range_m: " << sensor.max_range_m
+        << "\n";
+    checkWritten(out, file);
+}
+
+}  // namespace
+
+std::string scanName(std::size_t scan) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06zu", scan);
+    return name;
+}
+
+ScanFolderWriter::ScanFolderWriter(fs::path folder) : folder_(std::move(folder)) {
+    fs::create_directory(folder_ / "velodyne");
+    fs::create_directory(folder_ / "labels");
+}
+
+void ScanFolderWriter::write(const std::string& name, const Scan& scan,
+                             const LabelledReturns& returns, const SensorModel& sensor,
+                             double time_s,
+                             const std::optional<mrpt::poses::CPose3D>& sensor_pose) {
+    if (times_s_.empty()) {
+        writeSensor(folder_ / "sensor.yaml", sensor);
+        first_time_s_ = time_s;
+    }
+    const std::vector<Label> labels(returns.label.begin(), returns.label.begin() + scan.size());
+    const std::vector<std::int32_t> components(returns.component.begin(),
+                                               returns.component.begin() + scan.size());
+    writeScan(folder_ / "velodyne" / (name + ".bin"), scan);
+    writeLabels(folder_ / "labels" / (name + ".label"), labels, components);
+    times_s_.push_back(time_s - first_time_s_);
+    if (sensor_pose) poses_.push_back({times_s_.back(), *sensor_pose});
+}
+
+void ScanFolderWriter::finish() const {
+    const fs::path file = folder_ / "times.txt";
+    std::ofstream out(file);
+    out << std::fixed << std::setprecision(6);
+    for (const double time_s : times_s_) out << time_s << "\n";
+    checkWritten(out, file);
+    if (poses_.empty()) return;
+    writeTumPoses(folder_ / "poses.tum", poses_);
+    if (poses_.size() < times_s_.size()) return;
+    std::vector<mrpt::poses::CPose3D> sensor_poses;
+    for (const TimedPose& pose : poses_) sensor_poses.push_back(pose.pose);
+    writeKittiPoses(folder_ / "poses.txt", sensor_poses);
+}
+
+}  // namespace hagen

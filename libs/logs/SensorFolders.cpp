@@ -1,0 +1,56 @@
+#include <hagen/logs/SensorFolders.h>
+
+#include <cctype>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string fileName(const std::string& sensor_label) {
+    std::string name = sensor_label;
+    for (char& c : name) {
+        const bool is_plain =
+            std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+        if (!is_plain) c = '_';
+    }
+    return name.empty() || name[0] == '.' ? "_" + name : name;
+}
+
+}  // namespace
+
+SensorFolders::SensorFolders(const fs::path& folder, OutputPath::Kind kind, bool overwrite)
+    : path_(folder, kind, overwrite) {
+    fs::create_directory(path_.temporary());
+}
+
+const fs::path& SensorFolders::folderOf(const std::string& sensor_label) {
+    fs::path& folder = folders_[sensor_label];
+    if (folder.empty()) {
+        folder = path_.temporary() / fileName(sensor_label);
+        while (!fs::create_directory(folder)) folder += "_";  // another label has that name
+    }
+    return folder;
+}
+
+/// Of one sensor alone, its part becomes the whole.
+void SensorFolders::liftOnlyOne() {
+    if (folders_.size() != 1) return;
+    fs::path lifted = path_.temporary();
+    lifted += ".one";
+    fs::rename(folders_.begin()->second, lifted);
+    fs::remove(path_.temporary());
+    fs::rename(lifted, path_.temporary());
+}
+
+void SensorFolders::commit() {
+    liftOnlyOne();
+    path_.commit();
+}
+
+fs::path SensorFolders::keepPartial() {
+    liftOnlyOne();
+    return path_.keepPartial();
+}
+
+}  // namespace hagen

@@ -1,0 +1,94 @@
+#include <hagen/logs/Statistics.h>
+#include <hagen/segmentation/OptionKeys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json settingsOf(const Settings& settings) {
+    Json json;
+    for (const OptionKey& key : optionKeys()) {
+        const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
+        const std::string text = textOf(key, settings.options);
+        json[key.name] = is_word ? Json(text) : Json::parse(text);
+    }
+    json["sensor.model"] = settings.sensor.model ? Json(*settings.sensor.model) : Json();
+    return json;
+}
+
+/// The smallest latency that a share of the scans does not exceed.
+double percentile(const std::vector<double>& ascending, double share) {
+    const auto rank =
+        static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));
+    return ascending[std::max<std::size_t>(rank, 1) - 1];
+}
+
+Json latencyOf(const std::vector<ScanReport>& scans) {
+    if (scans.empty()) return nullptr;
+    std::vector<double> latencies_ms;
+    for (const ScanReport& scan : scans) latencies_ms.push_back(scan.latency_ms);
+    std::sort(latencies_ms.begin(), latencies_ms.end());
+    return {{"p50", percentile(latencies_ms, 0.50)},
+            {"p95", percentile(latencies_ms, 0.95)},
+            {"p99", percentile(latencies_ms, 0.99)},
+            {"max", latencies_ms.back()}};
+}
+
+double inMillimetres(float metres) {
+    return std::round(static_cast<double>(metres) * 1e3) / 1e3;  // what a sensor resolves
+}
+
+Json lineOf(const ScanReport& scan) {
+    const bool has_roi = !std::isnan(scan.nearest_roi_m);
+    return {{"entry", scan.entry},
+            {"sensor", scan.sensor_label},
+            {"name", scan.name},
+            {"time_s", scan.time_s},
+            {"returns", scan.returns},
+            {"roi", scan.roi},
+            {"rou", scan.rou},
+            {"unclassified", scan.unclassified},
+            {"obstacles", scan.obstacles},
+            {"nearest_roi_m", has_roi ? Json(inMillimetres(scan.nearest_roi_m)) : Json()},
+            {"latency_ms", scan.latency_ms}};
+}
+
+}  // namespace
+
+void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
+                     const ConversionReport& report) {
+    Json json{{"hagen", HAGEN_VERSION}, {"input", conversion.input.string()}};
+    for (const auto& [what, path] : {std::pair{"rawlog", conversion.rawlog},
+                                     {"folder", conversion.folder},
+                                     {"pictures", conversion.pictures}}) {
+        if (!path.empty()) json["outputs"][what] = path.string();
+    }
+    json["settings"] = settingsOf(report.settings);
+    json["sensors"] = report.sensors;
+    json["poses"] = {{"source", report.poses}, {"scans_with_pose", report.scans_with_pose}};
+    json["entries"] = report.entries;
+    json["unreadable_scans"] = report.unreadable_scans;
+    json["left_out_before"] = report.left_out_before;
+    json["returns"] = {{"all", report.returns},
+                       {"roi", report.roi},
+                       {"rou", report.rou},
+                       {"unclassified", report.unclassified}};
+    json["latency_ms"] = latencyOf(report.scan_reports);
+    json["scans"] = Json::array();
+    for (const ScanReport& scan : report.scan_reports) json["scans"].push_back(lineOf(scan));
+
+    std::ofstream out(file);
+    // File names need not be UTF-8; what is not becomes U+FFFD.
+    out << json.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";
+    out.close();
+    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+}  // namespace hagen

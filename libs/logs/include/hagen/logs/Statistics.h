@@ -1,0 +1,23 @@
+#pragma once
+#include <hagen/logs/Conversion.h>
+#include <filesystem>
+
+namespace hagen {
+
+/// Writes what a conversion counted as JSON:
+///
+///     {"hagen": version, "input": ..., "outputs": {...}, "settings": {key: value, ...},
+///      "sensors": {label: text}, "poses": {"source": ..., "scans_with_pose": n},
+///      "entries": n, "unreadable_scans": n, "left_out_before": n,
+///      "returns": {"all": n, "roi": n, "rou": n, "unclassified": n},
+///      "latency_ms": {"p50": ..., "p95": ..., "p99": ..., "max": ...},
+///      "scans": [{"entry": n, "sensor": label, "name": ..., "time_s": ..., "returns": n, "roi": n,
+///                 "rou": n, "unclassified": n, "obstacles": n, "nearest_roi_m": x or null,
+///                 "latency_ms": ...}, ...]}
+///
+/// Latencies (from an observation in memory to its labels and clouds) differ from run to run, all
+/// else does not. Throws std::runtime_error, naming the file.
+void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
+                     const ConversionReport& report);
+
+}  // namespace hagen

@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanFolderWriter.h>
+#include <hagen/observations/Settings.h>
+
+#include <stdexcept>
+
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scan threePoints() {
+    Scan scan;
+    scan.x_m = {1, 2, 3};
+    scan.y_m = {4, 5, 6};
+    scan.z_m = {7, 8, 9};
+    scan.intensity = {0, 0.5f, 1};
+    return scan;
+}
+
+LabelledReturns labels() {
+    LabelledReturns returns;
+    returns.label = {Label::Roi, Label::Rou, Label::Unclassified};
+    returns.component = {1, 0, 0};
+    return returns;
+}
+
+TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
+    const test::TemporaryFolder folder;
+    const SensorModel sensor = sensorModel("HDL-32E");
+    ScanFolderWriter writer(folder.path());
+    writer.write("000000", threePoints(), labels(), sensor, 50.0);
+    writer.write("000001", threePoints(), labels(), sensor, 50.1);
+    writer.finish();
+
+    const ScanFolder read(folder.path());
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read.name(1), "000001");
+    EXPECT_EQ(readLabels(read.labelFile(1)), (std::vector<std::uint16_t>{2, 1, 0}));
+    ASSERT_EQ(read.times().size(), 2u);
+    EXPECT_NEAR(read.times()[1], 0.1, 1e-6);
+    EXPECT_FALSE(fs::exists(read.tumFile()));
+    Scan scan;
+    readScan(read.scanFile(0), scan);
+    EXPECT_EQ(scan.z_m, threePoints().z_m);
+    EXPECT_EQ(scan.intensity, threePoints().intensity);
+
+    Settings settings;
+    mergeSettings(read.sensorFile(), settings);
+    EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
+    EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
+}
+
+TEST(ScanFolderWriter, OfAWindowWritesTheNewestScan) {
+    const test::TemporaryFolder folder;
+    LabelledReturns returns = labels();
+    returns.label.push_back(Label::Roi);
+    returns.component.push_back(9);
+    ScanFolderWriter writer(folder.path());
+    writer.write("000123", threePoints(), returns, sensorModel("VLP-16"), 0.0);
+    EXPECT_EQ(readLabels(folder / "labels/000123.label").size(), 3u);
+}
+
+TEST(ScanFolderWriter, PosesAreInTheMapAndWhereAllAreKnownFromTheFirst) {
+    const test::TemporaryFolder folder;
+    const mrpt::poses::CPose3D first(5, 6, 7, 1.5, 0.1, -0.2), second(6, 8, 7, 1.0, 0, 0);
+    for (const bool is_known : {false, true}) {
+        fs::remove_all(folder.path());
+        fs::create_directory(folder.path());
+        ScanFolderWriter writer(folder.path());
+        writer.write("0", threePoints(), labels(), sensorModel("VLP-16"), 50.0, first);
+        writer.write("1", threePoints(), labels(), sensorModel("VLP-16"), 50.1,
+                     is_known ? std::optional(second) : std::nullopt);
+        writer.finish();
+        const auto tum = readTumPoses(folder / "poses.tum");
+        ASSERT_EQ(tum.size(), is_known ? 2u : 1u);
+        EXPECT_EQ(tum[0].time_s, 0.0);
+        EXPECT_NEAR((tum[0].pose - first).norm(), 0.0, 1e-7);
+        ASSERT_EQ(fs::exists(folder / "poses.txt"), is_known);
+    }
+    const auto kitti = readKittiPoses(folder / "poses.txt");
+    ASSERT_EQ(kitti.size(), 2u);
+    EXPECT_NEAR(kitti[0].norm(), 0.0, 1e-7);
+    EXPECT_NEAR(((first + kitti[1]) - second).norm(), 0.0, 1e-7);
+}
+
+TEST(ScanFolderWriter, NamesAFileThatCannotBeWritten) {
+    const test::TemporaryFolder folder;
+    ScanFolderWriter writer(folder.path());
+    fs::remove(folder / "labels");
+    try {
+        writer.write("0", threePoints(), labels(), sensorModel("VLP-16"), 0.0);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("labels/0.label"), std::string::npos) << e.what();
+    }
+}
+
+}  // namespace
+}  // namespace hagen
