@@ -124,6 +124,16 @@ void declare(CLI::App& app, CommandLine& line) {
                    "scan folder: velodyne/*.bin, labels/*.label; of several LiDARs one each in it")
         ->check(not_empty)
         ->group("Output");
+    auto* pictures = app.add_option("--pictures", conversion.pictures,
+                                    "folder of PNGs, a folder a scan: what each stage made of it")
+                         ->check(not_empty)
+                         ->group("Output");
+    app.add_option("--picture-azimuth", conversion.picture_azimuth_deg,
+                   "column whose principal components are drawn: degrees to the left of ahead "
+                   "(default: that of the nearest obstacle)")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->needs(pictures)
+        ->group("Output");
     app.add_option("--stats", conversion.stats, "JSON: settings, counts, latencies, each scan")
         ->check(not_empty)
         ->group("Output");

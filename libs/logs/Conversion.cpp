@@ -101,7 +101,7 @@ class Converter {
         scan.entry = entry_;
         scan.sensor_label = label;
         scan.latency_ms = latency.count();
-        scan.name = outputs_.writeScan(out, label, name);
+        scan.name = outputs_.writeScan(out, label, name, report_.settings.options);
         count(out, scan);
         Clouds clouds{out.roi, out.non_roi};
         if (conversion_.preview && outputs_.wantsRawlog()) {

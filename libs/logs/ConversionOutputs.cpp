@@ -1,6 +1,7 @@
 #include "ConversionOutputs.h"
 
 #include <hagen/logs/Statistics.h>
+#include <hagen/pictures/StagePictures.h>
 
 namespace hagen {
 
@@ -21,7 +22,8 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
 }
 
 std::string ConversionOutputs::writeScan(const ObservationSegmenter::Output& segmented,
-                                         const std::string& sensor_label, const std::string& name) {
+                                         const std::string& sensor_label, const std::string& name,
+                                         const Options& options) {
     const std::size_t number = scans_[sensor_label]++;
     const std::string own_name = name.empty() ? scanName(number) : name;
     if (folders_) {
@@ -34,6 +36,15 @@ std::string ConversionOutputs::writeScan(const ObservationSegmenter::Output& seg
         const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
         writer->second.write(own_name, *segmented.scan, segmented.result->returns,
                              *segmented.sensor, time_s, segmented.sensor_pose);
+    }
+    if (pictures_) {
+        const fs::path folder = pictures_->folderOf(sensor_label) / own_name;
+        fs::create_directory(folder);
+        const std::string title =
+            conversion_.input.filename().string() + ", " + sensor_label + ", scan " + own_name;
+        drawStages({*segmented.window, *segmented.sensor, options, *segmented.result, title,
+                    conversion_.picture_azimuth_deg},
+                   folder);
     }
     return own_name;
 }

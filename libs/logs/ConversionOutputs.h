@@ -25,7 +25,8 @@ class ConversionOutputs {
     /// Adds a segmented scan of this sensor to folders and pictures; an empty name: the next
     /// number. Returns the name it has there.
     std::string writeScan(const ObservationSegmenter::Output& segmented,
-                          const std::string& sensor_label, const std::string& name);
+                          const std::string& sensor_label, const std::string& name,
+                          const Options& options);
 
     void commit(const ConversionReport& report);
     /// Keeps what is there under names that say it is a part, and says which.

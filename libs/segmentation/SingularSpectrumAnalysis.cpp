@@ -4,13 +4,12 @@
 namespace hagen {
 namespace {
 
-/// Smooths one series in place.
+/// The analysis of one series after another, in the same memory.
 class Ssa {
  public:
-    Ssa(int window_size, int principal_components)
-        : window_size_(window_size), principal_components_(principal_components) {}
+    explicit Ssa(int window_size) : window_size_(window_size) {}
 
-    void smooth(Eigen::Ref<Eigen::ArrayXf> series) {
+    void decompose(const Eigen::Ref<const Eigen::ArrayXf>& series) {
         const Eigen::Index columns = series.size() - window_size_ + 1;
         trajectory_.resize(window_size_, columns);
         for (Eigen::Index k = 0; k < columns; ++k) {
@@ -18,26 +17,35 @@ class Ssa {
         }
         covariance_.noalias() = trajectory_ * trajectory_.transpose();
         solver_.compute(covariance_);  // eigenvalues ascending, eigenvectors in columns
-        const auto leading = solver_.eigenvectors().rightCols(principal_components_);
-        scores_.noalias() = leading.transpose() * trajectory_;
-        trajectory_.noalias() = leading * scores_;
+    }
+
+    /// The series of `count` components, `first` (from the leading one, 0) and those behind it.
+    template <class Series>
+    void reconstruct(int first, int count, Series series) {
+        const auto kept = solver_.eigenvectors().middleCols(window_size_ - first - count, count);
+        scores_.noalias() = kept.transpose() * trajectory_;
+        projection_.noalias() = kept * scores_;
         hankelize(series);
     }
 
+    auto eigenvalues() const { return solver_.eigenvalues().reverse(); }
+
  private:
     /// Value n becomes the mean of the n-th antidiagonal, the entries (w, n - w).
-    void hankelize(Eigen::Ref<Eigen::ArrayXf> series) const {
+    template <class Series>
+    void hankelize(Series& series) const {
         for (Eigen::Index n = 0; n < series.size(); ++n) {
-            const Eigen::Index first = std::max<Eigen::Index>(0, n - trajectory_.cols() + 1);
+            const Eigen::Index first = std::max<Eigen::Index>(0, n - projection_.cols() + 1);
             const Eigen::Index last = std::min<Eigen::Index>(n, window_size_ - 1);
             double sum = 0.0;
-            for (Eigen::Index w = first; w <= last; ++w) sum += trajectory_(w, n - w);
-            series(n) = static_cast<float>(sum / static_cast<double>(last - first + 1));
+            for (Eigen::Index w = first; w <= last; ++w) sum += projection_(w, n - w);
+            series(n) =
+                static_cast<typename Series::Scalar>(sum / static_cast<double>(last - first + 1));
         }
     }
 
-    int window_size_, principal_components_;
-    Eigen::MatrixXd trajectory_, covariance_, scores_;
+    int window_size_;
+    Eigen::MatrixXd trajectory_, covariance_, scores_, projection_;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver_;
 };
 
@@ -47,16 +55,30 @@ void smoothColumns(const Image<float>& values, int window_size, int principal_co
                    Image<float>& smoothed) {
     smoothed = values;
     if (principal_components == window_size) return;
-    Ssa ssa(window_size, principal_components);
+    Ssa ssa(window_size);
     const int rows = static_cast<int>(values.rows());
     for (int column = 0; column < values.cols(); ++column) {
         for (int row = 0; row < rows;) {
             int end = row;
             while (end < rows && hasValue(values(end, column))) ++end;
-            if (end - row >= window_size) ssa.smooth(smoothed.col(column).segment(row, end - row));
+            if (end - row >= window_size) {
+                const auto series = smoothed.col(column).segment(row, end - row);
+                ssa.decompose(series);
+                ssa.reconstruct(0, principal_components, series);
+            }
             row = end + 1;
         }
     }
+}
+
+SeriesComponents decomposeSeries(const Eigen::ArrayXf& series, int window_size) {
+    Ssa ssa(window_size);
+    ssa.decompose(series);
+    SeriesComponents components;
+    components.eigenvalues = ssa.eigenvalues();
+    components.elementary.resize(series.size(), window_size);
+    for (int c = 0; c < window_size; ++c) ssa.reconstruct(c, 1, components.elementary.col(c));
+    return components;
 }
 
 }  // namespace hagen

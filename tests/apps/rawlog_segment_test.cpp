@@ -193,7 +193,7 @@ TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
 
 TEST_F(RawlogSegment, RefusesToRunWithoutInputOrOutput) {
     expectFailure({}, 2, "--input");
-    expectFailure({"-i", kRecording}, 2, "an output (-o, --kitti);
+    expectFailure({"-i", kRecording}, 2, "an output (-o, --kitti");
 }
 
 TEST_F(RawlogSegment, RefusesOutputsWithoutAName) {

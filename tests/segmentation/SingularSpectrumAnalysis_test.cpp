@@ -127,5 +127,32 @@ TEST(Ssa, AllZerosAndAllEmptyStaySo) {
     EXPECT_TRUE(smoothed(Image<float>::Constant(15, 4, kNoValue), 8, 5).isNaN().all());
 }
 
+TEST(Ssa, TheLeadingElementarySeriesAddUpToWhatSmoothingGives) {
+    test::Random random(19);
+    for (const auto& [rows, window_size] : {std::pair{15, 8}, {31, 8}, {8, 8}, {20, 3}}) {
+        const Image<float> values = random.image(rows, 10, 0.0f, 1.6f, 0.0);
+        for (int column = 0; column < values.cols(); ++column) {
+            const SeriesComponents found = decomposeSeries(values.col(column), window_size);
+            const Eigen::VectorXd all = found.elementary.rowwise().sum();
+            EXPECT_LT((all.array() - values.col(column).cast<double>()).abs().maxCoeff(), 1e-6);
+            for (int components = 1; components < window_size; ++components) {
+                const Eigen::VectorXd sum = found.elementary.leftCols(components).rowwise().sum();
+                const Image<float> expected = smoothed(values, window_size, components);
+                EXPECT_LT((sum.array() - expected.col(column).cast<double>()).abs().maxCoeff(),
+                          1e-6);
+            }
+            for (int c = 1; c < window_size; ++c) {
+                EXPECT_GE(found.eigenvalues(c - 1), found.eigenvalues(c));
+            }
+        }
+    }
+}
+
+TEST(Ssa, AConstantSeriesIsItsFirstComponent) {
+    const SeriesComponents found = decomposeSeries(Eigen::ArrayXf::Constant(15, 1.5f), 8);
+    EXPECT_NEAR(found.eigenvalues(0) / found.eigenvalues.sum(), 1.0, 1e-9);
+    EXPECT_LT((found.elementary.col(0).array() - 1.5).abs().maxCoeff(), 1e-6);
+}
+
 }  // namespace
 }  // namespace hagen

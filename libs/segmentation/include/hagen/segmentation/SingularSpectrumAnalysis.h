@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/range_image/Image.h>
+#include <Eigen/Core>
 
 namespace hagen {
 
@@ -13,5 +14,18 @@ namespace hagen {
 /// not be it.
 void smoothColumns(const Image<float>& values, int window_size, int principal_components,
                    Image<float>& smoothed);
+
+/// What stage 7 sees of one series of N values.
+struct SeriesComponents {
+    /// W eigenvalues of X X^T, descending; each over their sum is the component's share of X.
+    Eigen::VectorXd eigenvalues;
+    /// N x W: column c is the elementary series of component c, the hankelized projection of X onto
+    /// its eigenvector. The sum of the first PC columns is what smoothColumns() makes of the
+    /// series, that of all W is the series.
+    Eigen::MatrixXd elementary;
+};
+
+/// Requires 1 <= W <= N and a series without a gap.
+SeriesComponents decomposeSeries(const Eigen::ArrayXf& series, int window_size);
 
 }  // namespace hagen

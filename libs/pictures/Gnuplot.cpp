@@ -1,0 +1,111 @@
+#include <fcntl.h>
+#include <hagen/pictures/Gnuplot.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// A file without a name, gone when it is closed. A file, not a pipe: gnuplot may read as it likes
+/// and say as much as it likes, and neither side waits for the other.
+File scratchFile(const std::string& content) {
+    File file(std::tmpfile());
+    if (!file || std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
+        std::fflush(file.get()) != 0 || std::fseek(file.get(), 0, SEEK_SET) != 0) {
+        throw std::runtime_error(std::string("no temporary file for gnuplot: ") +
+                                 std::strerror(errno));
+    }
+    return file;
+}
+
+/// What gnuplot says last: it repeats the command and marks the place before it says what is wrong.
+std::string lastWord(std::FILE* errors) {
+    std::rewind(errors);
+    std::string word;
+    for (char line[512]; std::fgets(line, sizeof line, errors) != nullptr;) {
+        const std::string text(line, std::strcspn(line, "\n"));
+        if (text.find("warning") == std::string::npos &&
+            text.find_first_not_of(" ^") < text.size()) {
+            word = text;
+        }
+    }
+    return word;
+}
+
+/// Signature in front, the closing chunk at the end: what a full disk cuts off has not both.
+bool isWholePng(const fs::path& picture) {
+    static const std::string kSignature("\x89PNG\r\n\x1a\n", 8);
+    static const std::string kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+    std::ifstream file(picture, std::ios::binary);
+    std::string first(kSignature.size(), 0), last(kEnd.size(), 0);
+    file.read(first.data(), static_cast<std::streamsize>(first.size()));
+    file.seekg(-static_cast<std::streamoff>(last.size()), std::ios::end);
+    file.read(last.data(), static_cast<std::streamsize>(last.size()));
+    return file && first == kSignature && last == kEnd;
+}
+
+}  // namespace
+
+void runGnuplot(const std::string& script, const fs::path& folder,
+                const std::vector<std::string>& pictures) {
+    if (!fs::is_directory(folder)) {
+        throw std::runtime_error(folder.string() + ": no such folder to write pictures to");
+    }
+    for (const std::string& picture : pictures) {  // else an old one could pass for the new one
+        std::error_code error;
+        fs::remove(folder / picture, error);
+        if (error) {
+            throw std::runtime_error((folder / picture).string() +
+                                     " cannot be written: " + error.message());
+        }
+    }
+
+    const File input = scratchFile(script), errors = scratchFile("");
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
+    char program[] = "gnuplot", no_settings_of_the_users[] = "-d";
+    char script_file[] = "/dev/stdin";  // by name, for standard input is read byte by byte
+    char* const arguments[] = {program, no_settings_of_the_users, script_file, nullptr};
+    pid_t child = 0;
+    const int error = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error == ENOENT) {
+        throw std::runtime_error(
+            "pictures are drawn by gnuplot, which is not installed; on Debian: "
+            "apt-get install gnuplot-nox");
+    }
+    if (error != 0) {
+        throw std::runtime_error(std::string("gnuplot cannot be run: ") + std::strerror(error));
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+
+    const std::string complaint = lastWord(errors.get());
+    for (const std::string& picture : pictures) {
+        if (isWholePng(folder / picture)) continue;
+        throw std::runtime_error((folder / picture).string() + " could not be written whole" +
+                                 (complaint.empty() ? "" : ": gnuplot: " + complaint));
+    }
+    if (status != 0) throw std::runtime_error("gnuplot failed: " + complaint);
+}
+
+}  // namespace hagen
