@@ -32,7 +32,7 @@ constexpr const char* kAnglePalette =
 constexpr int kWidth_px = 1200;
 constexpr int kMostBars = 60;
 constexpr int kMostComponents = 12;
-constexpr float kZoomHalf_deg = 30.0f;
+constexpr double kZoomHalf_deg = 30.0;
 
 /// A stream whose numbers read the same whatever locale the program has set.
 std::ostringstream plainText() {
@@ -60,8 +60,8 @@ std::size_t colourOf(std::int32_t component) {
     return static_cast<std::size_t>(std::max(component, 1) - 1) % kRoiColours.size();
 }
 
-float azimuthDeg(int column, int columns) {
-    return static_cast<float>(degrees(columnAzimuth(column, columns)));
+double azimuthDeg(int column, int columns) {
+    return degrees(static_cast<double>(columnAzimuth(column, columns)));
 }
 
 /// The longest run of a column's angles; empty where none is as long as the window.
@@ -135,39 +135,39 @@ class Script {
     void depthPicture() {
         beginPicture("1_depth.png", 330);
         heading("1  depth image (III-A)");
-        depthImage({70, kWidth_px - 105, 60, 270}, "$depth", true);
+        depthImage({84, kWidth_px - 105, 60, 270}, "$depth", true);
         endPicture();
     }
 
     void maximaPicture() {
         beginPicture("2_maxima.png", 860);
         heading("2  persistent maxima of proximity (III-B)");
-        maximaImage({70, kWidth_px - 105, 590, 800}, true);
-        barcode({70, kWidth_px - 105, 60, 480});
+        maximaImage({84, kWidth_px - 105, 590, 800}, true);
+        barcode({84, kWidth_px - 105, 60, 480});
         endPicture();
     }
 
     void mergedPicture() {
         beginPicture("3_merged.png", 660);
         heading("3  maxima sharpened and merged (III-B)");
-        depthImage({70, kWidth_px - 105, 390, 600}, "$merged", true);
-        zoomBefore({70, 570, 60, 270});
-        zoomAfter({640, kWidth_px - 60, 60, 270});
+        depthImage({84, kWidth_px - 105, 390, 600}, "$merged", true);
+        zoomBefore({84, 570, 60, 270});
+        zoomAfter({650, kWidth_px - 60, 60, 270});
         endPicture();
     }
 
     void rangeAnglePicture() {
         beginPicture("4_range_angle.png", 330);
         heading("4  range angle image (III-C)");
-        angleImage({70, kWidth_px - 105, 60, 270}, "$angle", true, false);
+        angleImage({84, kWidth_px - 105, 60, 270}, "$angle", true, false);
         endPicture();
     }
 
     void smoothedPicture() {
         beginPicture("5_smoothed.png", 860);
         heading("5  singular spectrum analysis (III-D)");
-        angleImage({70, kWidth_px - 105, 590, 800}, "$smoothed", true, true);
-        series({70, 560, 60, 460});
+        angleImage({84, kWidth_px - 105, 590, 800}, "$smoothed", true, true);
+        series({84, 560, 60, 460});
         components({760, kWidth_px - 30, 60, 460});
         endPicture();
     }
@@ -175,8 +175,8 @@ class Script {
     void labelPicture() {
         beginPicture("6_labels.png", 660);
         heading("6  regions of interest (III-E)");
-        labelImage({70, kWidth_px - 105, 390, 580}, true);
-        zoomLabels({70, kWidth_px - 105, 60, 270});
+        labelImage({84, kWidth_px - 105, 390, 580}, true);
+        zoomLabels({84, kWidth_px - 105, 60, 270});
         endPicture();
     }
 
@@ -193,7 +193,7 @@ class Script {
         heading("Stages of the segmentation");
         const auto row = [&](int number) {
             const double top = height - 64.0 - 134.0 * number;
-            return Box{70, kWidth_px - 105, top - 98, top};
+            return Box{84, kWidth_px - 105, top - 98, top};
         };
         panelTitle("1  depth image (III-A)");
         depthImage(row(0), "$depth", false);
@@ -208,7 +208,7 @@ class Script {
         panelTitle("6  regions of interest (III-E)");
         labelImage(row(5), true);
         panelTitle("2  ");
-        barcode({70, 540, 390, 600});
+        barcode({84, 540, 390, 600});
         panelTitle("5  ");
         components({150, 540, 60, 290});
         panelTitle("7  the returns from above");
@@ -261,13 +261,13 @@ class Script {
         }
     }
 
-    /// $maxima: azimuth, row. $bars: rank, birth, death; the longest ones, from the oldest.
+    /// $maxima: column, row. $bars: rank, birth, death; the longest ones, from the oldest.
     void writeMaxima() {
         const auto& maxima = view_.result.maxima;
         block("$maxima", [&] {
             text_ << "NaN NaN\n";  // gnuplot refuses a block without a line
             for (const Maximum& m : maxima) {
-                text_ << azimuthDeg(m.column, columns_) << " " << m.row << "\n";
+                text_ << m.column << " " << m.row << "\n";
             }
         });
         std::vector<std::size_t> longest(maxima.size());
@@ -446,25 +446,36 @@ class Script {
         return legendEntry(left, bottom, 5, kRou, "ROU: ground, far");
     }
 
-    /// Axes of an image: azimuth from left to right, beams from the lowest up.
-    void imageAxes(const Box& box, float from_deg, float to_deg, bool has_azimuth) {
+    /// Axes of an image: azimuth from left to right, beams from the lowest up. In columns and rows,
+    /// for gnuplot is slow where it has to work out every pixel's place.
+    void imageAxes(const Box& box, double from_deg, double to_deg, bool has_azimuth,
+                   double first_row = 0.0) {
         beginPanel(box);
         text_ << "set object 1 rectangle from graph 0,0 to graph 1,1 fc rgb '" << kEmpty
-              << "' fs solid noborder behind\nset xrange [" << from_deg << ":" << to_deg
-              << "]\nset yrange [-0.5:" << rows_ - 0.5 << "]\n"
-              << "set xtics " << (from_deg - to_deg > 180 ? 45 : 10) << "\n";
-        beamTics("y", box.top - box.bottom > 150 ? 6 : 4);
-        text_ << "set ylabel 'elevation [deg]' offset 0.5,0\n";
+              << "' fs solid noborder behind\nset xrange [" << columnAt(from_deg) << ":"
+              << columnAt(to_deg) << "]\nset yrange [" << -0.5 - first_row << ":"
+              << rows_ - 0.5 - first_row << "]\nset xtics (";
+        const int step_deg = from_deg - to_deg > 180 ? 45 : 10;
+        const int first_deg = static_cast<int>(std::floor(from_deg / step_deg)) * step_deg;
+        for (int deg = first_deg; deg >= to_deg; deg -= step_deg) {
+            text_ << (deg < first_deg ? ", " : "") << "'"
+                  << (has_azimuth ? std::to_string(deg) : "") << "' " << columnAt(deg);
+        }
+        text_ << ")\nset ylabel 'elevation [deg]' offset 1,0\n";
+        beamTics("y", box.top - box.bottom > 150 ? 6 : 4, first_row);
         if (has_azimuth) {
             text_
                 << "set xlabel 'azimuth [deg], 0 straight ahead, left of the sensor on the left'\n";
-        } else {
-            text_ << "set format x ''\n";
         }
     }
 
+    /// Where an azimuth lies between the columns, whose centres are whole numbers.
+    double columnAt(double azimuth_deg) const {
+        return columns_ * (0.5 - azimuth_deg / 360.0) - 0.5;
+    }
+
     /// Elevations in degrees at up to `most` beams, evenly spaced from the lowest to the highest.
-    void beamTics(const char* axis, int most) {
+    void beamTics(const char* axis, int most, double first_row = 0.0) {
         int step = (rows_ - 1 + most - 2) / (most - 1);
         const int last = rows_ - 1;
         for (int even = step; even <= last / 2; ++even) {  // the highest beam too, where it goes
@@ -477,7 +488,7 @@ class Script {
             const double elevation_deg = degrees(
                 static_cast<double>(view_.sensor.elevations_rad[static_cast<std::size_t>(row)]));
             text_ << (row > 0 ? ", " : "") << "'" << std::round(elevation_deg * 10) / 10 + 0.0
-                  << "' " << row;
+                  << "' " << row - first_row;
         }
         text_ << ")\n";
     }
@@ -490,12 +501,8 @@ class Script {
               << ", screen " << y(box.top - box.bottom) << " noborder\n";
     }
 
-    /// A block of numbers as an image; the rows of range angles lie between two beams.
-    std::string imageOf(const std::string& block) {
-        std::ostringstream plot = plainText();
-        plot << "plot " << block << " matrix using (180 - 360*($1 + 0.5)/" << columns_ << "):($2 + "
-             << (block == "$angle" || block == "$smoothed" ? 0.5 : 0.0) << "):3 with image notitle";
-        return plot.str();
+    static std::string imageOf(const std::string& block) {
+        return "plot " + block + " matrix with image notitle";
     }
 
     void depthScale(const Box& box) {
@@ -518,14 +525,14 @@ class Script {
     }
 
     void angleImage(const Box& box, const std::string& block, bool has_azimuth, bool has_mark) {
-        imageAxes(box, 180, -180, has_azimuth);
+        imageAxes(box, 180, -180, has_azimuth, 0.5);  // an angle lies between two beams
         colourBar(box, kAnglePalette, 90, 30, "angle [deg]");
         if (has_mark) {
             // from above, where the axis has numbers; else from below, where no title is
             const double tip = has_azimuth ? box.top : box.bottom;
             const double tail = has_azimuth ? box.top + 22 : box.bottom - 12;
-            text_ << "set arrow from " << azimuthDeg(column_, columns_) << ", screen " << y(tail)
-                  << " to " << azimuthDeg(column_, columns_) << ", screen " << y(tip)
+            text_ << "set arrow from " << column_ << ", screen " << y(tail) << " to " << column_
+                  << ", screen " << y(tip)
                   << " filled size screen 0.007,25 lw 2 lc rgb '#D55E00' front\n";
         }
         text_ << imageOf(block) << "\n";
@@ -555,7 +562,7 @@ class Script {
     // Around the column whose components are shown, wide enough to see pixels.
 
     void zoomAxes(const Box& box) {
-        const float middle_deg =
+        const double middle_deg =
             std::clamp(azimuthDeg(column_, columns_), -180 + kZoomHalf_deg, 180 - kZoomHalf_deg);
         imageAxes(box, middle_deg + kZoomHalf_deg, middle_deg - kZoomHalf_deg, true);
         text_ << "set xlabel 'azimuth [deg]'\n";
@@ -587,7 +594,7 @@ class Script {
     void barcode(const Box& box) {
         const std::size_t number = view_.result.maxima.size();
         std::ostringstream title = plainText();
-        if (number > static_cast<std::size_t>(bars_)) title << "the " << bars_ << " longest of ";
+        if (number > static_cast<std::size_t>(bars_)) title << bars_ << " longest of ";
         title << number << (number == 1 ? " maximum" : " maxima");
         panelTitle(title.str() + " from birth to death");
         beginPanel(box);

@@ -120,7 +120,7 @@ std::string errorOf(Action action) {
 }
 
 // In shares of a picture: where the whole images stand, below the legend, and where the top view.
-constexpr double kImageTop = 0.13, kImageBottom = 0.41, kImageMiddle = 0.485;
+constexpr double kImageTop = 0.13, kImageBottom = 0.41, kImageMiddle = 0.4913;
 constexpr double kTopViewTop = 0.095, kTopViewBottom = 0.93, kTopViewMiddle = 0.528;
 
 TEST(StagePictures, EveryStageHasItsPicture) {
