@@ -9,7 +9,7 @@ namespace hagen {
 namespace {
 
 // Apart for the colour-blind too, and both apart from the viewer's grey.
-const mrpt::img::TColor kRoiColor(213, 94, 0), kRouColor(150, 190, 230), kZoneColor(90, 90, 90);
+const mrpt::img::TColor kRoiColor(213, 94, 0), kRouColor(150, 190, 230), kZoneColor(240, 240, 240);
 constexpr float kRoiPixels = 4.0f, kRouPixels = 2.0f;
 
 mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& points,
@@ -35,7 +35,7 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     sensor->insert(coloured(*segmented.non_roi->pointcloud, kRouColor, kRouPixels));
     sensor->insert(coloured(*segmented.roi->pointcloud, kRoiColor, kRoiPixels));
     sensor->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 2.0f));
-    auto zone = mrpt::opengl::CDisk::Create(zone_m, zone_m - 0.05f, 100);
+    auto zone = mrpt::opengl::CDisk::Create(zone_m, zone_m - 0.15f, 100);
     zone->setColor_u8(kZoneColor);
     sensor->insert(zone);
 
