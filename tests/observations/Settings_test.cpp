@@ -206,5 +206,36 @@ TEST_F(SettingsTest, OneOptionFromText) {
     EXPECT_EQ(settings.options.beta_deg, 12.5f);
 }
 
+TEST(Settings, ADumpReadsBackAsTheSameSettings) {
+    const test::TemporaryFolder folder;
+    Settings settings;
+    settings.options.zone_m = 12.3456f;
+    settings.options.seeds = Seeds::TopAndNearest;
+    settings.options.window_scans = 4;
+    settings.sensor.model = "custom";
+    settings.sensor.elevations_deg = {-7.25, 0.1, 3};
+    settings.sensor.max_range_m = 33.3f;
+    Settings again;
+    mergeSettings(folder.write("dump.yaml", dumpSettings(settings)), again);
+    for (const OptionKey& key : optionKeys()) {
+        EXPECT_EQ(textOf(key, again.options), textOf(key, settings.options)) << key.name;
+    }
+    EXPECT_EQ(again.options.zone_m, 12.3456f);
+    EXPECT_EQ(again.sensor.elevations_deg, settings.sensor.elevations_deg);
+    EXPECT_EQ(again.sensor.max_range_m, settings.sensor.max_range_m);
+    EXPECT_FALSE(again.sensor.min_range_m);
+    mergeSettings(folder.write("none.yaml", dumpSettings(Settings())), again = Settings());
+    EXPECT_FALSE(again.sensor.model);
+}
+
+TEST(Settings, TheTableHasEveryKeyWithItsDefault) {
+    const auto keys = settingsKeys();
+    EXPECT_EQ(keys.size(), optionKeys().size() + 5);
+    for (const SettingsKey& key : keys) EXPECT_FALSE(key.what.empty()) << key.name;
+    EXPECT_EQ(keys[0].name, "zone_m");
+    EXPECT_EQ(keys[0].standard, "20");
+    EXPECT_EQ(keys[0].range, "0.1 ... 1000");
+}
+
 }  // namespace
 }  // namespace hagen
