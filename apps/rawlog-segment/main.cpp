@@ -92,8 +92,11 @@ void declare(CLI::App& app, CommandLine& line) {
     app.add_option("--from", conversion.from,
                    "first entry to convert, counted from 0; of a scan "
                    "folder: scan")
+        ->check(CLI::NonNegativeNumber)
         ->group("Input");
-    app.add_option("--to", conversion.to, "last entry to convert")->group("Input");
+    app.add_option("--to", conversion.to, "last entry to convert")
+        ->check(CLI::NonNegativeNumber)
+        ->group("Input");
     app.add_option("--sensor-label", conversion.sensor_labels,
                    "segment this LiDAR alone; may be repeated")
         ->allow_extra_args(false)

@@ -5,6 +5,8 @@
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/MrptMessage.h>
 #include <hagen/observations/ScenePreview.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -219,8 +221,29 @@ RawlogSurvey surveyFor(const Conversion& conversion, const ConversionListener& l
     return survey;
 }
 
+/// Where MRPT keeps what a log holds in files of their own: "flight_Images" beside "flight.rawlog".
+fs::path externalsOf(const fs::path& rawlog) {
+    fs::path folder = fs::absolute(rawlog);
+    folder.replace_extension();
+    folder += "_Images";
+    return folder;
+}
+
+/// Lets MRPT find the input's external files, and says where the output will look for them.
+void useExternals(const Conversion& conversion, const ConversionListener& listener) {
+    const fs::path folder = externalsOf(conversion.input);
+    if (!fs::is_directory(folder)) return;
+    mrpt::io::setLazyLoadPathBase(folder.string() + "/");
+    mrpt::img::CImage::setImagesPathBase(folder.string() + "/");
+    if (conversion.rawlog.empty() || externalsOf(conversion.rawlog) == folder) return;
+    listener.remark("the log", "keeps data in files of " + folder.string() +
+                                   "; link or copy that folder as " +
+                                   externalsOf(conversion.rawlog).string());
+}
+
 ConversionReport convertRawlog(const Conversion& conversion, const ConversionListener& listener) {
     RawlogReader reader(conversion.input);
+    useExternals(conversion, listener);
     Converter converter(conversion, conversion.settings, listener);
     if (needsPoses(conversion)) {
         converter.setPoses(posesOfRawlog(surveyFor(conversion, listener), conversion.poses));

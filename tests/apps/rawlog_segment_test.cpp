@@ -3,9 +3,14 @@
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/logs/ScanFolder.h>
+#include <hagen/observations/ObservationScan.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CRawlog.h>
+#include <unistd.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include <set>
 
@@ -189,6 +194,166 @@ TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
     EXPECT_EQ(out.next(), nullptr);
 }
 
+// What the published filter makes of the recording, entry by entry: RoI and ROU of each scan. (A
+// last bit of a sine may differ between machines, and so may a few returns.)
+constexpr int kGolden[10][2] = {{1730, 13883}, {1857, 13775}, {1864, 13767}, {1894, 13753},
+                                {1897, 13754}, {1967, 13751}, {2057, 13724}, {2066, 13735},
+                                {2070, 13736}, {2127, 13707}};
+
+TEST_F(RawlogSegment, StockMrptReadsTheSegmentedRecordingWithPreviews) {
+    ASSERT_EQ(
+        run({"-i", kRecording, "-o", path("out.rawlog"), "--preview", "-c", kPaper}).exit_code, 0);
+    mrpt::obs::CRawlog rawlog;
+    ASSERT_TRUE(rawlog.loadFromRawLogFile(path("out.rawlog")));
+    ASSERT_EQ(rawlog.size(), 51u);
+    for (std::size_t scan = 0; scan < 10; ++scan) {
+        for (const std::size_t part : {0, 1}) {
+            const auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(
+                rawlog.getAsObservation(5 * scan + 2 + part));
+            ASSERT_NE(cloud, nullptr);
+            EXPECT_NEAR(static_cast<double>(cloud->pointcloud->size()), kGolden[scan][part], 5);
+        }
+        EXPECT_EQ(rawlog.getAsObservation(5 * scan + 4)->GetRuntimeClass()->className,
+                  std::string("mrpt::obs::CObservation3DScene"));
+    }
+    if (!fs::exists("/usr/bin/rawlog-edit")) GTEST_SKIP() << "mrpt-apps is not installed";
+    const auto info = test::run("/usr/bin/rawlog-edit", {"-i", path("out.rawlog"), "--info"});
+    EXPECT_EQ(info.exit_code, 0);
+    EXPECT_NE(info.out.find("Overall number of objects         : 51\n"), std::string::npos)
+        << info.out;
+    EXPECT_NE(info.out.find("lidar_non_roi /     10"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("lidar_roi /     10"), std::string::npos) << info.out;
+}
+
+TEST_F(RawlogSegment, WritesStatisticsThatAddUp) {
+    ASSERT_EQ(run({"-i", kRecording, "--stats", path("a.json"), "-c", kPaper}).exit_code, 0);
+    const auto json = nlohmann::json::parse(test::readFile(path("a.json")));
+    EXPECT_EQ(json["entries"], 21);
+    EXPECT_EQ(json["settings"]["beta_deg"], 10);
+    EXPECT_EQ(json["settings"]["seeds"], "lowest");
+    EXPECT_EQ(json["returns"]["all"], 157114);
+    ASSERT_EQ(json["scans"].size(), 10u);
+    int returns = 0;
+    for (std::size_t i = 0; i < 10; ++i) {
+        const auto& scan = json["scans"][i];
+        EXPECT_EQ(scan["entry"], 2 * i + 1);
+        EXPECT_NEAR(scan["roi"].get<double>(), kGolden[i][0], 5);
+        returns +=
+            scan["roi"].get<int>() + scan["rou"].get<int>() + scan["unclassified"].get<int>();
+        EXPECT_GT(scan["nearest_roi_m"], 5.0);  // no pole stands nearer
+    }
+    EXPECT_EQ(returns, 157114);
+    EXPECT_LE(json["latency_ms"]["p50"], json["latency_ms"]["max"]);
+}
+
+TEST_F(RawlogSegment, ConvertsAPartOfALog) {
+    const auto outcome =
+        run({"-i", kRecording, "-o", path("out.rawlog"), "--from", "3", "--to", "6"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("2 LiDAR scans in 4 entries (3 to 6 of the input"),
+              std::string::npos)
+        << outcome.out;
+    RawlogReader reader(path("out.rawlog"));
+    while (reader.next()) {
+    }
+    EXPECT_EQ(reader.entries(), 8u);
+}
+
+TEST_F(RawlogSegment, PosesTravelWithTheScansAndDriveAWindow) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    const auto window = folder_.write("window.yaml", "window_scans: 3\n");
+    // The same poses: from the log, and from a file made of it.
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("a"), "-c", window}).exit_code, 0);
+    std::string poses;
+    for (int i = 0; i <= 10; ++i) {
+        char line[80];
+        std::snprintf(line, sizeof line, "%.6f %.6f 0 1.2 0 0 0 1\n", 1767225600 + 0.1 * i,
+                      0.3 * i);
+        poses += line;
+    }
+    const auto tum = folder_.write("flight.tum", poses);
+    const auto outcome =
+        run({"-i", kRecording, "--kitti", path("b"), "-c", window, "--poses", tum});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_NE(outcome.out.find("poses of 10 of 10 scans: " + tum.string()), std::string::npos)
+        << outcome.out;
+    const auto a = readLabels(path("a/labels/000009.label"));
+    const auto b = readLabels(path("b/labels/000009.label"));
+    ASSERT_EQ(a.size(), b.size());
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) differing += a[i] != b[i];
+    EXPECT_LT(differing, a.size() / 200);
+}
+
+TEST_F(RawlogSegment, SaysWherePosesAreNotUsed) {
+    const auto tum = folder_.write("flight.tum", "0 0 0 0 0 0 0 1\n");
+    const auto outcome = run({"-i", kRecording, "-o", path("out.rawlog"), "--poses", tum});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("flight.tum: is not used"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RawlogSegment, CloudsKeepIntensitiesWhereAsked) {
+    ASSERT_EQ(run({"-i", kRecording, "-o", path("out.rawlog"), "--cloud", "xyzi"}).exit_code, 0);
+    mrpt::obs::CRawlog rawlog;
+    ASSERT_TRUE(rawlog.loadFromRawLogFile(path("out.rawlog")));
+    const auto roi =
+        std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(rawlog.getAsObservation(2));
+    EXPECT_EQ(roi->pointcloud->GetRuntimeClass()->className,
+              std::string("mrpt::maps::CPointsMapXYZI"));
+}
+
+TEST_F(RawlogSegment, DrawsTheStagesOfAScan) {
+    const auto outcome = run({"-i", kRecording, "--pictures", path("pictures"), "--from", "1",
+                              "--to", "1", "--picture-azimuth", "-90"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const char* name : {"1_depth.png", "2_maxima.png", "3_merged.png", "4_range_angle.png",
+                             "5_smoothed.png", "6_labels.png", "7_top_view.png", "stages.png"}) {
+        EXPECT_GT(fs::file_size(folder_ / "pictures/000000" / name), 5000u) << name;
+    }
+}
+
+TEST_F(RawlogSegment, ZeroPacketsAndPointsThatAreNotFiniteLoseNothing) {
+    auto empty = mrpt::obs::CObservationVelodyneScan::Create();
+    empty->sensorLabel = "empty";
+    Scan scan;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float inf = std::numeric_limits<float>::infinity();
+    scan.x_m = {5, nan, inf, 0};
+    scan.y_m = scan.z_m = {0, 1, 1, 0};
+    scan.intensity = {0, 0, 0, 0};
+    RawlogWriter writer(path("in.rawlog"), false);
+    writer.write(*empty);
+    writer.write(*observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)));
+    writer.commit();
+    const auto outcome =
+        run({"-i", path("in.rawlog"), "-o", path("out.rawlog"), "--kitti", path("scans")});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("entry 0 (empty): the scan has no packets"), std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.out.find("2 LiDAR scans in 2 entries, 4 returns"), std::string::npos)
+        << outcome.out;
+    const auto labels = readLabels(path("scans/cloud/labels/000000.label"));
+    EXPECT_EQ(std::vector<std::uint16_t>(labels.begin() + 1, labels.end()),
+              (std::vector<std::uint16_t>{0, 0, 0}));
+}
+
+TEST_F(RawlogSegment, DumpsTheSettingsInForce) {
+    const auto mine = folder_.write("mine.yaml", "beta_deg: 7.5\n");
+    const auto outcome = run({"--config-dump", "-c", kPaper, "-c", mine});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.out.find("beta_deg: 7.5 "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("# [deg]"), std::string::npos);
+    EXPECT_EQ(run({"--config-dump", "-c", folder_.write("dump.yaml", outcome.out)}).out,
+              outcome.out);
+}
+
+TEST_F(RawlogSegment, ThePageOfSettingsIsTheParsersOwnTable) {
+    const std::string page = test::readFile(fs::path(HAGEN_SOURCE_DIR) / "docs/settings.md");
+    EXPECT_NE(page.find(run({"--config-keys"}).out), std::string::npos)
+        << "put the output of rawlog-segment --config-keys into docs/settings.md";
+}
+
 // Wrong usage: exit code 2.
 
 TEST_F(RawlogSegment, RefusesToRunWithoutInputOrOutput) {
@@ -223,6 +388,16 @@ TEST_F(RawlogSegment, RefusesSettingsOutOfRangeOrOfAnotherSensor) {
 
 TEST_F(RawlogSegment, RefusesASettingsFileThatIsNotThere) {
     expectFailure({"-i", kRecording, "-o", path("out"), "-c", path("none.yaml")}, 2, "none.yaml");
+}
+
+TEST_F(RawlogSegment, RefusesFlagsThatContradictOneAnother) {
+    expectFailure({"-i", kRecording, "-o", path("out"), "--from", "5", "--to", "4"}, 2, "--from");
+    expectFailure({"-i", kRecording, "-o", path("out"), "--from", "-1"}, 2, "--from");
+    expectFailure({"-i", kRecording, "--kitti", path("out"), "--preview"}, 2, "--output");
+    expectFailure({"-i", kRecording, "-o", path("out"), "--cloud", "rgb"}, 2, "--cloud");
+    expectFailure({"-i", kRecording, "-o", path("out"), "--picture-azimuth", "3"}, 2, "--pictures");
+    expectFailure({"-i", kRecording, "-o", path("out"), "--poses", path("none.tum")}, 2,
+                  "none.tum");
 }
 
 // Failures while running: exit code 1.
@@ -310,6 +485,72 @@ TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
     while (reader.next()) {
     }
     EXPECT_GE(reader.entries(), 12u);
+}
+
+TEST_F(RawlogSegment, FailsOnASensorLabelThatIsNotThere) {
+    expectFailure({"-i", kRecording, "-o", path("out"), "--sensor-label", "lidra"}, 1,
+                  "no LiDAR scan of 'lidra'; it has 'lidar'");
+}
+
+TEST_F(RawlogSegment, FailsWhereThereIsNoEntryToConvert) {
+    expectFailure({"-i", kRecording, "-o", path("out"), "--from", "21"}, 1,
+                  "has 21 entries, none from 21 on");
+}
+
+TEST_F(RawlogSegment, FailsOnPosesThatAreNone) {
+    const auto poses = folder_.write("poses.tum", "1 2 3\n");
+    expectFailure({"-i", kRecording, "--kitti", path("out"), "--poses", poses}, 1, "poses.tum:1");
+}
+
+TEST_F(RawlogSegment, FailsWhereTheFolderCannotBeWrittenTo) {
+    expectFailure({"-i", kRecording, "-o", "/proc/self/out"}, 1, "/proc/self/out");
+    expectFailure({"-i", kRecording, "--kitti", "/proc/self/out"}, 1, "/proc/self/out");
+    if (geteuid() == 0) GTEST_SKIP() << "root writes everywhere else";
+    fs::create_directory(folder_ / "locked");
+    fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+    expectFailure({"-i", kRecording, "-o", path("locked/out")}, 1, "Permission denied");
+    expectFailure({"-i", kRecording, "--kitti", path("locked/out")}, 1, "Permission denied");
+}
+
+TEST_F(RawlogSegment, FailsWithoutATraceWhereTheDiskIsFull) {
+    // A limit of 64 kB to a file stands for the disk: the system refuses to write on.
+    const auto limited = [&](const std::string& outputs) {
+        return test::run("/bin/bash", {"-c", "trap \"\" XFSZ; ulimit -f 64; exec " +
+                                                 std::string(HAGEN_RAWLOG_SEGMENT) + " -i " +
+                                                 kRecording.string() + " " + outputs});
+    };
+    for (const std::string& outputs : {"-o " + path("out.rawlog"), "--kitti " + path("scans"),
+                                       "--pictures " + path("pictures")}) {
+        const auto outcome = limited(outputs);
+        EXPECT_EQ(outcome.exit_code, 1) << outputs << outcome.err;
+        EXPECT_NE(outcome.err.find("rawlog-segment: "), std::string::npos) << outcome.err;
+        EXPECT_TRUE(outcome.err.find("cannot be written") != std::string::npos ||
+                    outcome.err.find("File too large") != std::string::npos)
+            << outcome.err;
+        EXPECT_TRUE(fs::is_empty(folder_.path())) << outputs;
+    }
+}
+
+TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
+    // Packed files one after the other are one log; it takes many times as long as the wait.
+    const std::string bytes = test::readFile(kRecording);
+    std::string many;
+    for (int i = 0; i < 200; ++i) many += bytes;
+    const auto log = folder_.write("long.rawlog", many);
+    for (const char* signal : {"INT", "TERM"}) {
+        const auto outcome = test::run(
+            "/usr/bin/timeout", {"--preserve-status", "-s", signal, "1", HAGEN_RAWLOG_SEGMENT, "-i",
+                                 log, "-o", path("out.rawlog"), "--overwrite"});
+        EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+        EXPECT_NE(outcome.err.find("interrupted; the "), std::string::npos) << outcome.err;
+        EXPECT_FALSE(fs::exists(path("out.rawlog")));
+        RawlogReader reader(path("out.partial.rawlog"));
+        while (reader.next()) {
+        }
+        EXPECT_GT(reader.entries(), 4u);
+        fs::remove(path("out.partial.rawlog"));
+        EXPECT_EQ(files(), std::set<fs::path>{log});
+    }
 }
 
 // The recording itself.

@@ -5,6 +5,8 @@
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/ObservationScan.h>
+#include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation3DScene.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -416,6 +418,26 @@ TEST_F(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
         const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
         EXPECT_NEAR(mrpt::Clock::toDouble(observation->timestamp), 7.25, 1e-6);
     }
+}
+
+TEST_F(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
+    Scan scan;
+    scan.x_m = {5, 6};
+    scan.y_m = scan.z_m = {0, 1};
+    scan.intensity = {0, 1};
+    const auto cloud = observationOf(scan, "lidar", mrpt::Clock::fromDouble(1.0));
+    fs::create_directory(folder_ / "in_Images");
+    mrpt::io::setLazyLoadPathBase((folder_ / "in_Images").string() + "/");
+    cloud->setAsExternalStorage("cloud.bin",
+                                CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization);
+    cloud->unload();  // writes the file
+    writeLog({cloud});
+    mrpt::io::setLazyLoadPathBase("/nowhere/");
+    std::vector<std::string> remarks;
+    const ConversionReport report = convert(conversion(), remarksInto(remarks));
+    EXPECT_EQ(report.returns, 2u);
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_NE(remarks[0].find((folder_ / "out_Images").string()), std::string::npos) << remarks[0];
 }
 
 TEST_F(ConversionTest, TheInputIsNeverReplaced) {
