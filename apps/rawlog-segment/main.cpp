@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -19,16 +20,31 @@ using namespace hagen;
 constexpr int kFailed = 1, kWrongUsage = 2;
 
 volatile std::sig_atomic_t is_interrupted = 0;
+volatile std::time_t interrupted_at = 0;
 
-/// The first signal ends the conversion in an orderly way, a second one at once.
+/// The first signal ends the conversion in an orderly way; another one, later, at once. (Shells and
+/// timeout(1) may send the same signal twice.)
+void interrupt(int signal) {
+    const std::time_t now = std::time(nullptr);
+    if (is_interrupted == 0) {
+        is_interrupted = 1;
+        interrupted_at = now;
+    } else if (now > interrupted_at + 1) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+}
+
 void catchSignals() {
+    // A reader that went away, or a limit on file sizes, shows in the write, which cleans up.
+    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);
         if (action.sa_handler == SIG_IGN) continue;  // as nohup wants it
         action = {};
-        action.sa_handler = [](int) { is_interrupted = 1; };
-        action.sa_flags = SA_RESETHAND;
+        action.sa_handler = interrupt;
+        action.sa_flags = SA_RESTART;
         sigaction(signal, &action, nullptr);
     }
 }
@@ -211,7 +227,9 @@ int main(int argc, char** argv) {
         }
         return 0;
     } catch (const CLI::Success& e) {  // --help, --version
-        return app.exit(e);
+        app.exit(e);
+        const bool is_printed = std::fflush(stdout) == 0 && std::cout.flush();
+        return is_printed ? 0 : fail(kFailed, "the text cannot be printed");
     } catch (const CLI::ParseError& e) {
         app.exit(e);
         return kWrongUsage;

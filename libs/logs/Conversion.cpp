@@ -97,6 +97,11 @@ class Converter {
         const std::chrono::duration<double, std::milli> latency =
             std::chrono::steady_clock::now() - start;
         if (!out.remark.empty()) listener_.remark(entry, out.remark);
+        if (!conversion_.folder.empty() && !report_.poses.empty() && !out.sensor_pose) {
+            listener_.remark(entry,
+                             "no pose is near its time: poses.tum leaves it out, and "
+                             "poses.txt is not written");
+        }
 
         const std::string& label = observation.sensorLabel;
         ScanReport scan = reportOf(out);
@@ -149,7 +154,8 @@ class Converter {
         return false;
     }
 
-    /// A label of which the log has no scan is a slip of the pen.
+    /// A label of which there is no scan may be a slip of the pen. It fails the conversion where
+    /// nothing else was segmented.
     void checkLabels() const {
         for (const std::string& label : conversion_.sensor_labels) {
             const bool is_there = report_.sensors.count(label) > 0;
@@ -157,8 +163,13 @@ class Converter {
             std::string others;
             for (const auto& [other, sensor] : report_.sensors) others += " '" + other + "'";
             for (const std::string& other : other_labels_) others += " '" + other + "'";
-            throw std::runtime_error(conversion_.input.string() + ": has no LiDAR scan of '" +
-                                     label + "'; it has" + (others.empty() ? " none" : others));
+            const std::string what = "has no LiDAR scan of '" + label +
+                                     "' in what was converted; " +
+                                     (others.empty() ? "there is none" : "there are" + others);
+            if (report_.scans == 0) {
+                throw std::runtime_error(conversion_.input.string() + ": " + what);
+            }
+            listener_.remark("the log", what);
         }
     }
 

@@ -19,8 +19,10 @@ Trajectory trajectoryOfTum(const fs::path& file) {
 }
 
 Trajectory trajectoryOfKitti(const fs::path& file, const std::vector<CPose3D>& sensor_poses,
-                             const ScanPlaces& scans) {
-    if (sensor_poses.size() != scans.size()) {
+                             const ScanPlaces& scans, bool are_all_scans = true) {
+    const bool fits =
+        are_all_scans ? sensor_poses.size() == scans.size() : sensor_poses.size() >= scans.size();
+    if (!fits) {
         throw std::runtime_error(file.string() + ": has " + std::to_string(sensor_poses.size()) +
                                  " poses for " + std::to_string(scans.size()) + " scans");
     }
@@ -32,10 +34,10 @@ Trajectory trajectoryOfKitti(const fs::path& file, const std::vector<CPose3D>& s
 }
 
 /// The poses of a file of either kind.
-Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& scans) {
+Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& scans, bool are_all_scans) {
     return kindOfPoseFile(file) == PoseFileKind::Tum
                ? trajectoryOfTum(file)
-               : trajectoryOfKitti(file, readKittiPoses(file), scans);
+               : trajectoryOfKitti(file, readKittiPoses(file), scans, are_all_scans);
 }
 
 /// poses.txt of a scan folder; beside a calib.txt they are the camera's, as KITTI has it.
@@ -57,7 +59,8 @@ LogPoses posesOfRawlog(const RawlogSurvey& survey, const fs::path& file) {
             std::to_string(survey.scans.size()) + "; give poses with times (TUM)");
     }
     const ScanPlaces none;
-    return {trajectoryOf(file, survey.scans.empty() ? none : survey.scans.begin()->second),
+    return {trajectoryOf(file, survey.scans.empty() ? none : survey.scans.begin()->second,
+                         survey.is_whole),
             file.string()};
 }
 
@@ -65,7 +68,7 @@ LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& 
                            const fs::path& file) {
     ScanPlaces scans;
     for (const double time_s : times_s) scans.push_back({mrpt::Clock::fromDouble(time_s), {}});
-    if (!file.empty()) return {trajectoryOf(file, scans), file.string()};
+    if (!file.empty()) return {trajectoryOf(file, scans, true), file.string()};
     if (fs::exists(folder.tumFile())) {
         return {trajectoryOfTum(folder.tumFile()), folder.tumFile().string()};
     }

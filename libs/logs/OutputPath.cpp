@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <hagen/logs/OutputPath.h>
+#include <hagen/pictures/StagePictures.h>
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -13,23 +14,31 @@ namespace fs = std::filesystem;
 
 /// Whether a file or folder below an output is part of such an output; anything else is somebody's
 /// work.
-bool isPart(const fs::path& path, OutputPath::Kind kind) {
-    static const std::array<const char*, 6> kScanFolderParts{
-        "velodyne", "labels", "times.txt", "poses.txt", "poses.tum", "sensor.yaml"};
+bool isPart(const fs::path& path, const fs::path& output, OutputPath::Kind kind) {
+    static const std::array<const char*, 4> kScanFolderFiles{"times.txt", "poses.txt", "poses.tum",
+                                                             "sensor.yaml"};
+    if (!fs::is_regular_file(fs::symlink_status(path))) return false;
+    const std::string name = path.filename().string();
     if (kind == OutputPath::Kind::Pictures) {
-        return fs::is_regular_file(path) && path.extension() == ".png";
+        const auto& pictures = stagePictures();
+        return std::find(pictures.begin(), pictures.end(), name) != pictures.end();
     }
-    return std::find(kScanFolderParts.begin(), kScanFolderParts.end(), path.filename()) !=
-           kScanFolderParts.end();
+    const bool is_in_folder = path.parent_path() != output;
+    const std::string folder = is_in_folder ? path.parent_path().filename().string() : "";
+    return (folder == "velodyne" && path.extension() == ".bin") ||
+           (folder == "labels" && path.extension() == ".label") ||
+           std::find(kScanFolderFiles.begin(), kScanFolderFiles.end(), name) !=
+               kScanFolderFiles.end();
 }
 
 /// The first thing in a folder that is no part of such an output, `depth` folders down; empty where
 /// there is none.
-fs::path foreignPart(const fs::path& folder, OutputPath::Kind kind, int depth) {
+fs::path foreignPart(const fs::path& folder, const fs::path& output, OutputPath::Kind kind,
+                     int depth) {
     for (const auto& entry : fs::directory_iterator(folder)) {
-        if (isPart(entry.path(), kind)) continue;
+        if (isPart(entry.path(), output, kind)) continue;
         if (depth == 0 || !entry.is_directory() || entry.is_symlink()) return entry.path();
-        const fs::path foreign = foreignPart(entry.path(), kind, depth - 1);
+        const fs::path foreign = foreignPart(entry.path(), output, kind, depth - 1);
         if (!foreign.empty()) return foreign;
     }
     return {};
@@ -48,7 +57,7 @@ void checkReplaceable(const fs::path& path, OutputPath::Kind kind) {
                                  ": is no folder, and is not replaced; give another name");
     }
     const bool is_of_pictures = kind == OutputPath::Kind::Pictures;
-    const fs::path foreign = foreignPart(path, kind, is_of_pictures ? 2 : 1);
+    const fs::path foreign = foreignPart(path, path, kind, 2);
     if (!foreign.empty()) {
         throw std::runtime_error(path.string() + ": holds '" +
                                  foreign.lexically_relative(path).string() + "', no part of " +
@@ -69,14 +78,10 @@ fs::path freeName(const fs::path& stem, const std::string& mark, const fs::path&
 
 }  // namespace
 
-OutputPath::OutputPath(fs::path path, Kind kind, bool overwrite) : path_(std::move(path)) {
+OutputPath::OutputPath(fs::path path, Kind kind, bool overwrite)
+    : path_(std::move(path)), kind_(kind), overwrites_(overwrite) {
     if (!path_.has_filename()) path_ = path_.parent_path();  // "folder/"
-    if (fs::exists(path_)) {
-        if (!overwrite) {
-            throw std::runtime_error(path_.string() + " exists; give --overwrite to replace it");
-        }
-        checkReplaceable(path_, kind);
-    }
+    checkFree();
     const fs::path folder = fs::absolute(path_).lexically_normal().parent_path();
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder to write to");
@@ -89,7 +94,21 @@ OutputPath::~OutputPath() {
     fs::remove_all(temporary_, ignored);
 }
 
+void OutputPath::checkFree() const {
+    if (!fs::exists(fs::symlink_status(path_))) return;
+    if (!overwrites_) {
+        throw std::runtime_error(path_.string() + " exists; give --overwrite to replace it");
+    }
+    checkReplaceable(path_, kind_);
+}
+
 void OutputPath::commit() {
+    try {
+        checkFree();
+    } catch (const std::runtime_error& e) {  // it appeared since
+        throw std::runtime_error(std::string(e.what()) + "; this run's is " +
+                                 keepPartial().string());
+    }
     if (!fs::is_directory(path_)) {
         fs::rename(temporary_, path_);
         return;

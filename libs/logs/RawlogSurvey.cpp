@@ -113,8 +113,9 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
                           const std::function<bool()>& keep_going) {
     Surveyor surveyor;
     RawlogReader reader(rawlog);
+    bool is_whole = true;
     try {
-        while (const auto entry = keep_going() ? reader.next() : nullptr) {
+        while (const auto entry = (is_whole = keep_going()) ? reader.next() : nullptr) {
             if (const auto one = std::dynamic_pointer_cast<CObservation>(entry)) {
                 surveyor.see(*one);
             } else if (const auto frame =
@@ -126,8 +127,11 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
         }
     } catch (const BrokenRawlog&) {
         // Whoever converts the log tells of the break; what came before it is good.
+        is_whole = false;
     }
-    return std::move(surveyor).survey();
+    RawlogSurvey survey = std::move(surveyor).survey();
+    survey.is_whole = is_whole;
+    return survey;
 }
 
 }  // namespace hagen

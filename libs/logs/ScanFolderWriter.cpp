@@ -61,7 +61,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
 void ScanFolderWriter::finish() const {
     const fs::path file = folder_ / "times.txt";
     std::ofstream out(file);
-    out << std::fixed << std::setprecision(6);
+    out << std::fixed << std::setprecision(9);
     for (const double time_s : times_s_) out << time_s << "\n";
     checkWritten(out, file);
     if (poses_.empty()) return;

@@ -489,7 +489,7 @@ TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
 
 TEST_F(RawlogSegment, FailsOnASensorLabelThatIsNotThere) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--sensor-label", "lidra"}, 1,
-                  "no LiDAR scan of 'lidra'; it has 'lidar'");
+                  "no LiDAR scan of 'lidra' in what was converted; there are 'lidar'");
 }
 
 TEST_F(RawlogSegment, FailsWhereThereIsNoEntryToConvert) {

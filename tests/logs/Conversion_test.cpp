@@ -352,7 +352,8 @@ TEST_F(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
         convert(other);
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("no LiDAR scan of 'rear'; it has 'front'"),
+        EXPECT_NE(std::string(e.what()).find(
+                      "no LiDAR scan of 'rear' in what was converted; there are 'front'"),
                   std::string::npos)
             << e.what();
     }

@@ -118,6 +118,26 @@ TEST(OutputPath, FoldersOfAPartASensorAreOfTheirKindToo) {
     EXPECT_THROW(OutputPath(folder / "pictures", kPictures, true), std::runtime_error);
 }
 
+TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {
+    const test::TemporaryFolder folder;
+    OutputPath output(folder / "a.rawlog", kFile, false);
+    std::ofstream(output.temporary()) << "new";
+    folder.write("a.rawlog", "somebody's");
+    EXPECT_THROW(output.commit(), std::runtime_error);
+    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "somebody's");
+    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "new");
+}
+
+TEST(OutputPath, ForeignFilesWithinPartsAreSomebodysWork) {
+    const test::TemporaryFolder folder;
+    folder.write("scans/velodyne/notes.txt", "mine");
+    folder.write("labels/labels/hand_made.json", "mine");
+    folder.write("pictures/wedding.png", "mine");
+    EXPECT_THROW(OutputPath(folder / "scans", kScanFolder, true), std::runtime_error);
+    EXPECT_THROW(OutputPath(folder / "labels", kScanFolder, true), std::runtime_error);
+    EXPECT_THROW(OutputPath(folder / "pictures", kPictures, true), std::runtime_error);
+}
+
 TEST(OutputPath, NeighboursWithLikeNamesAreLeftAlone) {
     const test::TemporaryFolder folder;
     for (const char* name : {"out.tmp/x", "out.old/x", "out.partial/x"}) folder.write(name, "mine");

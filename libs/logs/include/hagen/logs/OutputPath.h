@@ -26,14 +26,19 @@ class OutputPath {
     /// Where to write: beside path(), on the same file system, a name that nothing has.
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Gives what was written its name; replaces what had it.
+    /// Gives what was written its name; replaces what had it. Where something has that name since
+    /// that may not be replaced, keeps this as a part, and throws std::runtime_error that says so.
     void commit();
     /// Names it as part of an output: "x.rawlog" becomes "x.partial.rawlog", or
     /// "x.partial-2.rawlog" where that is taken. Returns that name.
     std::filesystem::path keepPartial();
 
  private:
+    void checkFree() const;
+
     std::filesystem::path path_, temporary_;
+    Kind kind_;
+    bool overwrites_;
 };
 
 }  // namespace hagen

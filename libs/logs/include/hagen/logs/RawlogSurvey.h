@@ -27,6 +27,7 @@ struct RawlogSurvey {
         mrpt::poses::CPose3D sensor_on_vehicle;
     };
     std::map<std::string, std::vector<ScanPlace>> scans;
+    bool is_whole = true;  ///< the log was read to its end
 };
 
 /// Reads a rawlog to its end or its first break (whoever converts it tells of that), or until
