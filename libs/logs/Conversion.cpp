@@ -77,9 +77,9 @@ class Converter {
     /// Segments an observation where it is a LiDAR scan: what comes after it in the log. `name`: of
     /// the scan in its folder.
     Clouds segment(const CObservation& observation, const std::string& name = "") {
+        if (!isWanted(observation)) return {};
         const std::string entry = "entry " + std::to_string(entry_) + " (" +
                                   (name.empty() ? observation.sensorLabel : name) + ")";
-        if (!isWanted(observation)) return {};
         ObservationSegmenter::Output out;
         const auto start = std::chrono::steady_clock::now();
         try {

@@ -8,6 +8,8 @@
 #include <iomanip>
 #include <stdexcept>
 
+#include "CloseWritten.h"
+
 namespace hagen {
 namespace {
 
@@ -38,11 +40,6 @@ std::ofstream openForWriting(const fs::path& file, int digits) {
     std::ofstream out(file);
     out << std::fixed << std::setprecision(digits);
     return out;
-}
-
-void checkWritten(std::ofstream& out, const fs::path& file) {
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
 }
 
 }  // namespace
@@ -84,7 +81,7 @@ void writeTumPoses(const fs::path& file, const std::vector<TimedPose>& poses) {
         }
         out << "\n";
     }
-    checkWritten(out, file);
+    closeWritten(out, file);
 }
 
 std::vector<CPose3D> readKittiPoses(const fs::path& file) {
@@ -101,7 +98,7 @@ void writeKittiPoses(const fs::path& file, const std::vector<CPose3D>& sensor_po
         for (int i = 0; i < 12; ++i) out << (i > 0 ? " " : "") << matrix(i / 4, i % 4);
         out << "\n";
     }
-    checkWritten(out, file);
+    closeWritten(out, file);
 }
 
 CPose3D readKittiCalibration(const fs::path& file) {

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "CloseWritten.h"
+
 namespace hagen {
 namespace {
 
@@ -35,8 +37,7 @@ void writeRecords(const fs::path& file, const std::vector<Record>& records) {
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(records.data()),
               static_cast<std::streamsize>(records.size() * sizeof(Record)));
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    closeWritten(out, file);
 }
 
 }  // namespace

@@ -6,15 +6,12 @@
 #include <iomanip>
 #include <stdexcept>
 
+#include "CloseWritten.h"
+
 namespace hagen {
 namespace {
 
 namespace fs = std::filesystem;
-
-void checkWritten(std::ofstream& out, const fs::path& file) {
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
-}
 
 void writeSensor(const fs::path& file, const SensorModel& sensor) {
     std::ofstream out(file);
@@ -25,7 +22,7 @@ void writeSensor(const fs::path& file, const SensorModel& sensor) {
     }
     out << "]\n  min_range_m: " << sensor.min_range_m << "\n  max_range_m: " << sensor.max_range_m
         << "\n";
-    checkWritten(out, file);
+    closeWritten(out, file);
 }
 
 }  // namespace
@@ -63,7 +60,7 @@ void ScanFolderWriter::finish() const {
     std::ofstream out(file);
     out << std::fixed << std::setprecision(9);
     for (const double time_s : times_s_) out << time_s << "\n";
-    checkWritten(out, file);
+    closeWritten(out, file);
     if (poses_.empty()) return;
     writeTumPoses(folder_ / "poses.tum", poses_);
     if (poses_.size() < times_s_.size()) return;

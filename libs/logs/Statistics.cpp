@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "CloseWritten.h"
+
 namespace hagen {
 namespace {
 
@@ -87,8 +89,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
     std::ofstream out(file);
     // File names need not be UTF-8; what is not becomes U+FFFD.
     out << json.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    closeWritten(out, file);
 }
 
 }  // namespace hagen

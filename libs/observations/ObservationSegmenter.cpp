@@ -57,12 +57,12 @@ ObservationSegmenter::Lidar& ObservationSegmenter::lidarOf(const std::string& la
 }
 
 const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observation,
-                                           const Trajectory& vehicle, Lidar& lidar,
-                                           std::string& remark) {
+                                           const Trajectory& vehicle,
+                                           const std::optional<mrpt::poses::CPose3D>& sensor_pose,
+                                           Lidar& lidar, std::string& remark) {
     const Scan& scan = observed_.scan;
     if (settings_.options.window_scans == 1) return scan;
-    const auto vehicle_pose = vehicle.at(observation.timestamp);
-    if (!vehicle_pose) {
+    if (!sensor_pose) {
         lidar.window.clear();
         append("window_scans is above 1, but there is no pose: the scan is segmented alone",
                remark);
@@ -77,7 +77,7 @@ const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observ
                        deskewed_)) {
         append("poses do not reach to its end: the window moves it as a whole", remark);
     }
-    return lidar.window.add(deskewed_, *vehicle_pose + sensor_on_vehicle, observed_.sensor);
+    return lidar.window.add(deskewed_, *sensor_pose, observed_.sensor);
 }
 
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
@@ -92,7 +92,9 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     Lidar& lidar = lidarOf(observation.sensorLabel, observed_.sensor);
 
     std::string remark = observed_.remark;
-    const Scan& window = windowOf(observation, vehicle, lidar, remark);
+    std::optional<mrpt::poses::CPose3D> sensor_pose = vehicle.at(observation.timestamp);
+    if (sensor_pose) *sensor_pose += mrpt::poses::CPose3D(observation.sensorPose());
+    const Scan& window = windowOf(observation, vehicle, sensor_pose, lidar, remark);
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
 
     profiler.enter("process.segment");
@@ -108,8 +110,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.result = &result;
     out.sensor = &lidar.filter.sensor();
     out.is_sensor_assumed = observed_.is_sensor_assumed;
-    out.sensor_pose = vehicle.at(observation.timestamp);
-    if (out.sensor_pose) *out.sensor_pose += mrpt::poses::CPose3D(observation.sensorPose());
+    out.sensor_pose = sensor_pose;
     out.remark = remark;
     return true;
 }

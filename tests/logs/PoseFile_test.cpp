@@ -14,22 +14,13 @@ using mrpt::poses::CPose3D;
 
 class PoseFile : public testing::Test {
  protected:
-    template <class Call>
-    static std::string messageOf(Call call) {
-        try {
-            call();
-        } catch (const std::runtime_error& e) {
-            return e.what();
-        }
-        return "";
-    }
     void expectRefused(const std::string& text, const std::string& words) {
         const auto file = folder_.write("poses", text);
         const auto read = [&] {
             kindOfPoseFile(file) == PoseFileKind::Tum ? (void)readTumPoses(file)
                                                       : (void)readKittiPoses(file);
         };
-        const std::string message = messageOf(read);
+        const std::string message = test::messageOf(read);
         EXPECT_NE(message.find(words), std::string::npos) << message;
         EXPECT_NE(message.find((folder_ / "poses").string()), std::string::npos) << message;
     }
@@ -93,8 +84,9 @@ TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
     expectRefused("0 0 1e999 0 0 0 0 1\n", "is no number");
     expectRefused("1 0 0 0 0 2 0 0 0 0 1 0\n", ":1: the matrix is no rotation");
     expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is no rotation");
-    EXPECT_NE(messageOf([&] { readTumPoses(folder_ / "none"); }).find("none"), std::string::npos);
-    EXPECT_NE(messageOf([&] { readTumPoses(folder_.path()); }).find("cannot be read"),
+    EXPECT_NE(test::messageOf([&] { readTumPoses(folder_ / "none"); }).find("none"),
+              std::string::npos);
+    EXPECT_NE(test::messageOf([&] { readTumPoses(folder_.path()); }).find("cannot be read"),
               std::string::npos);
 }
 
@@ -121,10 +113,10 @@ TEST_F(PoseFile, AKittiFileIsOfTheSensorScanByScan) {
 TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {
     const auto file = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();
-    EXPECT_NE(messageOf([&] { posesOfRawlog(survey, file); }).find("1 poses for 2 scans"),
+    EXPECT_NE(test::messageOf([&] { posesOfRawlog(survey, file); }).find("1 poses for 2 scans"),
               std::string::npos);
     survey.scans["rear"] = {};
-    EXPECT_NE(messageOf([&] { posesOfRawlog(survey, file); }).find("scans of one LiDAR"),
+    EXPECT_NE(test::messageOf([&] { posesOfRawlog(survey, file); }).find("scans of one LiDAR"),
               std::string::npos);
 }
 
@@ -149,7 +141,7 @@ TEST_F(PoseFile, BesideACalibrationPosesAreTheCamerasAsKittiHasThem) {
     EXPECT_NEAR(pose.x(), 5.0, 1e-9);
     EXPECT_NEAR(pose.z(), 0.0, 1e-9);
     folder_.write("calib.txt", "P0: 1 2 3\n");
-    EXPECT_NE(messageOf([&] {
+    EXPECT_NE(test::messageOf([&] {
                   posesOfScanFolder(ScanFolder(folder_.path()), {0.0}, {});
               }).find("no line 'Tr:'"),
               std::string::npos);

@@ -14,15 +14,6 @@ namespace fs = std::filesystem;
 
 class ScanFolderTest : public testing::Test {
  protected:
-    template <class Call>
-    static std::string messageOf(Call call) {
-        try {
-            call();
-        } catch (const std::runtime_error& e) {
-            return e.what();
-        }
-        return "";
-    }
     test::TemporaryFolder folder_;
 };
 
@@ -39,10 +30,10 @@ TEST_F(ScanFolderTest, ListsScansByName) {
 }
 
 TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
-    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("velodyne"),
+    EXPECT_NE(test::messageOf([&] { ScanFolder scans(folder_.path()); }).find("velodyne"),
               std::string::npos);
     fs::create_directory(folder_ / "velodyne");
-    EXPECT_NE(messageOf([&] { ScanFolder scans(folder_.path()); }).find("no .bin"),
+    EXPECT_NE(test::messageOf([&] { ScanFolder scans(folder_.path()); }).find("no .bin"),
               std::string::npos);
 }
 
@@ -73,19 +64,19 @@ TEST_F(ScanFolderTest, LabelFilesHaveTheLabelLowAndTheComponentHigh) {
 
 TEST_F(ScanFolderTest, FilesThatAreMissingOrCutOffAreNamed) {
     Scan scan;
-    EXPECT_NE(messageOf([&] { readScan(folder_ / "none.bin", scan); }).find("none.bin"),
+    EXPECT_NE(test::messageOf([&] { readScan(folder_ / "none.bin", scan); }).find("none.bin"),
               std::string::npos);
     folder_.write("cut.bin", std::string(17, 'x'));
-    const std::string message = messageOf([&] { readScan(folder_ / "cut.bin", scan); });
+    const std::string message = test::messageOf([&] { readScan(folder_ / "cut.bin", scan); });
     EXPECT_NE(message.find("cut.bin"), std::string::npos);
     EXPECT_NE(message.find("17 bytes"), std::string::npos);
     folder_.write("cut.label", "abc");
-    EXPECT_NE(messageOf([&] { readLabels(folder_ / "cut.label"); }).find("cut.label"),
+    EXPECT_NE(test::messageOf([&] { readLabels(folder_ / "cut.label"); }).find("cut.label"),
               std::string::npos);
 }
 
 TEST_F(ScanFolderTest, WritingIntoNothingIsNamed) {
-    EXPECT_NE(messageOf([&] { writeScan(folder_ / "no/such/a.bin", Scan()); }).find("a.bin"),
+    EXPECT_NE(test::messageOf([&] { writeScan(folder_ / "no/such/a.bin", Scan()); }).find("a.bin"),
               std::string::npos);
 }
 
@@ -101,9 +92,10 @@ TEST_F(ScanFolderTest, TimesThatDoNotFitAreNamedByLine) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n");
     const ScanFolder scans(folder_.path());
-    EXPECT_NE(messageOf([&] { scans.times(); }).find("2 lines for 1 scans"), std::string::npos);
+    EXPECT_NE(test::messageOf([&] { scans.times(); }).find("2 lines for 1 scans"),
+              std::string::npos);
     folder_.write("times.txt", "soon\n");
-    EXPECT_NE(messageOf([&] { scans.times(); }).find("times.txt:1"), std::string::npos);
+    EXPECT_NE(test::messageOf([&] { scans.times(); }).find("times.txt:1"), std::string::npos);
 }
 
 }  // namespace

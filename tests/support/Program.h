@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,17 @@ class TemporaryFolder {
  private:
     std::filesystem::path path_;
 };
+
+/// What a call says where it throws a std::runtime_error; empty where it does not.
+template <class Call>
+std::string messageOf(Call call) {
+    try {
+        call();
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
 
 std::string readFile(const std::filesystem::path& file);
 

@@ -87,7 +87,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     /// What the filter shall see of the scan in observed_, and a word where that is not all it
     /// could be.
     const Scan& windowOf(const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
-                         Lidar& lidar, std::string& remark);
+                         const std::optional<mrpt::poses::CPose3D>& sensor_pose, Lidar& lidar,
+                         std::string& remark);
 
     Settings settings_;
     std::map<std::string, Lidar> lidars_;
