@@ -77,11 +77,20 @@ Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
     throw SettingsError(key + " must be 'lowest' or 'top_and_nearest', not '" + text + "'");
 }
 
+bool parseSwitch(const YAML::Node& node, const std::string& key) {
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    if (text == "true") return true;
+    if (text == "false") return false;
+    throw SettingsError(key + " must be 'true' or 'false', not '" + text + "'");
+}
+
 void parseOption(const OptionKey& key, const YAML::Node& node, Options& options) {
     if (const auto* real = std::get_if<float Options::*>(&key.field)) {
         options.*(*real) = parseNumber<float>(node, key.name, key.least, key.most);
     } else if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
         options.*(*whole) = parseNumber<int>(node, key.name, key.least, key.most);
+    } else if (const auto* yes = std::get_if<bool Options::*>(&key.field)) {
+        options.*(*yes) = parseSwitch(node, key.name);
     } else {
         options.*std::get<Seeds Options::*>(key.field) = parseSeeds(node, key.name);
     }

@@ -17,6 +17,7 @@ float columnAzimuth(int column, int columns) {
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                  RangeImage& image) {
     image.depth_m.setConstant(sensor.rows(), columns, kNoValue);
+    image.closest_return.setConstant(sensor.rows(), columns, RangeImage::kNoReturn);
     image.depth_mapper.resize(scan.size());
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const float range_m = scan.range_m[i];
@@ -26,7 +27,10 @@ void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float
         }
         const int column = nearestColumn(scan.azimuth_rad[i], columns);
         float& depth_m = image.depth_m(scan.row[i], column);
-        if (!(depth_m <= range_m)) depth_m = range_m;  // empty, or farther
+        if (!(depth_m <= range_m)) {  // empty, or farther
+            depth_m = range_m;
+            image.closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
+        }
         image.depth_mapper[i] = column * sensor.rows() + scan.row[i];
     }
 }

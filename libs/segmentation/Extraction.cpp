@@ -18,8 +18,8 @@ void renumber(std::vector<std::int32_t>& component) {
 }  // namespace
 
 void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
-                    const Image<Label>& labels, const Image<std::int32_t>& components, float zone_m,
-                    LabelledReturns& returns) {
+                    const Image<Label>& labels, const Image<std::int32_t>& components,
+                    const std::vector<Label>& own_label, float zone_m, LabelledReturns& returns) {
     returns.label.resize(scan.size());
     returns.component.assign(scan.size(), 0);
     for (auto* indices : {&returns.roi, &returns.rou, &returns.unclassified}) indices->clear();
@@ -28,10 +28,14 @@ void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImag
         const auto index = static_cast<std::uint32_t>(i);
         const std::int32_t pixel = image.depth_mapper[i];
         const bool is_far = scan.range_m[i] > zone_m || pixel == RangeImage::kNoPixel;
+        const Label own = own_label.empty() ? Label::Unclassified : own_label[i];
+        const Label label = is_far                       ? Label::Rou
+                            : own != Label::Unclassified ? own
+                                                         : labels.data()[pixel];
         if (!sensor.sees(scan.range_m[i])) {
             returns.label[i] = Label::Unclassified;
             returns.unclassified.push_back(index);
-        } else if (is_far || labels.data()[pixel] == Label::Rou) {
+        } else if (label == Label::Rou) {
             returns.label[i] = Label::Rou;
             returns.rou.push_back(index);
         } else {

@@ -1,9 +1,13 @@
+#include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/Labelling.h>
+#include <hagen/segmentation/SeedGate.h>
 #include <cmath>
 #include <vector>
 
 namespace hagen {
 namespace {
+
+constexpr float kNoGate_rad = static_cast<float>(radians(90));
 
 /// The lowest pixel of each column, where it carries an angle.
 std::vector<int> lowestPixels(const Image<float>& depth_m, const Image<float>& angle_rad) {
@@ -61,7 +65,7 @@ void growRegions(const Image<float>& angle_rad, float beta_rad, Label label,
 }  // namespace
 
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
-                  Seeds seeds, Image<Label>& labels) {
+                  Seeds seeds, float seed_gate_rad, Image<Label>& labels) {
     const bool from_ground = seeds == Seeds::Lowest;
     const Label grown = from_ground ? Label::Rou : Label::Roi;
     const Label rest = from_ground ? Label::Roi : Label::Rou;
@@ -71,10 +75,12 @@ void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_r
                                : !hasValue(pixel_angle_rad.data()[pixel]) ? Label::Roi
                                                                           : rest;
     }
-    growRegions(pixel_angle_rad, beta_rad, grown,
-                from_ground ? lowestPixels(depth_m, pixel_angle_rad)
-                            : topAndNearestPixels(depth_m, pixel_angle_rad),
-                labels);
+    std::vector<int> pixels = from_ground ? lowestPixels(depth_m, pixel_angle_rad)
+                                          : topAndNearestPixels(depth_m, pixel_angle_rad);
+    if (from_ground && seed_gate_rad < kNoGate_rad) {
+        gateSeeds(depth_m, pixel_angle_rad, seed_gate_rad, pixels);
+    }
+    growRegions(pixel_angle_rad, beta_rad, grown, pixels, labels);
 }
 
 void limitToZone(const Image<float>& depth_m, float zone_m, Image<Label>& labels) {

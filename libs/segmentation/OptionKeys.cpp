@@ -41,6 +41,27 @@ const std::vector<OptionKey>& optionKeys() {
         {"seeds", "", 0, 1,
          "lowest: ground seeds the ROU; top_and_nearest: the text's literal reading", "",
          &Options::seeds},
+        {"seed_gate_deg", "deg", 0, 90,
+         "a column's seed is ground only where its angle is less; 90: always", "",
+         &Options::seed_gate_deg},
+        {"level_by_attitude", "", 0, 1,
+         "angles are about the horizon where the log tells the sensor's attitude", "",
+         &Options::level_by_attitude},
+        {"ground_surface", "", 0, 1,
+         "judge all pixels again by their height above a surface fitted to the ROU", "",
+         &Options::ground_surface},
+        {"ground_tolerance_m", "m", 0, 10,
+         "a return is RoI where it is higher above that surface than this", "",
+         &Options::ground_tolerance_m},
+        {"ground_tolerance_per_m", "m/m", 0, 1, "and so much more a metre of distance", "",
+         &Options::ground_tolerance_per_m},
+        {"ground_tolerance_beside_tall", "m/m", 0, 1,
+         "and so much less a metre that what stands there is tall", "",
+         &Options::ground_tolerance_beside_tall},
+        {"grow_feet", "", 0, 1, "follow obstacles down to where they touch the surface", "",
+         &Options::grow_feet},
+        {"remove_specks", "", 0, 1, "a lone doubtful pixel follows its neighbours", "",
+         &Options::remove_specks},
         {"component_gap_m", "m", 0, 1000,
          "RoI pixels side by side are one obstacle where depths differ by less", "",
          &Options::component_gap_m},
@@ -53,6 +74,9 @@ std::string textOf(const OptionKey& key, const Options& options) {
     if (const auto* seeds = std::get_if<Seeds Options::*>(&key.field)) {
         return options.*(*seeds) == Seeds::Lowest ? "lowest" : "top_and_nearest";
     }
+    if (const auto* yes = std::get_if<bool Options::*>(&key.field)) {
+        return options.*(*yes) ? "true" : "false";
+    }
     if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
         return std::to_string(options.*(*whole));
     }
@@ -61,6 +85,7 @@ std::string textOf(const OptionKey& key, const Options& options) {
 
 std::string rangeOf(const OptionKey& key) {
     if (std::holds_alternative<Seeds Options::*>(key.field)) return "lowest, top_and_nearest";
+    if (std::holds_alternative<bool Options::*>(key.field)) return "true, false";
     return shortest(static_cast<float>(key.least)) + " ... " +
            shortest(static_cast<float>(key.most));
 }

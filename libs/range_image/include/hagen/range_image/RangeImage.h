@@ -11,12 +11,16 @@ namespace hagen {
 struct RangeImage {
     /// I_h x I_w: range of the closest return in each pixel, metres; NaN where there is none.
     Image<float> depth_m;
+    /// I_h x I_w: the index of that closest return (of two equally close, the earlier); kNoReturn
+    /// where there is none.
+    Image<std::int32_t> closest_return;
     /// The paper's depth_mapper, kept the other way round: for each return of the scan its pixel
     /// (column * I_h + row), or kNoPixel where it lies beyond the context or out of the sensor's
     /// range. A pixel may hold several returns; see returnsByPixel().
     std::vector<std::int32_t> depth_mapper;
 
     static constexpr std::int32_t kNoPixel = -1;
+    static constexpr std::int32_t kNoReturn = -1;
 };
 
 /// Stage 1, the depth image: every return to its beam's row and the closest of `columns` azimuths;

@@ -17,8 +17,10 @@ namespace hagen {
 ///
 /// `depth_m` and `pixel_angle_rad` are of one size, NaN where there is no value; empty pixels are
 /// labelled Unclassified.
+/// Of the lowest pixels, only those whose angle passes `seed_gate_rad` are seeds (SeedGate.h); pi/2
+/// or more lets all pass.
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
-                  Seeds seeds, Image<Label>& labels);
+                  Seeds seeds, float seed_gate_rad, Image<Label>& labels);
 
 /// Stage 11, the avoidance zone: pixels whose depth exceeds `zone_m` become ROU.
 void limitToZone(const Image<float>& depth_m, float zone_m, Image<Label>& labels);

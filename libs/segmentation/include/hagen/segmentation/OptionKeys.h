@@ -12,11 +12,11 @@ struct OptionKey {
     std::string name, unit;
     double least, most;        ///< allowed range, both included
     std::string what, symbol;  ///< what it does in a line; the paper's symbol, if it has one
-    std::variant<float Options::*, int Options::*, Seeds Options::*> field;
+    std::variant<float Options::*, int Options::*, bool Options::*, Seeds Options::*> field;
 };
 const std::vector<OptionKey>& optionKeys();
 
-/// The value of an option, as a settings file has it: "20", "lowest".
+/// The value of an option, as a settings file has it: "20", "true", "lowest".
 std::string textOf(const OptionKey& key, const Options& options);
 /// The values that a settings file may give: "0.1 ... 1000", "lowest, top_and_nearest".
 std::string rangeOf(const OptionKey& key);

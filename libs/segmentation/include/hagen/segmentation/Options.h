@@ -13,7 +13,7 @@ struct Options {
     /// Radius of the avoidance zone: returns farther than this are ROU.
     float zone_m = 20.0f;
     /// Returns up to this range enter the image, as context of the zone; never less than zone_m.
-    float context_m = 20.0f;
+    float context_m = 48.0f;
     /// I_w, the image's columns in a full turn; no more than the sensor fires in one, for a column
     /// without returns separates its neighbours.
     int columns = 870;
@@ -33,6 +33,19 @@ struct Options {
     float beta_deg = 10.0f;
     /// Where the regions grow from.
     Seeds seeds = Seeds::Lowest;
+    /// A seed is ground only where its angle is below this; 90 lets all pass.
+    float seed_gate_deg = 30.0f;
+    /// Whether angles are about the horizon, where the sensor's attitude is known.
+    bool level_by_attitude = true;
+    /// Whether all pixels are judged again, by their height above a surface fitted to the ROU.
+    bool ground_surface = true;
+    /// How high above that surface a return may be and still be ground; see HeightTolerance.
+    float ground_tolerance_m = 0.17f;
+    float ground_tolerance_per_m = 0.005f;
+    float ground_tolerance_beside_tall = 0.12f;
+    /// Whether obstacles are followed down to their feet, and lone specks removed.
+    bool grow_feet = true;
+    bool remove_specks = true;
     /// RoI pixels side by side are one component where their depths differ by less.
     float component_gap_m = 1.0f;
     /// K, consecutive scans that are segmented together; needs poses beyond 1.

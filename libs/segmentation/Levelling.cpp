@@ -1,0 +1,40 @@
+#include <hagen/range_image/RangeImage.h>
+#include <hagen/segmentation/Levelling.h>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+namespace hagen {
+
+Eigen::Matrix3f levelFromSensor(const Attitude& attitude) {
+    return (Eigen::AngleAxisf(attitude.pitch_rad, Eigen::Vector3f::UnitY()) *
+            Eigen::AngleAxisf(attitude.roll_rad, Eigen::Vector3f::UnitX()))
+        .toRotationMatrix();
+}
+
+void levelRangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
+                      const Attitude& attitude, Image<float>& range_angle_rad) {
+    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
+    const Eigen::Matrix3f level = levelFromSensor(attitude);
+    range_angle_rad.resize(rows - 1, columns);
+    for (int column = 0; column < columns; ++column) {
+        const float azimuth_rad = columnAzimuth(column, columns);
+        const Eigen::Vector3f outwards =
+            level * Eigen::Vector3f(std::cos(azimuth_rad), std::sin(azimuth_rad), 0);
+        const Eigen::Vector3f upwards = level.col(2);
+        const auto at = [&](int row) -> Eigen::Vector3f {
+            const float elevation_rad = sensor.elevations_rad[row];
+            return depth_m(row, column) *
+                   (std::cos(elevation_rad) * outwards + std::sin(elevation_rad) * upwards);
+        };
+        for (int row = 0; row + 1 < rows; ++row) {
+            const Eigen::Vector3f step_m = at(row + 1) - at(row);
+            range_angle_rad(row, column) =
+                hasValue(depth_m(row, column)) && hasValue(depth_m(row + 1, column))
+                    ? std::atan2(std::abs(step_m.z()), step_m.head<2>().norm())
+                    : kNoValue;
+        }
+    }
+}
+
+}  // namespace hagen

@@ -1,0 +1,33 @@
+#include <hagen/segmentation/PixelPoints.h>
+#include <cmath>
+
+namespace hagen {
+
+void locatePixels(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
+                  const Image<float>& depth_m, PixelPoints& pixels) {
+    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
+    for (auto* coordinate : {&pixels.x_m, &pixels.y_m, &pixels.z_m}) {
+        coordinate->setConstant(rows, columns, kNoValue);
+    }
+    for (Eigen::Index pixel = 0; pixel < depth_m.size(); ++pixel) {
+        const std::int32_t i = image.closest_return.data()[pixel];
+        if (i != RangeImage::kNoReturn) {
+            pixels.set(pixel, {scan.x_m[i], scan.y_m[i], scan.z_m[i]});
+        } else if (hasValue(depth_m.data()[pixel])) {
+            const float elevation_rad = sensor.elevations_rad[pixel % rows];
+            const float azimuth_rad = columnAzimuth(static_cast<int>(pixel / rows), columns);
+            pixels.set(pixel, depth_m.data()[pixel] *
+                                  Eigen::Vector3f(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                                                  std::cos(elevation_rad) * std::sin(azimuth_rad),
+                                                  std::sin(elevation_rad)));
+        }
+    }
+}
+
+void movePixels(const Eigen::Isometry3f& to_from_here, PixelPoints& pixels) {
+    for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
+        pixels.set(pixel, to_from_here * pixels.at(pixel));
+    }
+}
+
+}  // namespace hagen

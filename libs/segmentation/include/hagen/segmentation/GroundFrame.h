@@ -1,0 +1,20 @@
+#pragma once
+#include <hagen/segmentation/Levelling.h>
+#include <hagen/segmentation/PixelPoints.h>
+#include <Eigen/Geometry>
+
+namespace hagen {
+
+/// The transform from the sensor's frame to the ground's: z is the height above the plane that the
+/// ground lies about, x and y run along it, the origin is on it below the sensor.
+///
+/// The plane is fitted to the lowest point of each cell of a grid (0.75 m, 40 m around) by
+/// iteratively reweighted least squares; a cell weighs less the farther it is off the plane, above
+/// it sooner than below, and the farther it is away. No height of the sensor is assumed. `attitude`
+/// is where the search starts: level ground seen so; a sensor that does not know its own finds
+/// tilts of 15 degrees from zero.
+/// Fewer than three cells with points: the frame of a level plane through the lowest pixel, or the
+/// sensor's own where there is none.
+Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);
+
+}  // namespace hagen

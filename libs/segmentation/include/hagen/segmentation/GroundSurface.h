@@ -1,0 +1,43 @@
+#pragma once
+#include <hagen/range_image/Image.h>
+#include <hagen/range_image/Label.h>
+#include <hagen/segmentation/PixelPoints.h>
+#include <Eigen/Core>
+
+namespace hagen {
+
+/// The height of the ground over a square around the sensor, in the ground's frame.
+struct GroundSurface {
+    static constexpr float kCell_m = 0.75f;
+    static constexpr int kCells = 128;  ///< along each side: 48 m to each of the four
+
+    /// kCells x kCells: height at the middle of cell (i, j), where x = (i + 0.5) kCell_m - 48 m, y
+    /// likewise.
+    Eigen::ArrayXXf height_m;
+
+    /// Bilinear between the cells' middles; beyond the square that of its border.
+    float at(float x_m, float y_m) const;
+};
+
+/// Fits the surface to the pixels that `is_candidate`, in the ground's frame, in these steps:
+///  1. the lowest candidate of each cell; where three neighbours or more are much higher, the
+///     lowest of those (mirror images and stray returns lie below the ground);
+///  2. cells whose lowest candidate stands above what a slope of 0.3 allows from any other are no
+///     ground;
+///  3. a cell's height is the mean of its candidates close to the lowest, its weight grows with
+///     their number;
+///  4. one smoothing by a weighted 3 x 3 binomial, then cells without candidates are filled from
+///     coarser and coarser grids (pull-push: Gortler et al., The Lumigraph, 1996).
+/// No candidate at all: the plane z = 0.
+void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
+                      GroundSurface& surface);
+
+/// The surface under a labelled image: fitted to the pixels that are ROU and then, so that what the
+/// labels cut off comes back, to all that lie close to the first fit.
+void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
+                      GroundSurface& surface);
+
+/// Each pixel's height above the surface; NaN where it is empty.
+void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);
+
+}  // namespace hagen

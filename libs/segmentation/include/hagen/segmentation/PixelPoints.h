@@ -1,0 +1,32 @@
+#pragma once
+#include <hagen/range_image/RangeImage.h>
+#include <hagen/range_image/Scan.h>
+#include <hagen/range_image/SensorModel.h>
+#include <Eigen/Geometry>
+
+namespace hagen {
+
+/// Where the pixels of a depth image lie in space: an image a coordinate, NaN where a pixel is
+/// empty.
+struct PixelPoints {
+    Image<float> x_m, y_m, z_m;
+
+    Eigen::Vector3f at(Eigen::Index pixel) const {
+        return {x_m.data()[pixel], y_m.data()[pixel], z_m.data()[pixel]};
+    }
+    void set(Eigen::Index pixel, const Eigen::Vector3f& point_m) {
+        x_m.data()[pixel] = point_m.x();
+        y_m.data()[pixel] = point_m.y();
+        z_m.data()[pixel] = point_m.z();
+    }
+};
+
+/// The pixels in the sensor's frame: where their closest return is or, where a hole of the image
+/// was filled, where the beam meets `depth_m`.
+void locatePixels(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
+                  const Image<float>& depth_m, PixelPoints& pixels);
+
+/// The same pixels in another frame.
+void movePixels(const Eigen::Isometry3f& to_from_here, PixelPoints& pixels);
+
+}  // namespace hagen
