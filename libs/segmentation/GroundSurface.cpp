@@ -16,8 +16,9 @@ constexpr float kReach_m = 0.5f * kCells * kCell_m;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr float kStray_m = 0.4f;  // so far below its neighbours nothing is ground
 constexpr int kStrayNeighbours = 3;
-constexpr float kSteepest = 0.3f;     // slope of the ground against its plane
-constexpr float kEnvelope_m = 0.15f;  // a cell may stand out of the steepest slopes by this
+constexpr float kSteepest = 0.3f;         // slope of the ground against its plane, where it is seen
+constexpr float kSteepestUnseen = 0.17f;  // and where it is not: tall things hide it, not hills
+constexpr float kEnvelope_m = 0.15f;      // a cell may stand out of the steepest slopes by this
 constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // what a cell's mean is taken of
 constexpr float kSureReturns = 5;  // a mean of so many has its full weight
 
@@ -66,26 +67,34 @@ Grid withoutStrays(const Grid& lowest_m) {
     return cleaned_m;
 }
 
-/// The greatest surface below `height_m` that is nowhere steeper than kSteepest, its distances
-/// those of a chamfer in two passes (Borgefors 1986).
+/// The greatest surface below `height_m` that is nowhere too steep: kSteepest in a cell that has a
+/// height, kSteepestUnseen in one that has none. Distances are those of a chamfer in two passes
+/// (Borgefors 1986).
 Grid lowerEnvelope(const Grid& height_m) {
-    const float side_m = kSteepest * kCell_m, corner_m = side_m * std::sqrt(2.0f);
-    Grid envelope_m = Grid::Constant(kCells + 2, kCells + 2, kNone);  // a border all around
-    envelope_m.block(1, 1, kCells, kCells) = height_m;
-    Grid& e = envelope_m;
+    Grid e = Grid::Constant(kCells + 2, kCells + 2, kNone);  // with a border all around
+    e.block(1, 1, kCells, kCells) = height_m;
+    const Grid side_m =
+        kCell_m * (e == kNone)
+                      .select(Grid::Constant(kCells + 2, kCells + 2, kSteepestUnseen),
+                              Grid::Constant(kCells + 2, kCells + 2, kSteepest));
+    const float corner = std::sqrt(2.0f);
     for (int j = 1; j <= kCells; ++j) {
         for (int i = 1; i <= kCells; ++i) {
-            e(i, j) = std::min({e(i, j), e(i - 1, j) + side_m, e(i, j - 1) + side_m,
-                                e(i - 1, j - 1) + corner_m, e(i + 1, j - 1) + corner_m});
+            const float sides_m = std::min(e(i - 1, j), e(i, j - 1));
+            const float corners_m = std::min(e(i - 1, j - 1), e(i + 1, j - 1));
+            e(i, j) =
+                std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
         }
     }
     for (int j = kCells; j >= 1; --j) {
         for (int i = kCells; i >= 1; --i) {
-            e(i, j) = std::min({e(i, j), e(i + 1, j) + side_m, e(i, j + 1) + side_m,
-                                e(i + 1, j + 1) + corner_m, e(i - 1, j + 1) + corner_m});
+            const float sides_m = std::min(e(i + 1, j), e(i, j + 1));
+            const float corners_m = std::min(e(i + 1, j + 1), e(i - 1, j + 1));
+            e(i, j) =
+                std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
         }
     }
-    return envelope_m.block(1, 1, kCells, kCells);
+    return e.block(1, 1, kCells, kCells);
 }
 
 /// Heights and how much each is to be trusted, 0 to 1.

@@ -1,4 +1,5 @@
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/FartherReturns.h>
 #include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/GroundFrame.h>
@@ -60,6 +61,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
             r.pixels, r.height_m,
             {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
             r.tolerance_m);
+        if (o.canopy_layer) tolerateCanopy(r.pixels, r.height_m, r.tolerance_m);
         labelByHeight(r.height_m, r.tolerance_m, r.labels);
         if (o.grow_feet) growFeet(r.pixels, r.height_m, r.labels);
         if (o.remove_specks) removeSpecks(r.pixels, r.height_m, r.tolerance_m, r.labels);

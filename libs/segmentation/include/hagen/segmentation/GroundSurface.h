@@ -22,8 +22,8 @@ struct GroundSurface {
 /// Fits the surface to the pixels that `is_candidate`, in the ground's frame, in these steps:
 ///  1. the lowest candidate of each cell; where three neighbours or more are much higher, the
 ///     lowest of those (mirror images and stray returns lie below the ground);
-///  2. cells whose lowest candidate stands above what a slope of 0.3 allows from any other are no
-///     ground;
+///  2. cells whose lowest candidate stands above what slopes allow from any other are no ground:
+///     0.3 over cells with candidates, 0.17 over others (against the plane);
 ///  3. a cell's height is the mean of its candidates close to the lowest, its weight grows with
 ///     their number;
 ///  4. one smoothing by a weighted 3 x 3 binomial, then cells without candidates are filled from

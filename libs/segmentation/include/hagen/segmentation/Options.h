@@ -42,7 +42,10 @@ struct Options {
     /// How high above that surface a return may be and still be ground; see HeightTolerance.
     float ground_tolerance_m = 0.17f;
     float ground_tolerance_per_m = 0.005f;
-    float ground_tolerance_beside_tall = 0.12f;
+    float ground_tolerance_beside_tall = 0.1f;
+    /// Whether a low layer that covers nearly everything around is a crop's canopy, and no
+    /// obstacle.
+    bool canopy_layer = true;
     /// Whether obstacles are followed down to their feet, and lone specks removed.
     bool grow_feet = true;
     bool remove_specks = true;
