@@ -9,10 +9,10 @@ namespace {
 constexpr int kCells = GroundSurface::kCells;
 constexpr int kBlockCells = 4;
 constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
-constexpr int kReach = 5;                      // blocks to each side
+constexpr int kReach = 6;                      // blocks to each side
 
-constexpr float kLowest_m = 0.1f, kTallest_m = 1.2f;  // of what may be a canopy
-constexpr float kLeastShare = 0.4f;                   // of the cells seen around
+constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of what may be a canopy
+constexpr float kLeastShare = 0.35f;                  // of the cells seen around
 constexpr float kLeastCells = 30;                     // seen around; fewer tell nothing
 constexpr float kDeviations = 2.0f;
 constexpr float kMargin_m = 0.1f;

@@ -91,4 +91,11 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
     return ground_from_sensor;
 }
 
+Eigen::Vector3f upwards(const Eigen::Isometry3f& ground_from_sensor,
+                        const std::optional<Attitude>& attitude) {
+    if (!attitude) return Eigen::Vector3f::UnitZ();
+    return ground_from_sensor.linear() * levelFromSensor(*attitude).transpose() *
+           Eigen::Vector3f::UnitZ();
+}
+
 }  // namespace hagen

@@ -1,5 +1,6 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/CanopyLayer.h>
+#include <hagen/segmentation/Clearance.h>
 #include <hagen/segmentation/FartherReturns.h>
 #include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/GroundFrame.h>
@@ -14,6 +15,12 @@
 
 namespace hagen {
 
+namespace {
+
+float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
+
+}  // namespace
+
 HagenFilter::HagenFilter(SensorModel sensor, Options options)
     : sensor_(std::move(sensor)), options_(options) {
     checkOptions(options_, sensor_.rows());
@@ -24,7 +31,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     const Options& o = options_;
     SegmentationResult& r = result_;
     const Image<float>& depth_m = r.repaired_m;
-    const Attitude level = attitude && o.level_by_attitude ? *attitude : Attitude{};
+    const std::optional<Attitude> horizon = o.level_by_attitude ? attitude : std::nullopt;
 
     // III-A, the depth image
     projectScan(scan, sensor_, o.columns, std::max(o.context_m, o.zone_m), r.range_image);
@@ -38,42 +45,48 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     mergeMaxima(depth_m, r.proximity_m, r.sharpened_m, r.maxima, sensor_.min_range_m, r.merged_m);
 
     // III-C and III-D, the range-angle image, smoothed
-    if (attitude && o.level_by_attitude) {
-        levelRangeAngles(r.merged_m, sensor_, *attitude, r.range_angle_rad);
-    } else {
-        rangeAngles(r.merged_m, sensor_, r.range_angle_rad);
-    }
+    rangeAngles(r.merged_m, sensor_, horizon, r.range_angle_rad);
     smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad);
     carryAngles(r.smoothed_rad, r.pixel_angle_rad);
 
     // III-E, labels
-    labelRegions(depth_m, r.pixel_angle_rad, static_cast<float>(radians(o.beta_deg)), o.seeds,
-                 static_cast<float>(radians(o.seed_gate_deg)), r.labels);
-
-    // beyond the paper: what was found to be ground tells what else is
-    if (o.ground_surface) {
-        locatePixels(scan, sensor_, r.range_image, depth_m, r.pixels);
-        r.ground_from_sensor = fitGroundFrame(r.pixels, level);
-        movePixels(r.ground_from_sensor, r.pixels);
-        fitGroundSurface(r.pixels, r.labels, r.ground);
-        heightsAbove(r.ground, r.pixels, r.height_m);
-        toleratedHeights(
-            r.pixels, r.height_m,
-            {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
-            r.tolerance_m);
-        if (o.canopy_layer) tolerateCanopy(r.pixels, r.height_m, r.tolerance_m);
-        labelByHeight(r.height_m, r.tolerance_m, r.labels);
-        if (o.grow_feet) growFeet(r.pixels, r.height_m, r.labels);
-        if (o.remove_specks) removeSpecks(r.pixels, r.height_m, r.tolerance_m, r.labels);
-        judgeFartherReturns(scan, r.range_image, r.ground_from_sensor, r.ground, r.tolerance_m,
-                            r.own_label);
-    }
-
+    labelRegions(depth_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,
+                 radiansf(o.seed_gate_deg), r.labels);
+    if (o.ground_surface) judgeByGround(scan, horizon);
     limitToZone(depth_m, o.zone_m, r.labels);
     numberRoiComponents(depth_m, r.labels, o.component_gap_m, r.components);
     extractReturns(scan, sensor_, r.range_image, r.labels, r.components, r.own_label, o.zone_m,
                    r.returns);
     return r;
+}
+
+/// Beyond the paper: the ground that was found tells what else is ground.
+void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon) {
+    const Options& o = options_;
+    SegmentationResult& r = result_;
+    Ground& g = r.ground;
+
+    // the surface under the ROU
+    locatePixels(scan, sensor_, r.range_image, r.repaired_m, g.pixels);
+    g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}));
+    movePixels(g.from_sensor, g.pixels);
+    fitGroundSurface(g.pixels, r.labels, g.surface);
+
+    // every pixel against it
+    heightsAbove(g.surface, g.pixels, g.height_m);
+    toleratedHeights(
+        g.pixels, g.height_m,
+        {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
+        g.tolerance_m);
+    if (o.canopy_layer) tolerateCanopy(g.pixels, g.height_m, g.tolerance_m);
+    labelByHeight(g.height_m, g.tolerance_m, r.labels);
+
+    // obstacles down to their feet, without specks; ground that comes too close
+    if (o.grow_feet) growFeet(g.pixels, g.height_m, r.labels);
+    if (o.remove_specks) removeSpecks(g.pixels, g.height_m, g.tolerance_m, r.labels);
+    alarmLowGround(g.pixels, g.from_sensor.translation(), upwards(g.from_sensor, horizon),
+                   o.ground_is_roi_below_m, r.labels);
+    judgeFartherReturns(scan, r.range_image, g, r.own_label);
 }
 
 }  // namespace hagen

@@ -1,5 +1,6 @@
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/segmentation/Levelling.h>
+#include <hagen/segmentation/RangeAngle.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
@@ -12,10 +13,11 @@ Eigen::Matrix3f levelFromSensor(const Attitude& attitude) {
         .toRotationMatrix();
 }
 
-void levelRangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
-                      const Attitude& attitude, Image<float>& range_angle_rad) {
+void rangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
+                 const std::optional<Attitude>& attitude, Image<float>& range_angle_rad) {
+    if (!attitude) return rangeAngles(depth_m, sensor, range_angle_rad);
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
-    const Eigen::Matrix3f level = levelFromSensor(attitude);
+    const Eigen::Matrix3f level = levelFromSensor(*attitude);
     range_angle_rad.resize(rows - 1, columns);
     for (int column = 0; column < columns; ++column) {
         const float azimuth_rad = columnAzimuth(column, columns);

@@ -3,8 +3,8 @@
 
 namespace hagen {
 
-/// Raises the tolerance over crops. Plants that stand 0.1 to 1.2 m high in 40 % of all cells (0.75
-/// m) that were seen within 15 m around are a canopy, which one flies over as over the ground: the
+/// Raises the tolerance over crops. Plants that stand 0.1 to 1 m high in 35 % of all cells (0.75
+/// m) that were seen within 18 m around are a canopy, which one flies over as over the ground: the
 /// bushes, hedges and cars of a street fill a smaller part of what is seen. In a canopy a return is
 /// an obstacle only where it is higher than the plants: the mean + 2 standard deviations of the
 /// cells' highest returns, + 0.1 m. Shares and means are those of blocks of 4 x 4 cells.

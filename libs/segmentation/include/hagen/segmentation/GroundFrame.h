@@ -2,6 +2,7 @@
 #include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/PixelPoints.h>
 #include <Eigen/Geometry>
+#include <optional>
 
 namespace hagen {
 
@@ -16,5 +17,10 @@ namespace hagen {
 /// Fewer than three cells with points: the frame of a level plane through the lowest pixel, or the
 /// sensor's own where there is none.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);
+
+/// The unit vector against gravity in the ground's frame; where the attitude is not known, the
+/// ground's normal.
+Eigen::Vector3f upwards(const Eigen::Isometry3f& ground_from_sensor,
+                        const std::optional<Attitude>& attitude);
 
 }  // namespace hagen

@@ -3,7 +3,7 @@
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/Extraction.h>
-#include <hagen/segmentation/GroundSurface.h>
+#include <hagen/segmentation/Ground.h>
 #include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/Options.h>
 #include <hagen/segmentation/PersistentMaxima.h>
@@ -15,22 +15,17 @@ namespace hagen {
 /// Everything the filter made of one scan: each stage's image, and in the end each return's label.
 /// Images are I_h x I_w (range angles: I_h - 1 rows), NaN where a pixel has no value.
 struct SegmentationResult {
-    RangeImage range_image;        ///< stage 1
-    Image<float> repaired_m;       ///< stage 2, the depth image without its one-pixel holes
-    Image<float> proximity_m;      ///< zone_m - depth, at least 0
-    std::vector<Maximum> maxima;   ///< stage 3, with birth, death and persistence
-    Image<float> sharpened_m;      ///< stage 4, in proximity
-    Image<float> merged_m;         ///< stage 5, depth again
-    Image<float> range_angle_rad;  ///< stage 6
-    Image<float> smoothed_rad;     ///< stage 7
-    Image<float> pixel_angle_rad;  ///< the angle that each pixel carries into the labelling
-    Image<Label> labels;           ///< stage 8, judged again by height, limited to the zone
-    Eigen::Isometry3f
-        ground_from_sensor;          ///< beyond the paper: the plane that the ground lies about
-    PixelPoints pixels;              ///< where the pixels lie, in the ground's frame
-    GroundSurface ground;            ///< the surface under the ROU
-    Image<float> height_m;           ///< of each pixel above it
-    Image<float> tolerance_m;        ///< the height that is still ground
+    RangeImage range_image;          ///< stage 1
+    Image<float> repaired_m;         ///< stage 2, the depth image without its one-pixel holes
+    Image<float> proximity_m;        ///< zone_m - depth, at least 0
+    std::vector<Maximum> maxima;     ///< stage 3, with birth, death and persistence
+    Image<float> sharpened_m;        ///< stage 4, in proximity
+    Image<float> merged_m;           ///< stage 5, depth again
+    Image<float> range_angle_rad;    ///< stage 6
+    Image<float> smoothed_rad;       ///< stage 7
+    Image<float> pixel_angle_rad;    ///< the angle that each pixel carries into the labelling
+    Image<Label> labels;             ///< stage 8, judged again by height, limited to the zone
+    Ground ground;                   ///< beyond the paper, see Ground.h
     Image<std::int32_t> components;  ///< obstacles, numbered from the nearest
     std::vector<Label> own_label;    ///< of returns behind their pixel's; Unclassified elsewhere
     LabelledReturns returns;         ///< stage 9, for each return of the scan
@@ -59,6 +54,8 @@ class HagenFilter {
     const Options& options() const { return options_; }
 
  private:
+    void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon);
+
     SensorModel sensor_;
     Options options_;
     SegmentationResult result_;

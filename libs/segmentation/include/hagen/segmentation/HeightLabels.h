@@ -7,9 +7,9 @@ namespace hagen {
 
 /// How high above the ground a return may be and still be ground.
 struct HeightTolerance {
-    float near_m = 0.17f;      ///< beside the sensor
-    float per_m = 0.005f;      ///< more, a metre of distance
-    float beside_tall = 0.1f;  ///< less, a metre that what stands there is tall (1.1 at most)
+    float near_m = 0.17f;       ///< beside the sensor
+    float per_m = 0.005f;       ///< more, a metre of distance
+    float beside_tall = 0.12f;  ///< less, a metre that what stands there is tall (1.1 at most)
 };
 
 /// The tolerance of each pixel, at least 0.04 m; NaN where it is empty. It is less where something

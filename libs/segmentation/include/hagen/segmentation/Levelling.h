@@ -2,6 +2,7 @@
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/SensorModel.h>
 #include <Eigen/Core>
+#include <optional>
 
 namespace hagen {
 
@@ -15,13 +16,13 @@ struct Attitude {
 /// The rotation from the sensor's frame to the level one with the same heading (z up).
 Eigen::Matrix3f levelFromSensor(const Attitude& attitude);
 
-/// Stage 6 of a tilted sensor: as rangeAngles(), but about the horizon and not about the airframe,
+/// Stage 6 about the horizon and not about the airframe, where the attitude is known: as the
+/// rangeAngles() of a level sensor (RangeAngle.h), but
 ///
 ///   alpha = atan2(|dz|, |(dx, dy)|)
 ///
-/// of the level coordinates of the two returns. With a level sensor it is rangeAngles() to within
-/// rounding.
-void levelRangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
-                      const Attitude& attitude, Image<float>& range_angle_rad);
+/// of the level coordinates of the two returns.
+void rangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
+                 const std::optional<Attitude>& attitude, Image<float>& range_angle_rad);
 
 }  // namespace hagen

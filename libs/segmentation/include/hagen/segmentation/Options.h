@@ -42,13 +42,15 @@ struct Options {
     /// How high above that surface a return may be and still be ground; see HeightTolerance.
     float ground_tolerance_m = 0.17f;
     float ground_tolerance_per_m = 0.005f;
-    float ground_tolerance_beside_tall = 0.1f;
+    float ground_tolerance_beside_tall = 0.12f;
     /// Whether a low layer that covers nearly everything around is a crop's canopy, and no
     /// obstacle.
     bool canopy_layer = true;
     /// Whether obstacles are followed down to their feet, and lone specks removed.
     bool grow_feet = true;
     bool remove_specks = true;
+    /// Ground that is less than this below the sensor is RoI; 0: none ever.
+    float ground_is_roi_below_m = 0.0f;
     /// RoI pixels side by side are one component where their depths differ by less.
     float component_gap_m = 1.0f;
     /// K, consecutive scans that are segmented together; needs poses beyond 1.

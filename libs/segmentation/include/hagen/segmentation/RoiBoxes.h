@@ -1,0 +1,21 @@
+#pragma once
+#include <hagen/range_image/Scan.h>
+#include <hagen/segmentation/Extraction.h>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+namespace hagen {
+
+/// What a RoI component fills in space.
+struct RoiBox {
+    std::int32_t component;         ///< its number, 1 the nearest
+    std::uint32_t returns;          ///< how many
+    float nearest_m;                ///< range of the closest
+    Eigen::AlignedBox3f extents_m;  ///< in the sensor's frame, along its axes
+};
+
+/// A box for each component, in the order of their numbers.
+std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& returns);
+
+}  // namespace hagen
