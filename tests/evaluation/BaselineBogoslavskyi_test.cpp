@@ -87,6 +87,19 @@ TEST(BogoslavskyiLabels, TellsAPoleAndAWallFromFlatGround) {
     EXPECT_GT(recall(labelled, labels, Label::Rou), 0.95);
 }
 
+TEST(BogoslavskyiLabels, SmoothsTheAngles) {
+    // A box's foot is a step in the angles, which smoothing spreads over its neighbours.
+    SimpleScene scene;
+    scene.boxes.push_back({{4.0, -3.0, 0.0}, {5.0, 3.0, 1.0}});
+    const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
+    BogoslavskyiOptions rough;
+    rough.smoothing_window = 1;
+    EXPECT_NE(bogoslavskyiLabels(labelled.scan, kSensor),
+              bogoslavskyiLabels(labelled.scan, kSensor, rough));
+    rough.smoothing_window = 4;
+    EXPECT_THROW(bogoslavskyiLabels(labelled.scan, kSensor, rough), std::invalid_argument);
+}
+
 TEST(BogoslavskyiLabels, NeedsGroundUnderTheLowestBeam) {
     // A step up all around: steeper than 45 degrees at the lowest beam, so nothing starts there.
     const Eigen::Vector3f low = at(0, 10.0, 5.0), high = at(1, 10.0, 5.0);
