@@ -24,7 +24,7 @@ Eigen::VectorXf parabolaWeights(int half) {
     return powers.completeOrthogonalDecomposition().pseudoInverse().row(0).cast<float>();
 }
 
-/// Breadth-first from the lowest pixel of each column (algorithm 1).
+/// Breadth-first from the lowest pixel of each column.
 Image<bool> growGround(const Image<float>& depth_m, const Image<float>& angle_rad,
                        const BogoslavskyiOptions& options) {
     const int rows = static_cast<int>(angle_rad.rows());

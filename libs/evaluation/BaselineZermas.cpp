@@ -32,7 +32,7 @@ struct Plane {
     float heightOf(const Eigen::Vector3f& p) const { return normal.dot(p) - offset_m; }
 };
 
-/// Eqs. 1 to 3: through the points' mean, across the direction in which they spread least.
+/// EstimatePlane: through the points' mean, across the direction in which they spread least.
 std::optional<Plane> estimatePlane(const Scan& scan, const Indices& points) {
     if (points.size() < 3) return std::nullopt;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();

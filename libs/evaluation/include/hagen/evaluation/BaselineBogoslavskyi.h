@@ -28,7 +28,7 @@ struct BogoslavskyiOptions {
 /// `window` is odd and positive, else std::invalid_argument; 1 changes nothing.
 Image<float> savitzkyGolay(const Image<float>& image, int window);
 
-/// The method as a segmenter (PFG 2017, section 3.1): RoI is what is no ground within `zone_m`.
+/// The method as a segmenter: RoI is what is no ground within `zone_m`.
 /// Ground grows breadth-first from the lowest pixel of each column over the smoothed image of
 /// inclination angles. A return takes its pixel's label; a pixel without an angle is Roi, the safe
 /// side. An entry a return; Unclassified out of the sensor's range.
@@ -36,7 +36,7 @@ Image<float> savitzkyGolay(const Image<float>& image, int window);
 std::vector<Label> bogoslavskyiLabels(const Scan& scan, const SensorModel& sensor,
                                       const BogoslavskyiOptions& options = {});
 
-/// The clusters of the returns labelled Roi (section 3.3): neighbours in the range image of depths
+/// The clusters of the returns labelled Roi: neighbours in the range image of depths
 /// d1 >= d2, seen `a` apart, are of one object if
 ///
 ///   beta = atan2(d2 sin a, d1 - d2 cos a) > theta.

@@ -8,8 +8,8 @@
 namespace hagen {
 
 /// Zermas, Izzat, Papanikolopoulos: "Fast segmentation of 3D point clouds: a paradigm on LiDAR data
-/// for autonomous vehicle applications", ICRA 2017. Defaults are the published parameters
-/// (section IV); docs/baselines.md says what the paper leaves open and what was chosen.
+/// for autonomous vehicle applications", ICRA 2017. Defaults are the published parameters;
+/// docs/baselines.md says what the paper leaves open and what was chosen.
 struct ZermasOptions {
     int segments = 3;                ///< N_segs: stretches of the x axis, a plane each
     int iterations = 3;              ///< N_iter: times that a plane is fitted
@@ -21,7 +21,7 @@ struct ZermasOptions {
     float zone_m = 20.0f;            ///< returns farther than this are ROU, and fit no plane
 };
 
-/// Ground plane fitting (GPF, section III-A, algorithm 1): Rou is ground, Roi is not, Unclassified
+/// Ground plane fitting (GPF, algorithm 1): Rou is ground, Roi is not, Unclassified
 /// is out of the sensor's range or of the zone, and takes no part. An entry a return.
 /// A stretch whose seeds are fewer than three, or lie on a line, has no plane; what stands there is
 /// Roi, the safe side.
@@ -29,7 +29,7 @@ struct ZermasOptions {
 std::vector<Label> zermasGroundFit(const Scan& scan, const SensorModel& sensor,
                                    const ZermasOptions& options = {});
 
-/// Scan line run (SLR, section III-B, algorithm 2): the clusters of the returns labelled Roi.
+/// Scan line run (SLR, algorithm 2): the clusters of the returns labelled Roi.
 /// A line is a beam's row, which closes on itself. Within a line neighbours closer than Th_run are
 /// a run; a run joins the clusters of those returns of the line above that are nearest to
 /// its own and closer than Th_merge. Clusters are numbered 1, 2, ... by their first return in the
