@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+#include <hagen/evaluation/BaselineBogoslavskyi.h>
+#include <hagen/range_image/Angle.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "support/PointScan.h"
+#include "support/Random.h"
+#include "support/SimpleScene.h"
+
+namespace hagen {
+namespace {
+
+using test::LabelledScan;
+using test::SimpleScene;
+
+const SensorModel kSensor = sensorModel("VLP-16");
+
+Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
+    return test::scanOf(kSensor, points_m);
+}
+
+Eigen::Vector3f at(int row, double azimuth_deg, double range_m) {
+    return test::onBeam(kSensor, row, azimuth_deg, range_m);
+}
+
+std::vector<std::int32_t> clustersOf(const Scan& scan) {
+    return bogoslavskyiClusters(scan, kSensor, std::vector<Label>(scan.size(), Label::Roi));
+}
+
+TEST(SavitzkyGolay, HasTheWeightsOfTheTable) {
+    Image<float> impulse = Image<float>::Zero(9, 1);
+    impulse(4, 0) = 35.0f;  // Savitzky and Golay 1964: -3 12 17 12 -3, over 35
+    const Image<float> smooth = savitzkyGolay(impulse, 5);
+    const std::vector<float> expected{0, 0, -3, 12, 17, 12, -3, 0, 0};
+    for (int row = 0; row < 9; ++row) EXPECT_NEAR(smooth(row, 0), expected[row], 1e-4) << row;
+}
+
+TEST(SavitzkyGolay, KeepsParabolas) {
+    Image<float> image(12, 2);
+    for (int row = 0; row < 12; ++row) {
+        const float r = static_cast<float>(row);
+        image.row(row) << 0.3f * r * r - 2.0f * r + 1.0f, -0.1f * r * r;
+    }
+    for (const int window : {3, 5, 7, 11}) {
+        EXPECT_LT((savitzkyGolay(image, window) - image).abs().maxCoeff(), 1e-3f) << window;
+    }
+}
+
+TEST(SavitzkyGolay, LeavesPixelsBesideGapsAndEdgesAlone) {
+    test::Random random(3);
+    Image<float> image = random.image(12, 1, 0.0f, 1.0f, 0.0);
+    image(6, 0) = kNoValue;
+    const Image<float> smooth = savitzkyGolay(image, 5);
+    for (const int row : {0, 1, 4, 5, 7, 8, 10, 11}) EXPECT_EQ(smooth(row, 0), image(row, 0));
+    EXPECT_FALSE(hasValue(smooth(6, 0)));
+    for (const int row : {2, 3, 9}) EXPECT_NE(smooth(row, 0), image(row, 0)) << row;
+    EXPECT_TRUE(test::same(savitzkyGolay(image, 1), image));
+}
+
+TEST(SavitzkyGolay, RefusesEvenWindows) {
+    for (const int window : {-1, 0, 4}) {
+        EXPECT_THROW(savitzkyGolay(Image<float>::Zero(5, 5), window), std::invalid_argument);
+    }
+}
+
+/// The share of the near returns with this true label that are found to have it.
+double recall(const LabelledScan& scene, const std::vector<Label>& labels, Label label) {
+    int hits = 0, all = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (scene.scan.range_m[i] > 20.0f || scene.truth[i] != label) continue;
+        ++all;
+        hits += labels[i] == label;
+    }
+    return static_cast<double>(hits) / all;
+}
+
+TEST(BogoslavskyiLabels, TellsAPoleAndAWallFromFlatGround) {
+    SimpleScene scene;
+    scene.poles.push_back({6.0, 3.0, 0.3, 4.0});
+    scene.boxes.push_back({{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}});
+    const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
+    const std::vector<Label> labels = bogoslavskyiLabels(labelled.scan, kSensor);
+    EXPECT_EQ(recall(labelled, labels, Label::Roi), 1.0);
+    // The ground row at an obstacle's foot carries the slope to the obstacle.
+    EXPECT_GT(recall(labelled, labels, Label::Rou), 0.95);
+}
+
+TEST(BogoslavskyiLabels, SmoothsTheAngles) {
+    // A box's foot is a step in the angles, which smoothing spreads over its neighbours.
+    SimpleScene scene;
+    scene.boxes.push_back({{4.0, -3.0, 0.0}, {5.0, 3.0, 1.0}});
+    const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
+    BogoslavskyiOptions rough;
+    rough.smoothing_window = 1;
+    EXPECT_NE(bogoslavskyiLabels(labelled.scan, kSensor),
+              bogoslavskyiLabels(labelled.scan, kSensor, rough));
+    rough.smoothing_window = 4;
+    EXPECT_THROW(bogoslavskyiLabels(labelled.scan, kSensor, rough), std::invalid_argument);
+}
+
+TEST(BogoslavskyiLabels, NeedsGroundUnderTheLowestBeam) {
+    // A step up all around: steeper than 45 degrees at the lowest beam, so nothing starts there.
+    const Eigen::Vector3f low = at(0, 10.0, 5.0), high = at(1, 10.0, 5.0);
+    std::vector<Eigen::Vector3f> column{low, high};
+    EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kSensor), std::vector<Label>(2, Label::Roi));
+    // Level ground: the height of both is the same.
+    const double rise = std::sin(radians(15.0)) / std::sin(radians(13.0));
+    column[1] = at(1, 10.0, 5.0 * rise);
+    EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kSensor), std::vector<Label>(2, Label::Rou));
+}
+
+TEST(BogoslavskyiLabels, GrowsUpToTheDifferenceOfAngles) {
+    // Level from beam 0 to 1, then a slope from 1 to 2: ground if it is flatter than 5 degrees.
+    const auto labelsOf = [&](double slope_deg) {
+        const double z_m = -1.5;
+        const auto groundRange = [&](double beam_deg) { return z_m / std::sin(radians(beam_deg)); };
+        const double from_m = groundRange(-13.0) * std::cos(radians(13.0));
+        // On the line up from there: r sin e = z + tan s (r cos e - from).
+        const double t = std::tan(radians(slope_deg)), e = radians(-11.0);
+        const double range_m = (z_m - t * from_m) / (std::sin(e) - t * std::cos(e));
+        return bogoslavskyiLabels(scanOf({at(0, 0.0, groundRange(-15.0)),
+                                          at(1, 0.0, groundRange(-13.0)), at(2, 0.0, range_m)}),
+                                  kSensor);
+    };
+    EXPECT_EQ(labelsOf(4.5), std::vector<Label>(3, Label::Rou));
+    EXPECT_EQ(labelsOf(5.5), (std::vector<Label>{Label::Rou, Label::Roi, Label::Roi}));
+}
+
+TEST(BogoslavskyiLabels, LeavesFarAndUnseenReturnsOut) {
+    const Scan scan = scanOf({at(9, 0.0, 25.0), at(9, 90.0, 0.1), {0.0f, 0.0f, 0.0f}});
+    EXPECT_EQ(bogoslavskyiLabels(scan, kSensor),
+              (std::vector<Label>{Label::Rou, Label::Unclassified, Label::Unclassified}));
+    EXPECT_TRUE(bogoslavskyiLabels({}, kSensor).empty());
+}
+
+TEST(BogoslavskyiClusters, SeparatesByTheAngleBeta) {
+    // beta = theta at d1 = d2 (sin a / tan theta + cos a), for a = 2 degrees between beams.
+    const double a = radians(2.0), theta = radians(10.0);
+    const double border_m = 8.0 * (std::sin(a) / std::tan(theta) + std::cos(a));
+    EXPECT_EQ(clustersOf(scanOf({at(8, 0.0, 8.0), at(9, 0.0, border_m - 0.02)})),
+              (std::vector<std::int32_t>{1, 1}));
+    EXPECT_EQ(clustersOf(scanOf({at(8, 0.0, 8.0), at(9, 0.0, border_m + 0.02)})),
+              (std::vector<std::int32_t>{1, 2}));
+}
+
+TEST(BogoslavskyiClusters, ClosesTheImageBehindTheSensor) {
+    EXPECT_EQ(clustersOf(scanOf({at(8, 179.9, 8.0), at(8, -179.9, 8.0)})),
+              (std::vector<std::int32_t>{1, 1}));
+}
+
+TEST(BogoslavskyiClusters, NumbersTwoPolesInTheOrderOfTheScan) {
+    SimpleScene scene;
+    scene.has_ground = false;
+    scene.poles.push_back({6.0, 0.0, 0.3, 4.0});
+    scene.poles.push_back({5.0, 3.0, 0.3, 4.0});
+    const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
+    const std::vector<std::int32_t> clusters = clustersOf(labelled.scan);
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+        // Columns go clockwise, so that the pole on the left comes first.
+        EXPECT_EQ(clusters[i], labelled.scan.y_m[i] > 1.5f ? 1 : 2);
+    }
+}
+
+TEST(BogoslavskyiClusters, NumbersRoiReturnsAlone) {
+    const Scan scan = scanOf({at(7, 0.0, 5.0), at(7, 90.0, 5.0), at(7, 180.0, 5.0)});
+    EXPECT_EQ(bogoslavskyiClusters(scan, kSensor, {Label::Rou, Label::Roi, Label::Roi}),
+              (std::vector<std::int32_t>{0, 1, 2}));
+    EXPECT_THROW(bogoslavskyiClusters(scan, kSensor, {Label::Roi}), std::invalid_argument);
+    EXPECT_TRUE(clustersOf({}).empty());
+}
+
+}  // namespace
+}  // namespace hagen
