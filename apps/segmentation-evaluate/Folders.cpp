@@ -4,6 +4,7 @@
 #include <hagen/logs/ScanFolder.h>
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 namespace hagen {
@@ -85,18 +86,33 @@ std::shared_ptr<const Recording> openRecording(const std::string& path,
     return std::make_shared<const Recording>(recording);
 }
 
-/// The last part of each path, or the whole path where two end alike.
+/// The last `parts` parts of a path.
+std::string ending(const fs::path& path, std::size_t parts) {
+    fs::path name = path.filename();
+    fs::path rest = path.parent_path();
+    for (std::size_t i = 1; i < parts && rest.has_filename(); ++i, rest = rest.parent_path()) {
+        name = rest.filename() / name;
+    }
+    return name.string();
+}
+
+/// Names as short as still tells the folders apart: "00", or "beams16/00" and "beams64/00".
 std::vector<std::string> namesOf(const std::vector<std::string>& folders) {
-    const auto shortName = [](const std::string& path) {
-        const fs::path whole = fs::absolute(path).lexically_normal();
-        return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-    };
-    std::vector<std::string> names;
+    std::vector<fs::path> paths;
     for (const std::string& folder : folders) {
-        const auto alike = std::count_if(folders.begin(), folders.end(), [&](const auto& other) {
-            return shortName(other) == shortName(folder);
-        });
-        names.push_back(alike > 1 ? folder : shortName(folder));
+        fs::path path = fs::weakly_canonical(folder);
+        if (!path.has_filename()) path = path.parent_path();
+        if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+            throw SettingsError("--input: " + folder + " is given twice");
+        }
+        paths.push_back(path);
+    }
+    std::vector<std::string> names;
+    for (std::size_t parts = 1; names.size() < paths.size(); ++parts) {
+        std::set<std::string> different;
+        for (const fs::path& path : paths) different.insert(ending(path, parts));
+        if (different.size() < paths.size()) continue;
+        for (const fs::path& path : paths) names.push_back(ending(path, parts));
     }
     return names;
 }

@@ -11,7 +11,8 @@ namespace hagen {
 
 /// True labels are those of labels/, or with a map those that it gives to the classes in semantic/,
 /// else labels/. Kinds are those of the map, else those of the folder's own kinds.yaml.
-/// Throws std::runtime_error, naming the folder, where one holds no scans.
+/// Throws std::runtime_error, naming the folder, where one holds no scans, and SettingsError where
+/// one is given twice.
 std::vector<ScanSource> sourcesOf(const std::vector<std::string>& folders,
                                   const std::vector<SettingsRow>& rows,
                                   const std::optional<LabelMap>& label_map);

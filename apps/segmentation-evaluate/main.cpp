@@ -1,19 +1,26 @@
 // Scores the filter on labelled scan folders, with one setting or a sweep of them.
 #include <hagen/evaluation/Evaluation.h>
+#include <hagen/logs/OutputPath.h>
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "Charts.h"
 #include "Folders.h"
+#include "Json.h"
 #include "Methods.h"
+#include "Overlay.h"
 #include "Report.h"
 #include "Summary.h"
 
 namespace {
 
 using namespace hagen;
+namespace fs = std::filesystem;
 
 struct Flags {
     std::vector<std::string> folders, configs, sweeps;
@@ -33,33 +40,83 @@ void addFlags(CLI::App& app, Flags& flags) {
         ->check(CLI::Range(0.1, 1000.0));
     app.add_option("--label-map", flags.label_map,
                    "YAML file: which classes of semantic/ (or else labels/) are RoI and ROU");
+    const auto camera =
+        app.add_option("--camera", flags.camera,
+                       "YAML file of a camera: scores its pixels too, as the paper does");
+    app.add_option("--overlay", flags.overlay,
+                   "folder for a PNG a scan of what the camera sees: hits, misses, false alarms")
+        ->needs(camera);
+    app.add_option("--json", flags.json, "file for all figures, counts and intervals");
+    app.add_option("--charts", flags.charts, "folder for SVG charts");
     app.add_option("--bootstrap", flags.resamples, "resamples for intervals; 0: no intervals")
         ->capture_default_str()
         ->check(CLI::Range(0, 1000000));
+    app.add_flag("--overwrite", flags.overwrite, "replace outputs that exist");
 }
 
 /// A file that a flag names and that cannot be taken as it is is wrong usage.
 template <class Read>
-auto fromFlag(Read read) {
+auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read(file))> {
+    if (file.empty()) return std::nullopt;
     try {
-        return read();
+        return read(file);
     } catch (const std::runtime_error& e) {
         throw SettingsError(e.what());
     }
 }
 
+/// The places to write to, each where it was asked for. Nothing appears before all is written.
+struct Outputs {
+    explicit Outputs(const Flags& flags) {
+        const auto open = [&](const std::string& path, OutputPath::Kind kind,
+                              std::optional<OutputPath>& output) {
+            if (path.empty()) return;
+            output.emplace(path, kind, flags.overwrite);
+            if (kind != OutputPath::Kind::File) fs::create_directory(output->temporary());
+        };
+        open(flags.json, OutputPath::Kind::File, json);
+        open(flags.charts, OutputPath::Kind::Charts, charts);
+        open(flags.overlay, OutputPath::Kind::Overlays, overlay);
+    }
+    void commit() {
+        for (std::optional<OutputPath>* output : {&json, &charts, &overlay}) {
+            if (output->has_value()) (*output)->commit();
+        }
+    }
+    std::optional<OutputPath> json, charts, overlay;
+};
+
+/// A name as part of a file's.
+std::string fileName(std::string name) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+}
+
+void writeOverlay(const fs::path& folder, const ScanSource& source, const LabelledView& view,
+                  const EvaluationOptions& options) {
+    const fs::path own = view.methods == 1 ? folder : folder / fileName(view.method_name);
+    fs::create_directories(own);
+    const std::string scan = fs::path(source.scanName(view.scan)).stem().string();
+    drawOverlay(own / (fileName(source.name) + "_" + scan + "_overlay.png"),
+                source.name + ", scan " + scan + ", " + view.method_name, view, *options.camera,
+                options.range.max_range_m);
+}
+
 int run(const Flags& flags, Summary summary) {
     for (const std::string& config : flags.configs) mergeSettings(config, summary.settings);
     const std::vector<SettingsRow> rows = rowsOf(summary.settings, flags.sweeps);
-    std::optional<LabelMap> label_map;
-    if (!flags.label_map.empty()) {
-        label_map = fromFlag([&] { return readLabelMap(flags.label_map); });
-    }
-    const std::vector<ScanSource> sources = sourcesOf(flags.folders, rows, label_map);
-
+    const auto label_map = fromFlag(flags.label_map, readLabelMap);
     EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
-    const std::vector<MethodScores> methods = evaluate(sources, options);
+    options.camera = fromFlag(flags.camera, readCamera);
+    const std::vector<ScanSource> sources = sourcesOf(flags.folders, rows, label_map);
+    Outputs outputs(flags);
+
+    const auto onScan = [&](const LabelledView& view) {
+        if (!outputs.overlay) return;
+        writeOverlay(outputs.overlay->temporary(), sources[view.source], view, options);
+    };
+    const std::vector<MethodScores> methods = evaluate(sources, options, onScan);
 
     summary.folders = flags.folders;
     for (const ScanSource& source : sources) summary.folder_names.push_back(source.name);
@@ -68,6 +125,9 @@ int run(const Flags& flags, Summary summary) {
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
     sumUp(methods, rows, summary);
+    if (outputs.json) writeJson(outputs.json->temporary(), summary);
+    if (outputs.charts) drawCharts(outputs.charts->temporary(), summary);
+    outputs.commit();
     std::cout << reportOf(summary);
     return 0;
 }

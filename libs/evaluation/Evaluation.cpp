@@ -64,7 +64,8 @@ std::vector<MethodScores> evaluate(const std::vector<ScanSource>& sources,
                 } catch (const std::invalid_argument& e) {
                     throw std::runtime_error(source.scanName(i) + ": " + e.what());
                 }
-                if (listener) listener({s, i, m, methods[m].name, scan, found, pixels});
+                if (listener)
+                    listener({s, i, m, methods.size(), methods[m].name, scan, found, pixels});
             }
         }
     }

@@ -34,7 +34,8 @@ struct MethodScores {
 
 /// A scan as one method labelled it, for those who want to look.
 struct LabelledView {
-    std::size_t source, scan, method;
+    std::size_t source, scan;
+    std::size_t method, methods;  ///< which, of how many
     const std::string& method_name;
     const TrueScan& truth;
     const std::vector<Label>& found;
