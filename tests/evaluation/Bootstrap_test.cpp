@@ -21,7 +21,7 @@ TEST(Bootstrap, IntervalOfAShareIsThatOfTheBinomialDistribution) {
     // Recall 0.5 of n = 400 scans: standard deviation sqrt(0.25 / 400) = 0.025, 95 % within 1.96 of
     // them. Counts are whole, so bounds lie on multiples of 1 / 400.
     BootstrapOptions options;
-    options.resamples = 20000;
+    options.resamples = 4000;
     const Interval recall = bootstrapIntervals(everySecondFound(400), options).roi.recall;
     EXPECT_NEAR(recall.low, 0.5 - 1.96 * 0.025, 0.0035);
     EXPECT_NEAR(recall.high, 0.5 + 1.96 * 0.025, 0.0035);
