@@ -1,12 +1,16 @@
 #include "Overlay.h"
 
 #include <hagen/pictures/Gnuplot.h>
+#include <algorithm>
 #include <array>
 #include <locale>
 #include <sstream>
+#include <string>
 
 namespace hagen {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// How a pixel was scored, in the order in which they are drawn: what is wrong lies on top.
 enum Outcome { LeftOut, RouFound, RoiFound, FalseAlarm, Missed, kOutcomes };
@@ -27,10 +31,14 @@ Outcome outcomeOf(Label truth, Label found) {
     return found == Label::Roi ? FalseAlarm : RouFound;
 }
 
-}  // namespace
+/// A name as part of a file's.
+std::string fileName(std::string name) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+}
 
-void drawOverlay(const std::filesystem::path& picture, const std::string& title,
-                 const LabelledView& view, const PinholeCamera& camera, float max_range_m) {
+void draw(const fs::path& picture, const std::string& title, const LabelledView& view,
+          const PinholeCamera& camera, float max_range_m) {
     std::array<std::size_t, kOutcomes> counts{};
     std::array<std::ostringstream, kOutcomes> points;
     for (const CameraPixel& pixel : view.pixels) {
@@ -69,6 +77,18 @@ void drawOverlay(const std::filesystem::path& picture, const std::string& title,
     }
     script << "\nunset output\n";
     runGnuplot(script.str(), picture.parent_path(), {picture.filename().string()});
+}
+
+}  // namespace
+
+void drawOverlay(const fs::path& folder, const ScanSource& source, const LabelledView& view,
+                 const EvaluationOptions& options) {
+    const fs::path own = view.methods == 1 ? folder : folder / fileName(view.method_name);
+    fs::create_directories(own);
+    const std::string scan = fs::path(source.scanName(view.scan)).stem().string();
+    draw(own / (fileName(source.name) + "_" + scan + "_overlay.png"),
+         source.name + ", scan " + scan + ", " + view.method_name, view, *options.camera,
+         options.range.max_range_m);
 }
 
 }  // namespace hagen

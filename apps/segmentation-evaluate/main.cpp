@@ -2,7 +2,6 @@
 #include <hagen/evaluation/Evaluation.h>
 #include <hagen/logs/OutputPath.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "Json.h"
 #include "Methods.h"
 #include "Overlay.h"
+#include "Progress.h"
 #include "Report.h"
 #include "Summary.h"
 
@@ -86,22 +86,6 @@ struct Outputs {
     std::optional<OutputPath> json, charts, overlay;
 };
 
-/// A name as part of a file's.
-std::string fileName(std::string name) {
-    std::replace(name.begin(), name.end(), '/', '_');
-    return name;
-}
-
-void writeOverlay(const fs::path& folder, const ScanSource& source, const LabelledView& view,
-                  const EvaluationOptions& options) {
-    const fs::path own = view.methods == 1 ? folder : folder / fileName(view.method_name);
-    fs::create_directories(own);
-    const std::string scan = fs::path(source.scanName(view.scan)).stem().string();
-    drawOverlay(own / (fileName(source.name) + "_" + scan + "_overlay.png"),
-                source.name + ", scan " + scan + ", " + view.method_name, view, *options.camera,
-                options.range.max_range_m);
-}
-
 int run(const Flags& flags, Summary summary) {
     for (const std::string& config : flags.configs) mergeSettings(config, summary.settings);
     const std::vector<SettingsRow> rows = rowsOf(summary.settings, flags.sweeps);
@@ -112,11 +96,15 @@ int run(const Flags& flags, Summary summary) {
     const std::vector<ScanSource> sources = sourcesOf(flags.folders, rows, label_map);
     Outputs outputs(flags);
 
-    const auto onScan = [&](const LabelledView& view) {
-        if (!outputs.overlay) return;
-        writeOverlay(outputs.overlay->temporary(), sources[view.source], view, options);
-    };
-    const std::vector<MethodScores> methods = evaluate(sources, options, onScan);
+    std::vector<MethodScores> methods;
+    {
+        Progress progress(sources);
+        methods = evaluate(sources, options, [&](const LabelledView& view) {
+            progress.show(view);
+            if (!outputs.overlay) return;
+            drawOverlay(outputs.overlay->temporary(), sources[view.source], view, options);
+        });
+    }
 
     summary.folders = flags.folders;
     for (const ScanSource& source : sources) summary.folder_names.push_back(source.name);
@@ -140,7 +128,9 @@ int main(int argc, char** argv) {
         "Prints precision, recall and F1 of each class over all returns of all scans; returns with "
         "true label 0 are left out.\n"
         "Example:\n"
-        "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10");
+        "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10\n"
+        "  segmentation-evaluate -i scans/* --label-map config/semantic_kitti.yaml --json "
+        "all.json");
     app.set_version_flag("--version", "segmentation-evaluate " HAGEN_VERSION);
     Flags flags;
     addFlags(app, flags);
