@@ -220,11 +220,9 @@ class Receiver {
             }
         }
         const bool is_hit = hit.kind != Kind::None;
-        if (faults_.dust_per_m > 0) {
-            const double speck_m = random_.exponential(1 / faults_.dust_per_m);
-            if (speck_m < (is_hit ? std::min(hit.range_m, kDust_m) : kDust_m) && speck_m > 0.5) {
-                return {static_cast<float>(speck_m), 0.02f, Kind::Dust, 0};
-            }
+        if (random_.chance(kDust_m * faults_.dust_per_m)) {  // somewhere on the way
+            const auto speck_m = static_cast<float>(random_.uniform(0.5, kDust_m));
+            if (!is_hit || speck_m < hit.range_m) return {speck_m, 0.02f, Kind::Dust, 0};
         }
         if (!is_hit) return {};
 
@@ -248,10 +246,10 @@ class Receiver {
     }
 
  private:
-    static constexpr float kDust_m = 15.0f;  // farther specks are too faint
+    static constexpr double kDust_m = 15.0;  // farther specks are too faint
 
     float noisy(float range_m, float times) {
-        return range_m + static_cast<float>(faults_.least_noise_m * random_.normal()) * times;
+        return range_m + static_cast<float>(faults_.least_noise_m * random_.roughlyNormal()) * times;
     }
 
     /// How far before the soil the grass sends a beam back.
@@ -260,7 +258,8 @@ class Receiver {
         const double tallest_m = scene_.terrain().grassHeight_m(static_cast<double>(at.x()),
                                                                 static_cast<double>(at.y()));
         if (tallest_m <= 0) return 0;
-        const double blade_m = std::min(tallest_m, random_.exponential(0.35 * tallest_m));
+        const double share = random_.uniform();
+        const double blade_m = tallest_m * share * share;  // few are as tall as the tallest
         return std::min(static_cast<float>(blade_m) / std::max(incidence, 0.05f), 0.2f * range_m);
     }
 

@@ -64,7 +64,7 @@ void addBranch(const Trunk& trunk, double z_m, double length_m, double radius_m,
     const Vector3d elbow = from + 0.5 * length_m * out;
     const Vector3d end =
         elbow + 0.5 * length_m * (out + 0.4 * randomDirection(random)).normalized();
-    shape.addRod({knot(from, radius_m), knot(elbow, 0.7 * radius_m), knot(end, 0.25 * radius_m)});
+    shape.addTube({knot(from, radius_m), knot(elbow, 0.7 * radius_m), knot(end, 0.25 * radius_m)}, 3);
     for (const double share : {0.3, 0.6, 0.9}) leafy.push_back(elbow + share * (end - elbow));
     leafy.push_back(from + 0.75 * (elbow - from));
 }
@@ -79,7 +79,7 @@ Shape makeTree(const TreeForm& form, Random& random) {
                              0.7 * form.height_m, 0.95 * form.height_m}) {
         knots.push_back(knot(trunk.at(z_m), trunk.radius_m(z_m)));
     }
-    shape.addRod(knots);
+    shape.addTube(knots, 8);
 
     // The crown is widest below its middle; branches end at its surface.
     std::vector<Vector3d> leafy, sparse;
@@ -120,7 +120,7 @@ Shape makeShrub(Random& random) {
     for (int i = 0; i < 9; ++i) {
         const Vector3d direction = randomDirection(random);
         const Vector3d end(0.35 * direction.x(), 0.35 * direction.y(), 0.5 + 0.35 * direction.z());
-        shape.addRod({knot({0, 0, -0.05}, 0.012), knot(end, 0.004)});
+        shape.addTube({knot({0, 0, -0.05}, 0.012), knot(end, 0.004)}, 3);
         clumps.push_back(end);
     }
     for (int i = 0; i < 500; ++i) {

@@ -42,8 +42,8 @@ TreeForm forestTree(Random& random) {
     form.crown_radius_m = random.uniform(1.2, 2.1);
     form.trunk_radius_m = 0.013 * form.height_m * random.uniform(0.8, 1.4);
     form.leaf_area_m2 = 3.0 * form.crown_radius_m * (form.height_m - form.crown_base_m);
-    form.leaf_m = 0.17;
-    form.branches = 35;
+    form.leaf_m = 0.24;
+    form.branches = 26;
     form.low_branches = random.below(5);
     return form;
 }

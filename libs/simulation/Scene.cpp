@@ -141,7 +141,7 @@ class Packet {
               RayHit* hits) {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         rtcIntersect8(valid_.data(), scene, &context, &packet_);
         for (int i = 0; i < count_; ++i) {
             if (packet_.hit.geomID[i] == kNoHit) continue;

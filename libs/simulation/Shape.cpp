@@ -1,4 +1,7 @@
+#include <hagen/range_image/Angle.h>
 #include <hagen/simulation/Shape.h>
+#include <algorithm>
+#include <cmath>
 
 namespace hagen {
 
@@ -43,6 +46,30 @@ void Shape::addRod(const std::vector<Eigen::Vector4f>& knots) {
     for (std::size_t i = 0; i < knots.size(); ++i) {
         if (i + 1 < knots.size()) segments.push_back(static_cast<std::uint32_t>(knots_m.size()));
         knots_m.push_back(knots[i]);
+    }
+}
+
+void Shape::addTube(const std::vector<Eigen::Vector4f>& knots, int sides) {
+    const auto first = static_cast<std::uint32_t>(vertices_m.size());
+    const auto count = static_cast<std::uint32_t>(sides);
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        const Eigen::Vector4f &before = knots[i > 0 ? i - 1 : 0], &at = knots[i];
+        const Eigen::Vector4f& after = knots[std::min(i + 1, knots.size() - 1)];
+        const Vector3f along = (after - before).head<3>().normalized();
+        const Vector3f aside = along.unitOrthogonal(), other = along.cross(aside);
+        for (int side = 0; side < sides; ++side) {
+            const auto angle = static_cast<float>(2 * kPi * side / sides);
+            vertices_m.push_back(at.head<3>() + at.w() * (std::cos(angle) * aside +
+                                                          std::sin(angle) * other));
+        }
+    }
+    for (std::uint32_t i = 0; i + 1 < knots.size(); ++i) {
+        for (std::uint32_t side = 0; side < count; ++side) {
+            const std::uint32_t a = first + i * count + side;
+            const std::uint32_t b = first + i * count + (side + 1) % count;
+            triangles.push_back({a, b, b + count});
+            triangles.push_back({a, b + count, a + count});
+        }
     }
 }
 

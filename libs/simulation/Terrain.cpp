@@ -6,7 +6,8 @@
 namespace hagen {
 namespace {
 
-constexpr double kCell_m = 0.6;  ///< of the mesh's middle
+constexpr double kCell_m = 0.6;  // of the mesh's middle
+constexpr int kGrass_m = 150;    // how far out grass grows, in cells of a metre
 
 /// Steps of kCell_m out to `half_m`, then ever wider ones out to `reach_m`, both ways.
 std::vector<double> gridLines(double half_m, double reach_m) {
@@ -51,7 +52,15 @@ Terrain::Terrain(const TerrainForm& form, Random& random)
     for (Wave& w : rolling_) w.amplitude_m *= std::tan(form.max_slope_rad) / steepest;
     for (int i = 0; i < 6; ++i) {
         bumps_.push_back(wave(random.uniform(2.5, 8.0), form.bump_m / std::sqrt(6.0 / 2.0)));
-        grass_.push_back(wave(random.uniform(3.0, 25.0), 0.3));
+    }
+    std::vector<Wave> patches;
+    for (int i = 0; i < 6; ++i) patches.push_back(wave(random.uniform(3.0, 25.0), 0.3));
+    for (int x = -kGrass_m; x < kGrass_m; ++x) {
+        for (int y = -kGrass_m; y < kGrass_m; ++y) {
+            double share = 0.4;
+            for (const Wave& patch : patches) share += patch.at(x, y);
+            grass_m_.push_back(static_cast<float>(form.grass_m * std::clamp(share, 0.05, 1.0)));
+        }
     }
 }
 
@@ -64,10 +73,9 @@ double Terrain::height_m(double x_m, double y_m) const {
 }
 
 double Terrain::grassHeight_m(double x_m, double y_m) const {
-    if (isPaved(y_m)) return 0;
-    double share = 0.4;
-    for (const Wave& wave : grass_) share += wave.at(x_m, y_m);
-    return form_.grass_m * std::clamp(share, 0.05, 1.0);
+    if (isPaved(y_m) || !(std::abs(x_m) < kGrass_m && std::abs(y_m) < kGrass_m)) return 0;
+    const auto cell = [](double at_m) { return static_cast<std::size_t>(at_m + kGrass_m); };
+    return static_cast<double>(grass_m_[cell(x_m) * 2 * kGrass_m + cell(y_m)]);
 }
 
 Shape Terrain::mesh(double half_length_m, double half_width_m, double reach_m,

@@ -11,8 +11,8 @@ struct TreeForm {
     double crown_radius_m = 1.2;
     double trunk_radius_m = 0.08;
     double leaf_area_m2 = 10;  ///< one side of all leaves
-    double leaf_m = 0.12;      ///< edge of a leaf, a triangle
-    int branches = 25;
+    double leaf_m = 0.15;      ///< edge of a leaf, a triangle
+    int branches = 20;
     int low_branches = 2;  ///< below the crown, with few leaves
 };
 

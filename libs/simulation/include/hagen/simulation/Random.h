@@ -18,6 +18,8 @@ class Random {
     int below(int count) { return static_cast<int>(uniform() * count); }
     bool chance(double probability) { return uniform() < probability; }
     double normal();  ///< mean 0, standard deviation 1
+    /// The same moments, never beyond 3.5: a sum of four numbers, several times as fast.
+    double roughlyNormal();
     double exponential(double mean);
     /// How many of rare independent events happen, where `mean` are expected.
     int poisson(double mean);

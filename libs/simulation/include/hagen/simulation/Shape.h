@@ -23,6 +23,8 @@ struct Shape {
     void addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_y_m, float most_y_m);
     /// Cylinders from knot to knot.
     void addRod(const std::vector<Eigen::Vector4f>& knots_m);
+    /// The same of triangles, with so many sides and open ends: faster to cast in a crowd.
+    void addTube(const std::vector<Eigen::Vector4f>& knots_m, int sides);
     /// Another shape, moved there. Radii of cylinders stay.
     void append(const Shape& other, const Eigen::Affine3f& pose);
 };

@@ -35,7 +35,8 @@ class Terrain {
 
     TerrainForm form_;
     double paved_m2_;
-    std::vector<Wave> rolling_, bumps_, grass_;
+    std::vector<Wave> rolling_, bumps_;
+    std::vector<float> grass_m_;  ///< a square metre after the other
 };
 
 }  // namespace hagen
