@@ -58,14 +58,23 @@ void TruthFolder::write(const Scan& scan, const Truth& truth, const SensorModel&
     altitudes_m_.push_back(altitude_m);
 }
 
-void TruthFolder::commit() {
+void TruthFolder::finish() {
     const fs::path file = path_.temporary() / "altitudes.txt";
     std::ofstream out(file);
     out << std::fixed << std::setprecision(3);
     for (const double altitude_m : altitudes_m_) out << altitude_m << "\n";
     closeWritten(out, file);
     writer_.finish();
+}
+
+void TruthFolder::commit() {
+    finish();
     path_.commit();
+}
+
+fs::path TruthFolder::keepPartial() {
+    finish();
+    return path_.keepPartial();
 }
 
 }  // namespace hagen

@@ -29,8 +29,12 @@ class TruthFolder {
                const mrpt::poses::CPose3D& sensor_pose, double altitude_m);
     /// Ends it and gives it its name.
     void commit();
+    /// Ends it as a part, and returns its name.
+    std::filesystem::path keepPartial();
 
  private:
+    void finish();
+
     OutputPath path_;
     ScanFolderWriter writer_;
     std::vector<double> altitudes_m_;
