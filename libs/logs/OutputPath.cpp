@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 /// Whether a file or folder below an output is part of such an output; anything else is somebody's
 /// work.
 bool isPart(const fs::path& path, const fs::path& output, OutputPath::Kind kind) {
-    static const std::array<const char*, 4> kScanFolderFiles{"times.txt", "poses.txt", "poses.tum",
-                                                             "sensor.yaml"};
+    static const std::array<const char*, 6> kScanFolderFiles{
+        "times.txt", "poses.txt", "poses.tum", "kinds.yaml", "altitudes.txt", "sensor.yaml"};
     if (!fs::is_regular_file(fs::symlink_status(path))) return false;
     const std::string name = path.filename().string();
     if (kind == OutputPath::Kind::Pictures) {
@@ -34,7 +34,7 @@ bool isPart(const fs::path& path, const fs::path& output, OutputPath::Kind kind)
     const bool is_in_folder = path.parent_path() != output;
     const std::string folder = is_in_folder ? path.parent_path().filename().string() : "";
     return (folder == "velodyne" && path.extension() == ".bin") ||
-           (folder == "labels" && path.extension() == ".label") ||
+           ((folder == "labels" || folder == "semantic") && path.extension() == ".label") ||
            std::find(kScanFolderFiles.begin(), kScanFolderFiles.end(), name) !=
                kScanFolderFiles.end();
 }
