@@ -3,15 +3,14 @@
 #include <hagen/logs/ScanFolder.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "Progress.h"
 #include "Reports.h"
+#include "common/Interrupt.h"
 
 namespace {
 
@@ -19,40 +18,10 @@ using namespace hagen;
 
 constexpr int kFailed = 1, kWrongUsage = 2;
 
-volatile std::sig_atomic_t is_interrupted = 0;
-volatile std::time_t interrupted_at = 0;
-
-/// The first signal ends the conversion in an orderly way; another one, later, at once. (Shells and
-/// timeout(1) may send the same signal twice.)
-void interrupt(int signal) {
-    const std::time_t now = std::time(nullptr);
-    if (is_interrupted == 0) {
-        is_interrupted = 1;
-        interrupted_at = now;
-    } else if (now > interrupted_at + 1) {
-        std::signal(signal, SIG_DFL);
-        std::raise(signal);
-    }
-}
-
-void catchSignals() {
-    // A reader that went away, or a limit on file sizes, shows in the write, which cleans up.
-    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction action {};
-        sigaction(signal, nullptr, &action);
-        if (action.sa_handler == SIG_IGN) continue;  // as nohup wants it
-        action = {};
-        action.sa_handler = interrupt;
-        action.sa_flags = SA_RESTART;
-        sigaction(signal, &action, nullptr);
-    }
-}
-
 ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
     Progress progress(conversion.input.string(), quiet);
     ConversionListener listener = progress.listener();
-    listener.keep_going = [] { return is_interrupted == 0; };
+    listener.keep_going = [] { return !isInterrupted(); };
     ConversionReport report;
     try {
         report = convert(conversion, listener);

@@ -1,89 +1,123 @@
-// Scores the filter on labelled scan folders, once or over a sweep of settings.
-#include <hagen/evaluation/Scores.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/observations/Settings.h>
-#include <hagen/segmentation/HagenFilter.h>
+// Scores the filter on labelled scan folders, with one setting or a sweep of them.
+#include <hagen/evaluation/Evaluation.h>
+#include <hagen/logs/OutputPath.h>
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "Charts.h"
+#include "Folders.h"
+#include "Json.h"
+#include "Methods.h"
+#include "Overlay.h"
+#include "Progress.h"
+#include "Report.h"
+#include "Summary.h"
 
 namespace {
 
 using namespace hagen;
+namespace fs = std::filesystem;
 
-/// A row of the table: a name, and the settings it is about.
-struct Row {
-    std::string name;
-    Settings settings;
+struct Flags {
+    std::vector<std::string> folders, configs, sweeps;
+    std::string label_map, camera, overlay, json, charts;
+    float max_range_m = 20.0f;
+    int resamples = 1000;
+    bool overwrite = false;
 };
 
-/// Adds a row for each value of "beta_deg=5,7.5,10".
-void addSweep(const std::string& text, const Settings& settings, std::vector<Row>& rows) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals + 1 == text.size()) {
-        throw CLI::ValidationError("--sweep", "expected KEY=VALUE,VALUE,..., not '" + text + "'");
-    }
-    const std::string key = text.substr(0, equals);
-    for (const std::string& value : CLI::detail::split(text.substr(equals + 1), ',')) {
-        Row row{key + "=" + value, settings};
-        setOption(key, value, row.settings);
-        rows.push_back(row);
+void addFlags(CLI::App& app, Flags& flags) {
+    app.add_option("-i,--input", flags.folders, "labelled scan folders")->required();
+    app.add_option("-c,--config", flags.configs, "settings file; may be repeated, later ones win");
+    app.add_option("--sweep", flags.sweeps,
+                   "KEY=VALUE,VALUE,...: a row for each value; each sweep by itself");
+    app.add_option("--max-range-m", flags.max_range_m, "score returns up to this range")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1, 1000.0));
+    app.add_option("--label-map", flags.label_map,
+                   "YAML file: which classes of semantic/ (or else labels/) are RoI and ROU");
+    const auto camera =
+        app.add_option("--camera", flags.camera,
+                       "YAML file of a camera: scores its pixels too, as the paper does");
+    app.add_option("--overlay", flags.overlay,
+                   "folder for a PNG a scan of what the camera sees: hits, misses, false alarms")
+        ->needs(camera);
+    app.add_option("--json", flags.json, "file for all figures, counts and intervals");
+    app.add_option("--charts", flags.charts, "folder for SVG charts");
+    app.add_option("--bootstrap", flags.resamples, "resamples for intervals; 0: no intervals")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1000000));
+    app.add_flag("--overwrite", flags.overwrite, "replace outputs that exist");
+}
+
+/// A file that a flag names and that cannot be taken as it is is wrong usage.
+template <class Read>
+auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read(file))> {
+    if (file.empty()) return std::nullopt;
+    try {
+        return read(file);
+    } catch (const std::runtime_error& e) {
+        throw SettingsError(e.what());
     }
 }
 
-/// Throws where settings ask for what this program does not do.
-void checkWindow(const Settings& settings) {
-    if (settings.options.window_scans > 1) {
-        throw SettingsError("window_scans is above 1; scans are scored one by one here");
+/// The places to write to, each where it was asked for. Nothing appears before all is written.
+struct Outputs {
+    explicit Outputs(const Flags& flags) {
+        const auto open = [&](const std::string& path, OutputPath::Kind kind,
+                              std::optional<OutputPath>& output) {
+            if (path.empty()) return;
+            output.emplace(path, kind, flags.overwrite);
+            if (kind != OutputPath::Kind::File) fs::create_directory(output->temporary());
+        };
+        open(flags.json, OutputPath::Kind::File, json);
+        open(flags.charts, OutputPath::Kind::Charts, charts);
+        open(flags.overlay, OutputPath::Kind::Overlays, overlay);
     }
-}
-
-Scores evaluate(const std::vector<std::string>& folders, const Settings& settings,
-                float max_range_m) {
-    Scores scores;
-    Scan scan;
-    for (const std::string& path : folders) {
-        const ScanFolder folder(path);
-        Settings own = settings;
-        if (std::filesystem::exists(folder.sensorFile())) mergeSettings(folder.sensorFile(), own);
-        HagenFilter filter = filterFor(own.sensorModel(), own.options);
-        for (std::size_t i = 0; i < folder.size(); ++i) {
-            readScan(folder.scanFile(i), scan);
-            locateBeams(filter.sensor(), scan);
-            const SegmentationResult& result = filter.segment(scan);
-            try {
-                addScores(scan, readLabels(folder.labelFile(i)), result.returns.label, max_range_m,
-                          scores);
-            } catch (const std::invalid_argument& e) {
-                throw std::runtime_error(folder.labelFile(i).string() + ": " + e.what());
-            }
+    void commit() {
+        for (std::optional<OutputPath>* output : {&json, &charts, &overlay}) {
+            if (output->has_value()) (*output)->commit();
         }
     }
-    return scores;
-}
+    std::optional<OutputPath> json, charts, overlay;
+};
 
-void printHeader() {
-    std::printf("%-28s  %29s  %29s\n", "", "RoI precision    recall        F1",
-                "ROU precision    recall        F1");
-}
+int run(const Flags& flags, Summary summary) {
+    for (const std::string& config : flags.configs) mergeSettings(config, summary.settings);
+    const std::vector<SettingsRow> rows = rowsOf(summary.settings, flags.sweeps);
+    const auto label_map = fromFlag(flags.label_map, readLabelMap);
+    EvaluationOptions options;
+    options.range.max_range_m = flags.max_range_m;
+    options.camera = fromFlag(flags.camera, readCamera);
+    const std::vector<ScanSource> sources = sourcesOf(flags.folders, rows, label_map);
+    Outputs outputs(flags);
 
-/// Four digits, or a dash for what is not defined.
-std::string figure(double ratio) {
-    char text[16] = "-";
-    if (!std::isnan(ratio)) std::snprintf(text, sizeof text, "%.4f", ratio);
-    return text;
-}
-
-void printRow(const std::string& what, const Scores& scores) {
-    std::printf("%-28s", what.c_str());
-    for (const ClassScore& score : {scores.roi, scores.rou}) {
-        std::printf("  %9s %9s %9s", figure(score.precision()).c_str(),
-                    figure(score.recall()).c_str(), figure(score.f1()).c_str());
+    std::vector<MethodScores> methods;
+    {
+        Progress progress(sources);
+        methods = evaluate(sources, options, [&](const LabelledView& view) {
+            progress.show(view);
+            if (!outputs.overlay) return;
+            drawOverlay(outputs.overlay->temporary(), sources[view.source], view, options);
+        });
     }
-    std::printf("\n");
+
+    summary.folders = flags.folders;
+    for (const ScanSource& source : sources) summary.folder_names.push_back(source.name);
+    summary.range = options.range;
+    summary.label_map = flags.label_map;
+    summary.camera = flags.camera;
+    summary.bootstrap.resamples = flags.resamples;
+    sumUp(methods, rows, summary);
+    if (outputs.json) writeJson(outputs.json->temporary(), summary);
+    if (outputs.charts) drawCharts(outputs.charts->temporary(), summary);
+    outputs.commit();
+    std::cout << reportOf(summary);
+    return 0;
 }
 
 }  // namespace
@@ -94,31 +128,17 @@ int main(int argc, char** argv) {
         "Prints precision, recall and F1 of each class over all returns of all scans; returns with "
         "true label 0 are left out.\n"
         "Example:\n"
-        "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10");
+        "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10\n"
+        "  segmentation-evaluate -i scans/* --label-map config/semantic_kitti.yaml --json "
+        "all.json");
     app.set_version_flag("--version", "segmentation-evaluate " HAGEN_VERSION);
-    std::vector<std::string> folders, configs, sweep_texts;
-    float max_range_m = 20.0f;
-    app.add_option("-i,--input", folders, "labelled scan folders")->required();
-    app.add_option("-c,--config", configs, "settings file; may be repeated, later ones win");
-    app.add_option("--sweep", sweep_texts,
-                   "KEY=VALUE,VALUE,...: a row for each value; each sweep by itself");
-    app.add_option("--max-range-m", max_range_m, "score returns up to this range")
-        ->capture_default_str()
-        ->check(CLI::Range(0.1, 1000.0));
+    Flags flags;
+    addFlags(app, flags);
     try {
         app.parse(argc, argv);
-        Settings settings;
-        for (const std::string& config : configs) mergeSettings(config, settings);
-        std::vector<Row> rows;
-        if (sweep_texts.empty()) rows.push_back({"all", settings});
-        for (const std::string& text : sweep_texts) addSweep(text, settings, rows);
-        for (const Row& row : rows) checkWindow(row.settings);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const Scores scores = evaluate(folders, rows[i].settings, max_range_m);
-            if (i == 0) printHeader();
-            printRow(rows[i].name, scores);
-        }
-        return 0;
+        Summary summary;
+        summary.command_line.assign(argv, argv + argc);
+        return run(flags, summary);
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {

@@ -15,18 +15,26 @@ namespace fs = std::filesystem;
 /// Whether a file or folder below an output is part of such an output; anything else is somebody's
 /// work.
 bool isPart(const fs::path& path, const fs::path& output, OutputPath::Kind kind) {
-    static const std::array<const char*, 4> kScanFolderFiles{"times.txt", "poses.txt", "poses.tum",
-                                                             "sensor.yaml"};
+    static const std::array<const char*, 6> kScanFolderFiles{
+        "times.txt", "poses.txt", "poses.tum", "kinds.yaml", "altitudes.txt", "sensor.yaml"};
     if (!fs::is_regular_file(fs::symlink_status(path))) return false;
     const std::string name = path.filename().string();
     if (kind == OutputPath::Kind::Pictures) {
         const auto& pictures = stagePictures();
         return std::find(pictures.begin(), pictures.end(), name) != pictures.end();
     }
+    const auto starts = [&](const std::string& start) { return name.rfind(start, 0) == 0; };
+    const auto ends = [&](const std::string& end) {
+        return name.size() >= end.size() && name.substr(name.size() - end.size()) == end;
+    };
+    if (kind == OutputPath::Kind::Overlays) return ends("_overlay.png");
+    if (kind == OutputPath::Kind::Charts) {
+        return ends(".svg") && (starts("by_") || starts("sweep_"));
+    }
     const bool is_in_folder = path.parent_path() != output;
     const std::string folder = is_in_folder ? path.parent_path().filename().string() : "";
     return (folder == "velodyne" && path.extension() == ".bin") ||
-           (folder == "labels" && path.extension() == ".label") ||
+           ((folder == "labels" || folder == "semantic") && path.extension() == ".label") ||
            std::find(kScanFolderFiles.begin(), kScanFolderFiles.end(), name) !=
                kScanFolderFiles.end();
 }
@@ -56,12 +64,12 @@ void checkReplaceable(const fs::path& path, OutputPath::Kind kind) {
         throw std::runtime_error(path.string() +
                                  ": is no folder, and is not replaced; give another name");
     }
-    const bool is_of_pictures = kind == OutputPath::Kind::Pictures;
+    const bool is_of_scans = kind == OutputPath::Kind::ScanFolders;
     const fs::path foreign = foreignPart(path, path, kind, 2);
     if (!foreign.empty()) {
         throw std::runtime_error(path.string() + ": holds '" +
                                  foreign.lexically_relative(path).string() + "', no part of " +
-                                 (is_of_pictures ? "a folder of pictures" : "a scan folder") +
+                                 (is_of_scans ? "a scan folder" : "a folder of pictures") +
                                  ", and is not replaced; give another name");
     }
 }

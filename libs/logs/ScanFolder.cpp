@@ -40,6 +40,21 @@ void writeRecords(const fs::path& file, const std::vector<Record>& records) {
     closeWritten(out, file);
 }
 
+/// The numbers of a file with a line a scan; empty where there is no such file.
+std::vector<double> aNumberAScan(const fs::path& file, const std::string& unit, std::size_t scans) {
+    std::vector<double> numbers;
+    if (!fs::exists(file)) return numbers;
+    for (const NumberLine& line : readNumberTable(file)) {
+        checkColumns(file, line, 1, unit);
+        numbers.push_back(line.numbers[0]);
+    }
+    if (numbers.size() != scans) {
+        throw std::runtime_error(file.string() + ": has " + std::to_string(numbers.size()) +
+                                 " lines for " + std::to_string(scans) + " scans");
+    }
+    return numbers;
+}
+
 }  // namespace
 
 ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
@@ -63,19 +78,16 @@ fs::path ScanFolder::labelFile(std::size_t scan) const {
     return folder_ / "labels" / (names_[scan] + ".label");
 }
 
+fs::path ScanFolder::kindFile(std::size_t scan) const {
+    return folder_ / "semantic" / (names_[scan] + ".label");
+}
+
 std::vector<double> ScanFolder::times() const {
-    const fs::path file = folder_ / "times.txt";
-    std::vector<double> times_s;
-    if (!fs::exists(file)) return times_s;
-    for (const NumberLine& line : readNumberTable(file)) {
-        checkColumns(file, line, 1, "seconds");
-        times_s.push_back(line.numbers[0]);
-    }
-    if (times_s.size() != size()) {
-        throw std::runtime_error(file.string() + ": has " + std::to_string(times_s.size()) +
-                                 " lines for " + std::to_string(size()) + " scans");
-    }
-    return times_s;
+    return aNumberAScan(folder_ / "times.txt", "seconds", size());
+}
+
+std::vector<double> ScanFolder::altitudes() const {
+    return aNumberAScan(folder_ / "altitudes.txt", "metres", size());
 }
 
 void readScan(const fs::path& file, Scan& scan) {

@@ -46,19 +46,31 @@ std::string lastWord(std::FILE* errors) {
     return word;
 }
 
-/// Signature in front, the closing chunk at the end: what a full disk cuts off has not both.
-bool isWholePng(const fs::path& picture) {
-    static const std::string kSignature("\x89PNG\r\n\x1a\n", 8);
-    static const std::string kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+/// Whether the right bytes are in front and near the end: what a full disk cuts off has not both.
+bool isWhole(const fs::path& picture) {
+    const bool is_svg = picture.extension() == ".svg";
+    const std::string start = is_svg ? "<?xml" : std::string("\x89PNG\r\n\x1a\n", 8);
+    const std::string end = is_svg ? "</svg>" : std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+    const std::size_t blanks = is_svg ? 4 : 0;  // lines may follow
     std::ifstream file(picture, std::ios::binary);
-    std::string first(kSignature.size(), 0), last(kEnd.size(), 0);
+    std::string first(start.size(), 0), last(end.size() + blanks, 0);
     file.read(first.data(), static_cast<std::streamsize>(first.size()));
     file.seekg(-static_cast<std::streamoff>(last.size()), std::ios::end);
     file.read(last.data(), static_cast<std::streamsize>(last.size()));
-    return file && first == kSignature && last == kEnd;
+    return file && first == start && last.find(end) != std::string::npos;
 }
 
 }  // namespace
+
+std::string gnuplotString(const std::string& text) {
+    std::string quoted = "'";
+    for (const char c : text) {
+        const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+        quoted += is_control ? ' ' : c;
+        if (c == '\'') quoted += c;  // twice is one
+    }
+    return quoted + "'";
+}
 
 void runGnuplot(const std::string& script, const fs::path& folder,
                 const std::vector<std::string>& pictures) {
@@ -101,7 +113,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
 
     const std::string complaint = lastWord(errors.get());
     for (const std::string& picture : pictures) {
-        if (isWholePng(folder / picture)) continue;
+        if (isWhole(folder / picture)) continue;
         throw std::runtime_error((folder / picture).string() + " could not be written whole" +
                                  (complaint.empty() ? "" : ": gnuplot: " + complaint));
     }

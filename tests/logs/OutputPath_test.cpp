@@ -118,6 +118,22 @@ TEST(OutputPath, FoldersOfAPartASensorAreOfTheirKindToo) {
     EXPECT_THROW(OutputPath(folder / "pictures", kPictures, true), std::runtime_error);
 }
 
+TEST(OutputPath, ChartsAndOverlaysAreKnownByTheirNames) {
+    using Kind = OutputPath::Kind;
+    const test::TemporaryFolder folder;
+    folder.write("charts/by_range.svg", "");
+    folder.write("charts/sweep_beta_deg.svg", "");
+    folder.write("overlays/hagen/00_000000_overlay.png", "");
+    EXPECT_NO_THROW(OutputPath(folder / "charts", Kind::Charts, true));
+    EXPECT_NO_THROW(OutputPath(folder / "overlays", Kind::Overlays, true));
+    EXPECT_THROW(OutputPath(folder / "charts", Kind::Overlays, true), std::runtime_error);
+    EXPECT_THROW(OutputPath(folder / "overlays", Kind::Charts, true), std::runtime_error);
+    folder.write("charts/logo.svg", "mine");
+    folder.write("overlays/hagen/wedding.png", "mine");
+    EXPECT_THROW(OutputPath(folder / "charts", Kind::Charts, true), std::runtime_error);
+    EXPECT_THROW(OutputPath(folder / "overlays", Kind::Overlays, true), std::runtime_error);
+}
+
 TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {
     const test::TemporaryFolder folder;
     OutputPath output(folder / "a.rawlog", kFile, false);

@@ -27,6 +27,7 @@ TEST_F(ScanFolderTest, ListsScansByName) {
     EXPECT_EQ(scans.scanFile(1), folder_ / "velodyne/000010.bin");
     EXPECT_EQ(scans.labelFile(1), folder_ / "labels/000010.label");
     EXPECT_TRUE(scans.times().empty());
+    EXPECT_TRUE(scans.altitudes().empty());
 }
 
 TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
@@ -86,6 +87,8 @@ TEST_F(ScanFolderTest, TimesHaveALineAScan) {
     folder_.write("times.txt", "0.0\n0.1\n\n");
     const ScanFolder scans(folder_.path());
     EXPECT_EQ(scans.times(), (std::vector<double>{0.0, 0.1}));
+    folder_.write("altitudes.txt", "1.5\n12\n");
+    EXPECT_EQ(scans.altitudes(), (std::vector<double>{1.5, 12}));
 }
 
 TEST_F(ScanFolderTest, TimesThatDoNotFitAreNamedByLine) {
@@ -96,6 +99,9 @@ TEST_F(ScanFolderTest, TimesThatDoNotFitAreNamedByLine) {
               std::string::npos);
     folder_.write("times.txt", "soon\n");
     EXPECT_NE(test::messageOf([&] { scans.times(); }).find("times.txt:1"), std::string::npos);
+    folder_.write("altitudes.txt", "1 2\n");
+    EXPECT_NE(test::messageOf([&] { scans.altitudes(); }).find("altitudes.txt:1"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
 #pragma once
 #include <hagen/range_image/Label.h>
-#include <hagen/range_image/Scan.h>
 #include <cstdint>
-#include <vector>
 
 namespace hagen {
 
-/// Precision, recall and F1 of one class.
+/// Precision, recall and F1 of one class, and the counts behind them.
 struct ClassScore {
     std::int64_t hits = 0;    ///< of the class, and found to be
     std::int64_t misses = 0;  ///< of the class, and not found to be (unclassified counts here)
@@ -15,17 +13,24 @@ struct ClassScore {
     double precision() const;  ///< NaN where nothing was found
     double recall() const;     ///< NaN where nothing is of the class
     double f1() const;         ///< NaN where there is neither
+
+    ClassScore& operator+=(const ClassScore& other);
 };
 
-/// Scores over returns, micro-averaged: counts are summed over all scans before ratios are taken.
+/// Scores of both classes. Sums are micro-averages: counts are added over returns and scans before
+/// ratios are taken.
 struct Scores {
     ClassScore roi, rou;
+
+    /// Returns that were scored.
+    std::int64_t returns() const;
+    /// Share of the returns that were found to be what they are; NaN where there are none.
+    double correct() const;
+
+    Scores& operator+=(const Scores& other);
 };
 
-/// Adds the returns of one scan. Returns whose true label is Unclassified, or which are farther
-/// than `max_range_m`, are left out. `truth` and `found` have an entry a return, else
-/// std::invalid_argument; truth holds Label's numbers, any other is an std::invalid_argument too.
-void addScores(const Scan& scan, const std::vector<std::uint16_t>& truth,
-               const std::vector<Label>& found, float max_range_m, Scores& scores);
+/// Adds one return, or one pixel. Nothing is added where its true label is Unclassified.
+void addScore(Label truth, Label found, Scores& scores);
 
 }  // namespace hagen

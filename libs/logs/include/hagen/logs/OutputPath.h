@@ -10,7 +10,9 @@ class OutputPath {
     enum class Kind {
         File,
         ScanFolders,  ///< a scan folder, or a folder of such
-        Pictures      ///< a folder of PNG files, or of folders of such
+        Pictures,     ///< a folder of pictures of stages, or of folders of such
+        Overlays,     ///< a folder of *_overlay.png, or of folders of such
+        Charts        ///< a folder of by_*.svg and sweep_*.svg
     };
 
     /// Throws std::runtime_error, naming the path, where it exists and `overwrite` is not set;

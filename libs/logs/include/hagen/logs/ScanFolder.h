@@ -14,6 +14,9 @@ namespace hagen {
 ///     velodyne/NNNNNN.bin    float32 x, y, z [m], intensity [0..1], a point after the other
 ///     labels/NNNNNN.label    uint32 a point, same order: low 16 bits the label (0 unclassified,
 ///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
+///     semantic/NNNNNN.label  optional: uint32 a point, low 16 bits the kind of object it is of
+///     kinds.yaml             optional: what those kinds are called; see evaluation/LabelMap.h
+///     altitudes.txt          optional: the sensor's height above the ground [m], a line a scan
 ///     times.txt              optional: seconds, a line a scan
 ///     poses.tum              optional: the sensor in the map, by the clock of times.txt
 ///     poses.txt              optional: the sensor at each scan, seen from where the first was
@@ -34,6 +37,8 @@ class ScanFolder {
     std::filesystem::path scanFile(std::size_t scan) const;
     std::filesystem::path labelFile(std::size_t scan) const;
     /// Files of this folder that need not exist.
+    std::filesystem::path kindFile(std::size_t scan) const;
+    std::filesystem::path kindNamesFile() const { return folder_ / "kinds.yaml"; }
     std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
     std::filesystem::path tumFile() const { return folder_ / "poses.tum"; }
     std::filesystem::path kittiPosesFile() const { return folder_ / "poses.txt"; }
@@ -42,6 +47,8 @@ class ScanFolder {
     /// times.txt, an entry a scan; empty where there is no such file. Throws where lines and scans
     /// differ.
     std::vector<double> times() const;
+    /// altitudes.txt, in the same way.
+    std::vector<double> altitudes() const;
 
  private:
     std::filesystem::path folder_;

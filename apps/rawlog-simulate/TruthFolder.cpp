@@ -1,0 +1,80 @@
+#include "TruthFolder.h"
+
+#include <hagen/logs/ScanFolder.h>
+
+#include <fstream>
+#include <iomanip>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path& made(const fs::path& folder) {
+    fs::create_directory(folder);
+    return folder;
+}
+
+void closeWritten(std::ofstream& out, const fs::path& file) {
+    out.close();
+    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+void writeKinds(const fs::path& file) {
+    std::ofstream out(file);
+    out << "# Kinds of semantic/*.label, and their labels: 0 unclassified, 1 ROU, 2 RoI\n";
+    for (const Kind kind : allKinds()) {
+        out << static_cast<int>(kind) << ": {name: " << nameOf(kind)
+            << ", label: " << static_cast<int>(labelOf(kind)) << "}\n";
+    }
+    closeWritten(out, file);
+}
+
+/// Kinds are written as labels are: the low 16 bits are a number, whatever it means.
+std::vector<Label> asLabels(const std::vector<Kind>& kinds) {
+    std::vector<Label> numbers;
+    for (const Kind kind : kinds) numbers.push_back(static_cast<Label>(kind));
+    return numbers;
+}
+
+}  // namespace
+
+TruthFolder::TruthFolder(const fs::path& folder, bool overwrite)
+    : path_(folder, OutputPath::Kind::ScanFolders, overwrite), writer_(made(path_.temporary())) {
+    fs::create_directory(path_.temporary() / "semantic");
+    writeKinds(path_.temporary() / "kinds.yaml");
+}
+
+void TruthFolder::write(const Scan& scan, const Truth& truth, const SensorModel& sensor,
+                        double time_s, const mrpt::poses::CPose3D& sensor_pose, double altitude_m) {
+    LabelledReturns returns;
+    for (const Kind kind : truth.kind) returns.label.push_back(labelOf(kind));
+    returns.component.assign(truth.object.begin(), truth.object.end());
+    const std::string name = scanName(altitudes_m_.size());
+    writer_.write(name, scan, returns, sensor, time_s, sensor_pose);
+    writeLabels(path_.temporary() / "semantic" / (name + ".label"), asLabels(truth.kind),
+                returns.component);
+    altitudes_m_.push_back(altitude_m);
+}
+
+void TruthFolder::finish() {
+    const fs::path file = path_.temporary() / "altitudes.txt";
+    std::ofstream out(file);
+    out << std::fixed << std::setprecision(3);
+    for (const double altitude_m : altitudes_m_) out << altitude_m << "\n";
+    closeWritten(out, file);
+    writer_.finish();
+}
+
+void TruthFolder::commit() {
+    finish();
+    path_.commit();
+}
+
+fs::path TruthFolder::keepPartial() {
+    finish();
+    return path_.keepPartial();
+}
+
+}  // namespace hagen

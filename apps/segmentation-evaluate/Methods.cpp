@@ -1,0 +1,65 @@
+#include "Methods.h"
+
+#include <hagen/segmentation/HagenFilter.h>
+#include <memory>
+#include <sstream>
+
+namespace hagen {
+namespace {
+
+Method filterMethod(const std::string& name, const Settings& settings) {
+    const auto filter =
+        std::make_shared<HagenFilter>(filterFor(settings.sensorModel(), settings.options));
+    return {name,
+            [filter](const ScanInput& input) { return filter->segment(input.scan).returns.label; }};
+}
+
+/// "5,7.5" as two texts; an empty one stays, and is refused as a value later.
+std::vector<std::string> valuesOf(const std::string& text) {
+    std::vector<std::string> values;
+    std::istringstream stream(text);
+    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
+    return values;
+}
+
+}  // namespace
+
+std::vector<SettingsRow> rowsOf(const Settings& settings, const std::vector<std::string>& sweeps) {
+    std::vector<SettingsRow> rows;
+    if (sweeps.empty()) rows.push_back({"hagen", settings, "", ""});
+    for (const std::string& sweep : sweeps) {
+        const std::size_t equals = sweep.find('=');
+        if (equals == std::string::npos || equals + 1 == sweep.size()) {
+            throw SettingsError("--sweep: expected KEY=VALUE,VALUE,..., not '" + sweep + "'");
+        }
+        const std::string key = sweep.substr(0, equals);
+        for (const std::string& value : valuesOf(sweep.substr(equals + 1))) {
+            SettingsRow row{key + "=" + value, settings, key, value};
+            setOption(key, value, row.settings);
+            rows.push_back(row);
+        }
+    }
+    for (const SettingsRow& row : rows) {
+        if (row.settings.options.window_scans > 1) {
+            throw SettingsError("window_scans is above 1; scans are scored one by one here");
+        }
+    }
+    return rows;
+}
+
+Settings settingsFor(Settings settings, const std::filesystem::path& sensor_file) {
+    if (std::filesystem::exists(sensor_file)) mergeSettings(sensor_file, settings);
+    return settings;
+}
+
+std::vector<Method> methodsFor(const std::vector<SettingsRow>& rows,
+                               const std::filesystem::path& sensor_file) {
+    std::vector<Method> methods;
+    for (const SettingsRow& row : rows) {
+        methods.push_back(filterMethod(row.name, settingsFor(row.settings, sensor_file)));
+    }
+    // What the filter is compared with goes here, made for rows.front()'s sensor and options.
+    return methods;
+}
+
+}  // namespace hagen

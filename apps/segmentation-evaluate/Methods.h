@@ -1,0 +1,31 @@
+// The methods that are scored: the filter with each of its settings, and what it is compared with.
+#pragma once
+#include <hagen/evaluation/Method.h>
+#include <hagen/observations/Settings.h>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hagen {
+
+/// The filter with these settings, as a row of the table.
+struct SettingsRow {
+    std::string name;
+    Settings settings;
+    std::string sweep_key;  ///< of a sweep, else empty
+    std::string sweep_value;
+};
+
+/// The row "hagen" where there are no sweeps, else a row for each value of each "KEY=VALUE,VALUE".
+/// Throws SettingsError for a sweep that cannot be read, or settings that do not go together.
+std::vector<SettingsRow> rowsOf(const Settings& settings, const std::vector<std::string>& sweeps);
+
+/// Settings with those of a recording merged in, where it has some.
+Settings settingsFor(Settings settings, const std::filesystem::path& sensor_file);
+
+/// The methods for a recording with these settings of its own.
+std::vector<Method> methodsFor(const std::vector<SettingsRow>& rows,
+                               const std::filesystem::path& sensor_file);
+
+}  // namespace hagen

@@ -1,0 +1,23 @@
+#include "Progress.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+namespace hagen {
+
+Progress::Progress(const std::vector<ScanSource>& sources)
+    : is_on_terminal_(isatty(STDERR_FILENO) == 1) {
+    for (const ScanSource& source : sources) all_ += source.scans;
+}
+
+Progress::~Progress() {
+    if (is_on_terminal_) std::cerr << "\r\033[K" << std::flush;
+}
+
+void Progress::show(const LabelledView& view) {
+    if (!is_on_terminal_ || view.method + 1 < view.methods) return;
+    std::cerr << "\rscan " << ++done_ << " of " << all_ << std::flush;
+}
+
+}  // namespace hagen

@@ -1,0 +1,80 @@
+#include <hagen/evaluation/LabelMap.h>
+#include <charconv>
+#include <set>
+#include <stdexcept>
+
+#include "YamlFile.h"
+
+namespace hagen {
+namespace {
+
+constexpr const char* kExample = "70: {name: vegetation, label: 2}";
+
+std::uint16_t kindNumber(const std::string& text) {
+    std::uint16_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || rest != end || text.empty()) {
+        throw std::invalid_argument("'" + text + "' is no number of a kind (0 to 65535)");
+    }
+    return number;
+}
+
+Kind kindOf(const YAML::Node& node) {
+    if (!node.IsMap() || node.size() != 2 || !node["name"] || !node["label"] ||
+        !node["name"].IsScalar() || !node["label"].IsScalar() || node["name"].Scalar().empty()) {
+        throw std::invalid_argument(std::string("name and label are expected, as in '") + kExample +
+                                    "'");
+    }
+    const std::string label = node["label"].Scalar();
+    if (label != "0" && label != "1" && label != "2") {
+        throw std::invalid_argument("label '" + label +
+                                    "' is none of 0 (left out), 1 (ROU), 2 (RoI)");
+    }
+    return {node["name"].Scalar(), static_cast<Label>(label[0] - '0')};
+}
+
+}  // namespace
+
+LabelMap readLabelMap(const std::filesystem::path& file) {
+    LabelMap map;
+    std::set<std::string> names;
+    forEachYamlEntry(file, kExample, [&](const std::string& key, const YAML::Node& value) {
+        const Kind kind = kindOf(value);
+        if (!names.insert(kind.name).second) {
+            throw std::invalid_argument("two kinds are called '" + kind.name + "'");
+        }
+        map.emplace(kindNumber(key), kind);
+    });
+    return map;
+}
+
+std::vector<Label> labelsOfKinds(const std::vector<std::uint16_t>& kinds, const LabelMap& map) {
+    std::vector<Label> labels;
+    labels.reserve(kinds.size());
+    for (const std::uint16_t kind : kinds) {
+        const auto entry = map.find(kind);
+        if (entry == map.end()) {
+            throw std::invalid_argument("class " + std::to_string(kind) +
+                                        " is not in the label map; add a line for it");
+        }
+        labels.push_back(entry->second.label);
+    }
+    return labels;
+}
+
+std::vector<Label> labelsOfNumbers(const std::vector<std::uint16_t>& numbers) {
+    std::vector<Label> labels;
+    labels.reserve(numbers.size());
+    for (const std::uint16_t number : numbers) {
+        if (number > static_cast<std::uint16_t>(Label::Roi)) {
+            throw std::invalid_argument("label " + std::to_string(number) +
+                                        " is none of 0 (unclassified), 1 (ROU), 2 (RoI); other "
+                                        "classes need a --label-map");
+        }
+        labels.push_back(static_cast<Label>(number));
+    }
+    return labels;
+}
+
+}  // namespace hagen

@@ -1,0 +1,45 @@
+#pragma once
+#include <hagen/range_image/Scan.h>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace hagen {
+
+/// A pinhole camera without distortion, beside the LiDAR.
+struct PinholeCamera {
+    int width_px = 0, height_px = 0;
+    double fx_px = 0, fy_px = 0;  ///< focal lengths
+    double cx_px = 0, cy_px = 0;  ///< principal point; (0, 0) is the middle of the top left pixel
+    /// The camera's body (x forward along the optical axis, y left, z up) in the sensor's frame.
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+};
+
+/// Reads a camera file:
+///
+///     width: 640                 # [px]
+///     height: 480
+///     fx: 320                    # [px]
+///     fy: 320
+///     cx: 319.5                  # [px]
+///     cy: 239.5
+///     position_m: [0, 0, 0]      # in the sensor's frame: forward, left, up
+///     yaw_deg: 0                 # to the left; then
+///     pitch_deg: 0               # down; then
+///     roll_deg: 0                # to the right
+///
+/// Every key is required. Throws std::runtime_error, naming file and key.
+PinholeCamera readCamera(const std::filesystem::path& file);
+
+/// A pixel, and the return that is seen in it.
+struct CameraPixel {
+    int u = 0, v = 0;  ///< column from the left, row from the top
+    std::size_t index = 0;
+};
+
+/// Which returns a camera sees, one a pixel: the nearest to the camera of those that fall into it.
+/// Sorted by row and column. Returns without a range are not seen.
+std::vector<CameraPixel> visibleReturns(const PinholeCamera& camera, const Scan& scan);
+
+}  // namespace hagen

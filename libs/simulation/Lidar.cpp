@@ -1,0 +1,323 @@
+#include <hagen/range_image/Angle.h>
+#include <hagen/range_image/Image.h>
+#include <hagen/simulation/Lidar.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hagen {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr int kBlock = 8;  // firings whose rays are cast side by side
+constexpr double kPoseStep_s = 0.005;
+
+/// Share of light that a surface sends back; it varies by a fifth from object to object.
+float reflectivityOf(Kind kind, std::uint16_t number) {
+    static const std::array<float, 12> shares{0.0f,  0.25f, 0.4f, 0.35f, 0.35f, 0.25f,
+                                              0.35f, 0.3f,  0.3f, 0.3f,  0.1f,  0.1f};
+    const float variation = static_cast<float>(number * 37 % 101) / 100.0f - 0.5f;
+    return shares[static_cast<std::size_t>(kind)] * (1.0f + 0.4f * variation);
+}
+
+/// Surfaces wider than any beam: their echo comes from the middle of the spot.
+bool isBroad(Kind kind) {
+    return kind == Kind::Terrain || kind == Kind::Building || kind == Kind::Wall;
+}
+
+/// A part of the vehicle that some beams meet.
+struct AirframeSpot {
+    float azimuth_rad, half_width_rad, lowest_rad, highest_rad, range_m;
+};
+
+/// Four legs and what else is in the way, near the lowest or the highest beams.
+const std::vector<AirframeSpot>& airframeSpots() {
+    static const std::vector<AirframeSpot> spots{
+        {0.80f, 0.045f, -1.0f, -0.15f, 0.42f},  {2.35f, 0.045f, -1.0f, -0.15f, 0.44f},
+        {-0.78f, 0.045f, -1.0f, -0.15f, 0.41f}, {-2.38f, 0.045f, -1.0f, -0.15f, 0.45f},
+        {3.05f, 0.060f, 0.16f, 1.0f, 0.28f},    {1.57f, 0.020f, 0.20f, 1.0f, 0.66f}};
+    return spots;
+}
+
+const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
+    for (const AirframeSpot& spot : airframeSpots()) {
+        if (std::abs(azimuth_rad - spot.azimuth_rad) < spot.half_width_rad &&
+            elevation_rad >= spot.lowest_rad && elevation_rad <= spot.highest_rad) {
+            return &spot;
+        }
+    }
+    return nullptr;
+}
+
+/// Where the sensor is during a turn: straight from one of a few poses to the next.
+class TurnPoses {
+ public:
+    TurnPoses(const Flight& flight, double start_s, double duration_s) {
+        for (double s = 0; s < duration_s + 2 * kPoseStep_s; s += kPoseStep_s) {
+            poses_.push_back(flight.at(start_s + s));
+        }
+    }
+    SensorPose at(double since_start_s) const {
+        const double step = since_start_s / kPoseStep_s;
+        const auto before = static_cast<std::size_t>(step);
+        const double share = step - static_cast<double>(before);
+        const SensorPose &a = poses_[before], &b = poses_[before + 1];
+        return {a.position_m + share * (b.position_m - a.position_m),
+                a.attitude.slerp(share, b.attitude)};
+    }
+
+ private:
+    std::vector<SensorPose> poses_;
+};
+
+/// A laser's direction within a firing: its elevation, and how far it has turned since the firing
+/// began.
+struct LaserDirection {
+    float elevation_rad, sine, cosine;  ///< of the elevation
+    float turn_sine, turn_cosine;
+    float turn_rad;
+};
+
+std::vector<LaserDirection> laserDirections(const SensorModel& sensor,
+                                            const FiringPattern& pattern) {
+    std::vector<LaserDirection> lasers;
+    for (std::size_t laser = 0; laser < pattern.row_of_laser.size(); ++laser) {
+        const float elevation = sensor.elevations_rad[pattern.row_of_laser[laser]];
+        const double turn_rad = -radians(pattern.azimuthStep_deg()) * static_cast<double>(laser) *
+                                pattern.laser_period_us / pattern.firing_period_us;
+        lasers.push_back({elevation, std::sin(elevation), std::cos(elevation),
+                          static_cast<float>(std::sin(turn_rad)),
+                          static_cast<float>(std::cos(turn_rad)), static_cast<float>(turn_rad)});
+    }
+    return lasers;
+}
+
+float wrapped(float angle_rad) {
+    const auto pi = static_cast<float>(kPi);
+    if (angle_rad > pi) return angle_rad - 2 * pi;
+    return angle_rad <= -pi ? angle_rad + 2 * pi : angle_rad;
+}
+
+/// A beam of the turn.
+struct Beam {
+    Vector3f direction;  ///< in the sensor's frame
+    float azimuth_rad;   ///< within +-pi
+    Vector3f axis;       ///< in the map
+};
+
+/// All beams of a turn, and a ray somewhere in the spot of each; blocks of firings one after the
+/// other, in a block laser after laser, so that eight neighbours lie side by side.
+struct Turn {
+    std::vector<Beam> beams;
+    std::vector<Ray> rays;
+    int lasers, firings;
+
+    std::size_t index(int firing, int laser) const {
+        const int block = firing / kBlock * kBlock;
+        const int width = std::min(kBlock, firings - block);
+        return static_cast<std::size_t>(block * lasers + laser * width + firing - block);
+    }
+};
+
+Vector3f inSpot(const Vector3f& axis, double footprint_rad, Random& random) {
+    const auto aside = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
+    const auto up = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
+    const Vector3f left(-axis.y(), axis.x(), 0);  // shorter near the zenith, where no beam goes
+    return (axis + aside * left + up * axis.cross(left)).normalized();
+}
+
+Turn makeTurn(const SensorModel& sensor, const FiringPattern& pattern, const TurnPoses& poses,
+              double footprint_rad, Random& random) {
+    const std::vector<LaserDirection> lasers = laserDirections(sensor, pattern);
+    Turn turn;
+    turn.lasers = static_cast<int>(lasers.size());
+    turn.firings = pattern.firings_per_turn;
+    turn.beams.resize(static_cast<std::size_t>(turn.lasers) * turn.firings);
+    turn.rays.resize(turn.beams.size());
+    for (int firing = 0; firing < turn.firings; ++firing) {
+        const SensorPose pose = poses.at(1e-6 * firing * pattern.firing_period_us);
+        const Eigen::Matrix3f attitude = pose.attitude.toRotationMatrix().cast<float>();
+        const Vector3f origin = pose.position_m.cast<float>();
+        const double azimuth = -radians(kFirstAzimuth_deg + firing * pattern.azimuthStep_deg());
+        const auto sine = static_cast<float>(std::sin(azimuth));
+        const auto cosine = static_cast<float>(std::cos(azimuth));
+        const auto first_rad = static_cast<float>(std::remainder(azimuth, 2 * kPi));
+        for (int laser = 0; laser < turn.lasers; ++laser) {
+            const LaserDirection& l = lasers[laser];
+            const std::size_t i = turn.index(firing, laser);
+            Beam& beam = turn.beams[i];
+            beam.direction = {l.cosine * (cosine * l.turn_cosine - sine * l.turn_sine),
+                              l.cosine * (sine * l.turn_cosine + cosine * l.turn_sine), l.sine};
+            beam.azimuth_rad = wrapped(first_rad + l.turn_rad);
+            beam.axis = attitude * beam.direction;
+            const double time_s =
+                1e-6 * (firing * pattern.firing_period_us + laser * pattern.laser_period_us);
+            turn.rays[i] = {origin, inSpot(beam.axis, footprint_rad, random),
+                            static_cast<float>(std::min(1.0, time_s / pattern.turnPeriod_s()))};
+        }
+    }
+    return turn;
+}
+
+/// Where the beam's axis meets the plane that its ray hit; the ray's own range where that is far.
+float rangeOnAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axis) {
+    const float along = hit.normal.dot(axis);
+    if (along > -0.01f) return hit.range_m;
+    const float range_m = hit.range_m * hit.normal.dot(ray) / along;
+    return std::abs(range_m - hit.range_m) < 0.1f * hit.range_m ? range_m : hit.range_m;
+}
+
+/// Casts a second ray for some of the beams; where it meets something else nearly as far away, the
+/// range is one between both, and the return is that of the nearer.
+void mixEdges(const Scene::Snapshot& snapshot, const Turn& turn, float max_range_m,
+              const LidarFaults& faults, Random& random, std::vector<RayHit>& hits) {
+    constexpr float kLeast_m = 0.2f, kPulse_m = 1.2f;  // farther apart, they are two pulses
+    std::vector<std::size_t> chosen;
+    std::vector<Ray> rays;
+    const double gap = std::max(1e-9, faults.mixed);
+    for (double at = random.exponential(1 / gap); at < static_cast<double>(hits.size());
+         at += 1 + random.exponential(1 / gap)) {
+        const auto i = static_cast<std::size_t>(at);
+        if (hits[i].kind == Kind::None) continue;
+        chosen.push_back(i);
+        rays.push_back(turn.rays[i]);
+        rays.back().direction = inSpot(turn.beams[i].axis, faults.footprint_rad, random);
+    }
+    std::vector<RayHit> others;
+    snapshot.cast(rays, max_range_m, others);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        RayHit& hit = hits[chosen[k]];
+        const float apart_m = std::abs(others[k].range_m - hit.range_m);
+        if (!(apart_m > kLeast_m && apart_m < kPulse_m)) continue;
+        if (isBroad(hit.kind) && others[k].kind == hit.kind) continue;
+        RayHit& nearer = others[k].range_m < hit.range_m ? others[k] : hit;
+        const RayHit mixed{nearer.range_m + static_cast<float>(random.uniform()) * apart_m,
+                           nearer.kind, nearer.number, nearer.normal};
+        hit = mixed;
+    }
+}
+
+/// What a beam measures.
+struct Echo {
+    float range_m = kNoValue;
+    float intensity = 0;
+    Kind kind = Kind::None;
+    std::uint16_t object = 0;
+};
+
+class Receiver {
+ public:
+    Receiver(const Scene& scene, const LidarFaults& faults, const SensorModel& sensor,
+             Random& random)
+        : scene_(scene), faults_(faults), sensor_(sensor), random_(random) {}
+
+    Echo measure(const RayHit& hit, const Ray& ray, const Beam& beam, float elevation_rad) {
+        if (faults_.airframe) {
+            if (const AirframeSpot* spot = airframeAt(beam.azimuth_rad, elevation_rad)) {
+                if (random_.chance(0.4)) return {};  // too near to be measured at all
+                return {noisy(spot->range_m, 1.0f), 0.1f, Kind::Airframe, 0};
+            }
+        }
+        const bool is_hit = hit.kind != Kind::None;
+        if (random_.chance(kDust_m * faults_.dust_per_m)) {  // somewhere on the way
+            const auto speck_m = static_cast<float>(random_.uniform(0.5, kDust_m));
+            if (!is_hit || speck_m < hit.range_m) return {speck_m, 0.02f, Kind::Dust, 0};
+        }
+        if (!is_hit) return {};
+
+        float range_m = hit.range_m;
+        if (isBroad(hit.kind)) range_m = rangeOnAxis(hit, ray.direction, beam.axis);
+        const float incidence = std::max(0.0f, -hit.normal.dot(ray.direction));
+        if (hit.kind == Kind::Terrain) range_m -= grass_m(ray, range_m, incidence);
+        const float reflectivity = reflectivityOf(hit.kind, hit.number);
+        // Rough surfaces send some light back even where they are seen edge on.
+        const float strength = reflectivity / 0.3f * (0.05f + 0.95f * incidence);
+        const auto half_m = static_cast<float>(faults_.half_range_m) * std::sqrt(strength);
+        const float weakness = range_m / half_m;
+        const float sixth = weakness * weakness * weakness * weakness * weakness * weakness;
+        if (random_.chance(1.0 - (1.0 - faults_.lost) / (1.0 + static_cast<double>(sixth)))) {
+            return {};
+        }
+        const float measured_m = noisy(range_m, 1.0f + std::min(1.0f, 1.5f * weakness));
+        if (!(measured_m > 0.1f && measured_m <= sensor_.max_range_m)) return {};
+        const float shade = 0.9f + 0.2f * static_cast<float>(random_.uniform());
+        return {measured_m, std::clamp(strength * 0.3f * shade, 0.01f, 1.0f), hit.kind, hit.number};
+    }
+
+ private:
+    static constexpr double kDust_m = 15.0;  // farther specks are too faint
+
+    float noisy(float range_m, float times) {
+        return range_m + static_cast<float>(faults_.least_noise_m * random_.roughlyNormal()) * times;
+    }
+
+    /// How far before the soil the grass sends a beam back.
+    float grass_m(const Ray& ray, float range_m, float incidence) {
+        const Vector3f at = ray.origin_m + range_m * ray.direction;
+        const double tallest_m = scene_.terrain().grassHeight_m(static_cast<double>(at.x()),
+                                                                static_cast<double>(at.y()));
+        if (tallest_m <= 0) return 0;
+        const double share = random_.uniform();
+        const double blade_m = tallest_m * share * share;  // few are as tall as the tallest
+        return std::min(static_cast<float>(blade_m) / std::max(incidence, 0.05f), 0.2f * range_m);
+    }
+
+    const Scene& scene_;
+    const LidarFaults& faults_;
+    const SensorModel& sensor_;
+    Random& random_;
+};
+
+void append(const Echo& echo, const Beam& beam, int firing, int laser, std::uint8_t row,
+            float time_s, SimulatedScan& out) {
+    const Vector3f at = echo.range_m * beam.direction;
+    out.scan.x_m.push_back(at.x());
+    out.scan.y_m.push_back(at.y());
+    out.scan.z_m.push_back(at.z());
+    out.scan.intensity.push_back(echo.intensity);
+    out.scan.range_m.push_back(echo.range_m);
+    out.scan.azimuth_rad.push_back(beam.azimuth_rad);
+    out.scan.row.push_back(row);
+    out.scan.time_s.push_back(time_s);
+    out.kind.push_back(echo.kind);
+    out.object.push_back(echo.object);
+    out.firing.push_back(firing);
+    out.laser.push_back(static_cast<std::uint8_t>(laser));
+}
+
+}  // namespace
+
+SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
+                           double time_s, Random& random, const LidarFaults& faults) {
+    const FiringPattern pattern = firingPattern(sensor);
+    const Scene::Snapshot snapshot = scene.during(time_s, pattern.turnPeriod_s());
+    const TurnPoses poses(flight, time_s, pattern.turnPeriod_s());
+    const Turn turn = makeTurn(sensor, pattern, poses, faults.footprint_rad, random);
+
+    std::vector<RayHit> hits;
+    snapshot.cast(turn.rays, sensor.max_range_m, hits);
+    if (faults.mixed > 0) mixEdges(snapshot, turn, sensor.max_range_m, faults, random, hits);
+
+    SimulatedScan out;
+    out.scan.reserve(turn.beams.size());
+    out.pose = flight.at(time_s);
+    out.altitude_m = out.pose.position_m.z() -
+                     scene.terrain().height_m(out.pose.position_m.x(), out.pose.position_m.y());
+    Receiver receiver(scene, faults, sensor, random);
+    for (int firing = 0; firing < turn.firings; ++firing) {
+        for (int laser = 0; laser < turn.lasers; ++laser) {
+            const std::size_t i = turn.index(firing, laser);
+            const std::uint8_t row = pattern.row_of_laser[laser];
+            const Echo echo =
+                receiver.measure(hits[i], turn.rays[i], turn.beams[i], sensor.elevations_rad[row]);
+            if (echo.kind == Kind::None) continue;
+            const double since_s =
+                1e-6 * (firing * pattern.firing_period_us + laser * pattern.laser_period_us);
+            append(echo, turn.beams[i], firing, laser, row, static_cast<float>(since_s), out);
+        }
+    }
+    return out;
+}
+
+}  // namespace hagen

@@ -1,0 +1,103 @@
+#include <hagen/range_image/Angle.h>
+#include <hagen/simulation/SceneBuilder.h>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace hagen {
+
+SceneBuilder::SceneBuilder(const TerrainForm& form, const Path& path, std::uint64_t seed)
+    : random_(seed, 1), content_{Terrain(form, random_), path, {}, {}, {}} {
+    constexpr double kFineLength_m = 55, kFineWidth_m = 38, kReach_m = 140;
+    add(Kind::Terrain, terrain().mesh(kFineLength_m, kFineWidth_m, kReach_m, random_));
+}
+
+std::size_t SceneBuilder::addShape(Shape shape) {
+    content_.shapes.push_back(std::move(shape));
+    return content_.shapes.size() - 1;
+}
+
+std::vector<std::size_t> SceneBuilder::addShapes(int count,
+                                                 const std::function<Shape(Random&)>& make) {
+    std::vector<std::size_t> shapes;
+    for (int i = 0; i < count; ++i) shapes.push_back(addShape(make(random_)));
+    return shapes;
+}
+
+std::size_t SceneBuilder::oneOf(const std::vector<std::size_t>& shapes) {
+    return shapes[random_.below(static_cast<int>(shapes.size()))];
+}
+
+bool SceneBuilder::isFree(double x_m, double y_m, double radius_m) const {
+    return path().distance_m(x_m, y_m) > radius_m + kClearance_m;
+}
+
+std::uint16_t SceneBuilder::nextNumber(Kind kind) {
+    if (labelOf(kind) != Label::Roi) return 0;
+    if (numbers_ == std::numeric_limits<std::uint16_t>::max()) {
+        throw std::logic_error("a scene holds 65535 objects at most");
+    }
+    return ++numbers_;
+}
+
+std::uint16_t SceneBuilder::place(Kind kind, std::size_t shape, double x_m, double y_m,
+                                  double yaw_rad, const Eigen::Vector3d& scale) {
+    const Eigen::Affine3d pose = Eigen::Translation3d(x_m, y_m, terrain().height_m(x_m, y_m)) *
+                                 Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::Scaling(scale);
+    content_.objects.push_back({kind, nextNumber(kind), shape, pose.cast<float>()});
+    return content_.objects.back().number;
+}
+
+std::uint16_t SceneBuilder::placeAnyOf(Kind kind, const std::vector<std::size_t>& shapes,
+                                       double x_m, double y_m, const Eigen::Vector3d& scale) {
+    const std::size_t shape = oneOf(shapes);
+    return place(kind, shape, x_m, y_m, random_.uniform(0, 2 * kPi), scale);
+}
+
+std::uint16_t SceneBuilder::lay(Kind kind, std::size_t shape, double x_m, double y_m,
+                                double yaw_rad, const Eigen::Vector3d& scale) {
+    const std::uint16_t number = place(kind, shape, x_m, y_m, yaw_rad, scale);
+    constexpr double kStep_m = 2.0;
+    Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
+    shear(2, 0) =
+        (terrain().height_m(x_m + kStep_m, y_m) - terrain().height_m(x_m - kStep_m, y_m)) /
+        (2 * kStep_m);
+    shear(2, 1) =
+        (terrain().height_m(x_m, y_m + kStep_m) - terrain().height_m(x_m, y_m - kStep_m)) /
+        (2 * kStep_m);
+    Eigen::Affine3f& pose = content_.objects.back().pose;
+    pose.linear() = shear.cast<float>() * pose.linear();
+    return number;
+}
+
+std::uint16_t SceneBuilder::add(Kind kind, Shape shape) {
+    content_.objects.push_back(
+        {kind, nextNumber(kind), addShape(std::move(shape)), Eigen::Affine3f::Identity()});
+    return content_.objects.back().number;
+}
+
+bool SceneBuilder::addMover(SceneMover mover, double own_radius_m) {
+    constexpr int kPlaces = 24;
+    for (int i = 0; i < kPlaces; ++i) {
+        const double angle = 2 * kPi * i / kPlaces;
+        if (!isFree(mover.middle_m.x() + mover.radius_m * std::cos(angle),
+                    mover.middle_m.y() + mover.radius_m * std::sin(angle), own_radius_m + 0.7)) {
+            return false;
+        }
+    }
+    mover.number = nextNumber(Kind::Mover);
+    content_.movers.push_back(mover);
+    return true;
+}
+
+void SceneBuilder::scatter(double per_m2, const std::function<void(double, double)>& put) {
+    const int count = random_.poisson(per_m2 * 4 * kHalfLength_m * kHalfWidth_m);
+    for (int i = 0; i < count; ++i) {
+        const double x_m = random_.uniform(-kHalfLength_m, kHalfLength_m);
+        const double y_m = random_.uniform(-kHalfWidth_m, kHalfWidth_m);
+        put(x_m, y_m);
+    }
+}
+
+}  // namespace hagen

@@ -1,0 +1,23 @@
+#pragma once
+#include <hagen/simulation/SceneBuilder.h>
+
+namespace hagen {
+
+// Shapes with the origin on the ground.
+Shape makeRod(double height_m, double radius_m);  ///< a pole
+Shape makeCar(Random& random);                    ///< x forward
+Shape makeHouse(double length_m, double width_m, double wall_m, Random& random);
+Shape makeRock(Random& random);  ///< about 1 m across
+Shape makePerson();
+Shape makeDrone();
+
+// Things that go over the ground, put into a scene.
+
+/// A wall along a line, in pieces that follow the ground.
+void addWall(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
+             double height_m, double thickness_m);
+/// Poles on a line, and wires between them at some heights, that sag by 2 % of the span.
+void addWireLine(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
+                 double span_m, const std::vector<double>& heights_m, double sideways_m);
+
+}  // namespace hagen

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+#include <hagen/evaluation/Bootstrap.h>
+
+#include <cmath>
+
+namespace hagen {
+namespace {
+
+/// Scans of one RoI return each, of which every second is found.
+std::vector<Scores> everySecondFound(int scans) {
+    std::vector<Scores> all;
+    for (int i = 0; i < scans; ++i) {
+        Scores scores;
+        addScore(Label::Roi, i % 2 == 0 ? Label::Roi : Label::Rou, scores);
+        all.push_back(scores);
+    }
+    return all;
+}
+
+TEST(Bootstrap, IntervalOfAShareIsThatOfTheBinomialDistribution) {
+    // Recall 0.5 of n = 400 scans: standard deviation sqrt(0.25 / 400) = 0.025, 95 % within 1.96 of
+    // them. Counts are whole, so bounds lie on multiples of 1 / 400.
+    BootstrapOptions options;
+    options.resamples = 4000;
+    const Interval recall = bootstrapIntervals(everySecondFound(400), options).roi.recall;
+    EXPECT_NEAR(recall.low, 0.5 - 1.96 * 0.025, 0.0035);
+    EXPECT_NEAR(recall.high, 0.5 + 1.96 * 0.025, 0.0035);
+    options.level = 0.6827;
+    const Interval narrow = bootstrapIntervals(everySecondFound(400), options).roi.recall;
+    EXPECT_NEAR(narrow.high - narrow.low, 2 * 0.025, 0.0055);
+}
+
+TEST(Bootstrap, DrawsScansAndNotReturns) {
+    // Two scans, one found whole and one missed whole, are 0, 0.5 or 1 however many their returns.
+    std::vector<Scores> scans(2);
+    scans[0].roi.hits = 1000;
+    scans[1].roi.misses = 1000;
+    const Interval recall = bootstrapIntervals(scans).roi.recall;
+    EXPECT_EQ(recall.low, 0.0);
+    EXPECT_EQ(recall.high, 1.0);
+}
+
+TEST(Bootstrap, SaysTheSameForTheSameSeedAndMoreForAnother) {
+    BootstrapOptions options;
+    options.resamples = 100;
+    const auto first = bootstrapIntervals(everySecondFound(1001), options);
+    const auto again = bootstrapIntervals(everySecondFound(1001), options);
+    options.seed = 2;
+    const auto other = bootstrapIntervals(everySecondFound(1001), options);
+    EXPECT_EQ(first.roi.f1.low, again.roi.f1.low);
+    EXPECT_EQ(first.roi.f1.high, again.roi.f1.high);
+    EXPECT_NE(first.roi.f1.low, other.roi.f1.low);
+}
+
+TEST(Bootstrap, NoIntervalOfNothing) {
+    EXPECT_TRUE(std::isnan(bootstrapIntervals({}).roi.f1.low));
+    EXPECT_TRUE(std::isnan(bootstrapIntervals(everySecondFound(1)).roi.f1.low));
+    EXPECT_TRUE(std::isnan(bootstrapIntervals(everySecondFound(4)).rou.recall.low));  // no ROU
+    BootstrapOptions none;
+    none.resamples = 0;
+    EXPECT_TRUE(std::isnan(bootstrapIntervals(everySecondFound(4), none).roi.f1.low));
+}
+
+}  // namespace
+}  // namespace hagen

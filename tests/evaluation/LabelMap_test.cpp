@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+#include <hagen/evaluation/LabelMap.h>
+
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LabelMapFile : public testing::Test {
+ protected:
+    void expectRefused(const std::string& text, const std::string& words) const {
+        const std::string message =
+            test::messageOf([&] { readLabelMap(folder_.write("map.yaml", text)); });
+        EXPECT_NE(message.find(words), std::string::npos) << message;
+        EXPECT_NE(message.find("map.yaml"), std::string::npos) << message;
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(LabelMapFile, HasANameAndALabelForEachKind) {
+    const LabelMap map = readLabelMap(folder_.write(
+        "map.yaml",
+        "# kinds\n70: {name: vegetation, label: 2}\n72:\n  name: terrain\n  label: 1\n"));
+    ASSERT_EQ(map.size(), 2u);
+    EXPECT_EQ(map.at(70).name, "vegetation");
+    EXPECT_EQ(map.at(70).label, Label::Roi);
+    EXPECT_EQ(map.at(72).label, Label::Rou);
+}
+
+TEST_F(LabelMapFile, GivesKindsTheirLabels) {
+    const LabelMap map{{0, {"nothing", Label::Unclassified}}, {70, {"vegetation", Label::Roi}}};
+    EXPECT_EQ(labelsOfKinds({70, 0}, map), (std::vector<Label>{Label::Roi, Label::Unclassified}));
+    EXPECT_EQ(labelsOfNumbers({2, 1, 0}),
+              (std::vector<Label>{Label::Roi, Label::Rou, Label::Unclassified}));
+}
+
+TEST_F(LabelMapFile, ShippedOnesDifferInVegetationAlone) {
+    const fs::path config = fs::path(HAGEN_SOURCE_DIR) / "config";
+    LabelMap with = readLabelMap(config / "semantic_kitti.yaml");
+    const LabelMap without = readLabelMap(config / "semantic_kitti_without_vegetation.yaml");
+    ASSERT_EQ(with.size(), without.size());
+    EXPECT_EQ(with.at(70).label, Label::Roi);
+    with.at(70).label = Label::Unclassified;
+    for (const auto& [number, kind] : with) {
+        EXPECT_EQ(without.at(number).label, kind.label) << number;
+        EXPECT_EQ(without.at(number).name, kind.name) << number;
+    }
+}
+
+TEST_F(LabelMapFile, RefusesWhatItCannotRead) {
+    expectRefused("70: vegetation", "map.yaml:1: name and label are expected");
+    expectRefused("70: {name: vegetation}", "name and label are expected");
+    expectRefused("70: {name: vegetation, label: 2, colour: green}", "name and label");
+    expectRefused("40: {name: road, label: 1}\n70: {name: tree, label: 3}",
+                  "map.yaml:2: label '3' is none of 0");
+    expectRefused("tree: {name: tree, label: 2}", "'tree' is no number");
+    expectRefused("70000: {name: tree, label: 2}", "'70000' is no number");
+    expectRefused("7: {name: a, label: 2}\n7: {name: b, label: 1}",
+                  "map.yaml:2: '7' is there twice");
+    expectRefused("7: {name: a, label: 2}\n8: {name: a, label: 1}", "two kinds are called 'a'");
+    expectRefused("[1, 2]", "lines such as '70: {name: vegetation, label: 2}' are expected");
+    expectRefused("", "are expected");
+    expectRefused("7: {name", "not YAML");
+    EXPECT_NE(test::messageOf([] { readLabelMap("none.yaml"); }).find("none.yaml: no such file"),
+              std::string::npos);
+}
+
+TEST_F(LabelMapFile, NamesClassesThatAreMissing) {
+    const auto words = [](auto call) {
+        try {
+            call();
+        } catch (const std::invalid_argument& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(words([] { labelsOfKinds({71}, {}); }).find("class 71 is not in"), std::string::npos);
+    EXPECT_NE(words([] { labelsOfNumbers({40}); }).find("label 40 is none of 0"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace hagen

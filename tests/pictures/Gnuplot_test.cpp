@@ -1,0 +1,36 @@
+#include <gtest/gtest.h>
+#include <hagen/pictures/Gnuplot.h>
+
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+/// What gnuplot writes into an SVG for this text.
+std::string drawn(const std::string& text) {
+    const test::TemporaryFolder folder;
+    runGnuplot("set terminal svg\nset output 'text.svg'\nset label " + gnuplotString(text) +
+                   " at 0,0 noenhanced\nplot [0:1][0:1] x\n",
+               folder.path(), {"text.svg"});
+    return test::readFile(folder / "text.svg");
+}
+
+TEST(Gnuplot, TakesAnyTextLiterally) {
+    EXPECT_NE(drawn("beta_deg=5, Peter's \\n `date` @x {a}")
+                  .find("beta_deg=5, Peter's \\n `date` @x {a}"),
+              std::string::npos);
+    EXPECT_NE(drawn("one\nset output 'other.svg'").find("one set output 'other.svg'"),
+              std::string::npos);
+}
+
+TEST(Gnuplot, AnSvgThatBreaksOffIsNamed) {
+    const test::TemporaryFolder folder;
+    const std::string error = test::messageOf([&] {
+        runGnuplot("set print 'half.svg'\nprint '<?xml version=\"1.0\"?><svg>'\n", folder.path(),
+                   {"half.svg"});
+    });
+    EXPECT_NE(error.find("half.svg could not be written whole"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace hagen

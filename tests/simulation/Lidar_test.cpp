@@ -1,0 +1,292 @@
+#include <gtest/gtest.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/simulation/Lidar.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "simulation/SimpleContent.h"
+
+namespace hagen {
+namespace {
+
+using test::emptyContent;
+using test::plane;
+using test::put;
+
+LidarFaults noFaults() {
+    LidarFaults none;
+    none.footprint_rad = none.least_noise_m = none.lost = none.mixed = none.dust_per_m = 0;
+    none.half_range_m = 1e6;
+    none.airframe = false;
+    return none;
+}
+
+FlightSettings flightAt(double altitude_m, double speed_m_s, double tilt_sd_deg) {
+    FlightSettings settings;
+    settings.altitude_m = altitude_m;
+    settings.speed_m_s = speed_m_s;
+    settings.tilt_sd_rad = radians(tilt_sd_deg);
+    return settings;
+}
+
+/// A flight over a scene, and its sensor.
+struct Simulation {
+    Simulation(SceneContent content, const FlightSettings& settings,
+               const std::string& name = "VLP-16")
+        : scene(std::move(content)),
+          flight(scene.terrain(), scene.path(), settings, 5),
+          sensor(sensorModel(name)) {}
+
+    SimulatedScan scan(double time_s, const LidarFaults& faults, std::uint64_t seed = 1) const {
+        Random random(seed);
+        return simulateScan(scene, sensor, flight, time_s, random, faults);
+    }
+    /// A return in the map.
+    Eigen::Vector3d inMap(const SimulatedScan& scan, std::size_t i, double start_s) const {
+        const SensorPose pose = flight.at(start_s + static_cast<double>(scan.scan.time_s[i]));
+        return pose.position_m +
+               pose.attitude * Eigen::Vector3f(scan.scan.x_m[i], scan.scan.y_m[i], scan.scan.z_m[i])
+                                   .cast<double>();
+    }
+
+    Scene scene;
+    Flight flight;
+    SensorModel sensor;
+};
+
+SceneContent level() {
+    SceneContent content = emptyContent();
+    put(content, Kind::Terrain, 0, plane(300));
+    return content;
+}
+
+class EachSensor : public testing::TestWithParam<const char*> {};
+
+TEST_P(EachSensor, WithoutFaultsEachReturnIsOnTheGroundAlsoTiltedAndOnTheMove) {
+    const Simulation setup(level(), flightAt(3, 8, 10), GetParam());
+    const SimulatedScan scan = setup.scan(7.3, noFaults());
+    ASSERT_GT(scan.size(), 5000u);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        // Rays start with their firing, lasers a little later.
+        const double range_m = static_cast<double>(scan.scan.range_m[i]);
+        ASSERT_NEAR(setup.inMap(scan, i, 7.3).z(), 0, 1e-3 + 1e-4 * range_m) << i;
+        ASSERT_EQ(scan.kind[i], Kind::Terrain);
+    }
+}
+
+TEST_P(EachSensor, ReturnsComeInTheOrderOfFiringWithTheirBeams) {
+    const Simulation setup(level(), flightAt(3, 4, 4), GetParam());
+    const SimulatedScan scan = setup.scan(0, noFaults());
+    const FiringPattern pattern = firingPattern(setup.sensor);
+    std::set<int> lasers;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Scan& s = scan.scan;
+        ASSERT_EQ(s.row[i], pattern.row_of_laser[scan.laser[i]]);
+        ASSERT_NEAR(std::asin(s.z_m[i] / s.range_m[i]), setup.sensor.elevations_rad[s.row[i]],
+                    1e-5);
+        const double turned = std::remainder(
+            static_cast<double>(s.azimuth_rad[i]) - std::atan2(s.y_m[i], s.x_m[i]), 2 * kPi);
+        ASSERT_NEAR(turned, 0, 1e-5);
+        lasers.insert(scan.laser[i]);
+        if (i == 0) continue;
+        const bool is_later =
+            scan.firing[i] > scan.firing[i - 1] ||
+            (scan.firing[i] == scan.firing[i - 1] && scan.laser[i] > scan.laser[i - 1]);
+        ASSERT_TRUE(is_later) << i;
+        ASSERT_GE(s.time_s[i], s.time_s[i - 1]);
+    }
+    EXPECT_LT(scan.scan.time_s.back(), 0.1001f);
+    EXPECT_GE(lasers.size(), 7u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EachSensor, testing::Values("VLP-16", "HDL-32E", "HDL-64E"),
+                         [](const auto& sensor) { return std::string(sensor.param).erase(3, 1); });
+
+TEST(LidarTest, AScanBeginsBehindAndGoesClockwise) {
+    const Simulation setup(level(), flightAt(3, 4, 0));
+    const SimulatedScan scan = setup.scan(0, noFaults());
+    EXPECT_NEAR(std::abs(scan.scan.azimuth_rad.front()), kPi, 0.01);
+    EXPECT_NEAR(scan.scan.azimuth_rad[scan.size() / 4], kPi / 2, 0.05);
+    EXPECT_NEAR(scan.scan.azimuth_rad[3 * scan.size() / 4], -kPi / 2, 0.05);
+}
+
+TEST(LidarTest, TellsTheAltitudeAndThePose) {
+    const Simulation setup(level(), flightAt(3, 4, 4));
+    const SimulatedScan scan = setup.scan(2.0, noFaults());
+    EXPECT_NEAR(scan.altitude_m, setup.flight.at(2.0).position_m.z(), 1e-12);
+    EXPECT_NEAR((scan.pose.position_m - setup.flight.at(2.0).position_m).norm(), 0, 1e-12);
+}
+
+TEST(LidarTest, NoiseHasItsStandardDeviation) {
+    const Simulation setup(level(), flightAt(3, 4, 0));
+    LidarFaults faults = noFaults();
+    faults.least_noise_m = 0.02;
+    const SimulatedScan exact = setup.scan(0, noFaults()), noisy = setup.scan(0, faults);
+    ASSERT_EQ(exact.size(), noisy.size());
+    double squares = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        squares += std::pow(static_cast<double>(noisy.scan.range_m[i] - exact.scan.range_m[i]), 2);
+    }
+    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(exact.size())), 0.02, 0.001);
+}
+
+TEST(LidarTest, FlatWeakReturnsAreLostFirst) {
+    const Simulation setup(level(), flightAt(2, 4, 0));
+    LidarFaults faults = noFaults();
+    faults.half_range_m = LidarFaults().half_range_m;
+    const SimulatedScan all = setup.scan(0, noFaults()), some = setup.scan(0, faults);
+    const auto count = [](const SimulatedScan& scan, int row) {
+        return static_cast<double>(std::count(scan.scan.row.begin(), scan.scan.row.end(), row));
+    };
+    EXPECT_GT(count(some, 0), 0.99 * count(all, 0));  // 8 m away
+    EXPECT_LT(count(some, 7), 0.5 * count(all, 7));   // 115 m away, at 1 degree
+}
+
+/// Where a horizontal wire of 24 mm runs round the sensor, at the height of the beam at 1 degree:
+/// the share of that beam's firings that meet it.
+double shareThatMeetsWire(double distance_m) {
+    const FlightSettings hover = flightAt(3, 1e-3, 0);
+    const SceneContent empty = emptyContent();
+    const Eigen::Vector3d from = Flight(empty.terrain, empty.path, hover, 5).at(0).position_m;
+    std::vector<Eigen::Vector4f> knots;
+    for (int i = 0; i <= 720; ++i) {
+        const double angle = i * kPi / 360;
+        knots.push_back(Eigen::Vector4d(from.x() + distance_m * std::cos(angle),
+                                        from.y() + distance_m * std::sin(angle),
+                                        from.z() + distance_m * std::tan(radians(1.0)), 0.012)
+                            .cast<float>());
+    }
+    SceneContent content = emptyContent();
+    Shape wire;
+    wire.addRod(knots);
+    put(content, Kind::Wire, 1, std::move(wire));
+    LidarFaults faults = noFaults();
+    faults.footprint_rad = LidarFaults().footprint_rad;
+    return static_cast<double>(Simulation(std::move(content), hover).scan(0, faults).size()) / 1809;
+}
+
+TEST(LidarTest, AWireIsMetAsOftenAsItCoversTheBeamsSpot) {
+    EXPECT_GT(shareThatMeetsWire(4), 0.99);
+    EXPECT_NEAR(shareThatMeetsWire(12), 0.024 / (12 * 0.003), 0.05);
+    EXPECT_NEAR(shareThatMeetsWire(24), 0.024 / (24 * 0.003), 0.05);
+}
+
+TEST(LidarTest, TheBeamGoesOnToWhatIsBehindAWire) {
+    SceneContent content = level();
+    const Simulation bare(level(), flightAt(3, 4, 4));
+    std::vector<Eigen::Vector4f> knots{{-50, -4, 2.5f, 0.012f}, {50, -4, 2.5f, 0.012f}};
+    Shape wire;
+    wire.addRod(knots);
+    put(content, Kind::Wire, 1, std::move(wire));
+    LidarFaults faults = noFaults();
+    faults.footprint_rad = LidarFaults().footprint_rad;
+    const SimulatedScan scan = Simulation(std::move(content), flightAt(3, 4, 4)).scan(0, faults);
+    const auto wires = std::count(scan.kind.begin(), scan.kind.end(), Kind::Wire);
+    const auto grounds = std::count(scan.kind.begin(), scan.kind.end(), Kind::Terrain);
+    const auto before = static_cast<std::ptrdiff_t>(bare.scan(0, faults).size());
+    EXPECT_GT(wires, 20);
+    EXPECT_LE(grounds, before);
+    EXPECT_GE(grounds + wires, before);
+}
+
+TEST(LidarTest, ABroadSurfaceIsMeasuredOnTheAxis) {
+    const Simulation setup(level(), flightAt(3, 4, 0));
+    LidarFaults faults = noFaults();
+    faults.footprint_rad = 0.003;
+    const SimulatedScan scan = setup.scan(0, faults);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (scan.scan.range_m[i] > 40) continue;
+        ASSERT_NEAR(setup.inMap(scan, i, 0).z(), 0, 5e-3) << i;
+    }
+}
+
+TEST(LidarTest, RangesAtAnEdgeAreSometimesBetweenBoth) {
+    SceneContent content = emptyContent();
+    Shape steps;  // bars 0.6 m before a wall, on the right-hand side of the path
+    steps.addBox({-40, -19, -5}, {40, -18, 20});
+    for (float x = -30; x < 30; x += 0.4f) steps.addBox({x, -17.5f, -5}, {x + 0.2f, -17.4f, 20});
+    put(content, Kind::Vehicle, 1, std::move(steps));
+    LidarFaults faults = noFaults();
+    faults.footprint_rad = 0.003;
+    const Simulation setup(std::move(content), flightAt(3, 1, 0));
+    const auto between = [&](const LidarFaults& with) {
+        const SimulatedScan scan = setup.scan(0, with);
+        int count = 0;
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            const double y = setup.inMap(scan, i, 0).y();
+            count += y < -17.6 && y > -17.9;
+        }
+        return count;
+    };
+    EXPECT_EQ(between(faults), 0);
+    faults.mixed = 0.3;
+    EXPECT_GT(between(faults), 10);
+}
+
+TEST(LidarTest, GrassSendsBeamsBackAboveTheSoil) {
+    SceneContent content = level();
+    TerrainForm form;
+    form.max_slope_rad = form.bump_m = 0;
+    form.grass_m = 0.2;
+    Random random(1);
+    content.terrain = Terrain(form, random);
+    const Simulation setup(std::move(content), flightAt(3, 4, 0));
+    const SimulatedScan scan = setup.scan(0, noFaults());
+    double sum = 0, most = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const double z = setup.inMap(scan, i, 0).z();
+        ASSERT_GT(z, -5e-3);
+        most = std::max(most, z);
+        sum += z;
+    }
+    EXPECT_LE(most, 0.205);
+    EXPECT_GT(sum / static_cast<double>(scan.size()), 0.01);
+}
+
+TEST(LidarTest, DustAndTheOwnAirframeAreTold) {
+    const Simulation setup(level(), flightAt(3, 4, 4));
+    LidarFaults faults = noFaults();
+    faults.dust_per_m = 1e-3;
+    faults.airframe = true;
+    const SimulatedScan scan = setup.scan(0, faults);
+    int dust = 0, airframe = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (scan.kind[i] == Kind::Dust) ++dust;
+        if (scan.kind[i] != Kind::Airframe) continue;
+        ++airframe;
+        EXPECT_GT(scan.scan.range_m[i], 0.2f);
+        EXPECT_LT(scan.scan.range_m[i], 0.7f);
+    }
+    EXPECT_GT(dust, 150);
+    EXPECT_LT(dust, 500);
+    EXPECT_GT(airframe, 50);
+}
+
+TEST(LidarTest, TheSameSeedMakesTheSameScan) {
+    const Simulation setup(level(), flightAt(3, 4, 4));
+    const SimulatedScan a = setup.scan(1, {}, 6), b = setup.scan(1, {}, 6),
+                        c = setup.scan(1, {}, 7);
+    EXPECT_EQ(a.scan.range_m, b.scan.range_m);
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_NE(a.scan.range_m, c.scan.range_m);
+}
+
+TEST(LidarTest, NothingThereNothingMeasured) {
+    EXPECT_EQ(Simulation(emptyContent(), flightAt(3, 4, 4)).scan(0, noFaults()).size(), 0u);
+}
+
+TEST(LidarTest, AnotherSensorIsRefusedByName) {
+    try {
+        firingPattern(sensorModel("VLP-32C"));
+        FAIL() << "it fires";
+    } catch (const std::invalid_argument& e) {
+        EXPECT_NE(std::string(e.what()).find("VLP-32C"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("HDL-32E"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/simulation/Lidar.h>
+#include <hagen/simulation/Scenarios.h>
+
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+std::set<Kind> kindsOf(const Scene& scene) {
+    std::set<Kind> kinds;
+    for (const SceneObject& object : scene.content().objects) kinds.insert(object.kind);
+    if (!scene.content().movers.empty()) kinds.insert(Kind::Mover);
+    return kinds;
+}
+
+const std::map<std::string, std::set<Kind>>& expectedKinds() {
+    static const std::set<Kind> wood{Kind::Canopy, Kind::Tree, Kind::Wall};
+    static const std::map<std::string, std::set<Kind>> expected{
+        {"orchard", {Kind::Canopy, Kind::Tree, Kind::Pole, Kind::Vehicle}},
+        {"field", {Kind::Canopy, Kind::Tree, Kind::Pole}},
+        {"forest-0.02", wood},
+        {"forest-0.05", wood},
+        {"forest-0.10", wood},
+        {"wires", {Kind::Canopy, Kind::Tree, Kind::Pole, Kind::Wire}},
+        {"gap", {Kind::Canopy, Kind::Tree, Kind::Wall}},
+        {"street",
+         {Kind::Canopy, Kind::Tree, Kind::Pole, Kind::Building, Kind::Vehicle, Kind::Wall}},
+        {"terrain", {Kind::Canopy, Kind::Tree, Kind::Wall}},
+        {"u-trap", {Kind::Canopy, Kind::Tree, Kind::Wall}},
+        {"movers", {Kind::Canopy, Kind::Tree, Kind::Mover}}};
+    return expected;
+}
+
+class EachScenario : public testing::TestWithParam<std::string> {};
+
+TEST_P(EachScenario, HoldsItsKindsAndNumbersItsObjects) {
+    const Scene scene = makeScene(GetParam(), 1);
+    std::set<Kind> kinds = kindsOf(scene);
+    EXPECT_EQ(kinds.count(Kind::Terrain), 1u);
+    for (const Kind kind : expectedKinds().at(GetParam())) {
+        EXPECT_EQ(kinds.count(kind), 1u) << nameOf(kind);
+    }
+    std::set<int> numbers;
+    for (const SceneObject& object : scene.content().objects) {
+        if (labelOf(object.kind) == Label::Rou) {
+            EXPECT_EQ(object.number, 0);
+        } else {
+            EXPECT_TRUE(numbers.insert(object.number).second) << object.number;
+        }
+    }
+    EXPECT_EQ(numbers.count(0), 0u);
+}
+
+/// Balls of half a metre, all along the way, at all altitudes that one can fly at.
+TEST_P(EachScenario, TheWayIsClear) {
+    const Scene scene = makeScene(GetParam(), 2);
+    std::vector<Ray> rays;
+    for (double way_m = 0; way_m < scene.path().length_m(); way_m += 0.25) {
+        const Eigen::Vector2d at = scene.path().at(way_m);
+        for (const double altitude_m : {1.2, 2.0, 3.0, 4.5, 7.0, 10.0, 15.0}) {
+            const double z = scene.terrain().height_m(at.x(), at.y()) + altitude_m;
+            for (int i = 0; i < 6; ++i) {
+                const double angle = i * kPi / 3;
+                const Eigen::Vector3d aside(std::cos(angle), std::sin(angle), 0);
+                rays.push_back(
+                    {Eigen::Vector3d(at.x(), at.y(), z).cast<float>(), aside.cast<float>(), 0});
+            }
+        }
+    }
+    std::vector<RayHit> hits;
+    for (const double time_s : {0.0, 13.0, 57.0}) {
+        scene.during(time_s, 0.1).cast(rays, 0.5f, hits);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const bool is_solid = labelOf(hits[i].kind) == Label::Roi;
+            ASSERT_FALSE(is_solid)
+                << nameOf(hits[i].kind) << " at " << rays[i].origin_m.transpose();
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EachScenario, testing::ValuesIn(scenarioNames()),
+                         [](const auto& name) {
+                             std::string words;
+                             for (const char c : name.param)
+                                 words += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                             return words;
+                         });
+
+TEST(ScenariosTest, ASeedMakesTheSameSceneAndAnotherSeedAnother) {
+    const auto placesOf = [](std::uint64_t seed) {
+        std::vector<float> places;
+        const Scene scene = makeScene("wires", seed);
+        for (const SceneObject& object : scene.content().objects) {
+            for (int i = 0; i < 16; ++i) places.push_back(object.pose.matrix().data()[i]);
+        }
+        for (const Shape& shape : scene.content().shapes) {
+            for (const Eigen::Vector3f& v : shape.vertices_m) places.push_back(v.z());
+        }
+        return places;
+    };
+    const std::vector<float> one = placesOf(1);
+    EXPECT_EQ(one, placesOf(1));
+    EXPECT_NE(one, placesOf(2));
+}
+
+TEST(ScenariosTest, ADenserForestHasMoreTrees) {
+    const auto trees = [](const std::string& name) {
+        int count = 0;
+        const Scene scene = makeScene(name, 4);
+        for (const SceneObject& object : scene.content().objects)
+            count += object.kind == Kind::Tree;
+        return count;
+    };
+    EXPECT_GT(trees("forest-0.05"), 1.8 * trees("forest-0.02"));
+    EXPECT_GT(trees("forest-0.10"), 1.6 * trees("forest-0.05"));
+}
+
+TEST(ScenariosTest, AnUnknownOneIsRefusedAndTheKnownOnesNamed) {
+    try {
+        makeScene("jungle", 1);
+        FAIL() << "it was made";
+    } catch (const std::invalid_argument& e) {
+        EXPECT_NE(std::string(e.what()).find("'jungle'"), std::string::npos) << e.what();
+        for (const std::string& name : scenarioNames()) {
+            EXPECT_NE(std::string(e.what()).find(name), std::string::npos) << e.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace hagen
