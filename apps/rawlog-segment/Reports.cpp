@@ -55,6 +55,10 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         std::printf("poses of %zu of %s: %s\n", report.scans_with_pose,
                     counted(report.scans, "scan", "scans").c_str(), report.poses.c_str());
     }
+    if (report.scans_with_attitude > 0 && report.settings.options.level_by_attitude) {
+        std::printf("levelled by the vehicle's attitude: %zu of %s\n", report.scans_with_attitude,
+                    counted(report.scans, "scan", "scans").c_str());
+    }
     const auto output = [](const char* what, const std::filesystem::path& path) {
         if (!path.empty()) std::printf("%s: %s\n", what, path.c_str());
     };

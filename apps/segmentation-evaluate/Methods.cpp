@@ -1,17 +1,28 @@
 #include "Methods.h"
 
 #include <hagen/segmentation/HagenFilter.h>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <sstream>
 
 namespace hagen {
 namespace {
 
+/// How the sensor was tilted, where its pose in the map is known: yaw, pitch, roll about z, y, x.
+std::optional<Attitude> attitudeOf(const ScanInput& input) {
+    if (!input.map_from_sensor) return std::nullopt;
+    const Eigen::Matrix3f& turn = *input.map_from_sensor;
+    return Attitude{std::atan2(turn(2, 1), turn(2, 2)),
+                    std::asin(std::clamp(-turn(2, 0), -1.0f, 1.0f))};
+}
+
 Method filterMethod(const std::string& name, const Settings& settings) {
     const auto filter =
         std::make_shared<HagenFilter>(filterFor(settings.sensorModel(), settings.options));
-    return {name,
-            [filter](const ScanInput& input) { return filter->segment(input.scan).returns.label; }};
+    return {name, [filter](const ScanInput& input) {
+                return filter->segment(input.scan, attitudeOf(input)).returns.label;
+            }};
 }
 
 /// "5,7.5" as two texts; an empty one stays, and is refused as a value later.

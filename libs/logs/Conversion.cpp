@@ -74,6 +74,9 @@ class Converter {
 
     ConversionOutputs& outputs() { return outputs_; }
 
+    /// Notes what an observation tells of the vehicle.
+    void see(const CObservation& observation) { segmenter_.see(observation); }
+
     /// Segments an observation where it is a LiDAR scan: what comes after it in the log. `name`: of
     /// the scan in its folder.
     Clouds segment(const CObservation& observation, const std::string& name = "") {
@@ -180,6 +183,7 @@ class Converter {
         report_.rou += scan.rou;
         report_.unclassified += scan.unclassified;
         report_.scans_with_pose += out.sensor_pose.has_value();
+        report_.scans_with_attitude += out.attitude.has_value();
         report_.sensors[scan.sensor_label] =
             out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams" +
             (out.is_sensor_assumed ? " (assumed; sensor.model in the settings names another)" : "");
@@ -200,6 +204,7 @@ class Converter {
 void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converter& converter) {
     if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
         Converter::Clouds clouds;
+        for (const CObservation::Ptr& observation : *frame) converter.see(*observation);
         for (const CObservation::Ptr& observation : *frame) {
             const Converter::Clouds own = converter.segment(*observation);
             clouds.insert(clouds.end(), own.begin(), own.end());
@@ -210,6 +215,7 @@ void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converte
     }
     converter.outputs().writeEntry(*entry);
     if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
+        converter.see(*observation);
         for (const CObservation::Ptr& cloud : converter.segment(*observation)) {
             converter.outputs().writeEntry(*cloud);
         }

@@ -27,6 +27,7 @@ Trajectory trajectoryOfKitti(const fs::path& file, const std::vector<CPose3D>& s
                                  " poses for " + std::to_string(scans.size()) + " scans");
     }
     Trajectory trajectory;
+    trajectory.has_horizon = false;  // seen from where the first scan was taken, tilted or not
     for (std::size_t i = 0; i < scans.size(); ++i) {
         trajectory.add(scans[i].time, sensor_poses[i] + (-scans[i].sensor_on_vehicle));
     }

@@ -94,6 +94,7 @@ class Surveyor {
             for (const auto& [label, trajectory] : *trajectories) {
                 if (trajectory.size() <= survey.trajectory.size()) continue;
                 survey.trajectory = trajectory;
+                survey.trajectory.has_horizon = trajectories == &robot_poses_;
                 survey.source = kind + (label.empty() ? "" : " '" + label + "'");
             }
             if (!survey.source.empty()) break;

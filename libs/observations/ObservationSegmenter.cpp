@@ -42,6 +42,7 @@ void ObservationSegmenter::initialize(const Settings& settings) {
     if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);
     settings_ = settings;
     lidars_.clear();
+    horizon_ = {};
 }
 
 ObservationSegmenter::Lidar& ObservationSegmenter::lidarOf(const std::string& label,
@@ -80,9 +81,24 @@ const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observ
     return lidar.window.add(deskewed_, *sensor_pose, observed_.sensor);
 }
 
+std::optional<Attitude> ObservationSegmenter::attitudeOf(
+    const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
+    const std::optional<mrpt::poses::CPose3D>& sensor_pose) const {
+    std::optional<mrpt::poses::CPose3D> pose = vehicle.has_horizon ? sensor_pose : std::nullopt;
+    if (!pose) {
+        pose = horizon_.at(observation.timestamp);
+        if (pose) *pose += mrpt::poses::CPose3D(observation.sensorPose());
+    }
+    if (!pose) return std::nullopt;
+    return Attitude{static_cast<float>(pose->roll()), static_cast<float>(pose->pitch())};
+}
+
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
                                    const Trajectory& vehicle) {
-    if (!isLidarScan(observation)) return false;
+    if (!isLidarScan(observation)) {
+        see(observation);
+        return false;
+    }
     const mrpt::system::CTimeLoggerEntry whole(profiler, "process");
     {
         const mrpt::system::CTimeLoggerEntry part(profiler, "process.read");
@@ -98,7 +114,8 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
 
     profiler.enter("process.segment");
-    const SegmentationResult& result = lidar.filter.segment(window);
+    const std::optional<Attitude> attitude = attitudeOf(observation, vehicle, sensor_pose);
+    const SegmentationResult& result = lidar.filter.segment(window, attitude);
     profiler.leave("process.segment");
 
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
@@ -111,6 +128,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.sensor = &lidar.filter.sensor();
     out.is_sensor_assumed = observed_.is_sensor_assumed;
     out.sensor_pose = sensor_pose;
+    out.attitude = attitude;
     out.remark = remark;
     return true;
 }

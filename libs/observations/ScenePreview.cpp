@@ -1,5 +1,7 @@
 #include <hagen/observations/ScenePreview.h>
+#include <hagen/segmentation/RoiBoxes.h>
 #include <mrpt/img/TColor.h>
+#include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CDisk.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -10,6 +12,7 @@ namespace {
 
 // Apart for the colour-blind too, and both apart from the viewer's grey.
 const mrpt::img::TColor kRoiColor(213, 94, 0), kRouColor(150, 190, 230), kZoneColor(240, 240, 240);
+constexpr std::uint32_t kLeastBoxed = 5;  // returns; a box around fewer only hides them
 constexpr float kRoiPixels = 4.0f, kRouPixels = 2.0f;
 
 mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& points,
@@ -25,6 +28,16 @@ mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& po
     return cloud;
 }
 
+mrpt::opengl::CBox::Ptr frameAround(const RoiBox& box) {
+    const auto corner = [](const Eigen::Vector3f& p) {
+        return mrpt::math::TPoint3D(p.x(), p.y(), p.z());
+    };
+    auto frame =
+        mrpt::opengl::CBox::Create(corner(box.extents_m.min()), corner(box.extents_m.max()), true);
+    frame->setColor_u8(kRoiColor);
+    return frame;
+}
+
 }  // namespace
 
 mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& observation,
@@ -34,6 +47,9 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     sensor->setPose(mrpt::poses::CPose3D(observation.sensorPose()));
     sensor->insert(coloured(*segmented.non_roi->pointcloud, kRouColor, kRouPixels));
     sensor->insert(coloured(*segmented.roi->pointcloud, kRoiColor, kRoiPixels));
+    for (const RoiBox& box : boxRoiComponents(*segmented.window, segmented.result->returns)) {
+        if (box.returns >= kLeastBoxed) sensor->insert(frameAround(box));
+    }
     sensor->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 2.0f));
     auto zone = mrpt::opengl::CDisk::Create(zone_m, zone_m - 0.15f, 100);
     zone->setColor_u8(kZoneColor);

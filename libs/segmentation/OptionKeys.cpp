@@ -59,7 +59,7 @@ const std::vector<OptionKey>& optionKeys() {
          "and so much less a metre that what stands there is tall", "",
          &Options::ground_tolerance_beside_tall},
         {"canopy_layer", "", 0, 1,
-         "a low layer that covers nearly everything around is a crop's canopy: ROU", "",
+         "a low layer that covers much of what is around is a crop's canopy: ROU", "",
          &Options::canopy_layer},
         {"grow_feet", "", 0, 1, "follow obstacles down to where they touch the surface", "",
          &Options::grow_feet},

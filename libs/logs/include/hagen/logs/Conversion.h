@@ -57,6 +57,7 @@ struct ConversionReport {
     std::map<std::string, std::string> sensors;
     std::string poses;  ///< where they come from; empty: none needed, or none known
     std::size_t scans_with_pose = 0;
+    std::size_t scans_with_attitude = 0;  ///< how the sensor was tilted was known
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< of the input that is read, 0 ... 1
     Settings settings;    ///< in force: those of the conversion, and of a scan folder's sensor.yaml

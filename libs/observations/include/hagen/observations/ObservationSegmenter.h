@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/observations/Horizon.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/SlidingWindow.h>
@@ -49,6 +50,9 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         /// The sensor in the map at the scan's time, where the trajectory tells it.
         std::optional<mrpt::poses::CPose3D> sensor_pose;
 
+        /// How the sensor was tilted, where it is known; angles are about that horizon then.
+        std::optional<Attitude> attitude;
+
         /// What a user should know about this scan; empty where there is nothing. Logged, too.
         std::string remark;
     };
@@ -66,10 +70,17 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     /// end, else the scan as a whole by the pose at its time; without that it is segmented alone.
     /// The remark says which of these fell short.
     ///
+    /// The sensor's attitude is that of `vehicle` where it has a horizon, else that of the last
+    /// observation that told one (see()).
+    ///
     /// Throws std::runtime_error, saying why, for a scan that cannot be read, and SettingsError for
     /// one of a sensor that the options do not fit.
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const Trajectory& vehicle = Trajectory());
+
+    /// Remembers how the vehicle is tilted, where an observation tells it (Horizon.h). process()
+    /// does so with what is no scan; call it for what comes in the same sensory frame as a scan.
+    void see(const mrpt::obs::CObservation& observation) { horizon_.see(observation); }
 
     /// What the clouds are made of.
     CloudClass cloud_class = CloudClass::Simple;
@@ -84,6 +95,9 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         SlidingWindow window;
     };
     Lidar& lidarOf(const std::string& label, const SensorModel& sensor);
+    std::optional<Attitude> attitudeOf(
+        const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
+        const std::optional<mrpt::poses::CPose3D>& sensor_pose) const;
     /// What the filter shall see of the scan in observed_, and a word where that is not all it
     /// could be.
     const Scan& windowOf(const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
@@ -92,6 +106,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     Settings settings_;
     std::map<std::string, Lidar> lidars_;
+    Horizon horizon_;
     ObservedScan observed_;
     Scan deskewed_;
 };

@@ -19,6 +19,10 @@ class Trajectory {
     /// two such within 0.2 s of one another, nor one of that very time.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
 
+    /// Whether the map's z axis points against gravity, so that a pose tells how the vehicle is
+    /// tilted. It does not where poses are summed from movements, or seen from the first one.
+    bool has_horizon = true;
+
     /// Poses it was given, one a time.
     std::size_t size() const { return poses_.size(); }
 
