@@ -248,7 +248,7 @@ TEST_F(RawlogSimulate, NamesAFolderThatIsNotThere) {
 TEST_F(RawlogSimulate, KeepsWhatIsDoneWhenItIsInterrupted) {
     const auto outcome =
         test::run("/usr/bin/timeout",
-                  {"--preserve-status", "-s", "INT", "1", HAGEN_RAWLOG_SIMULATE, "--scenario",
+                  {"--preserve-status", "-s", "INT", "2", HAGEN_RAWLOG_SIMULATE, "--scenario",
                    "gap", "--scans", "100000", "--altitude", "2", "--seed", "1", "-o",
                    path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
