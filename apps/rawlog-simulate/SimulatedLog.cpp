@@ -140,6 +140,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     SimulationReport report;
     for (int scan = 0; scan < log.scans; ++scan) {
         if (!keep_going()) {
+            if (scan == 0) throw std::runtime_error("interrupted before the first scan");
             throw std::runtime_error("interrupted; the " + std::to_string(scan) +
                                      " scans before it are in" + outputs.keepPartial());
         }

@@ -245,6 +245,22 @@ TEST_F(RawlogSimulate, NamesAFolderThatIsNotThere) {
     expectFailure(with(wires_, {"--poses", path("missing/a.tum")}), 1, path("missing"));
 }
 
+TEST_F(RawlogSimulate, KeepsWhatIsDoneWhenItIsInterrupted) {
+    const auto outcome =
+        test::run("/usr/bin/timeout",
+                  {"--preserve-status", "-s", "INT", "2", HAGEN_RAWLOG_SIMULATE, "--scenario",
+                   "gap", "--scans", "100000", "--altitude", "2", "--seed", "1", "-o",
+                   path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("interrupted; the "), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("a.rawlog")) || fs::exists(path("a")) ||
+                 fs::exists(path("a.tum")));
+    const LogContent log = readLog(path("a.partial.rawlog"));
+    EXPECT_GT(log.scans.size(), 1u);
+    EXPECT_EQ(ScanFolder(path("a.partial")).times().size(), log.scans.size());
+    EXPECT_EQ(readTumPoses(path("a.partial.tum")).size(), log.poses.size());
+}
+
 TEST_F(RawlogSimulate, SaysWhenTheDiskIsFull) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
     expectFailure(with(wires_, {"-o", "/dev/full", "--overwrite"}), 1, "/dev/full");
