@@ -37,7 +37,8 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
-                  << ": is not used: only a window (window_scans) and --kitti need poses\n";
+                  << ": is not used: only a window (window_scans) and --kitti need it; angles are "
+                     "levelled by poses with times (TUM) alone\n";
     }
     return report;
 }

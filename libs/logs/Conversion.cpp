@@ -1,5 +1,6 @@
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/LogPoses.h>
+#include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/RawlogSurvey.h>
 #include <hagen/logs/ScanFolder.h>
@@ -223,7 +224,10 @@ void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converte
 }
 
 bool needsPoses(const Conversion& conversion) {
-    return conversion.settings.options.window_scans > 1 || !conversion.folder.empty();
+    const Options& options = conversion.settings.options;
+    const bool can_level = options.level_by_attitude && !conversion.poses.empty() &&
+                           kindOfPoseFile(conversion.poses) == PoseFileKind::Tum;
+    return options.window_scans > 1 || !conversion.folder.empty() || can_level;
 }
 
 /// The survey, with the LiDARs that are segmented alone.

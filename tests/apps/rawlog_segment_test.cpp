@@ -260,7 +260,7 @@ TEST_F(RawlogSegment, ConvertsAPartOfALog) {
 }
 
 TEST_F(RawlogSegment, PosesTravelWithTheScansAndDriveAWindow) {
-    const auto window = folder_.write("window.yaml", "window_scans: 3\n");
+    const auto window = folder_.write("window.yaml", "include: " + kPaper + "\nwindow_scans: 3\n");
     // The same poses: from the log, and from a file made of it.
     ASSERT_EQ(run({"-i", kRecording, "--kitti", path("a"), "-c", window}).exit_code, 0);
     std::string poses;
@@ -300,7 +300,8 @@ TEST_F(RawlogSegment, PosesTravelWithTheScansAndDriveAWindow) {
 
 TEST_F(RawlogSegment, SaysWherePosesAreNotUsed) {
     const auto tum = folder_.write("flight.tum", "0 0 0 0 0 0 0 1\n");
-    const auto outcome = run({"-i", kRecording, "-o", path("out.rawlog"), "--poses", tum});
+    const auto outcome =
+        run({"-i", kRecording, "-o", path("out.rawlog"), "--poses", tum, "-c", kPaper});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.err.find("flight.tum: is not used"), std::string::npos) << outcome.err;
 }

@@ -65,6 +65,26 @@ TEST_F(SettingsTest, PaperIsThePublishedFilter) {
     EXPECT_EQ(paper.options.repair_max_step_m, 0.0f);
     EXPECT_EQ(paper.options.context_m, 20.0f);
     EXPECT_EQ(paper.options.seeds, Seeds::Lowest);
+    EXPECT_EQ(paper.options.seed_gate_deg, 90.0f);
+    EXPECT_FALSE(paper.options.level_by_attitude);
+    EXPECT_FALSE(paper.options.ground_surface);
+}
+
+TEST_F(SettingsTest, PresetsDifferInGeometryImageSizeAndSmoothingAlone) {
+    Settings vlp16;
+    mergeSettings(kConfig / "vlp16.yaml", vlp16);
+    for (const std::string file : {"hdl32e.yaml", "hdl64e.yaml", "common.yaml"}) {
+        Settings preset;
+        mergeSettings(kConfig / file, preset);
+        for (const OptionKey& key : optionKeys()) {
+            if (key.name == "columns" || key.name == "window_size" ||
+                key.name == "principal_components") {
+                continue;
+            }
+            EXPECT_EQ(textOf(key, preset.options), textOf(key, vlp16.options)) << key.name;
+            EXPECT_EQ(textOf(key, preset.options), textOf(key, Options())) << key.name;
+        }
+    }
 }
 
 TEST_F(SettingsTest, PresetsFitTheirSensors) {
@@ -79,7 +99,7 @@ TEST_F(SettingsTest, PresetsFitTheirSensors) {
 
 TEST_F(SettingsTest, EveryKeyOfTheTableIsReadAndCheckedAtBothEnds) {
     for (const OptionKey& key : optionKeys()) {
-        if (key.name == "seeds") continue;
+        if (key.name == "seeds" || std::holds_alternative<bool Options::*>(key.field)) continue;
         std::ostringstream least, below;
         least << key.name << ": " << key.least;
         below << key.name << ": " << key.least - 1;
@@ -89,6 +109,18 @@ TEST_F(SettingsTest, EveryKeyOfTheTableIsReadAndCheckedAtBothEnds) {
         refusalOf(key.name + ": [1, 2]");
         refusalOf(key.name + ": .nan");
         if (std::isfinite(key.most)) refusalOf(key.name + ": 1000000000");
+    }
+}
+
+TEST_F(SettingsTest, SwitchesAreTrueOrFalse) {
+    for (const OptionKey& key : optionKeys()) {
+        if (!std::holds_alternative<bool Options::*>(key.field)) continue;
+        for (const std::string word : {"true", "false"}) {
+            EXPECT_EQ(textOf(key, settingsOf(key.name + ": " + word).options), word);
+        }
+        for (const std::string word : {"1", "yes", "[true]", "''"}) {
+            EXPECT_TRUE(says(refusalOf(key.name + ": " + word), "'true' or 'false'")) << key.name;
+        }
     }
 }
 
