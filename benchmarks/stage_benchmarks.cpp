@@ -149,7 +149,8 @@ void addAll() {
     });
     add("9 extraction", [](Fixture& f) {
         extractReturns(f.scan, f.sensor, f.result.range_image, f.result.labels, f.result.components,
-                       f.result.own_label, f.options.zone_m, f.result.returns);
+                       f.result.own_label, f.options.zone_m, f.options.component_gap_m,
+                       f.result.returns);
     });
     add("paper pipeline", [](Fixture& f) {
         decodePackets(*f.observation, f.scan);

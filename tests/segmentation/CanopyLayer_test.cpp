@@ -57,7 +57,7 @@ TEST(CanopyLayer, PlantsAllAroundAreGroundAndAPoleAmongThemIsNot) {
 
 TEST(CanopyLayer, ToleratesTheMeanAndTwoDeviationsAndTenCentimetres) {
     const auto even = field(20, [](int) { return 0.6f; });
-    EXPECT_LT((tolerated(pixelsAt(even)) - 0.7f).abs().maxCoeff(), 1e-4f);
+    EXPECT_LT((tolerated(pixelsAt(even)) - 0.7f).abs().maxCoeff(), 2e-3f);
     // mean 0.6, deviation 0.2
     const auto mixed = field(20, [](int k) { return k % 2 == 0 ? 0.4f : 0.8f; });
     EXPECT_LT((tolerated(pixelsAt(mixed)) - 1.1f).abs().maxCoeff(), 1e-3f);
@@ -72,7 +72,7 @@ TEST(CanopyLayer, ThirtyFivePercentOfTheCellsMakeACanopy) {
         return field(20, [=](int k) { return k % 100 < percent ? 0.6f : 0.0f; });
     };
     EXPECT_TRUE((tolerated(pixelsAt(share(34))) == kBefore_m).all());
-    EXPECT_LT((tolerated(pixelsAt(share(36))) - 0.7f).abs().maxCoeff(), 1e-3f);
+    EXPECT_LT((tolerated(pixelsAt(share(36))) - 0.7f).abs().maxCoeff(), 2e-3f);
 }
 
 TEST(CanopyLayer, AHedgeInABareFieldStaysAnObstacle) {
@@ -93,7 +93,7 @@ TEST(CanopyLayer, ThirtyCellsAreEnoughToTell) {
     points.resize(29);
     EXPECT_TRUE((tolerated(pixelsAt(points)) == kBefore_m).all());
     points.push_back(points.back() + Eigen::Vector3f(0, 0.75f, 0));
-    EXPECT_LT((tolerated(pixelsAt(points)) - 0.7f).abs().maxCoeff(), 1e-4f);
+    EXPECT_LT((tolerated(pixelsAt(points)) - 0.7f).abs().maxCoeff(), 2e-3f);
 }
 
 TEST(CanopyLayer, NeverToleratesLess) {
