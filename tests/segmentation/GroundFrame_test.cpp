@@ -115,6 +115,16 @@ TEST(GroundFrame, StrayReturnsBelowThePlaneDoNotLowerIt) {
     EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}), ground), 0.05f);
 }
 
+TEST(GroundFrame, WhatIsAboveThePlaneMovesItLessThanWhatIsBelow) {
+    const auto movedBy = [](float off_m) {  // every fourth point, one a cell
+        auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });
+        for (std::size_t i = 0; i < points.size(); i += 4) points[i].z() += off_m;
+        return std::abs(fitGroundFrame(pixelsAt(points), Attitude{}).translation().z() - 2);
+    };
+    EXPECT_GT(movedBy(0.5f), 0.001f);
+    EXPECT_LT(movedBy(0.5f), 0.8f * movedBy(-0.5f));
+}
+
 TEST(GroundFrame, WhatIsBeyondFortyMetresDoesNotCount) {
     auto points = ringsOnPlane({}, 2);
     const auto ground = points;

@@ -315,6 +315,26 @@ TEST(GroundSurface, GroundThatTheLabelsCutOffComesBack) {
     EXPECT_LT(greatestError(surface, 18, mound), 0.03f);
 }
 
+// Blocks that hide the ground, 0.3 m high: the slopes allow that, the first fit does not. Mirror
+// images below the ground, likewise.
+TEST(GroundSurface, WhatTheLabelsCutOffAndIsNotCloseStaysCutOff) {
+    for (const float height_m : {0.3f, -0.5f}) {
+        auto points = groundPoints(20, 0.25f, kLevel);
+        std::vector<Label> labels;
+        for (auto& p : points) {
+            const bool is_block = std::abs(p.x() - 8) < 2 && std::abs(p.y()) < 2;
+            if (is_block) p.z() = height_m;
+            labels.push_back(is_block ? Label::Roi : Label::Rou);
+        }
+        GroundSurface surface;
+        fitGroundSurface(
+            pixelsAt(points),
+            Eigen::Map<Image<Label>>(labels.data(), 1, static_cast<Eigen::Index>(labels.size())),
+            surface);
+        EXPECT_LT(greatestError(surface, 18, kLevel), 0.01f);
+    }
+}
+
 TEST(GroundSurface, HeightsAreAboveIt) {
     GroundSurface surface;
     surface.height_m = Grid::Constant(kCells, kCells, 0.5f);

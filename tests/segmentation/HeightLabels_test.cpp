@@ -126,6 +126,11 @@ TEST(GrowFeet, UnderWhatIsNoObstacleThereIsNoFoot) {
     EXPECT_EQ(grown({{8, 0, 0.05f}, {8, 0, 0.15f}}), (std::vector<Label>{kRou, kRou}));
 }
 
+TEST(GrowFeet, WhatIsBelowAPixelOfTheGroundIsNoFoot) {
+    EXPECT_EQ(grown({{8, 0, 0.1f}, {5, 0, 0.1f}, {8, 0, 1}}),
+              (std::vector<Label>{kRou, kRou, kRoi}));
+}
+
 TEST(GrowFeet, EmptyPixelsAreCrossedUpToThree) {
     EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
               (std::vector<Label>{kRoi, kNone, kNone, kNone, kRoi}));
@@ -192,17 +197,21 @@ TEST(RemoveSpecks, PixelsFartherApartThanAMetreHaveNoVote) {
     EXPECT_TRUE((voted(height_m, 1.1f).col(2) == kRoi).all());
 }
 
+TEST(RemoveSpecks, WhatIsClearlyLowerStays) {
+    Image<float> height_m = Image<float>::Constant(3, 5, 0.6f);
+    height_m(1, 2) = -0.01f;
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+}
+
 TEST(RemoveSpecks, VotesAreThoseBeforeAnyWasCounted) {
-    // Changed one after the other, column by column, the last doubtful pixel would be outvoted.
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
-    height_m.row(1) << 0.0f, 0.3f, 0.3f, 0.3f, 3.0f;
-    height_m(0, 0) = 0;
+    height_m.col(0) = 0.0f;
+    height_m(1, 1) = 0.3f;  // 2 against 4: becomes ROU
+    height_m(1, 2) = 0.3f;  // 2 against 1, the one to the left still counted as RoI
+    height_m(0, 2) = 0.0f;
     const Image<Label> labels = voted(height_m);
-    EXPECT_EQ(labels(1, 1), kRoi);  // 2 against 2
-    height_m(2, 0) = 0;
-    const Image<Label> outvoted = voted(height_m);
-    EXPECT_EQ(outvoted(1, 1), kRou);
-    EXPECT_EQ(outvoted(1, 2), kRoi);  // by its neighbours of before
+    EXPECT_EQ(labels(1, 1), kRou);
+    EXPECT_EQ(labels(1, 2), kRoi);
 }
 
 TEST(RemoveSpecks, AroundTheBackOfTheTurnPixelsAreNeighboursUpAndDownTheyAreNot) {

@@ -45,7 +45,7 @@ TEST(SeedGate, WithNothingAboveItNothingSeeds) {
 
 TEST(SeedGate, ItsColumnIsAllThatASeedIsJudgedBy) {
     Image<float> depth_m(2, 3);
-    depth_m << 5, 5, 5,  //
+    depth_m << 5, 6, 7,  //
         kNoValue, 8, kNoValue;
     std::vector<int> seeds{0, 2, 4};
     gateSeeds(depth_m, Image<float>::Zero(2, 3), 0.5f, seeds);
