@@ -236,6 +236,29 @@ TEST(GroundSurface, HowSteepGroundMayBeIsAsTheHeaderSays) {
     EXPECT_FALSE(isGround(10, across_m + 0.01f, true, false));
 }
 
+TEST(GroundSurface, SlopesAreTheSameInEveryDirection) {
+    // Level ground in 3 x 3 cells, a plateau in 3 x 3 others, walls everywhere else. To the far
+    // corner of the plateau it is 9 cells one way and 5 the other: 4 steps to the side, 5 across.
+    const float height_m = 0.3f * kCell_m * (4 + 5 * std::sqrt(2.0f)) + 0.15f;
+    for (const auto& [dx, dy] :
+         {std::pair{9, 5}, {9, -5}, {-9, 5}, {-9, -5}, {5, 9}, {5, -9}, {-5, 9}, {-5, -9}}) {
+        const auto isPlateauGround = [&, x0 = dx, y0 = dy](float plateau_m) {
+            std::vector<Eigen::Vector3f> points;
+            for (int x = -12; x <= 12; ++x) {
+                for (int y = -12; y <= 12; ++y) {
+                    const bool is_start = std::abs(x) <= 1 && std::abs(y) <= 1;
+                    const bool is_plateau = std::abs(x - x0) <= 1 && std::abs(y - y0) <= 1;
+                    const float z_m = is_start ? 0.0f : is_plateau ? plateau_m : 30.0f;
+                    points.emplace_back(middleOf(64 + x), middleOf(64 + y), z_m);
+                }
+            }
+            return !(surfaceUnder(points).height_m == 0).all();
+        };
+        EXPECT_TRUE(isPlateauGround(height_m - 0.01f)) << dx << " " << dy;
+        EXPECT_FALSE(isPlateauGround(height_m + 0.01f)) << dx << " " << dy;
+    }
+}
+
 TEST(GroundSurface, FollowsAGentleHill) {
     EXPECT_LT(greatestError(surfaceUnder(groundPoints(40, 0.25f, kHill)), 38, kHill), 0.05f);
 }
