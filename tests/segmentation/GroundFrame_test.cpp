@@ -176,8 +176,8 @@ TEST(Upwards, OverLevelGroundATiltedSensorThatKnowsItFindsTheNormal) {
 }
 
 TEST(Upwards, OverASlopeIsAsFarOffTheNormalAsTheSlopeIsSteep) {
-    // A level sensor over ground that rises ahead by 10 degrees: its attitude against the slope is
-    // nose down, and up leans back towards where it is lower... seen from the slope's frame.
+    // A level sensor over ground that rises ahead by 10 degrees is nose down against it, and up
+    // leans ahead of the ground's normal.
     const Attitude against_slope{0, static_cast<float>(radians(10))};
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane(against_slope, 2)), Attitude{});
