@@ -1,15 +1,20 @@
 // Times each stage of the published filter, and the whole, on the real VLP-16 scan of mrpt-common;
-// beside them, in the same run, MRPT's own decoder, which reads half of that scan. "paper pipeline" is the
-// whole, from packets to labels.
+// beside them, in the same run, MRPT's own decoder, which reads half of that scan. "paper pipeline"
+// is the whole, from packets to labels.
 #include <benchmark/benchmark.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
+#include <hagen/segmentation/FartherReturns.h>
 #include <hagen/segmentation/GapRepair.h>
+#include <hagen/segmentation/GroundFrame.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/segmentation/HeightLabels.h>
 #include <hagen/segmentation/Labelling.h>
 #include <hagen/segmentation/RangeAngle.h>
+#include <hagen/segmentation/RoiBoxes.h>
 #include <hagen/segmentation/RoiComponents.h>
 #include <hagen/segmentation/Sharpening.h>
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
@@ -34,32 +39,80 @@ struct Fixture {
     CObservationVelodyneScan::Ptr observation =
         std::dynamic_pointer_cast<CObservationVelodyneScan>(RawlogReader(kRealScan).next());
     SensorModel sensor = sensorOf(*observation);
-    Options options = paperOptions();
+    Options options;
     Scan scan;
     HagenFilter filter{sensor, options};
     SegmentationResult result;
 
-    Fixture() {
+    explicit Fixture(const Options& with) : options(with) {
         decodePackets(*observation, scan);
         result = filter.segment(scan);
     }
 };
 
-Fixture& fixture() {
-    static Fixture instance;
+Fixture& papers() {
+    static Fixture instance(paperOptions());
+    return instance;
+}
+
+Fixture& ours() {
+    static Fixture instance{Options()};
     return instance;
 }
 
 /// Registers one stage: `run` takes the fixture and writes into its own buffers.
 template <class Run>
-void add(const char* name, Run run) {
-    benchmark::RegisterBenchmark(name, [run](benchmark::State& state) {
+void add(const char* name, Run run, Fixture& (*fixture)() = papers) {
+    benchmark::RegisterBenchmark(name, [run, fixture](benchmark::State& state) {
         Fixture& f = fixture();
         for (auto _ : state) {
             run(f);
             benchmark::ClobberMemory();
         }
     })->Unit(benchmark::kMicrosecond);
+}
+
+/// The stages beyond the paper.
+void addOurs() {
+    const auto addOne = [](const char* name, auto run) { add(name, run, ours); };
+    addOne("ground frame", [](Fixture& f) {
+        PixelPoints pixels;
+        locatePixels(f.scan, f.sensor, f.result.range_image, f.result.repaired_m, pixels);
+        movePixels(fitGroundFrame(pixels, Attitude{}), pixels);
+    });
+    addOne("ground surface", [](Fixture& f) {
+        GroundSurface surface;
+        fitGroundSurface(f.result.ground.pixels, f.result.labels, surface);
+    });
+    addOne("heights and their tolerances", [](Fixture& f) {
+        const Options& o = f.options;
+        Ground& g = f.result.ground;
+        heightsAbove(g.surface, g.pixels, g.height_m);
+        toleratedHeights(
+            g.pixels, g.height_m,
+            {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
+            g.tolerance_m);
+    });
+    addOne("canopy", [](Fixture& f) {
+        const Ground& g = f.result.ground;
+        tolerateCanopy(g.pixels, g.height_m, f.result.ground.tolerance_m);
+    });
+    addOne("labels by height, feet, specks", [](Fixture& f) {
+        const Ground& g = f.result.ground;
+        labelByHeight(g.height_m, g.tolerance_m, f.result.labels);
+        growFeet(g.pixels, g.height_m, f.result.labels);
+        removeSpecks(g.pixels, g.height_m, g.tolerance_m, f.result.labels);
+    });
+    addOne("farther returns", [](Fixture& f) {
+        judgeFartherReturns(f.scan, f.result.range_image, f.result.ground, f.result.own_label);
+    });
+    addOne("boxes", [](Fixture& f) {
+        benchmark::DoNotOptimize(boxRoiComponents(f.scan, f.result.returns));
+    });
+    addOne("default pipeline", [](Fixture& f) {
+        decodePackets(*f.observation, f.scan);
+        f.filter.segment(f.scan);
+    });
 }
 
 void addAll() {
@@ -88,7 +141,7 @@ void addAll() {
     add("8 labelling", [](Fixture& f) {
         labelRegions(f.result.repaired_m, f.result.pixel_angle_rad,
                      static_cast<float>(radians(f.options.beta_deg)), f.options.seeds,
-                     f.result.labels);
+                     static_cast<float>(radians(f.options.seed_gate_deg)), f.result.labels);
     });
     add("obstacles numbered", [](Fixture& f) {
         numberRoiComponents(f.result.repaired_m, f.result.labels, f.options.component_gap_m,
@@ -96,7 +149,8 @@ void addAll() {
     });
     add("9 extraction", [](Fixture& f) {
         extractReturns(f.scan, f.sensor, f.result.range_image, f.result.labels, f.result.components,
-                       f.options.zone_m, f.result.returns);
+                       f.result.own_label, f.options.zone_m, f.options.component_gap_m,
+                       f.result.returns);
     });
     add("paper pipeline", [](Fixture& f) {
         decodePackets(*f.observation, f.scan);
@@ -110,12 +164,13 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     try {
-        fixture();
+        papers();
     } catch (const std::exception& e) {
         std::cerr << "stage-benchmarks: " << e.what() << " (install mrpt-common)\n";
         return 1;
     }
     addAll();
+    addOurs();
     benchmark::RunSpecifiedBenchmarks();
     return 0;
 }

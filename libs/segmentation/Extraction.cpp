@@ -19,7 +19,8 @@ void renumber(std::vector<std::int32_t>& component) {
 
 void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
                     const Image<Label>& labels, const Image<std::int32_t>& components,
-                    const std::vector<Label>& own_label, float zone_m, LabelledReturns& returns) {
+                    const std::vector<Label>& own_label, float zone_m, float component_gap_m,
+                    LabelledReturns& returns) {
     returns.label.resize(scan.size());
     returns.component.assign(scan.size(), 0);
     for (auto* indices : {&returns.roi, &returns.rou, &returns.unclassified}) indices->clear();
@@ -40,7 +41,10 @@ void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImag
             returns.rou.push_back(index);
         } else {
             returns.label[i] = Label::Roi;
-            returns.component[i] = components.data()[pixel];
+            const bool is_apart =
+                own != Label::Unclassified &&
+                !(scan.range_m[i] - image.depth_m.data()[pixel] < component_gap_m);
+            returns.component[i] = is_apart ? 0 : components.data()[pixel];
             returns.roi.push_back(index);
         }
     }

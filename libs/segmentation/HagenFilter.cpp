@@ -56,7 +56,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     limitToZone(depth_m, o.zone_m, r.labels);
     numberRoiComponents(depth_m, r.labels, o.component_gap_m, r.components);
     extractReturns(scan, sensor_, r.range_image, r.labels, r.components, r.own_label, o.zone_m,
-                   r.returns);
+                   o.component_gap_m, r.returns);
     return r;
 }
 

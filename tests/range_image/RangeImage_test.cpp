@@ -66,6 +66,8 @@ TEST(RangeImage, KeepsTheClosestReturnOfEachPixel) {
 
     Image<float> closest;
     closest.setConstant(16, 100, kFar);
+    Image<std::int32_t> closest_return =
+        Image<std::int32_t>::Constant(16, 100, RangeImage::kNoReturn);
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const float range_m = scan.range_m[i];
         if (!(range_m >= sensor.min_range_m && range_m <= sensor.max_range_m)) {
@@ -74,10 +76,27 @@ TEST(RangeImage, KeepsTheClosestReturnOfEachPixel) {
         }
         const int column = nearestColumn(scan.azimuth_rad[i], 100);
         EXPECT_EQ(image.depth_mapper[i], column * 16 + scan.row[i]);
-        closest(scan.row[i], column) = std::min(closest(scan.row[i], column), range_m);
+        if (!(range_m < closest(scan.row[i], column))) continue;
+        closest(scan.row[i], column) = range_m;
+        closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
     }
     closest = (closest == kFar).select(kNoValue, closest);
     EXPECT_TRUE(test::same(image.depth_m, closest));
+    EXPECT_TRUE((image.closest_return == closest_return).all());
+}
+
+TEST(RangeImage, OfTwoEquallyCloseReturnsTheEarlierCounts) {
+    Scan scan;
+    for (const float range_m : {7.0f, 5.0f, 5.0f, 6.0f}) {
+        scan.row.push_back(3);
+        scan.azimuth_rad.push_back(0.1f);
+        scan.range_m.push_back(range_m);
+        scan.x_m.push_back(0.0f);
+    }
+    RangeImage image;
+    projectScan(scan, sensorModel("VLP-16"), 100, kFar, image);
+    EXPECT_EQ(image.closest_return.data()[image.depth_mapper[0]], 1);
+    EXPECT_EQ((image.closest_return == RangeImage::kNoReturn).count(), 16 * 100 - 1);
 }
 
 TEST(RangeImage, DepthDoesNotDependOnTheOrderOfReturns) {
@@ -133,6 +152,7 @@ TEST(RangeImage, AnEmptyScanGivesAnEmptyImage) {
     EXPECT_EQ(image.depth_m.rows(), 16);
     EXPECT_EQ(image.depth_m.cols(), 870);
     EXPECT_TRUE(image.depth_m.isNaN().all());
+    EXPECT_TRUE((image.closest_return == RangeImage::kNoReturn).all());
     EXPECT_TRUE(image.depth_mapper.empty());
 }
 

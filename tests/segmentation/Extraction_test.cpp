@@ -33,7 +33,7 @@ struct Example {
         labels.data()[image.depth_mapper[0]] = Label::Roi;
         labels.data()[image.depth_mapper[3]] = Label::Rou;
         components.data()[image.depth_mapper[0]] = 7;
-        extractReturns(scan, sensor, image, labels, components, 20.0f, returns);
+        extractReturns(scan, sensor, image, labels, components, {}, 20.0f, 1.0f, returns);
     }
 };
 
@@ -50,7 +50,7 @@ TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
     example.labels.data()[example.image.depth_mapper[3]] = Label::Roi;
     example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other, 7
     extractReturns(example.scan, example.sensor, example.image, example.labels, example.components,
-                   20.0f, example.returns);
+                   {}, 20.0f, 1.0f, example.returns);
     EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
 }
 
@@ -58,9 +58,45 @@ TEST(Extraction, WhatTheImageDoesNotReachIsRou) {
     Example example;
     projectScan(example.scan, example.sensor, 8, 10.0f, example.image);  // cut before the zone
     extractReturns(example.scan, example.sensor, example.image, example.labels, example.components,
-                   20.0f, example.returns);
+                   {}, 20.0f, 1.0f, example.returns);
     EXPECT_EQ(example.returns.label[0], Label::Roi);
     EXPECT_EQ(example.returns.label[1], Label::Rou);
+}
+
+TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
+    Example example;
+    const auto extracted = [&](const std::vector<Label>& own_label) {
+        extractReturns(example.scan, example.sensor, example.image, example.labels,
+                       example.components, own_label, 20.0f, 1.0f, example.returns);
+        return example.returns;
+    };
+    std::vector<Label> own_label(7, Label::Unclassified);
+    EXPECT_EQ(extracted(own_label).label, Example().returns.label);
+    own_label[1] = Label::Rou;
+    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0}));
+    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{1, 2, 3}));
+    EXPECT_EQ(example.returns.component[1], 0);
+    own_label[3] = Label::Roi;
+    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 3}));
+    EXPECT_EQ(example.returns.component[3], 0);  // its pixel is of no component
+    own_label[2] = own_label[4] = Label::Roi;    // beyond the zone, nearer than the sensor sees
+    EXPECT_EQ(extracted(own_label).label[2], Label::Rou);
+    EXPECT_EQ(example.returns.label[4], Label::Unclassified);
+}
+
+TEST(Extraction, WhatIsSeenPastAnObstacleIsOfNoComponent) {
+    Example example;  // its second return is 10 m behind the first, of component 7
+    const std::vector<Label> own_label(7, Label::Roi);
+    const auto component = [&](float component_gap_m) {
+        extractReturns(example.scan, example.sensor, example.image, example.labels,
+                       example.components, own_label, 20.0f, component_gap_m, example.returns);
+        EXPECT_EQ(example.returns.label[1], Label::Roi);
+        return example.returns.component[1];
+    };
+    EXPECT_EQ(component(10.01f), 1);
+    EXPECT_EQ(component(10.0f), 0);
+    EXPECT_EQ(component(1.0f), 0);
+    EXPECT_EQ(example.returns.component[0], 1);
 }
 
 TEST(Extraction, BeyondTheZoneIsRouWhateverThePixelSays) {

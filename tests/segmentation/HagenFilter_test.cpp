@@ -1,23 +1,32 @@
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
+#include <hagen/segmentation/Clearance.h>
+#include <hagen/segmentation/FartherReturns.h>
 #include <hagen/segmentation/GapRepair.h>
+#include <hagen/segmentation/GroundFrame.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/segmentation/HeightLabels.h>
 #include <hagen/segmentation/Labelling.h>
 #include <hagen/segmentation/RangeAngle.h>
 #include <hagen/segmentation/RoiComponents.h>
 #include <hagen/segmentation/Sharpening.h>
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
+#include "support/PaperOptions.h"
+#include "support/PointScan.h"
 #include "support/Random.h"
-#include "support/SimpleScene.h"
 
 namespace hagen {
 namespace {
 
 using test::LabelledScan;
+using test::paperOptions;
 using test::SimpleScene;
 
 const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
@@ -32,6 +41,16 @@ int mistakes(const LabelledScan& labelled, const SegmentationResult& result, Lab
     return wrong;
 }
 
+/// Of obstacles, those that are higher than grass: two metres below the sensor is the ground.
+int missedAboveGrass(const LabelledScan& labelled, const SegmentationResult& result) {
+    int missed = 0;
+    for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
+        if (labelled.scan.range_m[i] > 20.0f || labelled.truth[i] != Label::Roi) continue;
+        missed += labelled.scan.z_m[i] + 2 > 0.2f && result.returns.label[i] != Label::Roi;
+    }
+    return missed;
+}
+
 int count(const LabelledScan& labelled, Label truth) {
     int number = 0;
     for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
@@ -43,8 +62,10 @@ int count(const LabelledScan& labelled, Label truth) {
 TEST(HagenFilter, APlaneIsNoObstacle) {
     for (const char* name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
         const auto ground = test::scanScene({}, sensorModel(name), 870, kTwoMetresUp);
-        HagenFilter filter(sensorModel(name));
-        EXPECT_EQ(mistakes(ground, filter.segment(ground.scan), Label::Rou), 0) << name;
+        for (const Options& options : {paperOptions(), Options()}) {
+            HagenFilter filter(sensorModel(name), options);
+            EXPECT_EQ(mistakes(ground, filter.segment(ground.scan), Label::Rou), 0) << name;
+        }
         EXPECT_GT(count(ground, Label::Rou), 4000) << name;
     }
 }
@@ -53,44 +74,139 @@ TEST(HagenFilter, AWallIsAnObstacleAndTheGroundBeforeItIsNot) {
     SimpleScene scene;
     scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
     const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
-    HagenFilter filter(sensorModel("VLP-16"));
-    const auto& result = filter.segment(wall.scan);
     EXPECT_GT(count(wall, Label::Roi), 1500);
+    HagenFilter papers(sensorModel("VLP-16"), paperOptions());
+    const auto& result = papers.segment(wall.scan);
     EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
     // Where a beam meets the ground just before the wall, its slope to the beam above is the
     // wall's.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
+    // By its height it is ground again, and so are, at most, the lowest returns of the wall.
+    HagenFilter filter(sensorModel("VLP-16"));
+    EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0);
+    EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
 }
 
 TEST(HagenFilter, APoleIsOneObstacle) {
     SimpleScene scene;
     scene.poles.push_back({12, 2, 0.15, 8});
     const auto pole = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
-    HagenFilter filter(sensorModel("VLP-16"));
-    const auto& result = filter.segment(pole.scan);
     EXPECT_GT(count(pole, Label::Roi), 40);
-    EXPECT_EQ(mistakes(pole, result, Label::Roi), 0);
-    EXPECT_EQ(mistakes(pole, result, Label::Rou), 0);
-    for (const auto i : result.returns.roi) EXPECT_EQ(result.returns.component[i], 1);
+    for (const Options& options : {paperOptions(), Options()}) {
+        HagenFilter filter(sensorModel("VLP-16"), options);
+        const auto& result = filter.segment(pole.scan);
+        EXPECT_EQ(mistakes(pole, result, Label::Roi), 0);
+        EXPECT_EQ(mistakes(pole, result, Label::Rou), 0);
+        for (const auto i : result.returns.roi) EXPECT_EQ(result.returns.component[i], 1);
+    }
 }
 
 TEST(HagenFilter, SomethingInMidAirIsAnObstacle) {
     SimpleScene scene;
     scene.boxes.push_back({{9, -1, 1.8}, {10, 1, 2.4}});
     const auto box = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
-    HagenFilter filter(sensorModel("VLP-16"));
     EXPECT_GT(count(box, Label::Roi), 20);
-    EXPECT_EQ(mistakes(box, filter.segment(box.scan), Label::Roi), 0);
+    for (const Options& options : {paperOptions(), Options()}) {
+        HagenFilter filter(sensorModel("VLP-16"), options);
+        EXPECT_EQ(mistakes(box, filter.segment(box.scan), Label::Roi), 0);
+    }
 }
 
 // What the paper's seeds cannot do: whatever the lowest beam of a column meets is taken for ground.
-TEST(HagenFilter, AWallNearerThanTheLowestGroundRingIsTakenForGround) {
+TEST(HagenFilter, AWallNearerThanTheLowestGroundRingIsGroundToThePaperAndAnObstacleToUs) {
     SimpleScene scene;
-    scene.boxes.push_back({{5, -2, 0}, {6, 2, 30}});
+    scene.boxes.push_back({{5, -2, 0}, {6, 2, 4}});
     const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    ASSERT_GT(count(wall, Label::Roi), 1500);
+    HagenFilter papers(sensorModel("VLP-16"), paperOptions());
+    EXPECT_GT(mistakes(wall, papers.segment(wall.scan), Label::Roi), 0.9 * count(wall, Label::Roi));
     HagenFilter filter(sensorModel("VLP-16"));
-    EXPECT_GT(mistakes(wall, filter.segment(wall.scan), Label::Roi), 0.9 * count(wall, Label::Roi));
+    EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Roi), 0);
+    EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
+}
+
+TEST(HagenFilter, ALongSmoothWallIsAnObstacle) {
+    SimpleScene scene;
+    scene.boxes.push_back({{-30, 10, 0}, {30, 11, 6}});
+    for (const char* name : {"VLP-16", "HDL-64E"}) {
+        const auto wall = test::scanScene(scene, sensorModel(name), 870, kTwoMetresUp);
+        ASSERT_GT(count(wall, Label::Roi), 2000);
+        HagenFilter filter(sensorModel(name));
+        EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0) << name;
+        EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0) << name;
+    }
+}
+
+/// A scan as a sensor with this attitude sees it, at the same place.
+Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitude) {
+    const Eigen::Matrix3f sensor_from_level = levelFromSensor(attitude).transpose();
+    std::vector<Eigen::Vector3f> points;
+    for (std::size_t i = 0; i < level.size(); ++i) {
+        points.push_back(sensor_from_level *
+                         Eigen::Vector3f(level.x_m[i], level.y_m[i], level.z_m[i]));
+    }
+    return test::scanOf(sensor, points);
+}
+
+TEST(HagenFilter, ATiltedSensorThatKnowsItFindsTheHorizon) {
+    SimpleScene scene;
+    scene.boxes.push_back({{10, -5, 0}, {11, 5, 6}});
+    const SensorModel sensor = sensorModel("HDL-64E");
+    auto wall = test::scanScene(scene, sensor, 870, kTwoMetresUp);
+    const Attitude attitude{0.1f, 0.15f};
+    wall.scan = tilted(wall.scan, sensor, attitude);
+    HagenFilter filter(sensor);
+    const auto& r = filter.segment(wall.scan, attitude);
+    EXPECT_LT((r.ground.from_sensor.linear() - levelFromSensor(attitude)).norm(), 0.01f);
+    EXPECT_LT(mistakes(wall, r, Label::Roi), 0.01 * count(wall, Label::Roi));
+    EXPECT_LT(mistakes(wall, r, Label::Rou), 0.01 * count(wall, Label::Rou));
+}
+
+TEST(HagenFilter, AnAttitudeThatIsNotAskedForChangesNothing) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const auto pole = test::scanScene(scene, sensor, 870, kTwoMetresUp);
+    Options options;
+    options.level_by_attitude = false;
+    HagenFilter filter(sensor, options);
+    const auto range_angle_rad = filter.segment(pole.scan).range_angle_rad;
+    const auto labels = filter.segment(pole.scan).returns.label;
+    EXPECT_TRUE(test::same(filter.segment(pole.scan, Attitude{0.2f, 0.2f}).range_angle_rad,
+                           range_angle_rad));
+    EXPECT_EQ(filter.segment(pole.scan, Attitude{0.2f, 0.2f}).returns.label, labels);
+}
+
+TEST(HagenFilter, GroundThatComesTooCloseIsRoi) {
+    const auto ground = test::scanScene({}, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    Options options;
+    options.ground_is_roi_below_m = 1.9f;
+    HagenFilter high(sensorModel("VLP-16"), options);
+    EXPECT_TRUE(high.segment(ground.scan).returns.roi.empty());
+    options.ground_is_roi_below_m = 2.1f;
+    HagenFilter low(sensorModel("VLP-16"), options);
+    EXPECT_EQ(mistakes(ground, low.segment(ground.scan), Label::Rou), count(ground, Label::Rou));
+}
+
+TEST(HagenFilter, AReturnBehindItsPixelsIsJudgedByItself) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    auto ground = test::scanScene({}, sensor, 870, kTwoMetresUp);
+    const std::size_t behind = static_cast<std::size_t>(
+        std::find(ground.scan.row.begin(), ground.scan.row.end(), 0) - ground.scan.row.begin());
+    const double azimuth_deg = degrees(static_cast<double>(ground.scan.azimuth_rad[behind]));
+    std::vector<Eigen::Vector3f> points;
+    for (std::size_t i = 0; i < ground.scan.size(); ++i) {
+        points.emplace_back(ground.scan.x_m[i], ground.scan.y_m[i], ground.scan.z_m[i]);
+    }
+    points.push_back(test::onBeam(sensor, 0, azimuth_deg, 3));
+    const Scan scan = test::scanOf(sensor, points);
+    HagenFilter filter(sensor);
+    EXPECT_EQ(filter.segment(scan).returns.label.back(), Label::Roi);
+    EXPECT_EQ(filter.segment(scan).returns.label[behind], Label::Rou);
+    HagenFilter papers(sensor, paperOptions());
+    EXPECT_EQ(papers.segment(scan).returns.label[behind],
+              papers.segment(scan).returns.label.back());
 }
 
 TEST(HagenFilter, BeyondTheZoneNothingIsAnObstacle) {
@@ -98,12 +214,13 @@ TEST(HagenFilter, BeyondTheZoneNothingIsAnObstacle) {
     scene.boxes.push_back({{25, -50, 0}, {26, 50, 30}});
     const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     for (const float context_m : {20.0f, 100.0f}) {
-        Options options;
-        options.context_m = context_m;
-        HagenFilter filter(sensorModel("VLP-16"), options);
-        const auto& result = filter.segment(wall.scan);
-        for (const auto i : result.returns.roi) EXPECT_LE(wall.scan.range_m[i], 20.0f);
-        EXPECT_EQ(result.returns.unclassified.size(), 0u);
+        for (Options options : {paperOptions(), Options()}) {
+            options.context_m = context_m;
+            HagenFilter filter(sensorModel("VLP-16"), options);
+            const auto& result = filter.segment(wall.scan);
+            for (const auto i : result.returns.roi) EXPECT_LE(wall.scan.range_m[i], 20.0f);
+            EXPECT_EQ(result.returns.unclassified.size(), 0u);
+        }
     }
 }
 
@@ -112,6 +229,7 @@ TEST(HagenFilter, TheImageNeverEndsBeforeTheZone) {
     scene.poles.push_back({12, 2, 0.15, 8});
     const auto pole = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     Options options;
+    options.context_m = options.zone_m;
     HagenFilter as_far(sensorModel("VLP-16"), options);
     options.context_m = 5.0f;
     HagenFilter nearer(sensorModel("VLP-16"), options);
@@ -134,22 +252,105 @@ Scan randomScan(unsigned seed, const SensorModel& sensor) {
 }
 
 TEST(HagenFilter, EveryReturnOfARandomScanEndsInExactlyOneList) {
-    for (unsigned seed = 20; seed < 40; ++seed) {
+    for (unsigned seed = 20; seed < 28; ++seed) {
         const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
         const Scan scan = randomScan(seed, sensor);
-        HagenFilter filter(sensor);
-        const LabelledReturns& returns = filter.segment(scan).returns;
-        std::vector<int> seen(scan.size(), 0);
-        for (const auto& [indices, label] : {std::pair{&returns.roi, Label::Roi},
-                                             {&returns.rou, Label::Rou},
-                                             {&returns.unclassified, Label::Unclassified}}) {
-            for (const auto i : *indices) {
-                ++seen[i];
-                ASSERT_EQ(returns.label[i], label);
-                ASSERT_EQ(returns.component[i] > 0, label == Label::Roi);
+        for (const Options& options : {paperOptions(), Options()}) {
+            HagenFilter filter(sensor, options);
+            const SegmentationResult& result = filter.segment(scan);
+            const LabelledReturns& returns = result.returns;
+            std::vector<int> seen(scan.size(), 0);
+            for (const auto& [indices, label] : {std::pair{&returns.roi, Label::Roi},
+                                                 {&returns.rou, Label::Rou},
+                                                 {&returns.unclassified, Label::Unclassified}}) {
+                for (const auto i : *indices) {
+                    ++seen[i];
+                    ASSERT_EQ(returns.label[i], label);
+                    // Of RoI, only what was judged apart from its pixel may be of no component.
+                    const bool is_behind =
+                        !result.own_label.empty() && result.own_label[i] != Label::Unclassified;
+                    ASSERT_TRUE(returns.component[i] == 0 || label == Label::Roi);
+                    ASSERT_TRUE(returns.component[i] > 0 || label != Label::Roi || is_behind);
+                }
             }
+            ASSERT_TRUE(
+                std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
         }
-        ASSERT_TRUE(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
+    }
+}
+
+Scan inOrder(const Scan& scan, const SensorModel& sensor, const std::vector<std::size_t>& order) {
+    std::vector<Eigen::Vector3f> points;
+    for (const std::size_t i : order) {
+        points.emplace_back(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+    }
+    return test::scanOf(sensor, points);
+}
+
+TEST(HagenFilter, TheOrderOfReturnsDoesNotMatter) {
+    for (unsigned seed = 43; seed < 49; ++seed) {
+        const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
+        const Scan scan = randomScan(seed, sensor);
+        std::vector<std::size_t> order(scan.size());
+        std::iota(order.begin(), order.end(), 0);
+        test::Random random(seed);
+        std::shuffle(order.begin(), order.end(), random.engine());
+        HagenFilter filter(sensor);
+        const std::vector<Label> labels = filter.segment(scan).returns.label;
+        const std::vector<Label>& shuffled =
+            filter.segment(inOrder(scan, sensor, order)).returns.label;
+        for (std::size_t k = 0; k < order.size(); ++k) ASSERT_EQ(shuffled[k], labels[order[k]]);
+    }
+}
+
+/// The share of returns whose label is another after the scan was turned by whole columns.
+double changedByTurning(const Scan& scan, const SensorModel& sensor, const Options& options,
+                        int columns) {
+    const double angle_rad = 2 * kPi * columns / 870;
+    const Eigen::Matrix3f turn =
+        Eigen::AngleAxisf(static_cast<float>(angle_rad), Eigen::Vector3f::UnitZ())
+            .toRotationMatrix();
+    std::vector<Eigen::Vector3f> points;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        points.push_back(turn * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]));
+    }
+    HagenFilter filter(sensor, options);
+    const std::vector<Label> labels = filter.segment(scan).returns.label;
+    const std::vector<Label>& turned = filter.segment(test::scanOf(sensor, points)).returns.label;
+    double changed = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) changed += turned[i] != labels[i];
+    return changed / static_cast<double>(labels.size());
+}
+
+TEST(HagenFilter, HeadingHardlyMatters) {
+    SimpleScene scene;
+    scene.boxes.push_back({{8, -5, 0}, {9, 5, 3}});
+    scene.boxes.push_back({{-6, 3, 0}, {-5, 9, 0.4}});
+    scene.poles.push_back({4, 6, 0.15, 8});
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Scan scan = test::scanScene(scene, sensor, 870, kTwoMetresUp).scan;
+    for (const int columns : {1, 37, 435, 700}) {
+        EXPECT_EQ(changedByTurning(scan, sensor, paperOptions(), columns), 0) << columns;
+        // The surface's cells do not turn with the scan.
+        EXPECT_LT(changedByTurning(scan, sensor, Options(), columns), 0.01) << columns;
+    }
+}
+
+TEST(HagenFilter, WhatIsBeyondTheContextDoesNotMatter) {
+    for (unsigned seed = 50; seed < 56; ++seed) {
+        const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
+        const Scan scan = randomScan(seed, sensor);
+        std::vector<std::size_t> inside(scan.size());
+        std::iota(inside.begin(), inside.end(), 0);
+        inside.erase(std::remove_if(inside.begin(), inside.end(),
+                                    [&](std::size_t i) { return scan.range_m[i] > 48.0f; }),
+                     inside.end());
+        ASSERT_LT(inside.size(), scan.size());
+        HagenFilter filter(sensor);
+        const std::vector<Label> alone =
+            filter.segment(inOrder(scan, sensor, inside)).returns.label;
+        const std::vector<Label>& labels = filter.segment(scan).returns.label;
+        for (std::size_t k = 0; k < inside.size(); ++k) ASSERT_EQ(labels[inside[k]], alone[k]);
     }
 }
 
@@ -170,6 +371,8 @@ TEST(HagenFilter, AnEmptyScanHasNoReturns) {
     EXPECT_TRUE(result.returns.label.empty());
     EXPECT_TRUE(result.maxima.empty());
     EXPECT_TRUE((result.labels == Label::Unclassified).all());
+    EXPECT_TRUE(result.ground.height_m.isNaN().all());
+    EXPECT_TRUE((result.ground.surface.height_m == 0).all());
 }
 
 TEST(HagenFilter, EveryIntermediateImageIsThere) {
@@ -178,8 +381,9 @@ TEST(HagenFilter, EveryIntermediateImageIsThere) {
     const auto pole = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     HagenFilter filter(sensorModel("VLP-16"));
     const auto& r = filter.segment(pole.scan);
-    for (const auto* image : {&r.range_image.depth_m, &r.repaired_m, &r.proximity_m, &r.sharpened_m,
-                              &r.merged_m, &r.pixel_angle_rad}) {
+    for (const auto* image :
+         {&r.range_image.depth_m, &r.repaired_m, &r.proximity_m, &r.sharpened_m, &r.merged_m,
+          &r.pixel_angle_rad, &r.ground.pixels.x_m, &r.ground.height_m, &r.ground.tolerance_m}) {
         EXPECT_EQ(image->rows(), 16);
         EXPECT_EQ(image->cols(), 870);
         EXPECT_FALSE(image->isNaN().all());
@@ -189,11 +393,8 @@ TEST(HagenFilter, EveryIntermediateImageIsThere) {
     EXPECT_FALSE(r.maxima.empty());
 }
 
-// Each image is what its stage makes of the one before, with every option off its default: no stage
-// is left out, none gets another's option.
-TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
-    SensorModel sensor = sensorModel("HDL-32E");
-    sensor.min_range_m = 2.0f;
+/// Every option off its default.
+Options otherOptions() {
     Options o;
     o.zone_m = 15.0f;
     o.context_m = 25.0f;
@@ -205,12 +406,48 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
     o.window_size = 10;
     o.principal_components = 3;
     o.beta_deg = 12.0f;
+    o.seed_gate_deg = 50.0f;
+    o.ground_tolerance_m = 0.3f;
+    o.ground_tolerance_per_m = 0.02f;
+    o.ground_tolerance_beside_tall = 0.2f;
+    o.ground_is_roi_below_m = 1.2f;
     o.component_gap_m = 0.4f;
+    return o;
+}
+
+SensorModel otherSensor() {
+    SensorModel sensor = sensorModel("HDL-32E");
+    sensor.min_range_m = 2.0f;
+    return sensor;
+}
+
+/// Gentle hills with plants and obstacles, no two returns at the same range.
+Scan hillyScan(unsigned seed, const SensorModel& sensor) {
+    test::Random random(seed);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 15000; ++i) {
+        const float x_m = random.real(-24, 24), y_m = random.real(-24, 24);
+        const float ground_m = -2 + 0.05f * x_m + 0.3f * std::sin(0.3f * y_m);
+        const float above_m = random.chance(0.3)   ? random.real(0, 0.4f)
+                              : random.chance(0.2) ? random.real(0, 3)
+                                                   : 0.0f;
+        points.emplace_back(x_m, y_m, ground_m + above_m);
+    }
+    return test::scanOf(sensor, points);
+}
+
+// Each image is what its stage makes of the one before, with every option off its default: no stage
+// is left out, none gets another's option.
+TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
+    const SensorModel sensor = otherSensor();
+    Options o = otherOptions();
+    o.ground_surface = false;
+    const Attitude attitude{0.1f, -0.2f};
     for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
         o.seeds = seeds;
         const Scan scan = randomScan(42, sensor);
         HagenFilter filter(sensor, o);
-        const SegmentationResult& r = filter.segment(scan);
+        const SegmentationResult& r = filter.segment(scan, attitude);
 
         RangeImage image;
         Image<float> repaired, proximity, sharpened, merged, angles, smoothed, carried;
@@ -224,13 +461,14 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
         findPersistentMaxima(proximity, 0.3f, maxima);
         sharpenMaxima(proximity, maxima, 0.7f, 2.5f, sharpened);
         mergeMaxima(repaired, proximity, sharpened, maxima, 2.0f, merged);
-        rangeAngles(merged, sensor, angles);
+        rangeAngles(merged, sensor, attitude, angles);
         smoothColumns(angles, 10, 3, smoothed);
         carryAngles(smoothed, carried);
-        labelRegions(repaired, carried, static_cast<float>(radians(12.0)), seeds, labels);
+        labelRegions(repaired, carried, static_cast<float>(radians(12.0)), seeds,
+                     static_cast<float>(radians(50.0)), labels);
         limitToZone(repaired, 15.0f, labels);
         numberRoiComponents(repaired, labels, 0.4f, components);
-        extractReturns(scan, sensor, image, labels, components, 15.0f, returns);
+        extractReturns(scan, sensor, image, labels, components, {}, 15.0f, 0.4f, returns);
 
         EXPECT_TRUE(test::same(r.range_image.depth_m, image.depth_m));
         EXPECT_TRUE(test::same(r.repaired_m, repaired));
@@ -248,6 +486,64 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
         EXPECT_TRUE((r.components == components).all());
         EXPECT_EQ(r.returns.label, returns.label);
         EXPECT_EQ(r.returns.component, returns.component);
+    }
+}
+
+// The same for the stages beyond the paper: with none of the switches, each alone, and together.
+TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
+    const SensorModel sensor = otherSensor();
+    const Scan scan = hillyScan(57, sensor);
+    std::vector<std::vector<Label>> all_labels;
+    for (const int switches : {0, 1, 2, 4, 8, 6, 7}) {
+        Options o = otherOptions();
+        o.canopy_layer = (switches & 1) != 0;
+        o.grow_feet = (switches & 2) != 0;
+        o.remove_specks = (switches & 4) != 0;
+        if ((switches & 8) != 0) o.ground_is_roi_below_m = 0;
+        const Attitude attitude{0.05f, -0.08f};
+        HagenFilter filter(sensor, o);
+        const SegmentationResult& r = filter.segment(scan, attitude);
+
+        Image<Label> labels;
+        Ground g;
+        std::vector<Label> own_label;
+        Image<std::int32_t> components;
+        LabelledReturns returns;
+        labelRegions(r.repaired_m, r.pixel_angle_rad, static_cast<float>(radians(12.0)),
+                     Seeds::Lowest, static_cast<float>(radians(50.0)), labels);
+        locatePixels(scan, sensor, r.range_image, r.repaired_m, g.pixels);
+        g.from_sensor = fitGroundFrame(g.pixels, attitude);
+        movePixels(g.from_sensor, g.pixels);
+        fitGroundSurface(g.pixels, labels, g.surface);
+        heightsAbove(g.surface, g.pixels, g.height_m);
+        toleratedHeights(g.pixels, g.height_m, {0.3f, 0.02f, 0.2f}, g.tolerance_m);
+        if ((switches & 1) != 0) tolerateCanopy(g.pixels, g.height_m, g.tolerance_m);
+        labelByHeight(g.height_m, g.tolerance_m, labels);
+        if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels);
+        if ((switches & 4) != 0) removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels);
+        alarmLowGround(g.pixels, g.from_sensor.translation(), upwards(g.from_sensor, attitude),
+                       (switches & 8) != 0 ? 0.0f : 1.2f, labels);
+        judgeFartherReturns(scan, r.range_image, g, own_label);
+        limitToZone(r.repaired_m, 15.0f, labels);
+        numberRoiComponents(r.repaired_m, labels, 0.4f, components);
+        extractReturns(scan, sensor, r.range_image, labels, components, own_label, 15.0f, 0.4f,
+                       returns);
+
+        EXPECT_TRUE(r.ground.from_sensor.isApprox(g.from_sensor));
+        EXPECT_TRUE((r.ground.surface.height_m == g.surface.height_m).all());
+        EXPECT_TRUE(test::same(r.ground.height_m, g.height_m));
+        EXPECT_TRUE(test::same(r.ground.tolerance_m, g.tolerance_m));
+        EXPECT_TRUE((r.labels == labels).all());
+        EXPECT_TRUE((r.components == components).all());
+        EXPECT_EQ(r.own_label, own_label);
+        EXPECT_EQ(r.returns.label, returns.label);
+        EXPECT_EQ(r.returns.component, returns.component);
+        all_labels.push_back(returns.label);
+    }
+    // Each switch makes a difference here, so that none passes for another.
+    for (std::size_t a = 0; a < all_labels.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b)
+            EXPECT_TRUE(all_labels[a] != all_labels[b]) << a << " " << b;
     }
 }
 

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/Labelling.h>
 
 #include <cmath>
@@ -8,10 +9,12 @@
 namespace hagen {
 namespace {
 
+constexpr float kNoGate_rad = static_cast<float>(kPi / 2);
+
 Image<Label> labelled(const Image<float>& depth_m, const Image<float>& angle_rad, float beta_rad,
-                      Seeds seeds = Seeds::Lowest) {
+                      Seeds seeds = Seeds::Lowest, float seed_gate_rad = kNoGate_rad) {
     Image<Label> labels;
-    labelRegions(depth_m, angle_rad, beta_rad, seeds, labels);
+    labelRegions(depth_m, angle_rad, beta_rad, seeds, seed_gate_rad, labels);
     return labels;
 }
 
@@ -127,6 +130,42 @@ TEST(Labelling, ALowestPixelWithoutAnAngleSeedsNothing) {
     EXPECT_EQ(labels(0, 0), Label::Roi);
     EXPECT_EQ(labels(1, 0), Label::Unclassified);
     EXPECT_EQ(labels(2, 0), Label::Roi);
+}
+
+TEST(Labelling, ASeedThatTheGateStopsIsRoiUnlessGroundReachesIt) {
+    // Upright lowest pixels in columns 0 and 1, level ones in 2; from there to 1 by steps of 0.4.
+    Image<float> depth_m(3, 3), angle_rad(3, 3);
+    depth_m.row(0) = 5.0f;
+    depth_m.row(1) = 6.0f;
+    depth_m.row(2) = 7.0f;
+    angle_rad << 1.5f, 0.8f, 0.1f,  //
+        1.5f, 0.5f, 0.1f,           //
+        1.5f, 1.5f, 0.1f;
+    angle_rad.col(0) = 1.55f;
+    Image<Label> expected(3, 3);
+    expected << Label::Roi, Label::Rou, Label::Rou,  //
+        Label::Roi, Label::Rou, Label::Rou,          //
+        Label::Roi, Label::Roi, Label::Rou;
+    EXPECT_TRUE((labelled(depth_m, angle_rad, 0.45f, Seeds::Lowest, 0.6f) == expected).all());
+    EXPECT_TRUE(
+        (labelled(depth_m, angle_rad, 0.45f, Seeds::Lowest, kNoGate_rad).col(0) == Label::Rou)
+            .all());
+}
+
+TEST(Labelling, AGateOfNinetyDegreesLetsEvenOverhangsPass) {
+    Image<float> depth_m(2, 3);
+    depth_m << 5, 5, 5, 4, 4, 4;  // leans towards the sensor
+    const Image<float> upright_rad = Image<float>::Constant(2, 3, kNoGate_rad);
+    EXPECT_TRUE((labelled(depth_m, upright_rad, 0.1f) == Label::Rou).all());
+    EXPECT_TRUE((labelled(depth_m, upright_rad, 0.1f, Seeds::Lowest, 1.56f) == Label::Roi).all());
+}
+
+TEST(Labelling, TheGateIsForGroundAlone) {
+    Image<float> depth_m(2, 3);
+    depth_m << 5, 5, 5, 4, 4, 4;
+    const Image<float> angle_rad = Image<float>::Constant(2, 3, 1.5f);
+    EXPECT_TRUE(
+        (labelled(depth_m, angle_rad, 0.1f, Seeds::TopAndNearest, 0.1f) == Label::Roi).all());
 }
 
 TEST(Labelling, TheLiteralReadingGrowsRoiFromTopAndNearest) {

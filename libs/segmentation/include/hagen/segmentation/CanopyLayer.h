@@ -7,7 +7,8 @@ namespace hagen {
 /// m) that were seen within 18 m around are a canopy, which one flies over as over the ground: the
 /// bushes, hedges and cars of a street fill a smaller part of what is seen. In a canopy a return is
 /// an obstacle only where it is higher than the plants: the mean + 2 standard deviations of the
-/// cells' highest returns, + 0.1 m. Shares and means are those of blocks of 4 x 4 cells.
+/// cells' highest returns, + 0.1 m. Shares and means are those of 13 x 13 blocks of 4 x 4 cells;
+/// where fewer than 30 of these cells were seen, there is no telling, and no canopy.
 /// `pixels` in the ground's frame, `height_m` above the surface, both NaN where a pixel is empty.
 void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
                     Image<float>& tolerance_m);

@@ -14,8 +14,8 @@ namespace hagen {
 /// it sooner than below, and the farther it is away. No height of the sensor is assumed. `attitude`
 /// is where the search starts: level ground seen so; a sensor that does not know its own finds
 /// tilts of 15 degrees from zero.
-/// Fewer than three cells with points: the frame of a level plane through the lowest pixel, or the
-/// sensor's own where there is none.
+/// Fewer than three cells with points: the frame of a level plane (by `attitude`) through the
+/// lowest of them, or through the sensor where there is none.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);
 
 /// The unit vector against gravity in the ground's frame; where the attitude is not known, the

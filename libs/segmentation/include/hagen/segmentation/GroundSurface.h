@@ -20,10 +20,11 @@ struct GroundSurface {
 };
 
 /// Fits the surface to the pixels that `is_candidate`, in the ground's frame, in these steps:
-///  1. the lowest candidate of each cell; where three neighbours or more are much higher, the
-///     lowest of those (mirror images and stray returns lie below the ground);
-///  2. cells whose lowest candidate stands above what slopes allow from any other are no ground:
-///     0.3 over cells with candidates, 0.17 over others (against the plane);
+///  1. the lowest candidate of each cell; where three neighbours or more are 0.4 m higher, the
+///     lowest of all neighbours (mirror images and stray returns lie below the ground; two strays
+///     side by side hold each other);
+///  2. cells whose lowest candidate stands more than 0.15 m above what slopes allow from the lower
+///     ones are no ground: 0.3 over cells with candidates, 0.17 over others (against the plane);
 ///  3. a cell's height is the mean of its candidates close to the lowest, its weight grows with
 ///     their number;
 ///  4. one smoothing by a weighted 3 x 3 binomial, then cells without candidates are filled from

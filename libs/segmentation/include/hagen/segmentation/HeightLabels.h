@@ -23,13 +23,15 @@ void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels);
 
-/// Follows each obstacle down to its foot: below a RoI pixel, what is not level with the ground and
-/// leads up to it more steeply than 45 degrees is RoI too. `pixels` in the ground's frame.
+/// Follows each obstacle down to its foot: below a RoI pixel, what is not level with the ground
+/// (0.015 m) and leads up to it more steeply than 45 degrees is RoI too. Up to three empty pixels
+/// may lie between the two. `pixels` in the ground's frame.
 void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels);
 
-/// One vote of each pixel's 8 neighbours within 1 m, and the pixel itself, where its height is
-/// within 0.2 m of the tolerance: a lone speck follows the majority. What is clearly higher stays:
-/// a wire is a speck too. Fewer than 3 votes, or a draw: nothing changes.
+/// One vote of each pixel's 8 neighbours, and the pixel itself, where its height is within 0.2 m of
+/// the tolerance: a lone speck follows the majority. Neighbours whose distance along the ground
+/// differs by more than 1 m have no vote. What is clearly higher stays: a wire is a speck too.
+/// Fewer than 3 votes, or a draw: nothing changes. Votes are the labels as they were handed in.
 void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
                   const Image<float>& tolerance_m, Image<Label>& labels);
 

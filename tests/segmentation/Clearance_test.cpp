@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/Clearance.h>
+#include <hagen/segmentation/GroundFrame.h>
+
+#include <cmath>
+
+#include "support/GroundPixels.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using test::pixelsAt;
+
+TEST(Clearance, GroundThatIsLessThanThisBelowIsRoi) {
+    const PixelPoints pixels = pixelsAt({{5, 0, 0}, {5, 0, 0.9f}, {5, 0, 1.1f}, {5, 0, 4}});
+    Image<Label> labels = Image<Label>::Constant(1, 4, Label::Rou), expected(1, 4);
+    alarmLowGround(pixels, {0, 0, 3}, Eigen::Vector3f::UnitZ(), 2, labels);
+    expected << Label::Rou, Label::Rou, Label::Roi, Label::Roi;
+    EXPECT_TRUE((labels == expected).all());
+}
+
+TEST(Clearance, ExactlyThisBelowIsFarEnough) {
+    Image<Label> labels = Image<Label>::Constant(1, 1, Label::Rou);
+    alarmLowGround(pixelsAt({{5, 0, 1}}), {0, 0, 3}, Eigen::Vector3f::UnitZ(), 2, labels);
+    EXPECT_EQ(labels(0, 0), Label::Rou);
+}
+
+TEST(Clearance, ZeroRaisesNoAlarmWhateverIsAbove) {
+    Image<Label> labels = Image<Label>::Constant(1, 1, Label::Rou);
+    alarmLowGround(pixelsAt({{5, 0, 9}}), {0, 0, 3}, Eigen::Vector3f::UnitZ(), 0, labels);
+    EXPECT_EQ(labels(0, 0), Label::Rou);
+}
+
+TEST(Clearance, OnlyTheRouIsAlarmed) {
+    const PixelPoints pixels = pixelsAt({{5, 0, 0}, test::kEmptyPixel});
+    Image<Label> labels(1, 2);
+    labels << Label::Roi, Label::Unclassified;
+    alarmLowGround(pixels, {0, 0, 1}, Eigen::Vector3f::UnitZ(), 2, labels);
+    EXPECT_EQ(labels(0, 0), Label::Roi);
+    EXPECT_EQ(labels(0, 1), Label::Unclassified);
+}
+
+// 3 m over ground that rises ahead by 15 degrees, level with the horizon: by gravity, the ground at
+// x ahead is 3 - x tan 15 below; by its normal it is as far below everywhere.
+TEST(Clearance, OverASlopeItIsByGravityWhereTheAttitudeIsKnown) {
+    const float rise = static_cast<float>(std::tan(radians(15)));
+    const auto points =
+        test::groundPoints(20, 0.5f, [&](float x_m, float) { return rise * x_m - 3; });
+    for (const Attitude& attitude :
+         {Attitude{}, Attitude{0.1f, -0.15f}}) {  // the airframe's, not the ground's
+        PixelPoints pixels = pixelsAt(points);
+        Eigen::Isometry3f sensor_from_level = Eigen::Isometry3f::Identity();
+        sensor_from_level.linear() = levelFromSensor(attitude).transpose();
+        movePixels(sensor_from_level, pixels);
+        const Eigen::Isometry3f frame = fitGroundFrame(pixels, attitude);
+        movePixels(frame, pixels);
+
+        Image<Label> labels = Image<Label>::Constant(1, pixels.x_m.cols(), Label::Rou);
+        alarmLowGround(pixels, frame.translation(), upwards(frame, attitude), 2, labels);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const float clearance_m = -points[i].z();
+            if (std::abs(clearance_m - 2) < 0.05f) continue;
+            ASSERT_EQ(labels.data()[i], clearance_m < 2 ? Label::Roi : Label::Rou) << clearance_m;
+        }
+        labels.setConstant(Label::Rou);
+        alarmLowGround(pixels, frame.translation(), upwards(frame, std::nullopt), 2, labels);
+        EXPECT_TRUE((labels == Label::Rou).all());
+        const float off_m = 3 * static_cast<float>(std::cos(radians(15)));
+        alarmLowGround(pixels, frame.translation(), upwards(frame, std::nullopt), off_m + 0.05f,
+                       labels);
+        EXPECT_TRUE((labels == Label::Roi).all());
+    }
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+#include <hagen/segmentation/FartherReturns.h>
+
+#include <cmath>
+
+#include "support/PointScan.h"
+
+namespace hagen {
+namespace {
+
+/// Level ground 2 m below a VLP-16, and what becomes of returns over it.
+struct TwoMetresUp {
+    SensorModel sensor = sensorModel("VLP-16");
+    Ground ground;
+
+    TwoMetresUp() {
+        ground.from_sensor = Eigen::Isometry3f::Identity();
+        ground.from_sensor.translation().z() = 2;
+        ground.surface.height_m =
+            Eigen::ArrayXXf::Zero(GroundSurface::kCells, GroundSurface::kCells);
+        ground.tolerance_m.setConstant(16, 870, 0.2f);
+    }
+
+    std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m) const {
+        const Scan scan = test::scanOf(sensor, points_m);
+        RangeImage image;
+        projectScan(scan, sensor, 870, 48.0f, image);
+        std::vector<Label> own_label(99, Label::Roi);  // of a scan before
+        judgeFartherReturns(scan, image, ground, own_label);
+        return own_label;
+    }
+    Eigen::Vector3f on(int row, double range_m) const {
+        return test::onBeam(sensor, row, 30.1, range_m);
+    }
+};
+
+constexpr Label kAsItsPixel = Label::Unclassified;
+
+TEST(FartherReturns, AWallBehindAFenceIsRoi) {
+    const TwoMetresUp example;
+    EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 12)}),
+              (std::vector<Label>{kAsItsPixel, Label::Roi}));
+}
+
+TEST(FartherReturns, GroundBehindAPoleIsRou) {
+    const TwoMetresUp example;
+    const double to_ground_m = 2 / std::sin(radians(15));  // of the lowest beam
+    EXPECT_EQ(example.judged({example.on(0, to_ground_m), example.on(0, 3)}),
+              (std::vector<Label>{Label::Rou, kAsItsPixel}));
+}
+
+TEST(FartherReturns, ThirtyCentimetresBehindAreStillThePixels) {
+    const TwoMetresUp example;
+    EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 5.29), example.on(8, 5.31)}),
+              (std::vector<Label>{kAsItsPixel, kAsItsPixel, Label::Roi}));
+}
+
+TEST(FartherReturns, HeightIsAboveTheSurface) {
+    TwoMetresUp example;
+    const Eigen::Vector3f low_bush = example.on(0, 7);  // 0.19 m above the ground
+    const Eigen::Vector3f bush = example.on(0, 6.9);    // 0.21 m
+    EXPECT_EQ(example.judged({example.on(0, 3), low_bush})[1], Label::Rou);
+    EXPECT_EQ(example.judged({example.on(0, 3), bush})[1], Label::Roi);
+    example.ground.surface.height_m.setConstant(-0.1f);
+    EXPECT_EQ(example.judged({example.on(0, 3), low_bush})[1], Label::Roi);
+    example.ground.surface.height_m.setConstant(0.1f);
+    EXPECT_EQ(example.judged({example.on(0, 3), bush})[1], Label::Rou);
+}
+
+TEST(FartherReturns, TheToleranceIsThePixels) {
+    TwoMetresUp example;
+    const Scan scan = test::scanOf(example.sensor, {example.on(0, 7)});
+    RangeImage image;
+    projectScan(scan, example.sensor, 870, 48.0f, image);
+    example.ground.tolerance_m.data()[image.depth_mapper[0]] = 0.1f;
+    EXPECT_EQ(example.judged({example.on(0, 3), example.on(0, 7)})[1], Label::Roi);
+}
+
+TEST(FartherReturns, WhatTheImageDoesNotReachIsNotJudged) {
+    const TwoMetresUp example;
+    EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 60)}),
+              (std::vector<Label>{kAsItsPixel, kAsItsPixel}));
+}
+
+TEST(FartherReturns, AnEmptyScanHasNone) { EXPECT_TRUE(TwoMetresUp().judged({}).empty()); }
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,229 @@
+#include <gtest/gtest.h>
+#include <hagen/segmentation/HeightLabels.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/GroundPixels.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using test::cellFromSensor;
+using test::kEmptyPixel;
+using test::pixelsAt;
+
+/// Over the plane z = 0, where a pixel's height is its z.
+Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {}) {
+    Image<float> tolerance_m;
+    toleratedHeights(pixels, pixels.z_m, tolerance, tolerance_m);
+    return tolerance_m;
+}
+
+TEST(HeightTolerance, OfLevelGroundGrowsWithTheDistance) {
+    const Image<float> tolerance_m =
+        tolerated(pixelsAt({{0, 0, 0}, {3, 4, 0}, {-40, 0, 0}, kEmptyPixel}));
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.17f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 1), 0.195f);  // 0.17 + 0.005 * 5
+    EXPECT_FLOAT_EQ(tolerance_m(0, 2), 0.37f);
+    EXPECT_FALSE(hasValue(tolerance_m(0, 3)));
+}
+
+TEST(HeightTolerance, BesideWhatIsTallIsLess) {
+    // Cells are of 0.75 m: x = 3 is in cell 4, 3.8 in cell 5, 4.6 in cell 6.
+    const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3.8f, 4, 1}, {4.6f, 4, 0}, {5.3f, 4, 0}});
+    const Image<float> tolerance_m = tolerated(pixels);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 1), 0.17f + 0.005f * std::hypot(3.8f, 4.0f) - 0.12f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 2), 0.17f + 0.005f * std::hypot(4.6f, 4.0f) - 0.12f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 3), 0.17f + 0.005f * std::hypot(5.3f, 4.0f));
+}
+
+TEST(HeightTolerance, MoreThanElevenTenthsOfAMetreIsNoReasonToTolerateLess) {
+    const Image<float> tolerance_m = tolerated(pixelsAt({{3, 4, 0}, {3, 4, 5}}));
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f * 1.1f);
+}
+
+TEST(HeightTolerance, IsNeverLessThanFourCentimetres) {
+    const Image<float> tolerance_m =
+        tolerated(pixelsAt({{3, 4, 0}, {3, 4, 5}}), {0.1f, 0.0f, 0.12f});
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.04f);
+}
+
+TEST(HeightTolerance, AHoleInTheGroundChangesNothing) {
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, -2}}))(0, 0), 0.195f);
+}
+
+TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
+    test::Random random(90);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 600; ++i) {
+        points.emplace_back(random.real(-12, 12), random.real(-12, 12), random.real(-0.5f, 1.5f));
+        if (random.chance(0.1)) points.back() = kEmptyPixel;
+    }
+    const HeightTolerance t{0.3f, 0.01f, 0.2f};
+    const Image<float> tolerance_m = tolerated(pixelsAt(points, 4), t);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& p = points[i];
+        if (!hasValue(p.x())) continue;
+        float tallest_m = 0;
+        for (const auto& q : points) {
+            if (!hasValue(q.x())) continue;
+            if (std::abs(cellFromSensor(p.x()) - cellFromSensor(q.x())) > 1) continue;
+            if (std::abs(cellFromSensor(p.y()) - cellFromSensor(q.y())) > 1) continue;
+            tallest_m = std::max(tallest_m, std::min(q.z(), 1.1f));
+        }
+        const float expected_m = 0.3f + 0.01f * p.head<2>().norm() - 0.2f * tallest_m;
+        EXPECT_NEAR(tolerance_m.data()[i], std::max(0.04f, expected_m), 1e-5f);
+    }
+}
+
+TEST(LabelByHeight, HigherThanTheToleranceIsRoi) {
+    Image<float> height_m(1, 5), tolerance_m(1, 5);
+    height_m << -3, 0.2f, 0.21f, 5, kNoValue;
+    tolerance_m << 0.2f, 0.2f, 0.2f, 0.2f, kNoValue;
+    Image<Label> labels, expected(1, 5);
+    labelByHeight(height_m, tolerance_m, labels);
+    expected << Label::Rou, Label::Rou, Label::Roi, Label::Roi, Label::Unclassified;
+    EXPECT_TRUE((labels == expected).all());
+}
+
+/// A column over the plane z = 0, given from the lowest row, after its feet were grown. The labels
+/// before are those of a tolerance of 0.2 m.
+std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
+    const PixelPoints pixels = pixelsAt(column, static_cast<int>(column.size()));
+    Image<Label> labels;
+    labelByHeight(pixels.z_m, Image<float>::Constant(pixels.z_m.rows(), 1, 0.2f).eval(), labels);
+    growFeet(pixels, pixels.z_m, labels);
+    return {labels.data(), labels.data() + labels.size()};
+}
+
+constexpr Label kRoi = Label::Roi, kRou = Label::Rou, kNone = Label::Unclassified;
+
+TEST(GrowFeet, AWallIsFollowedToItsFoot) {
+    EXPECT_EQ(grown({{3, 0, 0}, {8, 0, 0.05f}, {8, 0, 0.15f}, {8, 0, 0.5f}}),
+              (std::vector<Label>{kRou, kRoi, kRoi, kRoi}));
+}
+
+TEST(GrowFeet, GrassInFrontOfAWallIsNotItsFoot) {
+    EXPECT_EQ(grown({{5, 0, 0.15f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+}
+
+TEST(GrowFeet, FortyFiveDegreesIsTheBorder) {
+    EXPECT_EQ(grown({{7.61f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
+    EXPECT_EQ(grown({{7.59f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+    // in any direction
+    EXPECT_EQ(grown({{0, 7.59f, 0.1f}, {0, 8, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+}
+
+TEST(GrowFeet, WhatIsLevelWithTheGroundIsNoFoot) {
+    EXPECT_EQ(grown({{8, 0, 0.015f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+    EXPECT_EQ(grown({{8, 0, 0.016f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
+}
+
+TEST(GrowFeet, UnderWhatIsNoObstacleThereIsNoFoot) {
+    EXPECT_EQ(grown({{8, 0, 0.05f}, {8, 0, 0.15f}}), (std::vector<Label>{kRou, kRou}));
+}
+
+TEST(GrowFeet, WhatIsBelowAPixelOfTheGroundIsNoFoot) {
+    EXPECT_EQ(grown({{8, 0, 0.1f}, {5, 0, 0.1f}, {8, 0, 1}}),
+              (std::vector<Label>{kRou, kRou, kRoi}));
+}
+
+TEST(GrowFeet, EmptyPixelsAreCrossedUpToThree) {
+    EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
+              (std::vector<Label>{kRoi, kNone, kNone, kNone, kRoi}));
+    EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
+              (std::vector<Label>{kRou, kNone, kNone, kNone, kNone, kRoi}));
+}
+
+/// 3 x 5 pixels at the same place but for their heights (over the plane z = 0), tolerance 0.2 m,
+/// after specks were removed.
+Image<Label> voted(const Image<float>& height_m, float distance_step_m = 0) {
+    PixelPoints pixels{Image<float>(3, 5), Image<float>::Zero(3, 5), height_m};
+    for (int column = 0; column < 5; ++column) {
+        pixels.x_m.col(column) = 10.0f + distance_step_m * static_cast<float>(column);
+    }
+    pixels.x_m = height_m.isNaN().select(kNoValue, pixels.x_m);
+    const Image<float> tolerance_m = Image<float>::Constant(3, 5, 0.2f);
+    Image<Label> labels;
+    labelByHeight(height_m, tolerance_m, labels);
+    removeSpecks(pixels, height_m, tolerance_m, labels);
+    return labels;
+}
+
+TEST(RemoveSpecks, ALoneDoubtfulPixelFollowsItsNeighbours) {
+    Image<float> height_m = Image<float>::Zero(3, 5);
+    height_m(1, 2) = 0.39f;
+    EXPECT_TRUE((voted(height_m) == kRou).all());
+    height_m.setConstant(0.6f);
+    height_m(1, 2) = 0.01f;
+    EXPECT_TRUE((voted(height_m) == kRoi).all());
+}
+
+TEST(RemoveSpecks, WhatIsClearlyHigherStays) {
+    Image<float> height_m = Image<float>::Zero(3, 5);
+    height_m(1, 2) = 0.41f;
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+    height_m(1, 2) = 4;  // a wire
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+    EXPECT_EQ((voted(height_m) == kRoi).count(), 1);
+}
+
+TEST(RemoveSpecks, ADrawChangesNothing) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m(1, 2) = 0.3f;  // doubtful, RoI
+    height_m(0, 1) = 2;     // for RoI
+    height_m(2, 2) = height_m(2, 3) = 0;
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+    height_m(1, 3) = 0;  // 2 against 3
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+}
+
+TEST(RemoveSpecks, FewerThanThreeVotesChangeNothing) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m(1, 2) = 0.1f;  // doubtful, ROU
+    height_m(0, 2) = 2;
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+    height_m(2, 1) = 2;
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+}
+
+TEST(RemoveSpecks, PixelsFartherApartThanAMetreHaveNoVote) {
+    Image<float> height_m = Image<float>::Zero(3, 5);
+    height_m.col(2) = 0.3f;
+    EXPECT_TRUE((voted(height_m, 0.9f).col(2) == kRou).all());
+    EXPECT_TRUE((voted(height_m, 1.1f).col(2) == kRoi).all());
+}
+
+TEST(RemoveSpecks, WhatIsClearlyLowerStays) {
+    Image<float> height_m = Image<float>::Constant(3, 5, 0.6f);
+    height_m(1, 2) = -0.01f;
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+}
+
+TEST(RemoveSpecks, VotesAreThoseBeforeAnyWasCounted) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m.col(0) = 0.0f;
+    height_m(1, 1) = 0.3f;  // 2 against 4: becomes ROU
+    height_m(1, 2) = 0.3f;  // 2 against 1, the one to the left still counted as RoI
+    height_m(0, 2) = 0.0f;
+    const Image<Label> labels = voted(height_m);
+    EXPECT_EQ(labels(1, 1), kRou);
+    EXPECT_EQ(labels(1, 2), kRoi);
+}
+
+TEST(RemoveSpecks, AroundTheBackOfTheTurnPixelsAreNeighboursUpAndDownTheyAreNot) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m(1, 0) = 0.3f;
+    height_m(0, 4) = height_m(1, 4) = height_m(2, 4) = 0;
+    EXPECT_EQ(voted(height_m)(1, 0), kRou);
+    height_m.setConstant(kNoValue);
+    height_m(0, 2) = 0.3f;
+    height_m(2, 1) = height_m(2, 2) = height_m(2, 3) = 0;
+    EXPECT_EQ(voted(height_m)(0, 2), kRoi);
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,17 @@
+#pragma once
+#include <hagen/segmentation/Options.h>
+
+namespace hagen::test {
+
+/// The filter as published: no stage beyond the paper, nothing beyond the zone.
+inline Options paperOptions() {
+    Options options;
+    options.context_m = options.zone_m;
+    options.repair_max_step_m = 0.0f;
+    options.seed_gate_deg = 90.0f;
+    options.level_by_attitude = false;
+    options.ground_surface = false;
+    return options;
+}
+
+}  // namespace hagen::test
