@@ -1,6 +1,6 @@
 #include "Rows.h"
 
-#include <sstream>
+#include <stdexcept>
 
 namespace hagen {
 
@@ -22,6 +22,18 @@ Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
     mergeSettings(file, settings);
     settings.options.zone_m = set.zone_m;
     return settings;
+}
+
+/// The row `paper` is the published filter, or there is no table.
+void checkPaper(const Options& paper, const std::filesystem::path& file) {
+    const bool is_published = !paper.ground_surface && !paper.level_by_attitude &&
+                              paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
+                              paper.context_m <= paper.zone_m;
+    if (is_published) return;
+    throw std::runtime_error(file.string() +
+                             ": has a stage that the paper has not; ground_surface, "
+                             "level_by_attitude, the seed gate, gap repair and context beyond the "
+                             "zone are to be off");
 }
 
 void addChanges(const std::string& filter, const Settings& settings,
@@ -83,6 +95,7 @@ const std::vector<Change>& paperStages() {
 MethodRows headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
     const Settings ours = settingsOf(set, config / set.preset);
     const Settings paper = settingsOf(set, config / "paper.yaml");
+    checkPaper(paper.options, config / "paper.yaml");
     return {{{kDefault, ours, "", ""}, {kPaper, paper, "", ""}}, ours};
 }
 

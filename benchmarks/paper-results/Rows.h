@@ -28,7 +28,9 @@ const std::vector<Change>& ownStages();
 const std::vector<Change>& ownStagesOfSurface();
 const std::vector<Change>& paperStages();
 
-/// The rows for a data set, with the settings files in `config`; baselines included.
+/// The rows for a data set, with the settings files in `config`; baselines included. Throws
+/// std::runtime_error where paper.yaml has a stage of ours on: its figures would not be the
+/// paper's.
 MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config);
 /// Of these the two filters and the baselines alone.
 MethodRows headlineRowsFor(const DataSet& set, const std::filesystem::path& config);

@@ -63,6 +63,23 @@ TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
               options(kWithoutSurface + ", seed_gate_deg=90").ground_surface);
 }
 
+TEST(Rows, ThePapersHaveNoneOfOurStages) {
+    test::TemporaryFolder config;
+    for (const char* file : {"vlp16.yaml", "common.yaml", "paper.yaml"}) {
+        fs::copy_file(fs::path(kConfig) / file, config / file);
+    }
+    DataSet set;
+    set.preset = "vlp16.yaml";
+    EXPECT_NO_THROW(rowsFor(set, config.path()));
+    for (const char* stage : {"ground_surface: true", "level_by_attitude: true",
+                              "seed_gate_deg: 30", "repair_max_step_m: 1", "context_m: 48"}) {
+        const std::string ours = config.write("ours.yaml", stage + std::string("\n"));
+        config.write("paper.yaml", "include: [" + kConfig + "/paper.yaml, " + ours + "]\n");
+        const std::string message = test::messageOf([&] { rowsFor(set, config.path()); });
+        EXPECT_NE(message.find("has a stage that the paper has not"), std::string::npos) << stage;
+    }
+}
+
 // The tuning's seeds are never scored.
 TEST(DataSets, AreFlightsOfTheSeedsAsked) {
     for (const DataSet& set : dataSets("", "data", {{101, 102}, 3})) {
