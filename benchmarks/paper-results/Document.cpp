@@ -267,6 +267,17 @@ std::string paperSection(const std::vector<Measured>& all) {
 
 // ---- run times
 
+/// The methods whose median is below that of a filter.
+std::string fasterThan(const std::string& filter, const Measured& times) {
+    const double own_ms = latencyOf(times.row(filter)->latency_ms).p50_ms;
+    std::string names;
+    for (const MethodScores& method : times.methods) {
+        const bool is_faster = latencyOf(method.latency_ms).p50_ms < own_ms;
+        if (is_faster) names += (names.empty() ? "" : ", ") + method.name;
+    }
+    return "Faster than `" + filter + "`, by p50: " + (names.empty() ? "none" : names) + ".\n\n";
+}
+
 std::string timeTable(const Measured& times) {
     Table table({"`" + times.set.name + "`", "mean +- sd [ms]", "p50", "p95", "p99"});
     for (const MethodScores& method : times.methods) {
@@ -278,7 +289,8 @@ std::string timeTable(const Measured& times) {
     for (const std::size_t count : times.returns) returns += count;
     return std::to_string(times.scans()) + (times.scans() == 1 ? " scan with " : " scans with ") +
            std::to_string(returns / std::max<std::size_t>(times.scans(), 1)) +
-           " returns on average:\n\n" + table.text();
+           " returns on average:\n\n" + table.text() + fasterThan(kPaper, times) +
+           fasterThan(kDefault, times);
 }
 
 std::string timeSection(const std::vector<Measured>& all) {
@@ -334,9 +346,8 @@ std::string ablationTable(const std::vector<Measured>& all, const std::string& f
 
 std::string ablationSection(const std::vector<Measured>& all) {
     return "## What each stage is worth\n\n"
-           "The `default` filter without one of its stages at a time: first ours, then those of "
-           "the "
-           "paper.\n\n" +
+           "The `default` filter without one stage at a time: first ours, then those of the paper. "
+           "Bold is what is higher without the stage.\n\n" +
            ablationTable(all, "`default`", kDefault, kDefault,
                          {ownStagesOfSurface(), ownStages(), paperStages()}) +
            "The surface judges every pixel again, and so hides what happens before it. The same "

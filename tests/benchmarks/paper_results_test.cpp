@@ -234,6 +234,7 @@ TEST_F(PaperResultsRun, HasEveryTableAndFigure) {
                                     "p99",
                                     "## What each stage is worth",
                                     "no seed gate",
+                                    "Bold is what is higher",
                                     "no SSA",
                                     "## Data",
                                     "101",
