@@ -13,10 +13,10 @@ namespace hagen {
 namespace {
 
 constexpr int kWidth_px = 900, kHeight_px = 400;
-constexpr std::size_t kMostLines = 6;
+constexpr std::size_t kMostLines = 7;
 // Colours that the colour-blind tell apart (Okabe and Ito).
-constexpr std::array<const char*, kMostLines> kColours{"#0072B2", "#D55E00", "#009E73",
-                                                       "#CC79A7", "#E69F00", "#333333"};
+constexpr std::array<const char*, kMostLines> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                       "#E69F00", "#333333", "#56B4E9"};
 
 struct Value {
     std::string label;  ///< of the place on the x axis

@@ -8,7 +8,7 @@ namespace hagen {
 
 /// Draws SVG charts into a folder that exists, of scores over returns with their intervals:
 ///
-///     by_range.svg, by_altitude.svg   F1 of RoI and ROU, a line a method (of up to six methods)
+///     by_range.svg, by_altitude.svg   F1 of RoI and ROU, a line a method (of up to seven methods)
 ///     by_kind.svg                     recall of each kind of object
 ///     sweep_KEY.svg                   F1 of RoI and ROU over the values of a sweep
 ///

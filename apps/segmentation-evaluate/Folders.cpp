@@ -65,12 +65,11 @@ TrueScan readTrueScan(const Recording& recording, std::size_t i) {
     return scan;
 }
 
-std::shared_ptr<const Recording> openRecording(const std::string& path,
-                                               const std::vector<SettingsRow>& rows,
+std::shared_ptr<const Recording> openRecording(const std::string& path, const MethodRows& rows,
                                                const std::optional<LabelMap>& label_map) {
     Recording recording{ScanFolder(path), {}, {}, label_map.has_value(), false, {}, {}, {}};
     const ScanFolder& folder = recording.folder;
-    recording.sensor = settingsFor(rows.front().settings, folder.sensorFile()).sensorModel();
+    recording.sensor = settingsFor(rows.filter.front().settings, folder.sensorFile()).sensorModel();
     recording.has_kind_files = fs::is_directory(folder.path() / "semantic");
     if (label_map) {
         recording.kinds = *label_map;
@@ -119,8 +118,7 @@ std::vector<std::string> namesOf(const std::vector<std::string>& folders) {
 
 }  // namespace
 
-std::vector<ScanSource> sourcesOf(const std::vector<std::string>& folders,
-                                  const std::vector<SettingsRow>& rows,
+std::vector<ScanSource> sourcesOf(const std::vector<std::string>& folders, const MethodRows& rows,
                                   const std::optional<LabelMap>& label_map) {
     const std::vector<std::string> names = namesOf(folders);
     std::vector<ScanSource> sources;

@@ -13,8 +13,7 @@ namespace hagen {
 /// else labels/. Kinds are those of the map, else those of the folder's own kinds.yaml.
 /// Throws std::runtime_error, naming the folder, where one holds no scans, and SettingsError where
 /// one is given twice.
-std::vector<ScanSource> sourcesOf(const std::vector<std::string>& folders,
-                                  const std::vector<SettingsRow>& rows,
+std::vector<ScanSource> sourcesOf(const std::vector<std::string>& folders, const MethodRows& rows,
                                   const std::optional<LabelMap>& label_map);
 
 }  // namespace hagen

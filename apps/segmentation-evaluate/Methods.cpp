@@ -1,6 +1,10 @@
 #include "Methods.h"
 
+#include <hagen/evaluation/Baselines.h>
 #include <hagen/segmentation/HagenFilter.h>
+#ifdef HAGEN_HAS_PCL_BASELINE
+#include <hagen/pcl_baseline/BaselinePclEuclidean.h>
+#endif
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -23,6 +27,14 @@ Method filterMethod(const std::string& name, const Settings& settings) {
     return {name, [filter](const ScanInput& input) {
                 return filter->segment(input.scan, attitudeOf(input)).returns.label;
             }};
+}
+
+std::vector<Baseline> allBaselines(float zone_m) {
+    std::vector<Baseline> all = baselines(zone_m);
+#ifdef HAGEN_HAS_PCL_BASELINE
+    for (const Baseline& baseline : pclBaselines(zone_m)) all.push_back(baseline);
+#endif
+    return all;
 }
 
 /// "5,7.5" as two texts; an empty one stays, and is refused as a value later.
@@ -63,13 +75,19 @@ Settings settingsFor(Settings settings, const std::filesystem::path& sensor_file
     return settings;
 }
 
-std::vector<Method> methodsFor(const std::vector<SettingsRow>& rows,
-                               const std::filesystem::path& sensor_file) {
+std::vector<Method> methodsFor(const MethodRows& rows, const std::filesystem::path& sensor_file) {
     std::vector<Method> methods;
-    for (const SettingsRow& row : rows) {
+    for (const SettingsRow& row : rows.filter) {
         methods.push_back(filterMethod(row.name, settingsFor(row.settings, sensor_file)));
     }
-    // What the filter is compared with goes here, made for rows.front()'s sensor and options.
+    if (!rows.baselines) return methods;
+    const Settings settings = settingsFor(*rows.baselines, sensor_file);
+    const SensorModel sensor = settings.sensorModel();
+    for (const Baseline& baseline : allBaselines(settings.options.zone_m)) {
+        methods.push_back({baseline.name, [baseline, sensor](const ScanInput& input) {
+                               return baseline.segment(input.scan, sensor);
+                           }});
+    }
     return methods;
 }
 

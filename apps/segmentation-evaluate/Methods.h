@@ -21,11 +21,17 @@ struct SettingsRow {
 /// Throws SettingsError for a sweep that cannot be read, or settings that do not go together.
 std::vector<SettingsRow> rowsOf(const Settings& settings, const std::vector<std::string>& sweeps);
 
+/// All that is scored: the filter's rows, then, where asked for, what it is compared with.
+struct MethodRows {
+    std::vector<SettingsRow> filter;
+    std::optional<Settings> baselines;  ///< the baselines get its zone and its sensor
+};
+
 /// Settings with those of a recording merged in, where it has some.
 Settings settingsFor(Settings settings, const std::filesystem::path& sensor_file);
 
-/// The methods for a recording with these settings of its own.
-std::vector<Method> methodsFor(const std::vector<SettingsRow>& rows,
-                               const std::filesystem::path& sensor_file);
+/// The methods for a recording with these settings of its own. PCL's baselines are among them where
+/// the program was built with PCL.
+std::vector<Method> methodsFor(const MethodRows& rows, const std::filesystem::path& sensor_file);
 
 }  // namespace hagen

@@ -27,7 +27,7 @@ struct Flags {
     std::string label_map, camera, overlay, json, charts;
     float max_range_m = 20.0f;
     int resamples = 1000;
-    bool overwrite = false;
+    bool with_baselines = false, overwrite = false;
 };
 
 void addFlags(CLI::App& app, Flags& flags) {
@@ -35,6 +35,8 @@ void addFlags(CLI::App& app, Flags& flags) {
     app.add_option("-c,--config", flags.configs, "settings file; may be repeated, later ones win");
     app.add_option("--sweep", flags.sweeps,
                    "KEY=VALUE,VALUE,...: a row for each value; each sweep by itself");
+    app.add_flag("--baselines", flags.with_baselines,
+                 "rows of segmenters of others, as published and as tuned");
     app.add_option("--max-range-m", flags.max_range_m, "score returns up to this range")
         ->capture_default_str()
         ->check(CLI::Range(0.1, 1000.0));
@@ -88,7 +90,8 @@ struct Outputs {
 
 int run(const Flags& flags, Summary summary) {
     for (const std::string& config : flags.configs) mergeSettings(config, summary.settings);
-    const std::vector<SettingsRow> rows = rowsOf(summary.settings, flags.sweeps);
+    MethodRows rows{rowsOf(summary.settings, flags.sweeps), std::nullopt};
+    if (flags.with_baselines) rows.baselines = summary.settings;
     const auto label_map = fromFlag(flags.label_map, readLabelMap);
     EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
@@ -112,7 +115,7 @@ int run(const Flags& flags, Summary summary) {
     summary.label_map = flags.label_map;
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
-    sumUp(methods, rows, summary);
+    sumUp(methods, rows.filter, summary);
     if (outputs.json) writeJson(outputs.json->temporary(), summary);
     if (outputs.charts) drawCharts(outputs.charts->temporary(), summary);
     outputs.commit();
@@ -129,7 +132,8 @@ int main(int argc, char** argv) {
         "true label 0 are left out.\n"
         "Example:\n"
         "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10\n"
-        "  segmentation-evaluate -i scans/* --label-map config/semantic_kitti.yaml --json "
+        "  segmentation-evaluate -i scans/* --baselines --label-map config/semantic_kitti.yaml "
+        "--json "
         "all.json");
     app.set_version_flag("--version", "segmentation-evaluate " HAGEN_VERSION);
     Flags flags;

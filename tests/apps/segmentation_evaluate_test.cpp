@@ -111,6 +111,35 @@ TEST_F(SegmentationEvaluate, ASweepHasARowForEachValue) {
     EXPECT_EQ(row(outcome.out, "beta_deg=10").at(1), 1.0);
 }
 
+TEST_F(SegmentationEvaluate, BaselinesStandBesideTheFilter) {
+    const auto report = json({"-i", labelledPole(), "--baselines"});
+    std::vector<std::string> names;
+    for (const auto& method : report["methods"]) {
+        names.push_back(method["name"]);
+        // On flat ground with one pole nobody fails.
+        EXPECT_GT(method["returns"]["all"]["rou"]["f1"], 0.9) << method["name"];
+        EXPECT_EQ(method["latency_ms"]["runs"], 1);
+    }
+    ASSERT_GE(names.size(), 5u);
+    names.resize(5);
+    EXPECT_EQ(names, (std::vector<std::string>{"hagen", "zermas", "zermas tuned", "bogoslavskyi",
+                                               "bogoslavskyi tuned"}));
+}
+
+TEST_F(SegmentationEvaluate, BaselinesComeAfterASweepWithTheZoneOfTheSettings) {
+    const std::string near = folder_.write("near.yaml", "zone_m: 5\n");  // the pole is farther
+    const auto report =
+        json({"-i", labelledPole(), "-c", near, "--sweep", "zone_m=5,20", "--baselines"});
+    const auto& methods = report["methods"];
+    ASSERT_GE(methods.size(), 6u);
+    EXPECT_EQ(methods[1]["name"], "zone_m=20");
+    EXPECT_EQ(methods[1]["returns"]["all"]["roi"]["recall"], 1.0);
+    for (std::size_t m = 2; m < methods.size(); ++m) {
+        EXPECT_TRUE(methods[m]["sweep"].is_null());
+        EXPECT_EQ(methods[m]["returns"]["all"]["roi"]["recall"], 0.0) << methods[m]["name"];
+    }
+}
+
 // The published filter on labelled recordings; the figures asked of it.
 TEST_F(SegmentationEvaluate, PaperReachesItsScoresOnLabelledSixteenBeamScans) {
     std::vector<std::string> arguments = sixteenBeamScans();
@@ -229,6 +258,8 @@ TEST_F(SegmentationEvaluate, RefusesWrongUsage) {
     expectFailure({"-i", labelledPole(), labelledPole() + "/"}, 2, "is given twice");
     expectFailure({"-i", labelledPole(), "--bootstrap", "-1"}, 2, "--bootstrap");
     expectFailure({"-i", labelledPole(), "--overlay", "x"}, 2, "--camera");
+    expectFailure({"-i", labelledPole(), "--baselines", "zermas"}, 2, "zermas");
+    expectFailure({"-i", labelledPole(), "--baselines", "--sweep", "zermas=1"}, 2, "zermas");
 }
 
 TEST_F(SegmentationEvaluate, RefusesLabelMapsAndCamerasThatItCannotRead) {

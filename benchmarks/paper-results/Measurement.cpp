@@ -1,0 +1,100 @@
+#include "Measurement.h"
+
+#include <hagen/evaluation/Breakdown.h>
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "Rows.h"
+#include "segmentation-evaluate/Folders.h"
+
+namespace hagen {
+namespace {
+
+Measured measure(const DataSet& set, const MethodRows& rows, const MeasurementOptions& options,
+                 bool has_camera) {
+    std::optional<LabelMap> label_map;
+    if (!set.label_map.empty()) label_map = readLabelMap(options.config / set.label_map);
+    EvaluationOptions evaluation;
+    evaluation.range.max_range_m = set.max_range_m;
+    if (has_camera) evaluation.camera = readCamera(options.config / "camera_forward.yaml");
+    const std::vector<ScanSource> sources = sourcesOf(scanFolders(set), rows, label_map);
+
+    Measured measured{set, {}, {}, {}};
+    for (const ScanSource& source : sources) measured.folders.push_back(source.name);
+    measured.methods = evaluate(sources, evaluation, [&](const LabelledView& view) {
+        if (view.method == 0) measured.returns.push_back(view.truth.input.scan.size());
+    });
+    return measured;
+}
+
+/// Calls `work` for 0 ... count - 1, several at a time; what one throws is thrown at the end.
+template <class Work>
+void inParallel(std::size_t count, unsigned jobs, Work work) {
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    std::mutex guard;
+    std::vector<std::thread> threads;
+    for (unsigned job = 0; job < std::max(1u, jobs); ++job) {
+        threads.emplace_back([&] {
+            for (std::size_t i = next++; i < count; i = next++) {
+                try {
+                    work(i);
+                } catch (...) {
+                    const std::lock_guard<std::mutex> lock(guard);
+                    if (!failure) failure = std::current_exception();
+                    next = count;
+                }
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+const MethodScores* Measured::row(const std::string& name) const {
+    const auto found = std::find_if(methods.begin(), methods.end(),
+                                    [&](const MethodScores& m) { return m.name == name; });
+    return found == methods.end() ? nullptr : &*found;
+}
+
+std::int64_t Measured::scoredReturns() const {
+    return wholeOf(methods.front().returns).sum().returns();
+}
+
+std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
+                                    const MeasurementOptions& options) {
+    // Settings that cannot be read are told before minutes of simulation.
+    for (const DataSet& set : sets) rowsFor(set, options.config);
+    std::vector<Measured> all(sets.size());
+    std::mutex guard;
+    // What takes longest is started first.
+    std::vector<std::size_t> order(sets.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = order.size() - 1 - i;
+    inParallel(sets.size(), options.jobs, [&](std::size_t i) {
+        const DataSet& set = sets[order[i]];
+        makeFlights(set, options.simulation_tag);
+        all[order[i]] = measure(set, rowsFor(set, options.config), options, set.has_all_rows);
+        const std::lock_guard<std::mutex> lock(guard);
+        std::cerr << "scored: " << set.name << "\n";
+    });
+    return all;
+}
+
+std::vector<Measured> measureTimes(const std::vector<DataSet>& sets,
+                                   const MeasurementOptions& options) {
+    std::vector<Measured> all;
+    for (const DataSet& set : sets) {
+        if (!set.is_timed) continue;
+        all.push_back(measure(set, headlineRowsFor(set, options.config), options, false));
+        std::cerr << "timed: " << set.name << "\n";
+    }
+    return all;
+}
+
+}  // namespace hagen

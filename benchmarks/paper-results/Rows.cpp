@@ -1,0 +1,120 @@
+#include "Rows.h"
+
+#include <stdexcept>
+
+namespace hagen {
+
+const std::string kDefault = "default", kPaper = "paper", kWithoutSurface = "without surface";
+
+namespace {
+
+const Change kNoSurface{"no ground surface", "ground_surface", "false"};
+
+std::vector<Change> sweep(const std::string& symbol, const std::string& key,
+                          const std::vector<std::string>& values) {
+    std::vector<Change> changes;
+    for (const std::string& value : values) changes.push_back({symbol + " = " + value, key, value});
+    return changes;
+}
+
+Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
+    Settings settings;
+    mergeSettings(file, settings);
+    settings.options.zone_m = set.zone_m;
+    return settings;
+}
+
+/// The row `paper` is the published filter, or there is no table.
+void checkPaper(const Options& paper, const std::filesystem::path& file) {
+    const bool is_published = !paper.ground_surface && !paper.level_by_attitude &&
+                              paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
+                              paper.context_m <= paper.zone_m;
+    if (is_published) return;
+    throw std::runtime_error(file.string() +
+                             ": has a stage that the paper has not; ground_surface, "
+                             "level_by_attitude, the seed gate, gap repair and context beyond the "
+                             "zone are to be off");
+}
+
+void addChanges(const std::string& filter, const Settings& settings,
+                const std::vector<Change>& changes, std::vector<SettingsRow>& rows) {
+    for (const Change& change : changes) {
+        SettingsRow row{nameOf(filter, change), settings, "", ""};
+        // "zone" and "W" stand for what the settings have there.
+        const std::string value = change.value == "zone" ? std::to_string(settings.options.zone_m)
+                                  : change.value == "W"
+                                      ? std::to_string(settings.options.window_size)
+                                      : change.value;
+        setOption(change.key, value, row.settings);
+        rows.push_back(row);
+    }
+}
+
+}  // namespace
+
+std::string nameOf(const std::string& filter, const Change& change) {
+    return filter + ", " + change.key + "=" + change.value;
+}
+
+const std::vector<Change>& betaSweep() {
+    static const auto changes = sweep("beta", "beta_deg", {"5", "7.5", "10", "12.5"});
+    return changes;
+}
+const std::vector<Change>& componentSweep() {
+    static const auto changes = sweep("PC", "principal_components", {"2", "4", "5", "8"});
+    return changes;
+}
+const Change& literalSeeds() {
+    static const Change change{"the text read literally", "seeds", "top_and_nearest"};
+    return change;
+}
+const std::vector<Change>& ownStages() {
+    static const std::vector<Change> changes{{"no seed gate", "seed_gate_deg", "90"},
+                                             {"no context beyond the zone", "context_m", "zone"},
+                                             {"no attitude", "level_by_attitude", "false"}};
+    return changes;
+}
+const std::vector<Change>& ownStagesOfSurface() {
+    static const std::vector<Change> changes{
+        kNoSurface,
+        {"no canopy layer", "canopy_layer", "false"},
+        {"feet not grown", "grow_feet", "false"},
+        {"specks left", "remove_specks", "false"},
+        {"same tolerance beside what is tall", "ground_tolerance_beside_tall", "0"}};
+    return changes;
+}
+const std::vector<Change>& paperStages() {
+    static const std::vector<Change> changes{
+        {"no persistence: all maxima sharpened", "persistence_m", "0"},
+        {"no sharpening: no maximum is kept", "persistence_m", "1000"},
+        {"no gap repair", "repair_max_step_m", "0"},
+        {"no SSA: PC = W", "principal_components", "W"}};
+    return changes;
+}
+
+MethodRows headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
+    const Settings ours = settingsOf(set, config / set.preset);
+    const Settings paper = settingsOf(set, config / "paper.yaml");
+    checkPaper(paper.options, config / "paper.yaml");
+    return {{{kDefault, ours, "", ""}, {kPaper, paper, "", ""}}, ours};
+}
+
+MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config) {
+    MethodRows all = headlineRowsFor(set, config);
+    if (!set.has_all_rows) return all;
+    const Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
+    for (const auto& changes : {betaSweep(), componentSweep(), {literalSeeds()}}) {
+        addChanges(kPaper, paper, changes, all.filter);
+    }
+    for (const auto& changes : {ownStagesOfSurface(), ownStages(), paperStages()}) {
+        addChanges(kDefault, ours, changes, all.filter);
+    }
+    Settings without_surface = ours;
+    setOption(kNoSurface.key, kNoSurface.value, without_surface);
+    for (const auto& changes : {ownStages(), paperStages()}) {
+        addChanges(kWithoutSurface, without_surface, changes, all.filter);
+    }
+    return all;
+}
+
+}  // namespace hagen

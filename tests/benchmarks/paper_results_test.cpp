@@ -1,0 +1,253 @@
+// The tool behind scripts/reproduce-paper.
+#include <gtest/gtest.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanFolderWriter.h>
+
+#include <set>
+
+#include "paper-results/DataSets.h"
+#include "paper-results/Document.h"
+#include "paper-results/Rows.h"
+#include "paper-results/Tables.h"
+#include "support/Program.h"
+#include "support/SimpleScene.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+const std::string kConfig = HAGEN_SOURCE_DIR "/config";
+
+TEST(Tables, AreAlignedMarkdown) {
+    Table table({"what", "n"});
+    table.add({"a", "1234"});
+    EXPECT_EQ(table.text(), "| what | n    |\n|------|------|\n| a    | 1234 |\n\n");
+}
+
+TEST(Tables, BoldIsWhatIsPrintedAsTheBest) {
+    EXPECT_EQ(pairCell(0.95801, 0.5, 0.95849, 0.6), "**0.958** / 0.500");
+    EXPECT_EQ(pairCell(NAN, 0.5), "- / 0.500");
+    EXPECT_EQ(boldAbove(0.9581, 0.9579), "0.958");  // the same as it is printed
+    EXPECT_EQ(boldAbove(0.959, 0.958), "**0.959**");
+    EXPECT_EQ(boldAbove(0.957, 0.958), "0.957");
+    EXPECT_EQ(cell(Interval{0.9511, 0.9639}), "0.951 to 0.964");
+    EXPECT_EQ(cell(Interval{}), "-");
+}
+
+TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
+    DataSet set;
+    set.preset = "vlp16.yaml";
+    set.zone_m = 40;
+    const MethodRows rows = rowsFor(set, kConfig);
+    std::set<std::string> names;
+    const auto options = [&](const std::string& name) {
+        for (const SettingsRow& row : rows.filter) {
+            if (row.name == name) return row.settings.options;
+        }
+        ADD_FAILURE() << "no row " << name;
+        return Options{};
+    };
+    for (const SettingsRow& row : rows.filter) {
+        EXPECT_TRUE(names.insert(row.name).second) << row.name;
+        EXPECT_EQ(row.settings.options.zone_m, 40) << row.name;
+    }
+    EXPECT_EQ(rows.baselines->options.zone_m, 40);
+    for (const Change& change : betaSweep()) {
+        EXPECT_EQ(options(nameOf(kPaper, change)).beta_deg, std::stof(change.value));
+    }
+    EXPECT_EQ(options("default, context_m=zone").context_m, 40);
+    EXPECT_EQ(options("without surface, principal_components=W").principal_components,
+              options(kDefault).window_size);
+    EXPECT_FALSE(options("without surface, context_m=zone").ground_surface);
+    EXPECT_EQ(options("default, ground_surface=false").ground_surface,
+              options(kWithoutSurface + ", seed_gate_deg=90").ground_surface);
+}
+
+TEST(Rows, ThePapersHaveNoneOfOurStages) {
+    test::TemporaryFolder config;
+    for (const char* file : {"vlp16.yaml", "common.yaml", "paper.yaml"}) {
+        fs::copy_file(fs::path(kConfig) / file, config / file);
+    }
+    DataSet set;
+    set.preset = "vlp16.yaml";
+    EXPECT_NO_THROW(rowsFor(set, config.path()));
+    for (const char* stage : {"ground_surface: true", "level_by_attitude: true",
+                              "seed_gate_deg: 30", "repair_max_step_m: 1", "context_m: 48"}) {
+        const std::string ours = config.write("ours.yaml", stage + std::string("\n"));
+        config.write("paper.yaml", "include: [" + kConfig + "/paper.yaml, " + ours + "]\n");
+        const std::string message = test::messageOf([&] { rowsFor(set, config.path()); });
+        EXPECT_NE(message.find("has a stage that the paper has not"), std::string::npos) << stage;
+    }
+}
+
+// The tuning's seeds are never scored.
+TEST(DataSets, AreFlightsOfTheSeedsAsked) {
+    for (const DataSet& set : dataSets("", "data", {{101, 102}, 3})) {
+        ASSERT_FALSE(set.flights.empty()) << set.name;
+        for (const SimulatedLog& flight : set.flights) {
+            EXPECT_TRUE(flight.seed == 101 || flight.seed == 102);
+            EXPECT_EQ(flight.scans, 3);
+            EXPECT_EQ(flight.tilt_sd_deg, 4);
+        }
+    }
+}
+
+class Flights : public testing::Test {
+ protected:
+    Flights() {
+        for (DataSet& set : dataSets("", folder_.path(), {{101}, 1})) {
+            if (set.name == "field") field_ = set;
+        }
+    }
+    fs::file_time_type timeOfScan() const {
+        return fs::last_write_time(field_.flights.front().folder / "velodyne/000000.bin");
+    }
+    test::TemporaryFolder folder_;
+    DataSet field_;
+};
+
+TEST_F(Flights, AreUsedAgainWhereTheSameMadeThem) {
+    makeFlights(field_, "one");
+    EXPECT_EQ(scanFolders(field_).size(), 1u);
+    const auto made = timeOfScan();
+    makeFlights(field_, "one");
+    EXPECT_EQ(timeOfScan(), made);
+    makeFlights(field_, "two");  // another version of the simulation
+    const auto made_again = timeOfScan();
+    EXPECT_GT(made_again, made);
+    field_.flights.front().altitude_m = 3;
+    makeFlights(field_, "two");
+    EXPECT_GT(timeOfScan(), made_again);
+}
+
+TEST_F(Flights, ThatWereNotFinishedAreMadeAnew) {
+    makeFlights(field_, "one");
+    fs::remove(field_.flights.front().folder.string() + ".stamp");
+    const auto made = timeOfScan();
+    makeFlights(field_, "one");
+    EXPECT_GT(timeOfScan(), made);
+}
+
+class PaperResults : public testing::Test {
+ protected:
+    test::Outcome run(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.end(),
+                         {"--data", (folder_ / "data").string(), "--quick", "--config", kConfig});
+        return test::run(HAGEN_PAPER_RESULTS, arguments);
+    }
+    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
+                       const std::string& words) const {
+        const auto outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_TRUE(outcome.out.empty());
+    }
+    /// Recordings of a pole on flat ground, with SemanticKITTI's classes for road and pole.
+    std::string labelledPoles() const {
+        test::SimpleScene scene;
+        scene.poles.push_back({12, 2, 0.15, 8});
+        const SensorModel sensor = sensorModel("VLP-16");
+        const auto labelled = test::scanScene(scene, sensor, 870, {0, 0, 2});
+        LabelledReturns truth;
+        truth.label = labelled.truth;
+        truth.component.assign(truth.label.size(), 0);
+        std::vector<std::uint32_t> classes;
+        for (const Label label : truth.label) classes.push_back(label == Label::Roi ? 80 : 40);
+        for (const char* name : {"labelled/beams16/00", "labelled/beams64/00"}) {
+            fs::create_directories(folder_ / name / "semantic");
+            ScanFolderWriter writer(folder_ / name);
+            writer.write("000000", labelled.scan, truth, sensor, 0.0);
+            writer.finish();
+            folder_.write(
+                std::string(name) + "/semantic/000000.label",
+                std::string(reinterpret_cast<const char*>(classes.data()), 4 * classes.size()));
+        }
+        return (folder_ / "labelled").string();
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(PaperResults, RefusesWrongUsage) {
+    expectFailure({}, 2, "--output");
+    expectFailure({"-o", (folder_ / "none").string()}, 2, "none");
+    expectFailure({"-o", folder_.path(), "--beta", "5"}, 2, "--beta");
+}
+
+TEST_F(PaperResults, NamesTheRecordingThatIsMissing) {
+    expectFailure({"-o", folder_.path(), "--labelled", (folder_ / "labelled").string()}, 1,
+                  "beams16: there is no such folder; HAGEN_LABELLED_DATA");
+    fs::create_directories(folder_ / "labelled/beams16");
+    fs::create_directories(folder_ / "labelled/beams64");
+    expectFailure({"-o", folder_.path(), "--labelled", (folder_ / "labelled").string()}, 1,
+                  "holds no scan folders");
+    EXPECT_FALSE(fs::exists(folder_ / "results.md"));
+}
+
+TEST_F(PaperResults, NamesTheSettingsThatAreMissing) {
+    const auto outcome = test::run(
+        HAGEN_PAPER_RESULTS,
+        {"-o", folder_.path(), "--data", folder_.path(), "--quick", "--config", folder_.path()});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("vlp16.yaml"), std::string::npos) << outcome.err;
+}
+
+TEST_F(PaperResults, ReplacesNothingUnasked) {
+    folder_.write("results.md", "mine");
+    expectFailure({"-o", folder_.path()}, 1, "--overwrite");
+    EXPECT_EQ(test::readFile(folder_ / "results.md"), "mine");
+    fs::create_directories(folder_ / "results");
+    folder_.write("results/holiday.svg", "mine");
+    expectFailure({"-o", folder_.path(), "--overwrite"}, 1, "holiday.svg");
+}
+
+TEST(ReproducePaper, RefusesWrongUsage) {
+    const std::string script = HAGEN_SOURCE_DIR "/scripts/reproduce-paper";
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--fast"}, {"--data"}, {"--quick", "results.md"}}) {
+        const auto outcome = test::run(script, arguments);
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_NE(outcome.err.find("Usage: scripts/reproduce-paper"), std::string::npos);
+    }
+    EXPECT_EQ(test::run(script, {"--help"}).exit_code, 0);
+}
+
+using PaperResultsRun = PaperResults;
+
+TEST_F(PaperResultsRun, HasEveryTableAndFigure) {
+    const auto outcome = run({"-o", folder_.path(), "--labelled", labelledPoles(), "--revision",
+                              "v1-test", "--overwrite"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string document = test::readFile(folder_ / "results.md");
+    EXPECT_EQ(document, outcome.out);
+    for (const std::string words : {"## The filter beside others",
+                                    "| real, 16 beams ",
+                                    "| simulated, 7 m ",
+                                    "| HDL-64E ",
+                                    "zermas tuned",
+                                    "recall within 10 m",
+                                    "## The paper's tables",
+                                    "| 12.5 ",
+                                    "| PC ",
+                                    "top_and_nearest",
+                                    "## Run time",
+                                    "mean +- sd",
+                                    "p99",
+                                    "## What each stage is worth",
+                                    "no seed gate",
+                                    "Bold is what is higher",
+                                    "no SSA",
+                                    "## Data",
+                                    "101",
+                                    "v1-test",
+                                    "Embree",
+                                    "quick run"}) {
+        EXPECT_NE(document.find(words), std::string::npos) << words;
+    }
+    EXPECT_EQ(document.find(folder_.path().string()), std::string::npos);  // no paths
+    EXPECT_EQ(document.find("nan"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder_ / "results/by_scan.svg"));
+    EXPECT_TRUE(fs::exists(folder_ / "results/by_returns.svg"));
+}
+
+}  // namespace
+}  // namespace hagen
