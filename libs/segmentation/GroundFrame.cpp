@@ -18,6 +18,11 @@ constexpr double kLeastScale_m = 0.3;
 constexpr double kAbove = 2.0, kBelow = 1.0;  // what is above the ground counts less, sooner
 constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
 
+// What can be ground.
+constexpr float kLeastHeight_m = 0.1f;   // of the sensor above it
+constexpr float kLeastCosine = 0.7071f;  // of the tilt against it, 45 degrees
+constexpr Eigen::Index kLeastPixels = 50;
+
 /// The lowest point of each cell that has one.
 std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels,
                                            const Eigen::Matrix3f& rotation) {
@@ -89,6 +94,13 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
     ground_from_sensor.linear() = turn.toRotationMatrix().cast<float>() * level;
     ground_from_sensor.translation().z() = static_cast<float>(-plane.z() * normal.z());
     return ground_from_sensor;
+}
+
+bool canBeGround(const Eigen::Isometry3f& ground_from_sensor, const Image<Label>& labels) {
+    const float sensor_height_m = ground_from_sensor.translation().z();
+    const float cosine_of_tilt = ground_from_sensor.linear()(2, 2);
+    return sensor_height_m > kLeastHeight_m && cosine_of_tilt > kLeastCosine &&
+           (labels == Label::Rou).count() >= kLeastPixels;
 }
 
 Eigen::Vector3f upwards(const Eigen::Isometry3f& ground_from_sensor,

@@ -70,6 +70,9 @@ void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>&
     locatePixels(scan, sensor_, r.range_image, r.repaired_m, g.pixels);
     g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}));
     movePixels(g.from_sensor, g.pixels);
+    g.is_seen = canBeGround(g.from_sensor, r.labels);
+    r.own_label.clear();
+    if (!g.is_seen) return;  // the labels of the regions stand
     fitGroundSurface(g.pixels, r.labels, g.surface);
 
     // every pixel against it

@@ -164,6 +164,25 @@ TEST(GroundFrame, PointsOnALineAreNoError) {
     EXPECT_LT(greatestHeight(frame, line), 0.01f);
 }
 
+TEST(CanBeGround, IsSaidOfWhatLiesBelowAndIsNotTooSteep) {
+    const auto frameAt = [](float height_m, double tilt_deg) {
+        Eigen::Isometry3f frame = Eigen::Isometry3f::Identity();
+        frame.linear() = levelFromSensor({static_cast<float>(radians(tilt_deg)), 0});
+        frame.translation().z() = height_m;
+        return frame;
+    };
+    Image<Label> labels = Image<Label>::Constant(16, 10, Label::Roi);
+    labels.leftCols(4) = Label::Rou;  // 64 pixels
+    EXPECT_TRUE(canBeGround(frameAt(2, 0), labels));
+    EXPECT_TRUE(canBeGround(frameAt(2, 44), labels));
+    EXPECT_TRUE(canBeGround(frameAt(2, -44), labels));
+    EXPECT_FALSE(canBeGround(frameAt(2, 46), labels));
+    EXPECT_FALSE(canBeGround(frameAt(0.05f, 0), labels));
+    EXPECT_FALSE(canBeGround(frameAt(-2, 0), labels));
+    labels.leftCols(1) = Label::Roi;  // 48
+    EXPECT_FALSE(canBeGround(frameAt(2, 0), labels));
+}
+
 TEST(Upwards, WithoutAttitudeIsTheGroundsNormal) {
     const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, 0.1f}, 2)), {});
     EXPECT_EQ(upwards(frame, std::nullopt), Eigen::Vector3f::UnitZ());

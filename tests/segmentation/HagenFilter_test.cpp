@@ -149,6 +149,36 @@ Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitu
     return test::scanOf(sensor, points);
 }
 
+TEST(HagenFilter, WithoutGroundInSightWhatIsSeenDoesNotBecomeIt) {
+    // 30 m up beside two towers and a mast, and nothing else within reach.
+    SimpleScene scene;
+    scene.has_ground = false;
+    scene.boxes = {{{8, -6, 0}, {12, 6, 60}}, {{-20, 5, 0}, {-10, 9, 45}}};
+    scene.poles = {{3, -10, 0.3, 40}};
+    const auto scanned = test::scanScene(scene, sensorModel("VLP-16"), 870, {0, 0, 30});
+    HagenFilter filter(sensorModel("VLP-16"));
+    const SegmentationResult& result = filter.segment(scanned.scan);
+    ASSERT_GT(scanned.scan.size(), 2000u);
+    EXPECT_FALSE(result.ground.is_seen);
+    for (std::size_t i = 0; i < scanned.scan.size(); ++i) {
+        if (scanned.scan.range_m[i] > 20) continue;
+        ASSERT_EQ(result.returns.label[i], Label::Roi) << i;
+    }
+}
+
+TEST(HagenFilter, ALoneReturnIsAnObstacle) {
+    HagenFilter filter(sensorModel("VLP-16"));
+    filter.segment(
+        test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan);  // ground, before
+    Scan scan;
+    scan.x_m = {5.0f};
+    scan.y_m = {0.0f};
+    scan.z_m = {0.1f};
+    scan.intensity = {0.5f};
+    locateBeams(filter.sensor(), scan);
+    EXPECT_EQ(filter.segment(scan).returns.label, std::vector<Label>{Label::Roi});
+}
+
 TEST(HagenFilter, ATiltedSensorThatKnowsItFindsTheHorizon) {
     SimpleScene scene;
     scene.boxes.push_back({{10, -5, 0}, {11, 5, 6}});

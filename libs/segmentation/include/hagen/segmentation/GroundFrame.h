@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/range_image/Label.h>
 #include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/PixelPoints.h>
 #include <Eigen/Geometry>
@@ -17,6 +18,11 @@ namespace hagen {
 /// Fewer than three cells with points: the frame of a level plane (by `attitude`) through the
 /// lowest of them, or through the sensor where there is none.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);
+
+/// Whether what the frame was fitted to can be ground: the sensor is above it, is tilted against it
+/// by less than 45 degrees, and at least 50 pixels are labelled ROU. High up, beside a tower or a
+/// tree, no ground is seen; what is seen must not become it.
+bool canBeGround(const Eigen::Isometry3f& ground_from_sensor, const Image<Label>& labels);
 
 /// The unit vector against gravity in the ground's frame; where the attitude is not known, the
 /// ground's normal.
