@@ -11,8 +11,9 @@ namespace hagen {
 namespace {
 
 // Apart for the colour-blind too, and both apart from the viewer's grey.
-const mrpt::img::TColor kRoiColor(213, 94, 0), kRouColor(150, 190, 230), kZoneColor(240, 240, 240);
-constexpr std::uint32_t kLeastBoxed = 5;  // returns; a box around fewer only hides them
+const mrpt::img::TColor kRoiColor(213, 94, 0), kRouColor(150, 190, 230), kZoneColor(240, 240, 240),
+    kBoxColor(255, 190, 120);
+constexpr std::uint32_t kLeastBoxed = 30;  // returns; boxes around fewer only hide them
 constexpr float kRoiPixels = 4.0f, kRouPixels = 2.0f;
 
 mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& points,
@@ -34,7 +35,8 @@ mrpt::opengl::CBox::Ptr frameAround(const RoiBox& box) {
     };
     auto frame =
         mrpt::opengl::CBox::Create(corner(box.extents_m.min()), corner(box.extents_m.max()), true);
-    frame->setColor_u8(kRoiColor);
+    frame->setColor_u8(kBoxColor);
+    frame->setBoxBorderColor(kBoxColor);
     return frame;
 }
 
