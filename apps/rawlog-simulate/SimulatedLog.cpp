@@ -127,6 +127,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
             "packets of '" + sensor.name +
             "' are not known, so there is no rawlog of it; ask for a scan folder alone");
     }
+    checkApart({log.rawlog, log.folder, log.poses}, {});
     Outputs outputs(log);
     const Scene scene = makeScene(log.scenario, log.seed);
     FlightSettings settings;

@@ -49,10 +49,13 @@ TruthFolder::TruthFolder(const fs::path& folder, bool overwrite)
 void TruthFolder::write(const Scan& scan, const Truth& truth, const SensorModel& sensor,
                         double time_s, const mrpt::poses::CPose3D& sensor_pose, double altitude_m) {
     LabelledReturns returns;
-    for (const Kind kind : truth.kind) returns.label.push_back(labelOf(kind));
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        returns.label.push_back(sensor.sees(scan.range_m[i]) ? labelOf(truth.kind[i])
+                                                             : Label::Unclassified);
+    }
     returns.component.assign(truth.object.begin(), truth.object.end());
     const std::string name = scanName(altitudes_m_.size());
-    writer_.write(name, scan, returns, sensor, time_s, sensor_pose);
+    writer_.write(name, scan, returns, sensor, time_s, sensor_pose, true);
     writeLabels(path_.temporary() / "semantic" / (name + ".label"), asLabels(truth.kind),
                 returns.component);
     altitudes_m_.push_back(altitude_m);

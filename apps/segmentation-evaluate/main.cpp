@@ -70,6 +70,8 @@ auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read
 /// The places to write to, each where it was asked for. Nothing appears before all is written.
 struct Outputs {
     explicit Outputs(const Flags& flags) {
+        checkApart({flags.json, flags.charts, flags.overlay},
+                   {flags.folders.begin(), flags.folders.end()});
         const auto open = [&](const std::string& path, OutputPath::Kind kind,
                               std::optional<OutputPath>& output) {
             if (path.empty()) return;

@@ -62,6 +62,7 @@ class Converter {
     void setPoses(const LogPoses& poses) {
         vehicle_ = poses.vehicle;
         report_.poses = poses.source;
+        levels_by_file_ = !conversion_.poses.empty() && poses.vehicle.has_horizon;
     }
 
     /// Whether the entry is one to convert; counts those that are not.
@@ -76,7 +77,9 @@ class Converter {
     ConversionOutputs& outputs() { return outputs_; }
 
     /// Notes what an observation tells of the vehicle.
-    void see(const CObservation& observation) { segmenter_.see(observation); }
+    void see(const CObservation& observation) {
+        if (!levels_by_file_) segmenter_.see(observation);
+    }
 
     /// Segments an observation where it is a LiDAR scan: what comes after it in the log. `name`: of
     /// the scan in its folder.
@@ -193,6 +196,7 @@ class Converter {
 
     const Conversion& conversion_;
     const ConversionListener& listener_;
+    bool levels_by_file_ = false;  ///< poses that the user gave win over what the log tells
     Trajectory vehicle_;
     ConversionOutputs outputs_;
     ObservationSegmenter segmenter_;
@@ -202,10 +206,19 @@ class Converter {
 };
 
 /// One entry of a rawlog, with the clouds that come with it.
+/// Notes what an entry tells of the vehicle.
+void seeEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converter& converter) {
+    if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+        for (const CObservation::Ptr& observation : *frame) converter.see(*observation);
+    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
+        converter.see(*observation);
+    }
+}
+
 void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converter& converter) {
+    seeEntry(entry, converter);
     if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
         Converter::Clouds clouds;
-        for (const CObservation::Ptr& observation : *frame) converter.see(*observation);
         for (const CObservation::Ptr& observation : *frame) {
             const Converter::Clouds own = converter.segment(*observation);
             clouds.insert(clouds.end(), own.begin(), own.end());
@@ -216,7 +229,6 @@ void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converte
     }
     converter.outputs().writeEntry(*entry);
     if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
-        converter.see(*observation);
         for (const CObservation::Ptr& cloud : converter.segment(*observation)) {
             converter.outputs().writeEntry(*cloud);
         }
@@ -274,7 +286,10 @@ ConversionReport convertRawlog(const Conversion& conversion, const ConversionLis
             const bool is_taken = converter.takes(reader.entries());
             const auto entry = reader.next();
             if (!entry) break;
-            if (!is_taken) continue;
+            if (!is_taken) {
+                seeEntry(entry, converter);  // the first scan that is taken may need it
+                continue;
+            }
             convertEntry(entry, converter);
             converter.countEntry(reader.fractionRead());
         }
@@ -321,43 +336,14 @@ ConversionReport convertFolder(const Conversion& conversion, const ConversionLis
     return converter.finish(folder.size());
 }
 
-/// Whether `inner` is `outer`, or lies in it.
-bool isWithin(const fs::path& inner, const fs::path& outer) {
-    const auto resolved = [](const fs::path& path) {
-        const fs::path whole = fs::weakly_canonical(fs::absolute(path));
-        return whole.has_filename() ? whole : whole.parent_path();  // "folder/"
-    };
-    const fs::path below = resolved(inner), above = resolved(outer);
-    return std::mismatch(above.begin(), above.end(), below.begin(), below.end()).first ==
-           above.end();
-}
-
-void checkOutputs(const Conversion& conversion) {
-    const std::array<fs::path, 4> outputs{conversion.rawlog, conversion.folder, conversion.pictures,
-                                          conversion.stats};
-    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-        if (output->empty()) continue;
-        for (const fs::path& input : {conversion.input, conversion.poses}) {
-            if (input.empty() || !isWithin(input, *output)) continue;
-            throw std::runtime_error(output->string() +
-                                     ": is the input, or holds it; give the output another name");
-        }
-        for (auto other = output + 1; other != outputs.end(); ++other) {
-            if (other->empty()) continue;
-            if (!isWithin(*output, *other) && !isWithin(*other, *output)) continue;
-            throw std::runtime_error(output->string() + " and " + other->string() +
-                                     ": one output lies in the other; give them apart");
-        }
-    }
-}
-
 }  // namespace
 
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener) {
     if (!fs::exists(conversion.input)) {
         throw std::runtime_error(conversion.input.string() + ": no such file or folder");
     }
-    checkOutputs(conversion);
+    checkApart({conversion.rawlog, conversion.folder, conversion.pictures, conversion.stats},
+               {conversion.input, conversion.poses});
     return fs::is_directory(conversion.input) ? convertFolder(conversion, listener)
                                               : convertRawlog(conversion, listener);
 }

@@ -84,6 +84,17 @@ fs::path freeName(const fs::path& stem, const std::string& mark, const fs::path&
     }
 }
 
+/// Whether `inner` is `outer`, or lies in it.
+bool isWithin(const fs::path& inner, const fs::path& outer) {
+    const auto resolved = [](const fs::path& path) {
+        const fs::path whole = fs::weakly_canonical(fs::absolute(path));
+        return whole.has_filename() ? whole : whole.parent_path();  // "folder/"
+    };
+    const fs::path below = resolved(inner), above = resolved(outer);
+    return std::mismatch(above.begin(), above.end(), below.begin(), below.end()).first ==
+           above.end();
+}
+
 }  // namespace
 
 OutputPath::OutputPath(fs::path path, Kind kind, bool overwrite)
@@ -135,6 +146,23 @@ fs::path OutputPath::keepPartial() {
     const fs::path name = freeName(stem, ".partial", is_folder ? fs::path() : path_.extension());
     fs::rename(temporary_, name);
     return name;
+}
+
+void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        if (output->empty()) continue;
+        for (const fs::path& input : inputs) {
+            if (input.empty() || !isWithin(input, *output)) continue;
+            throw std::runtime_error(output->string() +
+                                     ": is the input, or holds it; give the output another name");
+        }
+        for (auto other = output + 1; other != outputs.end(); ++other) {
+            if (other->empty()) continue;
+            if (!isWithin(*output, *other) && !isWithin(*other, *output)) continue;
+            throw std::runtime_error(output->string() + " and " + other->string() +
+                                     ": one output lies in the other; give them apart");
+        }
+    }
 }
 
 }  // namespace hagen

@@ -40,8 +40,8 @@ ScanFolderWriter::ScanFolderWriter(fs::path folder) : folder_(std::move(folder))
 
 void ScanFolderWriter::write(const std::string& name, const Scan& scan,
                              const LabelledReturns& returns, const SensorModel& sensor,
-                             double time_s,
-                             const std::optional<mrpt::poses::CPose3D>& sensor_pose) {
+                             double time_s, const std::optional<mrpt::poses::CPose3D>& sensor_pose,
+                             bool pose_has_horizon) {
     if (times_s_.empty()) {
         writeSensor(folder_ / "sensor.yaml", sensor);
         first_time_s_ = time_s;
@@ -53,6 +53,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
     writeLabels(folder_ / "labels" / (name + ".label"), labels, components);
     times_s_.push_back(time_s - first_time_s_);
     if (sensor_pose) poses_.push_back({times_s_.back(), *sensor_pose});
+    have_horizon_ = have_horizon_ && pose_has_horizon;
 }
 
 void ScanFolderWriter::finish() const {
@@ -62,7 +63,7 @@ void ScanFolderWriter::finish() const {
     for (const double time_s : times_s_) out << time_s << "\n";
     closeWritten(out, file);
     if (poses_.empty()) return;
-    writeTumPoses(folder_ / "poses.tum", poses_);
+    if (have_horizon_) writeTumPoses(folder_ / "poses.tum", poses_);
     if (poses_.size() < times_s_.size()) return;
     std::vector<mrpt::poses::CPose3D> sensor_poses;
     for (const TimedPose& pose : poses_) sensor_poses.push_back(pose.pose);

@@ -40,6 +40,7 @@ std::optional<CPose3D> rotationOf(const CObservationIMU& imu) {
 }  // namespace
 
 void Horizon::see(const mrpt::obs::CObservation& observation) {
+    if (observation.timestamp == INVALID_TIMESTAMP) return;
     const CPose3D sensor_on_vehicle(observation.sensorPose());
     if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
         vehicle_ = pose->pose.mean + (-sensor_on_vehicle);
@@ -54,7 +55,8 @@ void Horizon::see(const mrpt::obs::CObservation& observation) {
 }
 
 std::optional<CPose3D> Horizon::at(mrpt::Clock::time_point time) const {
-    if (!vehicle_ || std::abs(mrpt::system::timeDifference(time_, time)) > kLongest_s) {
+    if (!vehicle_ || time == INVALID_TIMESTAMP ||
+        std::abs(mrpt::system::timeDifference(time_, time)) > kLongest_s) {
         return std::nullopt;
     }
     return vehicle_;

@@ -84,10 +84,11 @@ const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observ
 std::optional<Attitude> ObservationSegmenter::attitudeOf(
     const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
     const std::optional<mrpt::poses::CPose3D>& sensor_pose) const {
-    std::optional<mrpt::poses::CPose3D> pose = vehicle.has_horizon ? sensor_pose : std::nullopt;
-    if (!pose) {
-        pose = horizon_.at(observation.timestamp);
-        if (pose) *pose += mrpt::poses::CPose3D(observation.sensorPose());
+    std::optional<mrpt::poses::CPose3D> pose = horizon_.at(observation.timestamp);
+    if (pose) {
+        *pose += mrpt::poses::CPose3D(observation.sensorPose());
+    } else if (vehicle.has_horizon) {
+        pose = sensor_pose;
     }
     if (!pose) return std::nullopt;
     return Attitude{static_cast<float>(pose->roll()), static_cast<float>(pose->pitch())};
@@ -113,10 +114,11 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     const Scan& window = windowOf(observation, vehicle, sensor_pose, lidar, remark);
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
 
-    profiler.enter("process.segment");
     const std::optional<Attitude> attitude = attitudeOf(observation, vehicle, sensor_pose);
+    std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
+                                                             "process.segment");
     const SegmentationResult& result = lidar.filter.segment(window, attitude);
-    profiler.leave("process.segment");
+    segmenting.reset();
 
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
     // Indices beyond the scan are those of older ones in its window.
@@ -128,6 +130,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.sensor = &lidar.filter.sensor();
     out.is_sensor_assumed = observed_.is_sensor_assumed;
     out.sensor_pose = sensor_pose;
+    out.pose_has_horizon = sensor_pose && vehicle.has_horizon;
     out.attitude = attitude;
     out.remark = remark;
     return true;

@@ -17,9 +17,10 @@ constexpr float kLeastCells = 30;                     // seen around; fewer tell
 constexpr float kDeviations = 2.0f;
 constexpr float kMargin_m = 0.1f;
 
+/// The cell of a coordinate, or -1 beyond the grid.
 int cellOf(float coordinate_m) {
     const float cell = std::floor(coordinate_m / GroundSurface::kCell_m) + 0.5f * kCells;
-    return static_cast<int>(std::clamp(cell, 0.0f, kCells - 1.0f));
+    return cell >= 0 && cell < kCells ? static_cast<int>(cell) : -1;
 }
 
 /// What stands in the cells of a block, or of many.
@@ -72,8 +73,9 @@ void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         const float h_m = height_m.data()[pixel];
         if (!hasValue(h_m)) continue;
-        float& top = top_m(cellOf(pixels.x_m.data()[pixel]), cellOf(pixels.y_m.data()[pixel]));
-        if (!(top >= h_m)) top = h_m;
+        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
+        if (i < 0 || j < 0) continue;
+        if (!(top_m(i, j) >= h_m)) top_m(i, j) = h_m;
     }
     Stands stands(kBlocks, kBlocks);
     for (int j = 0; j < kCells; ++j) {
@@ -86,6 +88,7 @@ void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         if (!hasValue(height_m.data()[pixel])) continue;
         const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
+        if (i < 0 || j < 0) continue;
         float& tolerated_m = tolerance_m.data()[pixel];
         tolerated_m = std::max(tolerated_m, around(i / kBlockCells, j / kBlockCells).canopy_m());
     }

@@ -96,9 +96,10 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
     return ground_from_sensor;
 }
 
-bool canBeGround(const Eigen::Isometry3f& ground_from_sensor, const Image<Label>& labels) {
+bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
+                 const std::optional<Attitude>& attitude, const Image<Label>& labels) {
     const float sensor_height_m = ground_from_sensor.translation().z();
-    const float cosine_of_tilt = ground_from_sensor.linear()(2, 2);
+    const float cosine_of_tilt = upwards(ground_from_sensor, attitude.value_or(Attitude{})).z();
     return sensor_height_m > kLeastHeight_m && cosine_of_tilt > kLeastCosine &&
            (labels == Label::Rou).count() >= kLeastPixels;
 }

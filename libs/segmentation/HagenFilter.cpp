@@ -52,7 +52,13 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     // III-E, labels
     labelRegions(depth_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,
                  radiansf(o.seed_gate_deg), r.labels);
-    if (o.ground_surface) judgeByGround(scan, horizon);
+    if (o.ground_surface || o.ground_is_roi_below_m > 0) findGround(scan, horizon);
+    if (o.ground_surface && r.ground.is_seen) judgeByGround(scan);
+    if (o.ground_is_roi_below_m > 0) {
+        const Eigen::Vector3f up = upwards(r.ground, horizon);
+        alarmLowGround(r.ground, up, o.ground_is_roi_below_m, r.labels);
+        alarmLowGround(scan, r.ground, up, o.ground_is_roi_below_m, r.own_label);
+    }
     limitToZone(depth_m, o.zone_m, r.labels);
     numberRoiComponents(depth_m, r.labels, o.component_gap_m, r.components);
     extractReturns(scan, sensor_, r.range_image, r.labels, r.components, r.own_label, o.zone_m,
@@ -60,22 +66,24 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     return r;
 }
 
+/// Beyond the paper: the plane that the ground lies about, if there is any in sight.
+void HagenFilter::findGround(const Scan& scan, const std::optional<Attitude>& horizon) {
+    Ground& g = result_.ground;
+    locatePixels(scan, sensor_, result_.range_image, result_.repaired_m, g.pixels);
+    g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}));
+    movePixels(g.from_sensor, g.pixels);
+    g.is_seen = canBeGround(g.from_sensor, horizon, result_.labels);
+    result_.own_label.clear();
+}
+
 /// Beyond the paper: the ground that was found tells what else is ground.
-void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon) {
+void HagenFilter::judgeByGround(const Scan& scan) {
     const Options& o = options_;
     SegmentationResult& r = result_;
     Ground& g = r.ground;
 
-    // the surface under the ROU
-    locatePixels(scan, sensor_, r.range_image, r.repaired_m, g.pixels);
-    g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}));
-    movePixels(g.from_sensor, g.pixels);
-    g.is_seen = canBeGround(g.from_sensor, r.labels);
-    r.own_label.clear();
-    if (!g.is_seen) return;  // the labels of the regions stand
+    // every pixel against the surface under the ROU
     fitGroundSurface(g.pixels, r.labels, g.surface);
-
-    // every pixel against it
     heightsAbove(g.surface, g.pixels, g.height_m);
     toleratedHeights(
         g.pixels, g.height_m,
@@ -84,11 +92,9 @@ void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>&
     if (o.canopy_layer) tolerateCanopy(g.pixels, g.height_m, g.tolerance_m);
     labelByHeight(g.height_m, g.tolerance_m, r.labels);
 
-    // obstacles down to their feet, without specks; ground that comes too close
+    // obstacles down to their feet, without specks; what is seen past them
     if (o.grow_feet) growFeet(g.pixels, g.height_m, r.labels);
     if (o.remove_specks) removeSpecks(g.pixels, g.height_m, g.tolerance_m, r.labels);
-    alarmLowGround(g.pixels, g.from_sensor.translation(), upwards(g.from_sensor, horizon),
-                   o.ground_is_roi_below_m, r.labels);
     judgeFartherReturns(scan, r.range_image, g, r.own_label);
 }
 

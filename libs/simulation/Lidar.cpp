@@ -249,7 +249,8 @@ class Receiver {
     static constexpr double kDust_m = 15.0;  // farther specks are too faint
 
     float noisy(float range_m, float times) {
-        return range_m + static_cast<float>(faults_.least_noise_m * random_.roughlyNormal()) * times;
+        return range_m +
+               static_cast<float>(faults_.least_noise_m * random_.roughlyNormal()) * times;
     }
 
     /// How far before the soil the grass sends a beam back.

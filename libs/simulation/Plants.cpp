@@ -64,7 +64,8 @@ void addBranch(const Trunk& trunk, double z_m, double length_m, double radius_m,
     const Vector3d elbow = from + 0.5 * length_m * out;
     const Vector3d end =
         elbow + 0.5 * length_m * (out + 0.4 * randomDirection(random)).normalized();
-    shape.addTube({knot(from, radius_m), knot(elbow, 0.7 * radius_m), knot(end, 0.25 * radius_m)}, 3);
+    shape.addTube({knot(from, radius_m), knot(elbow, 0.7 * radius_m), knot(end, 0.25 * radius_m)},
+                  3);
     for (const double share : {0.3, 0.6, 0.9}) leafy.push_back(elbow + share * (end - elbow));
     leafy.push_back(from + 0.75 * (elbow - from));
 }

@@ -59,8 +59,8 @@ void Shape::addTube(const std::vector<Eigen::Vector4f>& knots, int sides) {
         const Vector3f aside = along.unitOrthogonal(), other = along.cross(aside);
         for (int side = 0; side < sides; ++side) {
             const auto angle = static_cast<float>(2 * kPi * side / sides);
-            vertices_m.push_back(at.head<3>() + at.w() * (std::cos(angle) * aside +
-                                                          std::sin(angle) * other));
+            vertices_m.push_back(at.head<3>() +
+                                 at.w() * (std::cos(angle) * aside + std::sin(angle) * other));
         }
     }
     for (std::uint32_t i = 0; i + 1 < knots.size(); ++i) {

@@ -43,6 +43,18 @@ TEST(Horizon, TakesTheRobotsPoseForFifthOfASecond) {
     EXPECT_FALSE(horizon.at(later(201)));
 }
 
+TEST(Horizon, WhatHasNoTimeTellsNothing) {
+    Horizon horizon;
+    auto untimed = poseOf({0, 0, 0, 0, 0.1, 0});
+    untimed.timestamp = INVALID_TIMESTAMP;
+    horizon.see(untimed);
+    EXPECT_FALSE(horizon.at(kTime));
+    EXPECT_FALSE(horizon.at(INVALID_TIMESTAMP));
+    horizon.see(poseOf({0, 0, 0, 0, 0.1, 0}));
+    EXPECT_FALSE(horizon.at(INVALID_TIMESTAMP));
+    EXPECT_TRUE(horizon.at(kTime));
+}
+
 TEST(Horizon, TheLastOneSeenCounts) {
     Horizon horizon;
     horizon.see(poseOf({0, 0, 0, 0, 0.1, 0}));

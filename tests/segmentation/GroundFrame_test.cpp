@@ -173,14 +173,18 @@ TEST(CanBeGround, IsSaidOfWhatLiesBelowAndIsNotTooSteep) {
     };
     Image<Label> labels = Image<Label>::Constant(16, 10, Label::Roi);
     labels.leftCols(4) = Label::Rou;  // 64 pixels
-    EXPECT_TRUE(canBeGround(frameAt(2, 0), labels));
-    EXPECT_TRUE(canBeGround(frameAt(2, 44), labels));
-    EXPECT_TRUE(canBeGround(frameAt(2, -44), labels));
-    EXPECT_FALSE(canBeGround(frameAt(2, 46), labels));
-    EXPECT_FALSE(canBeGround(frameAt(0.05f, 0), labels));
-    EXPECT_FALSE(canBeGround(frameAt(-2, 0), labels));
+    EXPECT_TRUE(canBeGround(frameAt(2, 0), {}, labels));
+    EXPECT_TRUE(canBeGround(frameAt(2, 44), {}, labels));
+    EXPECT_TRUE(canBeGround(frameAt(2, -44), {}, labels));
+    EXPECT_FALSE(canBeGround(frameAt(2, 46), {}, labels));
+    // A sensor mounted so, that knows it.
+    const Attitude mounted{static_cast<float>(radians(60)), 0};
+    EXPECT_TRUE(canBeGround(frameAt(2, 60), mounted, labels));
+    EXPECT_FALSE(canBeGround(frameAt(2, 0), mounted, labels));
+    EXPECT_FALSE(canBeGround(frameAt(0.05f, 0), {}, labels));
+    EXPECT_FALSE(canBeGround(frameAt(-2, 0), {}, labels));
     labels.leftCols(1) = Label::Roi;  // 48
-    EXPECT_FALSE(canBeGround(frameAt(2, 0), labels));
+    EXPECT_FALSE(canBeGround(frameAt(2, 0), {}, labels));
 }
 
 TEST(Upwards, WithoutAttitudeIsTheGroundsNormal) {

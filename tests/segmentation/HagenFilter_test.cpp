@@ -219,6 +219,18 @@ TEST(HagenFilter, GroundThatComesTooCloseIsRoi) {
     EXPECT_EQ(mistakes(ground, low.segment(ground.scan), Label::Rou), count(ground, Label::Rou));
 }
 
+TEST(HagenFilter, TheAlarmOfLowGroundNeedsNoSurface) {
+    const auto ground = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 1});
+    Options options = paperOptions();
+    options.ground_is_roi_below_m = 1.5f;
+    HagenFilter filter(sensorModel("VLP-16"), options);
+    const SegmentationResult& result = filter.segment(ground.scan);
+    for (std::size_t i = 0; i < ground.scan.size(); ++i) {
+        const bool is_near = ground.scan.range_m[i] <= options.zone_m;
+        ASSERT_EQ(result.returns.label[i], is_near ? Label::Roi : Label::Rou) << i;
+    }
+}
+
 TEST(HagenFilter, AReturnBehindItsPixelsIsJudgedByItself) {
     const SensorModel sensor = sensorModel("VLP-16");
     auto ground = test::scanScene({}, sensor, 870, kTwoMetresUp);
@@ -472,6 +484,7 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
     const SensorModel sensor = otherSensor();
     Options o = otherOptions();
     o.ground_surface = false;
+    o.ground_is_roi_below_m = 0;
     const Attitude attitude{0.1f, -0.2f};
     for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
         o.seeds = seeds;
@@ -551,9 +564,11 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         labelByHeight(g.height_m, g.tolerance_m, labels);
         if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels);
         if ((switches & 4) != 0) removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels);
-        alarmLowGround(g.pixels, g.from_sensor.translation(), upwards(g.from_sensor, attitude),
-                       (switches & 8) != 0 ? 0.0f : 1.2f, labels);
         judgeFartherReturns(scan, r.range_image, g, own_label);
+        const Eigen::Vector3f up = upwards(g.from_sensor, attitude);
+        const float least_m = (switches & 8) != 0 ? 0.0f : 1.2f;
+        alarmLowGround(g, up, least_m, labels);
+        alarmLowGround(scan, g, up, least_m, own_label);
         limitToZone(r.repaired_m, 15.0f, labels);
         numberRoiComponents(r.repaired_m, labels, 0.4f, components);
         extractReturns(scan, sensor, r.range_image, labels, components, own_label, 15.0f, 0.4f,

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <vector>
 
 namespace hagen {
 
@@ -42,5 +43,10 @@ class OutputPath {
     Kind kind_;
     bool overwrites_;
 };
+
+/// Throws std::runtime_error, naming them, where an output is one of the inputs or holds one, or
+/// lies in another output. Empty paths are none.
+void checkApart(const std::vector<std::filesystem::path>& outputs,
+                const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace hagen

@@ -23,13 +23,16 @@ class ScanFolderWriter {
     explicit ScanFolderWriter(std::filesystem::path folder);
 
     /// Adds a scan. Labels are those of the first scan.size() returns. `sensor_pose`: the sensor in
-    /// the map at the scan's time, where it is known.
+    /// the map at the scan's time, where it is known; `pose_has_horizon`: that map's z axis points
+    /// against gravity.
     void write(const std::string& name, const Scan& scan, const LabelledReturns& returns,
                const SensorModel& sensor, double time_s,
-               const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt);
+               const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,
+               bool pose_has_horizon = true);
 
     /// Ends it: times.txt (seconds since the first scan), poses.tum of the scans whose pose is
-    /// known, and poses.txt where all are.
+    /// known, if all those have a horizon, for its readers level by them; and poses.txt where the
+    /// poses of all are known.
     void finish() const;
 
  private:
@@ -37,6 +40,7 @@ class ScanFolderWriter {
     double first_time_s_ = 0;
     std::vector<double> times_s_;  ///< since the first scan
     std::vector<TimedPose> poses_;
+    bool have_horizon_ = true;
 };
 
 }  // namespace hagen

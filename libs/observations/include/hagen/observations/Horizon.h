@@ -12,7 +12,8 @@ namespace hagen {
 /// and pitch).
 class Horizon {
  public:
-    /// Remembers what an observation says; any other kind says nothing.
+    /// Remembers what an observation says; any other kind, and one without a time, says
+    /// nothing.
     void see(const mrpt::obs::CObservation& observation);
 
     /// The vehicle's rotation against the horizon by the last one seen, where that is within 0.2 s

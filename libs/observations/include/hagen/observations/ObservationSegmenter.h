@@ -49,6 +49,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         bool is_sensor_assumed = false;  ///< a VLP-16, for neither recording nor settings tell
         /// The sensor in the map at the scan's time, where the trajectory tells it.
         std::optional<mrpt::poses::CPose3D> sensor_pose;
+        bool pose_has_horizon = false;  ///< that map's z axis points against gravity
 
         /// How the sensor was tilted, where it is known; angles are about that horizon then.
         std::optional<Attitude> attitude;
@@ -70,8 +71,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     /// end, else the scan as a whole by the pose at its time; without that it is segmented alone.
     /// The remark says which of these fell short.
     ///
-    /// The sensor's attitude is that of `vehicle` where it has a horizon, else that of the last
-    /// observation that told one (see()).
+    /// The sensor's attitude is that of the last observation that told one (see()), else that of
+    /// `vehicle` where it has a horizon.
     ///
     /// Throws std::runtime_error, saying why, for a scan that cannot be read, and SettingsError for
     /// one of a sensor that the options do not fit.

@@ -19,10 +19,12 @@ namespace hagen {
 /// lowest of them, or through the sensor where there is none.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);
 
-/// Whether what the frame was fitted to can be ground: the sensor is above it, is tilted against it
-/// by less than 45 degrees, and at least 50 pixels are labelled ROU. High up, beside a tower or a
+/// Whether what the frame was fitted to can be ground: the sensor is above it, it is tilted by less
+/// than 45 degrees against the horizon (against the airframe, where the attitude is not known), and
+/// at least 50 pixels are labelled ROU. High up, beside a tower or a
 /// tree, no ground is seen; what is seen must not become it.
-bool canBeGround(const Eigen::Isometry3f& ground_from_sensor, const Image<Label>& labels);
+bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
+                 const std::optional<Attitude>& attitude, const Image<Label>& labels);
 
 /// The unit vector against gravity in the ground's frame; where the attitude is not known, the
 /// ground's normal.

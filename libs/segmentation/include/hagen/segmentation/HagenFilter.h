@@ -54,7 +54,8 @@ class HagenFilter {
     const Options& options() const { return options_; }
 
  private:
-    void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon);
+    void findGround(const Scan& scan, const std::optional<Attitude>& horizon);
+    void judgeByGround(const Scan& scan);
 
     SensorModel sensor_;
     Options options_;
