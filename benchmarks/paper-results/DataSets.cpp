@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kEvery_s = 1.5;  // scans of one flight see different places
+constexpr double kEvery_s = 6;  // so far apart that a flight's few scans are of all its ways
 
 std::string text(double value) {
     std::ostringstream stream;

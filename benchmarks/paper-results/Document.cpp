@@ -115,7 +115,7 @@ std::string wiresTable(const std::vector<Measured>& all) {
     std::string text;
     for (const Measured& measured : all) {
         if (!isWires(measured)) continue;
-        Table table({"recall within 10 m", "all RoI", "wire", "pole", "precision of RoI"});
+        Table table({"`wires`, recall within 10 m", "all RoI", "wire", "pole", "precision of RoI"});
         for (const std::string& name : headlineNames(all)) {
             const Scores scores = sumOf({&measured}, name);
             table.add({name, cell(scores.roi.recall()), cell(recallOfKind(measured, name, "wire")),
@@ -176,7 +176,9 @@ std::string headlineSection(const std::vector<Measured>& all) {
            "`paper` is the filter as published (`config/paper.yaml`), `default` ours "
            "(`config/vlp16.yaml`, `hdl32e.yaml` or `hdl64e.yaml`, by the sensor). The others are "
            "described in [baselines.md](baselines.md); their `tuned` rows are tuned on the real "
-           "scans that they are scored on here, which favours them there. Bold is the highest of a "
+           "scans that they are scored on here, which favours them there. The same holds of "
+           "`default`, "
+           "which was tuned on simulated flights too, of other seeds. Bold is the highest of a "
            "line.\n\n" +
            headlineTable(all) + pclNote(all) + wiresTable(all) +
            "Intervals are of a bootstrap over scans; scans of one flight or drive are alike, so "
@@ -347,7 +349,9 @@ std::string ablationTable(const std::vector<Measured>& all, const std::string& f
 std::string ablationSection(const std::vector<Measured>& all) {
     return "## What each stage is worth\n\n"
            "The `default` filter without one stage at a time: first ours, then those of the paper. "
-           "Bold is what is higher without the stage.\n\n" +
+           "Bold is what is higher without the stage. Where nearly every line is that of "
+           "`default`, as with "
+           "the stages of the paper, the surface makes up for what is taken away.\n\n" +
            ablationTable(all, "`default`", kDefault, kDefault,
                          {ownStagesOfSurface(), ownStages(), paperStages()}) +
            "The surface judges every pixel again, and so hides what happens before it. The same "
