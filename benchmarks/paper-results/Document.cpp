@@ -74,8 +74,7 @@ std::string dataSection(const std::vector<Measured>& all, const Provenance& prov
         seeds += (seeds.empty() ? "" : ", ") + std::to_string(seed);
     return "## Data\n\n" + table.text() + "Simulated flights have the seeds " + seeds +
            " (ours was tuned on others, 1 and 2), a tilt of 4 degrees standard deviation, and a "
-           "scan "
-           "every 1.5 s. A flight's poses tell the attitude; `default` uses it, no other method "
+           "scan every 6 s. A flight's poses tell the attitude; `default` uses it, no other method "
            "does. "
            "On the recordings both our own stages and the baselines' `tuned` rows were tuned.\n\n" +
            (those(all, [](const DataSet& set) { return set.flights.empty(); }).empty()
