@@ -42,8 +42,8 @@ const std::vector<AirframeSpot>& airframeSpots() {
 
 const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
     for (const AirframeSpot& spot : airframeSpots()) {
-        if (std::abs(azimuth_rad - spot.azimuth_rad) < spot.half_width_rad &&
-            elevation_rad >= spot.lowest_rad && elevation_rad <= spot.highest_rad) {
+        if (elevation_rad >= spot.lowest_rad && elevation_rad <= spot.highest_rad &&
+            std::abs(azimuth_rad - spot.azimuth_rad) < spot.half_width_rad) {
             return &spot;
         }
     }
@@ -120,7 +120,7 @@ struct Turn {
     }
 };
 
-Vector3f inSpot(const Vector3f& axis, double footprint_rad, Random& random) {
+inline Vector3f inSpot(const Vector3f& axis, double footprint_rad, Random& random) {
     const auto aside = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
     const auto up = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
     const Vector3f left(-axis.y(), axis.x(), 0);  // shorter near the zenith, where no beam goes
@@ -183,6 +183,7 @@ void mixEdges(const Scene::Snapshot& snapshot, const Turn& turn, float max_range
         chosen.push_back(i);
         rays.push_back(turn.rays[i]);
         rays.back().direction = inSpot(turn.beams[i].axis, faults.footprint_rad, random);
+        rays.back().reach_m = hits[i].range_m + 1.01f * kPulse_m;  // what is farther is not mixed
     }
     std::vector<RayHit> others;
     snapshot.cast(rays, max_range_m, others);
@@ -270,6 +271,14 @@ class Receiver {
     Random& random_;
 };
 
+void reserve(std::size_t returns, SimulatedScan& out) {
+    out.scan.reserve(returns);
+    out.kind.reserve(returns);
+    out.object.reserve(returns);
+    out.firing.reserve(returns);
+    out.laser.reserve(returns);
+}
+
 void append(const Echo& echo, const Beam& beam, int firing, int laser, std::uint8_t row,
             float time_s, SimulatedScan& out) {
     const Vector3f at = echo.range_m * beam.direction;
@@ -301,7 +310,7 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
     if (faults.mixed > 0) mixEdges(snapshot, turn, sensor.max_range_m, faults, random, hits);
 
     SimulatedScan out;
-    out.scan.reserve(turn.beams.size());
+    reserve(turn.beams.size(), out);
     out.pose = flight.at(time_s);
     out.altitude_m = out.pose.position_m.z() -
                      scene.terrain().height_m(out.pose.position_m.x(), out.pose.position_m.y());

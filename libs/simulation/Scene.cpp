@@ -126,7 +126,7 @@ class Packet {
             packet_.ray.dir_y[i] = ray.direction.y();
             packet_.ray.dir_z[i] = ray.direction.z();
             packet_.ray.tnear[i] = 0;
-            packet_.ray.tfar[i] = max_range_m;
+            packet_.ray.tfar[i] = std::min(max_range_m, ray.reach_m);
             packet_.ray.time[i] = ray.time;
             packet_.ray.mask[i] = ~0u;
             packet_.ray.id[i] = 0;

@@ -5,6 +5,7 @@
 #include <hagen/simulation/Terrain.h>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct Ray {
     Eigen::Vector3f origin_m;
     Eigen::Vector3f direction;  ///< of length 1
     float time = 0;
+    float reach_m = std::numeric_limits<float>::infinity();  ///< what is farther is not looked for
 };
 
 struct RayHit {
