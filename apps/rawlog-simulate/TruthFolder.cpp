@@ -1,10 +1,10 @@
 #include "TruthFolder.h"
 
+#include <hagen/logs/CloseWritten.h>
 #include <hagen/logs/ScanFolder.h>
 
 #include <fstream>
 #include <iomanip>
-#include <stdexcept>
 
 namespace hagen {
 namespace {
@@ -14,11 +14,6 @@ namespace fs = std::filesystem;
 const fs::path& made(const fs::path& folder) {
     fs::create_directory(folder);
     return folder;
-}
-
-void closeWritten(std::ofstream& out, const fs::path& file) {
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
 }
 
 void writeKinds(const fs::path& file) {

@@ -205,7 +205,6 @@ class Converter {
     std::set<std::string> other_labels_;  ///< of LiDAR scans that were not wanted
 };
 
-/// One entry of a rawlog, with the clouds that come with it.
 /// Notes what an entry tells of the vehicle.
 void seeEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converter& converter) {
     if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
@@ -215,6 +214,7 @@ void seeEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converter& c
     }
 }
 
+/// One entry of a rawlog, with the clouds that come with it.
 void convertEntry(const mrpt::serialization::CSerializable::Ptr& entry, Converter& converter) {
     seeEntry(entry, converter);
     if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {

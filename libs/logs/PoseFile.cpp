@@ -8,7 +8,7 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include "CloseWritten.h"
+#include <hagen/logs/CloseWritten.h>
 
 namespace hagen {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "CloseWritten.h"
+#include <hagen/logs/CloseWritten.h>
 
 namespace hagen {
 namespace {

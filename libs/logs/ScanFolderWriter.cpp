@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include "CloseWritten.h"
+#include <hagen/logs/CloseWritten.h>
 
 namespace hagen {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "CloseWritten.h"
+#include <hagen/logs/CloseWritten.h>
 
 namespace hagen {
 namespace {

@@ -1,4 +1,3 @@
-#include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/GroundSurface.h>
 #include <hagen/segmentation/HeightLabels.h>
 #include <algorithm>
@@ -10,10 +9,9 @@ namespace {
 constexpr float kLeastTolerance_m = 0.04f;
 constexpr float kTallest_m = 1.1f;       // more than this is no reason to tolerate less
 constexpr float kFootHeight_m = 0.015f;  // a foot is no lower than this
-constexpr float kFootAngle_rad = static_cast<float>(radians(45));
-constexpr int kFootRows = 4;          // a pixel's angle is with the next of so many rows above
-constexpr float kDoubt_m = 0.2f;      // a height so close to its tolerance is put to the vote
-constexpr float kVoteReach_m = 1.0f;  // in distance from the sensor
+constexpr int kFootRows = 4;             // a pixel's angle is with the next of so many rows above
+constexpr float kDoubt_m = 0.2f;         // a height so close to its tolerance is put to the vote
+constexpr float kVoteReach_m = 1.0f;     // in distance from the sensor
 constexpr int kLeastVotes = 3;
 
 }  // namespace
@@ -67,9 +65,8 @@ void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Lab
                 const float dx_m = pixels.x_m(above, column) - pixels.x_m(row, column);
                 const float dy_m = pixels.y_m(above, column) - pixels.y_m(row, column);
                 const float dz_m = pixels.z_m(above, column) - pixels.z_m(row, column);
-                if (std::atan2(std::abs(dz_m), std::hypot(dx_m, dy_m)) > kFootAngle_rad) {
-                    labels(row, column) = Label::Roi;
-                }
+                const bool is_steep = std::abs(dz_m) > std::hypot(dx_m, dy_m);  // than 45 degrees
+                if (is_steep) labels(row, column) = Label::Roi;
             }
             above = row;
         }
