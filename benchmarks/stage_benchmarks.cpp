@@ -40,6 +40,7 @@ struct Fixture {
         std::dynamic_pointer_cast<CObservationVelodyneScan>(RawlogReader(kRealScan).next());
     SensorModel sensor = sensorOf(*observation);
     Options options;
+    PixelDirections directions = pixelDirections(sensor, options.columns);
     Scan scan;
     HagenFilter filter{sensor, options};
     SegmentationResult result;
@@ -77,7 +78,7 @@ void addOurs() {
     const auto addOne = [](const char* name, auto run) { add(name, run, ours); };
     addOne("ground frame", [](Fixture& f) {
         PixelPoints pixels;
-        locatePixels(f.scan, f.sensor, f.result.range_image, f.result.repaired_m, pixels);
+        locatePixels(f.scan, f.directions, f.result.range_image, f.result.repaired_m, pixels);
         movePixels(fitGroundFrame(pixels, Attitude{}), pixels);
     });
     addOne("ground surface", [](Fixture& f) {
@@ -133,7 +134,7 @@ void addAll() {
                     f.result.maxima, f.sensor.min_range_m, f.result.merged_m);
     });
     add("6 range angles",
-        [](Fixture& f) { rangeAngles(f.result.merged_m, f.sensor, f.result.range_angle_rad); });
+        [](Fixture& f) { rangeAngles(f.result.merged_m, f.directions, f.result.range_angle_rad); });
     add("7 singular spectrum analysis", [](Fixture& f) {
         smoothColumns(f.result.range_angle_rad, f.options.window_size,
                       f.options.principal_components, f.result.smoothed_rad);

@@ -9,7 +9,7 @@ function(hagen_target target)
   # SIMD (Highway): one binary for every machine, with these instruction sets to choose from at run
   # time; the ones between them gain nothing here, and each costs a compilation.
   target_compile_definitions(
-    ${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL|HWY_AVX3_ZEN4)")
+    ${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
   if(HAGEN_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE})

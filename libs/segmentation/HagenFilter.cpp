@@ -24,6 +24,7 @@ float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg));
 HagenFilter::HagenFilter(SensorModel sensor, Options options)
     : sensor_(std::move(sensor)), options_(options) {
     checkOptions(options_, sensor_.rows());
+    directions_ = pixelDirections(sensor_, options_.columns);
 }
 
 const SegmentationResult& HagenFilter::segment(const Scan& scan,
@@ -45,7 +46,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     mergeMaxima(depth_m, r.proximity_m, r.sharpened_m, r.maxima, sensor_.min_range_m, r.merged_m);
 
     // III-C and III-D, the range-angle image, smoothed
-    rangeAngles(r.merged_m, sensor_, horizon, r.range_angle_rad);
+    rangeAngles(r.merged_m, directions_, horizon, r.range_angle_rad);
     smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad);
     carryAngles(r.smoothed_rad, r.pixel_angle_rad);
 
@@ -69,7 +70,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
 /// Beyond the paper: the plane that the ground lies about, if there is any in sight.
 void HagenFilter::findGround(const Scan& scan, const std::optional<Attitude>& horizon) {
     Ground& g = result_.ground;
-    locatePixels(scan, sensor_, result_.range_image, result_.repaired_m, g.pixels);
+    locatePixels(scan, directions_, result_.range_image, result_.repaired_m, g.pixels);
     g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}));
     movePixels(g.from_sensor, g.pixels);
     g.is_seen = canBeGround(g.from_sensor, horizon, result_.labels);

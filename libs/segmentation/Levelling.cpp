@@ -1,4 +1,3 @@
-#include <hagen/range_image/RangeImage.h>
 #include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/RangeAngle.h>
 #include <Eigen/Geometry>
@@ -13,21 +12,19 @@ Eigen::Matrix3f levelFromSensor(const Attitude& attitude) {
         .toRotationMatrix();
 }
 
-void rangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
+void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  const std::optional<Attitude>& attitude, Image<float>& range_angle_rad) {
-    if (!attitude) return rangeAngles(depth_m, sensor, range_angle_rad);
+    if (!attitude) return rangeAngles(depth_m, directions, range_angle_rad);
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
     const Eigen::Matrix3f level = levelFromSensor(*attitude);
     range_angle_rad.resize(rows - 1, columns);
     for (int column = 0; column < columns; ++column) {
-        const float azimuth_rad = columnAzimuth(column, columns);
-        const Eigen::Vector3f outwards =
-            level * Eigen::Vector3f(std::cos(azimuth_rad), std::sin(azimuth_rad), 0);
+        const Eigen::Vector3f outwards = level * Eigen::Vector3f(directions.column_cosine[column],
+                                                                 directions.column_sine[column], 0);
         const Eigen::Vector3f upwards = level.col(2);
         const auto at = [&](int row) -> Eigen::Vector3f {
-            const float elevation_rad = sensor.elevations_rad[row];
             return depth_m(row, column) *
-                   (std::cos(elevation_rad) * outwards + std::sin(elevation_rad) * upwards);
+                   (directions.row_cosine[row] * outwards + directions.row_sine[row] * upwards);
         };
         for (int row = 0; row + 1 < rows; ++row) {
             const Eigen::Vector3f step_m = at(row + 1) - at(row);

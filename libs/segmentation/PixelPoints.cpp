@@ -1,9 +1,8 @@
 #include <hagen/segmentation/PixelPoints.h>
-#include <cmath>
 
 namespace hagen {
 
-void locatePixels(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
+void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
                   const Image<float>& depth_m, PixelPoints& pixels) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
     for (auto* coordinate : {&pixels.x_m, &pixels.y_m, &pixels.z_m}) {
@@ -14,12 +13,11 @@ void locatePixels(const Scan& scan, const SensorModel& sensor, const RangeImage&
         if (i != RangeImage::kNoReturn) {
             pixels.set(pixel, {scan.x_m[i], scan.y_m[i], scan.z_m[i]});
         } else if (hasValue(depth_m.data()[pixel])) {
-            const float elevation_rad = sensor.elevations_rad[pixel % rows];
-            const float azimuth_rad = columnAzimuth(static_cast<int>(pixel / rows), columns);
-            pixels.set(pixel, depth_m.data()[pixel] *
-                                  Eigen::Vector3f(std::cos(elevation_rad) * std::cos(azimuth_rad),
-                                                  std::cos(elevation_rad) * std::sin(azimuth_rad),
-                                                  std::sin(elevation_rad)));
+            const Eigen::Index row = pixel % rows, column = pixel / rows;
+            const float level_m = depth_m.data()[pixel] * directions.row_cosine[row];
+            pixels.set(pixel, {level_m * directions.column_cosine[column],
+                               level_m * directions.column_sine[column],
+                               depth_m.data()[pixel] * directions.row_sine[row]});
         }
     }
 }

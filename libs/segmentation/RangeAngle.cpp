@@ -4,14 +4,10 @@
 
 namespace hagen {
 
-void rangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
+void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  Image<float>& range_angle_rad) {
     const int rows = static_cast<int>(depth_m.rows());
-    std::vector<float> sines(rows), cosines(rows);
-    for (int row = 0; row < rows; ++row) {
-        sines[row] = std::sin(sensor.elevations_rad[row]);
-        cosines[row] = std::cos(sensor.elevations_rad[row]);
-    }
+    const std::vector<float>&sines = directions.row_sine, &cosines = directions.row_cosine;
     range_angle_rad.resize(rows - 1, depth_m.cols());
     for (int column = 0; column < depth_m.cols(); ++column) {
         for (int row = 0; row + 1 < rows; ++row) {

@@ -504,7 +504,8 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
         findPersistentMaxima(proximity, 0.3f, maxima);
         sharpenMaxima(proximity, maxima, 0.7f, 2.5f, sharpened);
         mergeMaxima(repaired, proximity, sharpened, maxima, 2.0f, merged);
-        rangeAngles(merged, sensor, attitude, angles);
+        rangeAngles(merged, pixelDirections(sensor, static_cast<int>(merged.cols())), attitude,
+                    angles);
         smoothColumns(angles, 10, 3, smoothed);
         carryAngles(smoothed, carried);
         labelRegions(repaired, carried, static_cast<float>(radians(12.0)), seeds,
@@ -554,7 +555,8 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         LabelledReturns returns;
         labelRegions(r.repaired_m, r.pixel_angle_rad, static_cast<float>(radians(12.0)),
                      Seeds::Lowest, static_cast<float>(radians(50.0)), labels);
-        locatePixels(scan, sensor, r.range_image, r.repaired_m, g.pixels);
+        locatePixels(scan, pixelDirections(sensor, static_cast<int>(r.repaired_m.cols())),
+                     r.range_image, r.repaired_m, g.pixels);
         g.from_sensor = fitGroundFrame(g.pixels, attitude);
         movePixels(g.from_sensor, g.pixels);
         fitGroundSurface(g.pixels, labels, g.surface);

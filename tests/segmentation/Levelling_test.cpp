@@ -26,7 +26,8 @@ Attitude randomAttitude(test::Random& random) {
 Image<float> levelAngles(const Image<float>& depth_m, const SensorModel& sensor,
                          const std::optional<Attitude>& attitude) {
     Image<float> angles_rad;
-    rangeAngles(depth_m, sensor, attitude, angles_rad);
+    rangeAngles(depth_m, pixelDirections(sensor, static_cast<int>(depth_m.cols())), attitude,
+                angles_rad);
     return angles_rad;
 }
 
@@ -146,7 +147,7 @@ TEST(Levelling, WithoutTiltItIsTheRangeAngleOfThePaper) {
     const SensorModel sensor = sensorModel("VLP-16");
     const Image<float> depth_m = random.image(16, kColumns, 1, 30, 0.2);
     Image<float> papers_rad;
-    rangeAngles(depth_m, sensor, papers_rad);
+    rangeAngles(depth_m, pixelDirections(sensor, static_cast<int>(depth_m.cols())), papers_rad);
     EXPECT_TRUE(test::same(levelAngles(depth_m, sensor, std::nullopt), papers_rad));
     const Image<float> level_rad = levelAngles(depth_m, sensor, Attitude{});
     EXPECT_TRUE((level_rad.isNaN() == papers_rad.isNaN()).all());

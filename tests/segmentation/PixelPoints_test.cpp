@@ -27,7 +27,8 @@ Located located(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& p
     projectScan(l.scan, sensor, kColumns, 100.0f, l.image);
     l.depth_m = l.image.depth_m;
     fill(l.depth_m);
-    locatePixels(l.scan, sensor, l.image, l.depth_m, l.pixels);
+    locatePixels(l.scan, pixelDirections(sensor, static_cast<int>(l.depth_m.cols())), l.image,
+                 l.depth_m, l.pixels);
     return l;
 }
 

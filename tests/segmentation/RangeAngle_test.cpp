@@ -11,7 +11,7 @@ namespace {
 
 Image<float> anglesOf(const Image<float>& depth_m, const SensorModel& sensor) {
     Image<float> angles_rad;
-    rangeAngles(depth_m, sensor, angles_rad);
+    rangeAngles(depth_m, pixelDirections(sensor, static_cast<int>(depth_m.cols())), angles_rad);
     return angles_rad;
 }
 

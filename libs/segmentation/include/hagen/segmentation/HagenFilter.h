@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/range_image/PixelDirections.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
@@ -59,6 +60,7 @@ class HagenFilter {
 
     SensorModel sensor_;
     Options options_;
+    PixelDirections directions_;
     SegmentationResult result_;
 };
 

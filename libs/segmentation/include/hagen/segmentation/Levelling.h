@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/range_image/Image.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/range_image/PixelDirections.h>
 #include <Eigen/Core>
 #include <optional>
 
@@ -22,7 +22,7 @@ Eigen::Matrix3f levelFromSensor(const Attitude& attitude);
 ///   alpha = atan2(|dz|, |(dx, dy)|)
 ///
 /// of the level coordinates of the two returns.
-void rangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
+void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  const std::optional<Attitude>& attitude, Image<float>& range_angle_rad);
 
 }  // namespace hagen

@@ -1,7 +1,7 @@
 #pragma once
+#include <hagen/range_image/PixelDirections.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/Scan.h>
-#include <hagen/range_image/SensorModel.h>
 #include <Eigen/Geometry>
 
 namespace hagen {
@@ -23,7 +23,7 @@ struct PixelPoints {
 
 /// The pixels in the sensor's frame: where their closest return is or, where a hole of the image
 /// was filled, where the beam meets `depth_m`.
-void locatePixels(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
+void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
                   const Image<float>& depth_m, PixelPoints& pixels);
 
 /// The same pixels in another frame.

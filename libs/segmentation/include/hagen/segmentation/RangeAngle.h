@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/range_image/Image.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/range_image/PixelDirections.h>
 
 namespace hagen {
 
@@ -11,7 +11,7 @@ namespace hagen {
 ///
 /// with depth d and the beam's elevation e: 0 on level ground, pi/2 on a wall. NaN where either
 /// pixel is empty.
-void rangeAngles(const Image<float>& depth_m, const SensorModel& sensor,
+void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  Image<float>& range_angle_rad);
 
 /// The angle each of the I_h x I_w pixels carries: that with the beam above it; where there is
