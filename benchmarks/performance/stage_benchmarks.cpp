@@ -7,22 +7,29 @@
 #include <map>
 #include <memory>
 
-#include "Samples.h"
 #include "StageRows.h"
+#include "TimedRows.h"
 #include "support/Allocations.h"
 
 namespace {
 
 using namespace hagen;
 
+/// Every run of a row.
+struct Runs {
+    std::string sensor, what;
+    std::vector<double> runs_ms;
+    std::size_t allocations = 0;
+};
+
 /// The rows in the order in which they were added; filled as they run.
-std::vector<std::unique_ptr<Measured>>& measured() {
-    static std::vector<std::unique_ptr<Measured>> rows;
+std::vector<std::unique_ptr<Runs>>& measured() {
+    static std::vector<std::unique_ptr<Runs>> rows;
     return rows;
 }
 
 /// A scan after the other, each timed by itself.
-void time(benchmark::State& state, const StageRow& row, std::vector<Case>& cases, Measured& to) {
+void time(benchmark::State& state, const StageRow& row, std::vector<Case>& cases, Runs& to) {
     for (Case& one : cases) row.run(one);  // memory is taken now, and not again
     to.runs_ms.reserve(to.runs_ms.size() + static_cast<std::size_t>(state.max_iterations));
     std::size_t next = 0;
@@ -50,8 +57,8 @@ Cases casesOf(const Input& input, const Options& options) {
 }
 
 void add(const StageRow& row, const std::string& sensor, const Cases& cases) {
-    measured().push_back(std::make_unique<Measured>(Measured{sensor, row.what, {}, 0}));
-    Measured& to = *measured().back();
+    measured().push_back(std::make_unique<Runs>(Runs{sensor, row.what, {}, 0}));
+    Runs& to = *measured().back();
     benchmark::RegisterBenchmark(
         (sensor + "/" + row.what).c_str(),
         [&row, cases, &to](benchmark::State& state) { time(state, row, *cases, to); })
@@ -85,13 +92,23 @@ void addAll() {
     for (const int beams : {32, 64, 128}) addGrid(beams, 870);
 }
 
-std::vector<Measured> results() {
-    std::vector<Measured> rows;
+std::vector<TimedRow> results() {
+    std::vector<TimedRow> rows;
     for (const auto& row : measured()) {
-        if (!row->runs_ms.empty()) rows.push_back(*row);
+        if (row->runs_ms.empty()) continue;
+        rows.push_back(
+            {row->sensor, row->what, latencyOf(row->runs_ms),
+             static_cast<double>(row->allocations) / static_cast<double>(row->runs_ms.size())});
     }
     return rows;
 }
+
+/// What is reported is in measured().
+class Silent : public benchmark::BenchmarkReporter {
+ public:
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>&) override {}
+};
 
 }  // namespace
 
@@ -105,10 +122,8 @@ int main(int argc, char** argv) {
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     try {
         addAll();
-        benchmark::ConsoleReporter console;
-        console.SetOutputStream(&std::cerr);
-        console.SetErrorStream(&std::cerr);
-        benchmark::RunSpecifiedBenchmarks(&console);
+        Silent silent;
+        benchmark::RunSpecifiedBenchmarks(&silent);
         std::cout << tableOf(results());
         if (!json.empty()) {
             std::ofstream out(json);

@@ -8,7 +8,7 @@
 #include "paper-results/DataSets.h"
 #include "paper-results/Document.h"
 #include "paper-results/Rows.h"
-#include "paper-results/Tables.h"
+#include "support/Tables.h"
 #include "support/Program.h"
 #include "support/SimpleScene.h"
 
