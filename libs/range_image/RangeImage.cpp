@@ -76,7 +76,7 @@ auto nearestColumns(V azimuth_rad, int columns) {
     return hn::Min(hn::Max(column, zero), last);  // in the image, whatever the azimuth
 }
 
-void projectTogether(const Projection& to, const Returns& returns, std::int32_t first_index,
+void projectTogether(Projection to, Returns returns, std::int32_t first_index,
                      Projected& projected) {
     const hn::CappedTag<float, kTogether> d;
     const hn::RebindToSigned<decltype(d)> d_int;

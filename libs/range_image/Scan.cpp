@@ -119,7 +119,7 @@ auto rowOf(V sine, const RowTable& table) {
 
 /// As many points as a vector has.
 template <class D>
-void locateVector(D d, const RowTable& table, const Beams& at) {
+HWY_INLINE void locateVector(D d, const RowTable& table, const Beams& at) {
     const auto x = hn::LoadU(d, at.x_m), y = hn::LoadU(d, at.y_m), z = hn::LoadU(d, at.z_m);
     const auto square = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
     const auto range = hn::Sqrt(square);
@@ -135,7 +135,7 @@ void locateVector(D d, const RowTable& table, const Beams& at) {
     hn::StoreU(hn::DemoteTo(d_row, row), d_row, at.row);
 }
 
-void locateAll(const RowTable& table, const Beams& beams, std::size_t count) {
+void locateAll(const RowTable& table, Beams beams, std::size_t count) {
     const hn::ScalableTag<float> d;
     constexpr std::size_t kMost = hn::MaxLanes(d);
     const std::size_t lanes = hn::Lanes(d);
