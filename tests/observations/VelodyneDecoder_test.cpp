@@ -328,6 +328,7 @@ TEST(VelodyneDecoder, APacketOfAnotherOrUnknownModelIsRefusedByItsNumber) {
         } catch (const std::runtime_error& e) {
             EXPECT_NE(std::string(e.what()).find("packet 4"), std::string::npos) << e.what();
             EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+            EXPECT_EQ(scan.size(), 0u);
         }
     }
 }
