@@ -12,7 +12,8 @@ namespace hagen {
 namespace {
 
 /// For each set of up to eight lanes, as bits: which they are, from the lowest to the highest.
-/// (Highway's own Compress does the same, but looks it up for each vector that it compresses.)
+/// (Highway 1.0's own Compress has such a table, too, and GCC 12 copies it to the stack at each
+/// use.)
 struct LanesOfSets {
     std::uint8_t lanes[256][8] = {};
 
