@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -21,11 +22,11 @@ bool endsWith(std::string_view text, std::string_view ending) {
 
 template <class Coordinates>
 void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates& z, Scan& scan) {
-    scan.clear();
     scan.x_m.assign(x.begin(), x.end());
     scan.y_m.assign(y.begin(), y.end());
     scan.z_m.assign(z.begin(), z.end());
     scan.intensity.assign(x.size(), 0.0f);
+    scan.time_s.clear();
 }
 
 /// Intensities within 0..1; a cloud that counts to 255, as many drivers do, is scaled.
@@ -38,12 +39,33 @@ void assignIntensities(const Intensities& intensities, Scan& scan) {
                    [&](float intensity) { return std::clamp(intensity / full, 0.0f, 1.0f); });
 }
 
+bool isSame(const Settings::Sensor& a, const Settings::Sensor& b) {
+    return a.model == b.model && a.elevations_deg == b.elevations_deg &&
+           a.min_range_m == b.min_range_m && a.max_range_m == b.max_range_m;
+}
+
+/// The sensor of the settings: made anew, which allocates, only where they are not the last ones.
+void sensorOf(const Settings& settings, ObservedScan& observed) {
+    struct Last {
+        std::optional<Settings::Sensor> settings;
+        SensorModel sensor;
+    };
+    thread_local Last kept;
+    Last& last = kept;
+    if (!last.settings || !isSame(*last.settings, settings.sensor)) {
+        last.settings.reset();
+        last.sensor = settings.sensorModel();
+        last.settings = settings.sensor;
+    }
+    observed.sensor = last.sensor;
+    observed.is_sensor_assumed = !settings.sensor.model;
+}
+
 void readVelodyneScan(const CObservationVelodyneScan& observation, const Settings& settings,
                       ObservedScan& observed) {
     if (observation.scan_packets.empty()) {
         const auto& cloud = observation.point_cloud;
-        observed.sensor = settings.sensorModel();
-        observed.is_sensor_assumed = !settings.sensor.model;
+        sensorOf(settings, observed);
         assignPoints(cloud.x, cloud.y, cloud.z, observed.scan);
         std::transform(
             cloud.intensity.begin(), cloud.intensity.end(), observed.scan.intensity.begin(),
@@ -52,7 +74,7 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
         observed.remark = cloud.size() == 0 ? "the scan has no packets" : "";
         return;
     }
-    observed.sensor = sensorOf(observation);
+    sensorOf(observation, observed.sensor);
     // Settings may narrow what the sensor sees, not widen it.
     SensorModel& sensor = observed.sensor;
     sensor.min_range_m = std::max(sensor.min_range_m, settings.sensor.min_range_m.value_or(0.0f));
@@ -75,8 +97,7 @@ void readCloud(const CObservationPointCloud& observation, const Settings& settin
     observation.load();
     if (!observation.pointcloud) throw std::runtime_error("the observation holds no point cloud");
     const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
-    observed.sensor = settings.sensorModel();
-    observed.is_sensor_assumed = !settings.sensor.model;
+    sensorOf(settings, observed);
     assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
                  cloud.getPointsBufferRef_z(), observed.scan);
     if (const auto* with_intensity = dynamic_cast<const IntensityCloud*>(&cloud)) {

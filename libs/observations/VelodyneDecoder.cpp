@@ -5,8 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "VelodyneReturns.h"
 
 namespace hagen {
 namespace {
@@ -16,6 +20,9 @@ using mrpt::obs::VelodyneCalibration;
 
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
+static_assert(kTurn == kReadingsOfTurn);
+static_assert(CObservationVelodyneScan::SCANS_PER_BLOCK == kReturnsOfBlock);
+static_assert(CObservationVelodyneScan::DISTANCE_RESOLUTION == kDistanceUnit_m);
 constexpr double kHourUs = 3600e6;
 
 /// A raw packet, read byte by byte: MRPT's struct is packed, and its accessors bind references to
@@ -30,8 +37,7 @@ class Packet {
                azimuth(block) < kTurn;
     }
     int azimuth(int block) const { return static_cast<int>(number(block * kBlockBytes + 2, 2)); }
-    unsigned distance(int block, int i) const { return number(returnAt(block, i), 2); }
-    unsigned intensity(int block, int i) const { return bytes_[returnAt(block, i) + 2]; }
+    const std::uint8_t* returns(int block) const { return bytes_ + block * kBlockBytes + 4; }
     unsigned time_us() const { return number(kBlocks * kBlockBytes, 4); }
     int blocksPerFiring() const {
         return bytes_[kBlocks * kBlockBytes + 4] == CObservationVelodyneScan::RETMODE_DUAL ? 2 : 1;
@@ -40,7 +46,6 @@ class Packet {
 
  private:
     static constexpr int kBlockBytes = CObservationVelodyneScan::SIZE_BLOCK;
-    static int returnAt(int block, int i) { return block * kBlockBytes + 4 + 3 * i; }
     unsigned number(int at, int bytes) const {
         unsigned value = 0;
         for (int i = 0; i < bytes; ++i) value |= unsigned{bytes_[at + i]} << (8 * i);
@@ -50,38 +55,35 @@ class Packet {
     const std::uint8_t* bytes_;
 };
 
-int wrapTurn(int reading) { return ((reading % kTurn) + kTurn) % kTurn; }
+/// The sine and cosine of an angle.
+struct Turn {
+    double sine, cosine;
 
-/// A direction in the plane.
-struct Azimuth {
-    float sine, cosine;  ///< of the angle clockwise from x
-    float azimuth_rad;   ///< counter-clockwise from x, as MRPT has it
+    explicit Turn(double angle_rad) : sine(std::sin(angle_rad)), cosine(std::cos(angle_rad)) {}
 };
 
-/// The directions of all azimuths that a packet can name, and of those between them.
-class AzimuthTable {
+/// The directions of all azimuth readings: of whole degrees, and of hundredths from there on. Small
+/// enough to stay in the nearest cache.
+class Directions {
  public:
-    AzimuthTable() {
-        for (int reading = 0; reading < kTurn; ++reading) {
-            const double clockwise_rad = radians(azimuthOfReadingDeg(reading));
-            entries_[reading] = {static_cast<float>(std::sin(clockwise_rad)),
-                                 static_cast<float>(std::cos(clockwise_rad)),
-                                 static_cast<float>(-clockwise_rad)};
-        }
+    Directions() {
+        for (int i = 0; i < 360; ++i) degrees_.emplace_back(100 * i * kRadiansPerReading - kPi);
+        for (int i = 0; i < 100; ++i) hundredths_.emplace_back(i * kRadiansPerReading);
     }
 
-    /// The nearest entry, turned by what is left: at most 0.005 degrees, where sin(d) = d and
-    /// cos(d) = 1 to 4e-9.
-    Azimuth operator()(float reading) const {
-        const float nearest = std::round(reading);
-        const float rest_rad = (reading - nearest) * static_cast<float>(radians(0.01));
-        const Azimuth& entry = entries_[wrapTurn(static_cast<int>(nearest))];
-        return {entry.sine + entry.cosine * rest_rad, entry.cosine - entry.sine * rest_rad,
-                entry.azimuth_rad - rest_rad};
+    /// Gives a block the direction of its reading.
+    void tell(int reading, VelodyneBlock& block) const {
+        const int from_behind = reading < kTurn / 2 ? reading + kTurn / 2 : reading - kTurn / 2;
+        const Turn& a = degrees_[from_behind / 100];
+        const Turn& b = hundredths_[from_behind % 100];
+        block.sine = static_cast<float>(a.sine * b.cosine + a.cosine * b.sine);
+        block.cosine = static_cast<float>(a.cosine * b.cosine - a.sine * b.sine);
+        block.azimuth_rad = static_cast<float>(kPi - from_behind * kRadiansPerReading);
+        block.reading_from_behind = static_cast<float>(from_behind);
     }
 
  private:
-    std::array<Azimuth, kTurn> entries_;
+    std::vector<Turn> degrees_, hundredths_;
 };
 
 std::string hex(unsigned value) {
@@ -108,20 +110,23 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
                                          const VelodyneModel& model) {
     const bool has_own =
         observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
-    return has_own ? observation.calibration
-                   : VelodyneCalibration::LoadDefaultCalibration(model.calibration);
+    return has_own ? observation.calibration : defaultCalibration(model);
 }
 
 /// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over
 /// the scan, so that neither the rounding of azimuths nor a broken block shifts a return.
 int turnOfBlocks(const CObservationVelodyneScan& observation) {
-    std::vector<int> turns;
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local std::vector<int> kept;
+    std::vector<int>& turns = kept;
+    turns.clear();
     for (const auto& raw : observation.scan_packets) {
         const Packet packet(raw);
         const int step = packet.blocksPerFiring();
         for (int b = 0; b + step < kBlocks; ++b) {
             if (!packet.isSound(b) || !packet.isSound(b + step)) continue;
-            turns.push_back(wrapTurn(packet.azimuth(b + step) - packet.azimuth(b)));
+            const int turn = packet.azimuth(b + step) - packet.azimuth(b);
+            turns.push_back(turn < 0 ? turn + kTurn : turn);
         }
     }
     if (turns.empty()) return 0;
@@ -130,90 +135,113 @@ int turnOfBlocks(const CObservationVelodyneScan& observation) {
     return *middle;
 }
 
-/// A laser's calibration, as the decoder needs it.
-struct Laser {
-    float sine, cosine;                  ///< of its elevation
-    float distance_m, up_m, sideways_m;  ///< added to what it measures
-    double azimuth_reading;              ///< taken from the azimuth, 0.01 degrees
-    std::uint8_t row;
-};
-
-std::vector<Laser> lasersOf(const VelodyneCalibration& calibration) {
-    const std::vector<std::uint8_t> rows = rowsOfLasers(calibration);
-    std::vector<Laser> lasers;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const auto& correction = calibration.laser_corrections[i];
-        lasers.push_back({static_cast<float>(correction.sinVertCorrection),
-                          static_cast<float>(correction.cosVertCorrection),
-                          static_cast<float>(correction.distanceCorrection),
-                          static_cast<float>(correction.verticalOffsetCorrection),
-                          static_cast<float>(correction.horizontalOffsetCorrection),
-                          100.0 * correction.azimuthCorrection, rows[i]});
+PlacesInBlock placesOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
+                       int turn_of_blocks) {
+    PlacesInBlock places;
+    for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
+        const int laser = i % model.lasers;
+        const auto& correction = calibration.laser_corrections[laser];
+        const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
+        const double turn_reading = std::remainder(
+            turn_of_blocks * turn_in_block - 100.0 * correction.azimuthCorrection, kTurn);
+        const Turn turn(turn_reading * kRadiansPerReading);
+        places.turn_sine[i] = static_cast<float>(turn.sine);
+        places.turn_cosine[i] = static_cast<float>(turn.cosine);
+        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
+        places.turn_reading[i] = static_cast<float>(turn_reading);
+        places.time_s[i] = static_cast<float>(1e-6 * turn_in_block * model.blockPeriodUs());
+        places.elevation_sine[i] = static_cast<float>(correction.sinVertCorrection);
+        places.elevation_cosine[i] = static_cast<float>(correction.cosVertCorrection);
+        places.distance_m[i] = static_cast<float>(correction.distanceCorrection);
+        places.up_m[i] = static_cast<float>(correction.verticalOffsetCorrection);
+        places.forward_m[i] = places.up_m[i] * places.elevation_sine[i];
+        places.sideways_m[i] = static_cast<float>(correction.horizontalOffsetCorrection);
+        places.row[i] = rowOfLaser(calibration, laser);
     }
-    return lasers;
+    const auto [least, most] =
+        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
+    places.least_turn_reading = *least;
+    places.most_turn_reading = *most;
+    return places;
 }
 
-/// Appends where a return lies: its coordinates, range, azimuth and row.
-void appendReturn(const Laser& laser, double reading, unsigned distance, Scan& scan) {
-    static const AzimuthTable azimuths;
-    const Azimuth azimuth = azimuths(static_cast<float>(reading - laser.azimuth_reading));
-    const float range_m =
-        static_cast<float>(distance) * CObservationVelodyneScan::DISTANCE_RESOLUTION +
-        laser.distance_m;
-    const float horizontal_m = range_m * laser.cosine + laser.up_m * laser.sine;
-    scan.x_m.push_back(horizontal_m * azimuth.cosine + laser.sideways_m * azimuth.sine);
-    scan.y_m.push_back(-horizontal_m * azimuth.sine + laser.sideways_m * azimuth.cosine);
-    scan.z_m.push_back(range_m * laser.sine + laser.up_m);
-    scan.range_m.push_back(range_m);
-    scan.azimuth_rad.push_back(azimuth.azimuth_rad);
-    scan.row.push_back(laser.row);
+/// The sound blocks of a scan; returns the number of the others.
+std::size_t collectBlocks(const CObservationVelodyneScan& observation, const VelodyneModel& model,
+                          std::vector<VelodyneBlock>& blocks) {
+    static const Directions directions;
+    const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
+    blocks.resize(observation.scan_packets.size() * kBlocks);
+    VelodyneBlock* next = blocks.data();
+    for (const auto& raw : observation.scan_packets) {
+        const Packet packet(raw);
+        double packet_us = static_cast<double>(packet.time_us()) - first_us;
+        if (packet_us < 0) packet_us += kHourUs;  // time stamps start anew every hour
+        for (int b = 0; b < kBlocks; ++b) {
+            if (!packet.isSound(b)) continue;
+            const double block_us =
+                packet_us + b / packet.blocksPerFiring() * model.blockPeriodUs();
+            VelodyneBlock& block = *next++;
+            block.returns = packet.returns(b);
+            block.time_s = static_cast<float>(1e-6 * block_us);
+            directions.tell(packet.azimuth(b), block);
+        }
+    }
+    blocks.resize(next - blocks.data());
+    return observation.scan_packets.size() * kBlocks - blocks.size();
+}
+
+void resize(std::size_t returns, Scan& scan) {
+    for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity, &scan.range_m,
+                         &scan.azimuth_rad, &scan.time_s}) {
+        values->resize(returns);
+    }
+    scan.row.resize(returns);
 }
 
 }  // namespace
 
-SensorModel sensorOf(const CObservationVelodyneScan& observation) {
+void sensorOf(const CObservationVelodyneScan& observation, SensorModel& sensor) {
     if (observation.scan_packets.empty()) throw std::runtime_error("the scan has no packets");
     const VelodyneModel& model = modelOf(observation, 0);
-    SensorModel sensor = sensorOf(calibrationOf(observation, model), model.name);
+    sensor.name = model.name;
+    beamsOf(calibrationOf(observation, model), sensor.elevations_rad);
     sensor.min_range_m = static_cast<float>(observation.minRange);
     sensor.max_range_m = static_cast<float>(observation.maxRange);
+}
+
+SensorModel sensorOf(const CObservationVelodyneScan& observation) {
+    SensorModel sensor;
+    sensorOf(observation, sensor);
     return sensor;
 }
 
+// Fast because the lasers of all blocks fire in the same pattern: what is different between them
+// is their first direction, which a table tells, and the pattern is turned there, a vector of
+// returns at a time (locateReturns).
 std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan) {
-    scan.clear();
-    if (observation.scan_packets.empty()) return 0;
-    const VelodyneModel& model = modelOf(observation, 0);
-    const std::vector<Laser> lasers = lasersOf(calibrationOf(observation, model));
-    const int turn = turnOfBlocks(observation);
-    const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
-    scan.reserve(observation.scan_packets.size() * CObservationVelodyneScan::SCANS_PER_PACKET);
-
-    std::size_t unsound_blocks = 0;
-    for (std::size_t p = 0; p < observation.scan_packets.size(); ++p) {
-        modelOf(observation, p);  // refuses a packet of another model
-        const Packet packet(observation.scan_packets[p]);
-        double packet_us = static_cast<double>(packet.time_us()) - first_us;
-        if (packet_us < 0) packet_us += kHourUs;  // time stamps start anew every hour
-        for (int b = 0; b < kBlocks; ++b) {
-            if (!packet.isSound(b)) {
-                ++unsound_blocks;
-                continue;
-            }
-            const double block_us =
-                packet_us + b / packet.blocksPerFiring() * model.blockPeriodUs();
-            for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
-                if (packet.distance(b, i) == 0) continue;  // nothing came back
-                const int laser = i % model.lasers;
-                const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
-                appendReturn(lasers[laser], packet.azimuth(b) + turn * turn_in_block,
-                             packet.distance(b, i), scan);
-                scan.intensity.push_back(static_cast<float>(packet.intensity(b, i)) / 255.0f);
-                scan.time_s.push_back(
-                    static_cast<float>(1e-6 * (block_us + turn_in_block * model.blockPeriodUs())));
-            }
-        }
+    if (observation.scan_packets.empty()) {
+        scan.clear();
+        return 0;
     }
+    const VelodyneModel& model = modelOf(observation, 0);
+    for (std::size_t p = 1; p < observation.scan_packets.size(); ++p) {
+        modelOf(observation, p);  // refuses a packet of another model
+    }
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local std::vector<VelodyneBlock> kept;
+    std::vector<VelodyneBlock>& blocks = kept;
+    const std::size_t unsound_blocks = collectBlocks(observation, model, blocks);
+    const PlacesInBlock places =
+        placesOf(calibrationOf(observation, model), model, turnOfBlocks(observation));
+
+    // Counted beforehand: arrays that grow are filled with zeros, which takes time.
+    const std::size_t returns = countReturns(blocks);
+    resize(returns + kSpareReturns, scan);
+    locateReturns(
+        blocks, places,
+        {scan.x_m.data(), scan.y_m.data(), scan.z_m.data(), scan.intensity.data(),
+         scan.range_m.data(), scan.azimuth_rad.data(), scan.time_s.data(), scan.row.data()});
+    resize(returns, scan);
     return unsound_blocks;
 }
 

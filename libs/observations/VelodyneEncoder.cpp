@@ -113,7 +113,7 @@ std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& fir
 CObservationVelodyneScan::Ptr encodeScan(const VelodyneModel& model, const Firings& firings) {
     auto scan = CObservationVelodyneScan::Create();
     scan->scan_packets = encodePackets(model, firings);
-    scan->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration);
+    scan->calibration = defaultCalibration(model);
     scan->minRange = 0.5;
     scan->maxRange = 130.0;
     return scan;

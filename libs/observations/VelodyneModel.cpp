@@ -1,27 +1,18 @@
 #include <hagen/observations/VelodyneModel.h>
-#include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <mutex>
 #include <stdexcept>
 
 namespace hagen {
+
+using mrpt::obs::VelodyneCalibration;
+
 namespace {
 
 const std::vector<VelodyneModel>& models() {
     static const std::vector<VelodyneModel> known{{"VLP-16", 0x22, 16, 2, 2.304, 55.296, "VLP16"},
                                                   {"HDL-32E", 0x21, 32, 1, 1.152, 46.080, "HDL32"}};
     return known;
-}
-
-/// Laser numbers from the lowest beam to the highest.
-std::vector<std::size_t> lasersByElevation(const mrpt::obs::VelodyneCalibration& calibration) {
-    const auto& lasers = calibration.laser_corrections;
-    std::vector<std::size_t> order(lasers.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return lasers[a].sinVertCorrection < lasers[b].sinVertCorrection;
-    });
-    return order;
 }
 
 }  // namespace
@@ -46,24 +37,45 @@ double azimuthOfReadingDeg(double reading) {
     return from_behind * (360.0 / 35999.0) - 180.0;
 }
 
-std::vector<std::uint8_t> rowsOfLasers(const mrpt::obs::VelodyneCalibration& calibration) {
-    const std::vector<std::size_t> order = lasersByElevation(calibration);
-    std::vector<std::uint8_t> rows(order.size());
-    for (std::size_t row = 0; row < order.size(); ++row) {
-        rows[order[row]] = static_cast<std::uint8_t>(row);
+const VelodyneCalibration& defaultCalibration(const VelodyneModel& model) {
+    static std::mutex mutex;  // MRPT loads them at their first use, and not for several threads
+    const std::lock_guard<std::mutex> lock(mutex);
+    return VelodyneCalibration::LoadDefaultCalibration(model.calibration);
+}
+
+std::uint8_t rowOfLaser(const VelodyneCalibration& calibration, std::size_t laser) {
+    const auto& lasers = calibration.laser_corrections;
+    const double sine = lasers[laser].sinVertCorrection;
+    int lower = 0;
+    for (std::size_t other = 0; other < lasers.size(); ++other) {
+        const double other_sine = lasers[other].sinVertCorrection;
+        if (other_sine < sine || (other_sine == sine && other < laser)) ++lower;
+    }
+    return static_cast<std::uint8_t>(lower);
+}
+
+std::vector<std::uint8_t> rowsOfLasers(const VelodyneCalibration& calibration) {
+    std::vector<std::uint8_t> rows(calibration.laser_corrections.size());
+    for (std::size_t laser = 0; laser < rows.size(); ++laser) {
+        rows[laser] = rowOfLaser(calibration, laser);
     }
     return rows;
 }
 
-SensorModel sensorOf(const mrpt::obs::VelodyneCalibration& calibration, const std::string& name) {
-    SensorModel sensor;
-    sensor.name = name;
-    for (const std::size_t laser : lasersByElevation(calibration)) {
+void beamsOf(const VelodyneCalibration& calibration, std::vector<float>& elevations_rad) {
+    elevations_rad.resize(calibration.laser_corrections.size());
+    for (std::size_t laser = 0; laser < elevations_rad.size(); ++laser) {
         // Sine and cosine are right in every calibration; the angle's unit differs between files.
         const auto& correction = calibration.laser_corrections[laser];
-        sensor.elevations_rad.push_back(static_cast<float>(
-            std::atan2(correction.sinVertCorrection, correction.cosVertCorrection)));
+        elevations_rad[rowOfLaser(calibration, laser)] = static_cast<float>(
+            std::atan2(correction.sinVertCorrection, correction.cosVertCorrection));
     }
+}
+
+SensorModel sensorOf(const VelodyneCalibration& calibration, const std::string& name) {
+    SensorModel sensor;
+    sensor.name = name;
+    beamsOf(calibration, sensor.elevations_rad);
     return sensor;
 }
 

@@ -1,11 +1,172 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/range_image/RangeImage.h>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "RangeImage.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#ifndef HAGEN_RANGE_IMAGE_RANGE_IMAGE_ONCE
+#define HAGEN_RANGE_IMAGE_RANGE_IMAGE_ONCE
 namespace hagen {
+namespace {
+
+/// What nearestColumn() multiplies an azimuth with, for turns.
+constexpr float kTurnsPerRadian = static_cast<float>(0.5 / kPi);
+
+/// As many returns as are projected together.
+constexpr std::size_t kTogether = 128;
+
+/// The size of the image, and the ranges that enter it.
+struct Projection {
+    int rows, columns;
+    float least_m, most_m;
+};
+
+/// Returns of a scan, and where their pixels go.
+struct Returns {
+    const float *range_m, *azimuth_rad;
+    const std::uint8_t* row;
+    std::int32_t* depth_mapper;
+};
+
+/// A return as one number: the bits of its range above those of its index, taken for a double.
+/// Such numbers compare as their bits do: the least is of the closest return, of equally close ones
+/// the earliest. (A minimum of doubles takes no branch, and whether a return is its pixel's closest
+/// cannot be foretold.)
+using RangeAndIndex = double;
+
+/// No return, in both halves: as a double a number, and above those of all returns.
+constexpr std::int32_t kNoValueBits = 0x7fc00000;
+
+/// What keepClosest() needs of returns that are projected together.
+struct Projected {
+    std::int32_t pixel[kTogether];  ///< within the image, also of those that stay out
+    RangeAndIndex found[kTogether];
+};
+
+}  // namespace
+}  // namespace hagen
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// nearestColumn(), of a vector of azimuths.
+template <class V>
+auto nearestColumns(V azimuth_rad, int columns) {
+    const hn::DFromV<V> d;
+    const hn::RebindToSigned<decltype(d)> d_int;
+    const V turn = hn::Sub(hn::Set(d, 0.5f), hn::Mul(azimuth_rad, hn::Set(d, kTurnsPerRadian)));
+    const V columns_before = hn::Floor(hn::Mul(turn, hn::Set(d, static_cast<float>(columns))));
+    const auto zero = hn::Zero(d_int), last = hn::Set(d_int, columns - 1);
+    const auto turn_columns = hn::Set(d_int, columns);
+    auto column = hn::ConvertTo(d_int, columns_before);
+    column = hn::Add(column, hn::IfThenElseZero(hn::Lt(column, zero), turn_columns));
+    column = hn::Sub(column, hn::IfThenElseZero(hn::Gt(column, last), turn_columns));
+    return hn::Min(hn::Max(column, zero), last);  // in the image, whatever the azimuth
+}
+
+void projectTogether(Projection to, Returns returns, std::int32_t first_index,
+                     Projected& projected) {
+    const hn::CappedTag<float, kTogether> d;
+    const hn::RebindToSigned<decltype(d)> d_int;
+    const hn::Rebind<std::uint8_t, decltype(d)> d_row;
+    const auto in_order = hn::Iota(d_int, first_index);
+    for (std::size_t i = 0; i < kTogether; i += hn::Lanes(d)) {
+        const auto column = nearestColumns(hn::LoadU(d, returns.azimuth_rad + i), to.columns);
+        const auto row = hn::PromoteTo(d_int, hn::LoadU(d_row, returns.row + i));
+        const auto pixel = hn::Add(hn::Mul(column, hn::Set(d_int, to.rows)), row);
+        hn::StoreU(pixel, d_int, projected.pixel + i);
+
+        const auto range_m = hn::LoadU(d, returns.range_m + i);
+        const auto is_in = hn::RebindMask(d_int, hn::And(hn::Ge(range_m, hn::Set(d, to.least_m)),
+                                                         hn::Le(range_m, hn::Set(d, to.most_m))));
+        hn::StoreU(hn::IfThenElse(is_in, pixel, hn::Set(d_int, RangeImage::kNoPixel)), d_int,
+                   returns.depth_mapper + i);
+        const auto index = hn::Add(in_order, hn::Set(d_int, static_cast<std::int32_t>(i)));
+        hn::StoreInterleaved2(
+            hn::IfThenElse(is_in, index, hn::Set(d_int, RangeImage::kNoReturn)),
+            hn::IfThenElse(is_in, hn::BitCast(d_int, range_m), hn::Set(d_int, kNoValueBits)), d_int,
+            reinterpret_cast<std::int32_t*>(projected.found + i));
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(projectTogether);
+
+RangeAndIndex emptyPixel() {
+    const std::uint64_t bits = std::uint64_t{kNoValueBits} << 32 | 0xffffffff;
+    RangeAndIndex empty;
+    std::memcpy(&empty, &bits, sizeof empty);
+    return empty;
+}
+
+void keepClosest(const Projected& projected, std::size_t count, RangeAndIndex* closest) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const RangeAndIndex found = projected.found[i], so_far = closest[projected.pixel[i]];
+        closest[projected.pixel[i]] = found < so_far ? found : so_far;  // one instruction
+    }
+}
+
+void split(const RangeAndIndex* closest, std::size_t pixels, float* depth_m,
+           std::int32_t* closest_return) {
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        std::uint64_t both;
+        std::memcpy(&both, closest + pixel, sizeof both);
+        const auto bits = static_cast<std::uint32_t>(both >> 32);
+        std::memcpy(depth_m + pixel, &bits, sizeof bits);
+        closest_return[pixel] = static_cast<std::int32_t>(both & 0xffffffff);
+    }
+}
+
+/// The image's part of a scan, `kTogether` returns after the other.
+void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_mapper,
+                    RangeAndIndex* closest) {
+    Projected projected;
+    std::size_t first = 0;
+    for (; first + kTogether <= scan.size(); first += kTogether) {
+        HWY_DYNAMIC_DISPATCH(projectTogether)
+        (to,
+         {scan.range_m.data() + first, scan.azimuth_rad.data() + first, scan.row.data() + first,
+          depth_mapper + first},
+         static_cast<std::int32_t>(first), projected);
+        keepClosest(projected, kTogether, closest);
+    }
+    // The last few, filled up.
+    const std::size_t rest = scan.size() - first;
+    float range_m[kTogether] = {}, azimuth_rad[kTogether] = {};
+    std::uint8_t row[kTogether] = {};
+    std::int32_t pixel[kTogether];
+    std::copy_n(scan.range_m.data() + first, rest, range_m);
+    std::copy_n(scan.azimuth_rad.data() + first, rest, azimuth_rad);
+    std::copy_n(scan.row.data() + first, rest, row);
+    HWY_DYNAMIC_DISPATCH(projectTogether)
+    (to, {range_m, azimuth_rad, row, pixel}, static_cast<std::int32_t>(first), projected);
+    keepClosest(projected, rest, closest);
+    std::copy_n(pixel, rest, depth_mapper + first);
+}
+
+}  // namespace
 
 int nearestColumn(float azimuth_rad, int columns) {
-    const float turn = 0.5f - azimuth_rad * static_cast<float>(0.5 / kPi);  // clockwise from behind
+    const float turn = 0.5f - azimuth_rad * kTurnsPerRadian;  // clockwise from behind
     const int column = static_cast<int>(std::floor(turn * static_cast<float>(columns)));
     return wrapColumn(column, columns);
 }
@@ -14,25 +175,21 @@ float columnAzimuth(int column, int columns) {
     return static_cast<float>(kPi - 2.0 * kPi * (column + 0.5) / columns);
 }
 
+// Fast because pixels are found a vector of returns at a time, and the closest returns without a
+// branch.
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                  RangeImage& image) {
-    image.depth_m.setConstant(sensor.rows(), columns, kNoValue);
-    image.closest_return.setConstant(sensor.rows(), columns, RangeImage::kNoReturn);
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local std::vector<RangeAndIndex> kept;
+    std::vector<RangeAndIndex>& closest = kept;
+    closest.assign(static_cast<std::size_t>(sensor.rows()) * columns, emptyPixel());
     image.depth_mapper.resize(scan.size());
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const float range_m = scan.range_m[i];
-        if (!sensor.sees(range_m) || range_m > context_m) {
-            image.depth_mapper[i] = RangeImage::kNoPixel;
-            continue;
-        }
-        const int column = nearestColumn(scan.azimuth_rad[i], columns);
-        float& depth_m = image.depth_m(scan.row[i], column);
-        if (!(depth_m <= range_m)) {  // empty, or farther
-            depth_m = range_m;
-            image.closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
-        }
-        image.depth_mapper[i] = column * sensor.rows() + scan.row[i];
-    }
+    projectReturns(
+        scan, {sensor.rows(), columns, sensor.min_range_m, std::min(sensor.max_range_m, context_m)},
+        image.depth_mapper.data(), closest.data());
+    image.depth_m.resize(sensor.rows(), columns);
+    image.closest_return.resize(sensor.rows(), columns);
+    split(closest.data(), closest.size(), image.depth_m.data(), image.closest_return.data());
 }
 
 ReturnsByPixel returnsByPixel(const RangeImage& image) {
@@ -55,3 +212,4 @@ ReturnsByPixel returnsByPixel(const RangeImage& image) {
 }
 
 }  // namespace hagen
+#endif

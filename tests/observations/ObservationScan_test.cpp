@@ -72,6 +72,30 @@ TEST(ObservationScan, CloudsTakeTheSettingsSensorAndKeepOrderAndIntensity) {
     EXPECT_EQ(observed.scan.intensity, (std::vector<float>{0.25f, 0.5f, 1.0f}));
 }
 
+TEST(ObservationScan, CloudsTakeTheSensorOfTheSettingsThatTheyAreReadWith) {
+    ObservedScan observed;
+    Settings settings;
+    const auto rowsWith = [&](const Settings& with) {
+        readObservation(*cloud({{3, 0, 0, 0}}), with, observed);
+        return observed.sensor.rows();
+    };
+    EXPECT_EQ(rowsWith(settings), 16);
+    EXPECT_TRUE(observed.is_sensor_assumed);
+    settings.sensor.model = "HDL-64E";
+    EXPECT_EQ(rowsWith(settings), 64);
+    settings.sensor.max_range_m = 10.0f;
+    rowsWith(settings);
+    EXPECT_EQ(observed.sensor.max_range_m, 10.0f);
+    EXPECT_FALSE(observed.is_sensor_assumed);
+    settings.sensor.model = "custom";
+    EXPECT_THROW(rowsWith(settings), SettingsError);
+    settings.sensor.elevations_deg = {-5, 0, 5};
+    EXPECT_EQ(rowsWith(settings), 3);
+    settings.sensor.elevations_deg = {-5, 5};
+    EXPECT_EQ(rowsWith(settings), 2);
+    EXPECT_EQ(rowsWith(Settings()), 16);
+}
+
 TEST(ObservationScan, IntensitiesThatCountTo255AreScaled) {
     ObservedScan observed;
     readObservation(*cloud({{3, 0, 0, 51.0f}, {0, 4, 0, 255.0f}}), Settings(), observed);

@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "support/Captures.h"
+#include "support/InstructionSets.h"
+#include "support/PlainVelodyneDecoder.h"
 #include "support/Program.h"
 #include "support/Random.h"
 
@@ -206,6 +208,104 @@ void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte
     std::memcpy(static_cast<void*>(&observation.scan_packets[packet]), bytes, sizeof bytes);
 }
 
+/// That a decoded scan is the one of the plain decoder, up to rounding.
+void expectDecodedAsPlainly(const CObservationVelodyneScan& observation, Scan& scan) {
+    Scan plain;
+    const std::size_t unsound_blocks = test::decodePlainly(observation, plain);
+    ASSERT_EQ(decodePackets(observation, scan), unsound_blocks);
+    ASSERT_EQ(scan.range_m, plain.range_m);
+    ASSERT_EQ(scan.row, plain.row);
+    ASSERT_EQ(scan.intensity, plain.intensity);
+    for (const auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.azimuth_rad, &scan.time_s}) {
+        ASSERT_EQ(values->size(), plain.size());
+    }
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const float rounding_m = 1e-6f * (1.0f + plain.range_m[i]);
+        ASSERT_NEAR(scan.x_m[i], plain.x_m[i], rounding_m);
+        ASSERT_NEAR(scan.y_m[i], plain.y_m[i], rounding_m);
+        ASSERT_NEAR(scan.z_m[i], plain.z_m[i], rounding_m);
+        ASSERT_NEAR(scan.azimuth_rad[i], plain.azimuth_rad[i], 2e-6);
+        ASSERT_NEAR(scan.time_s[i], plain.time_s[i], 1e-8f + 2e-7f * plain.time_s[i]);
+    }
+}
+
+TEST(VelodyneDecoder, RecordingsAreDecodedAsReturnByReturn) {
+    Scan scan;
+    if (const auto observation = test::realVlp16Scan()) expectDecodedAsPlainly(*observation, scan);
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    for (const auto& [file, calibration] : {std::pair{"sample_velodyne_vlp16_gps.pcap", "VLP16"},
+                                            {"sample_velodyne_hdl32.pcap", "HDL32"}}) {
+        expectDecodedAsPlainly(*test::readCapture(folder / file, calibration), scan);
+    }
+}
+
+/// A random scan: any part of the turn, any share of returns missing, in half of the cases dual
+/// returns, and in half a calibration with all corrections.
+CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
+    const VelodyneModel& model = velodyneModel(random.chance(0.5) ? "VLP-16" : "HDL-32E");
+    const double missing = random.chance(0.2) ? 1.0 : static_cast<double>(random.real(0.0f, 0.9f));
+    Firings firings = randomFirings(static_cast<unsigned>(random.whole(0, 1000000)), model,
+                                    random.whole(1, 600), missing);
+    firings.first_azimuth_deg = static_cast<double>(random.real(0.0f, 360.0f));
+    firings.azimuth_step_deg = static_cast<double>(random.real(-0.7f, 0.7f));
+    if (random.chance(0.5)) firings.last_range_m = firings.range_m + 1.0f;
+    const auto observation = encodeScan(model, firings);
+    if (random.chance(0.5)) return observation;
+    for (auto& laser : observation->calibration.laser_corrections) {
+        const float most_deg = random.chance(0.1) ? 500.0f : 6.0f;
+        laser.azimuthCorrection = static_cast<double>(random.real(-most_deg, most_deg));
+        laser.distanceCorrection = static_cast<double>(random.real(-0.2f, 0.2f));
+        laser.verticalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+        laser.horizontalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+    }
+    return observation;
+}
+
+TEST(VelodyneDecoder, AnyScanIsDecodedAsReturnByReturn) {
+    test::Random random(63);
+    Scan scan;  // used again, as from scan to scan
+    for (int round = 0; round < 200; ++round) {
+        SCOPED_TRACE(round);
+        const auto observation = randomObservation(random);
+        if (random.chance(0.2)) setByte(*observation, 0, 100 * random.whole(0, 11), 0x12);
+        expectDecodedAsPlainly(*observation, scan);
+    }
+}
+
+TEST(VelodyneDecoder, DecodesTheSameOnEveryInstructionSet) {
+    test::Random random(64);
+    for (int round = 0; round < 20; ++round) {
+        const auto observation = randomObservation(random);
+        Scan best;
+        decodePackets(*observation, best);
+        forEachInstructionSet([&](const std::string& name) {
+            SCOPED_TRACE(name);
+            Scan scan;
+            decodePackets(*observation, scan);
+            EXPECT_EQ(scan.x_m, best.x_m);
+            EXPECT_EQ(scan.y_m, best.y_m);
+            EXPECT_EQ(scan.z_m, best.z_m);
+            EXPECT_EQ(scan.intensity, best.intensity);
+            EXPECT_EQ(scan.range_m, best.range_m);
+            EXPECT_EQ(scan.azimuth_rad, best.azimuth_rad);
+            EXPECT_EQ(scan.time_s, best.time_s);
+            EXPECT_EQ(scan.row, best.row);
+        });
+    }
+}
+
+TEST(VelodyneDecoder, IntensitiesAreBytesOver255) {
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    Firings firings = randomFirings(65, model, 16, 0.0);
+    for (int i = 0; i < 256; ++i) firings.intensity.data()[i] = static_cast<float>(i) / 255.0f;
+    Scan scan;
+    decodePackets(*encodeScan(model, firings), scan);
+    for (std::size_t i = 0; i < 256; ++i) {
+        ASSERT_EQ(scan.intensity[i], static_cast<float>(i) / 255.0f);
+    }
+}
+
 TEST(VelodyneDecoder, BlocksWithoutAValidHeaderOrAzimuthAreLeftOutAndCounted) {
     const VelodyneModel& model = velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(57, model, 240, 0.0));
@@ -228,6 +328,7 @@ TEST(VelodyneDecoder, APacketOfAnotherOrUnknownModelIsRefusedByItsNumber) {
         } catch (const std::runtime_error& e) {
             EXPECT_NE(std::string(e.what()).find("packet 4"), std::string::npos) << e.what();
             EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+            EXPECT_EQ(scan.size(), 0u);
         }
     }
 }

@@ -37,8 +37,15 @@ const VelodyneModel& velodyneModel(const std::string& name);
 /// degrees ahead.
 double azimuthOfReadingDeg(double reading);
 
-/// The image row of each laser (row 0 the lowest beam), by the calibration's elevations.
+/// MRPT's default calibration of a model. May be called from several threads.
+const mrpt::obs::VelodyneCalibration& defaultCalibration(const VelodyneModel& model);
+
+/// The image row of a laser, and of each (row 0 the lowest beam), by the calibration's elevations.
+std::uint8_t rowOfLaser(const mrpt::obs::VelodyneCalibration& calibration, std::size_t laser);
 std::vector<std::uint8_t> rowsOfLasers(const mrpt::obs::VelodyneCalibration& calibration);
+
+/// The elevations of the calibration's beams, lowest first.
+void beamsOf(const mrpt::obs::VelodyneCalibration& calibration, std::vector<float>& elevations_rad);
 
 /// The calibration's beams as a sensor, lowest first. Range limits are those of SensorModel.
 SensorModel sensorOf(const mrpt::obs::VelodyneCalibration& calibration, const std::string& name);

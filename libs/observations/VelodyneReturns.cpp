@@ -1,0 +1,198 @@
+#include "VelodyneReturns.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "VelodyneReturns.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#ifndef HAGEN_OBSERVATIONS_VELODYNE_RETURNS_ONCE
+#define HAGEN_OBSERVATIONS_VELODYNE_RETURNS_ONCE
+namespace hagen {
+namespace {
+
+/// For each set of up to eight lanes, as bits: which they are, from the lowest to the highest.
+/// (Highway 1.0's own Compress has such a table, too, and GCC 12 copies it to the stack at each
+/// use.)
+struct LanesOfSets {
+    std::uint8_t lanes[256][8] = {};
+
+    constexpr LanesOfSets() {
+        for (int set = 0; set < 256; ++set) {
+            int count = 0;
+            for (int lane = 0; lane < 8; ++lane) {
+                if (set >> lane & 1) lanes[set][count++] = static_cast<std::uint8_t>(lane);
+            }
+        }
+    }
+};
+constexpr LanesOfSets kLanesOfSets;
+
+/// Whether readings of the block may lie beyond the turn's ends, of which both are behind.
+bool passesBehind(const VelodyneBlock& block, const PlacesInBlock& places) {
+    return block.reading_from_behind + places.most_turn_reading >= kReadingsOfTurn - 0.5f ||
+           block.reading_from_behind + places.least_turn_reading < -0.5f;
+}
+
+}  // namespace
+}  // namespace hagen
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, kSpareReturns>;
+using Ints = hn::RebindToSigned<Floats>;
+using Bytes = hn::Rebind<std::uint8_t, Floats>;
+
+/// Distances and intensities, as they are in the packet.
+struct Raw {
+    hn::Vec<Ints> distance, intensity;
+};
+
+HWY_INLINE Raw load(const std::uint8_t* returns) {
+    const Ints d;
+    hn::Vec<Bytes> low, high, intensity;
+    hn::LoadInterleaved3(Bytes(), returns, low, high, intensity);
+    return {hn::Or(hn::PromoteTo(d, low), hn::ShiftLeft<8>(hn::PromoteTo(d, high))),
+            hn::PromoteTo(d, intensity)};
+}
+
+std::size_t count(const VelodyneBlock* blocks, std::size_t block_count) {
+    const hn::CappedTag<std::uint8_t, 16> d;
+    std::size_t returns = 0;
+    for (const VelodyneBlock* block = blocks; block != blocks + block_count; ++block) {
+        for (std::size_t i = 0; i < kReturnsOfBlock; i += hn::Lanes(d)) {
+            hn::Vec<decltype(d)> low, high, intensity;
+            hn::LoadInterleaved3(d, block->returns + 3 * i, low, high, intensity);
+            returns += hn::CountTrue(d, hn::Ne(hn::Or(low, high), hn::Zero(d)));
+        }
+    }
+    return returns;
+}
+
+/// Of whole numbers up to 255 the same as their division by 255, which is slow: the first product
+/// has no rounding.
+HWY_INLINE hn::Vec<Floats> share(hn::Vec<Floats> of_255) {
+    const Floats d;
+    constexpr float kUpper = 257.0f / 65536.0f;
+    constexpr float kRest = static_cast<float>(1.0 / 255.0 - 257.0 / 65536.0);
+    return hn::Add(hn::Mul(of_255, hn::Set(d, kUpper)), hn::Mul(of_255, hn::Set(d, kRest)));
+}
+
+/// A direction in the plane.
+struct Direction {
+    hn::Vec<Floats> sine, cosine;  ///< of the angle clockwise from x
+    hn::Vec<Floats> azimuth_rad;   ///< counter-clockwise
+};
+
+/// The directions of a block's returns from `i` on: the block's, turned on.
+HWY_INLINE Direction turnOn(const VelodyneBlock& block, const PlacesInBlock& places,
+                            std::size_t i) {
+    const Floats d;
+    const auto sine = hn::Set(d, block.sine), cosine = hn::Set(d, block.cosine);
+    const auto turn_sine = hn::LoadU(d, places.turn_sine + i);
+    const auto turn_cosine = hn::LoadU(d, places.turn_cosine + i);
+    return {hn::Add(hn::Mul(sine, turn_cosine), hn::Mul(cosine, turn_sine)),
+            hn::Sub(hn::Mul(cosine, turn_cosine), hn::Mul(sine, turn_sine)),
+            hn::Sub(hn::Set(d, block.azimuth_rad), hn::LoadU(d, places.turn_rad + i))};
+}
+
+/// A turn of readings is one reading more than a full circle: returns of a block that lie beyond
+/// its end, behind, go on at its start, or the other way round.
+HWY_INLINE void wrap(const VelodyneBlock& block, const PlacesInBlock& places, std::size_t i,
+                     Direction& direction) {
+    const Floats d;
+    const auto reading =
+        hn::Add(hn::Set(d, block.reading_from_behind), hn::LoadU(d, places.turn_reading + i));
+    const auto is_past = hn::Ge(reading, hn::Set(d, kReadingsOfTurn - 0.5f));
+    const auto is_before = hn::Lt(reading, hn::Set(d, -0.5f));
+    const auto turns = hn::Sub(hn::IfThenElseZero(is_before, hn::Set(d, 1.0f)),
+                               hn::IfThenElseZero(is_past, hn::Set(d, 1.0f)));
+    const auto rest_rad = hn::Mul(turns, hn::Set(d, static_cast<float>(kRadiansPerReading)));
+    const auto turned_rad =
+        hn::Mul(turns, hn::Set(d, static_cast<float>(kReadingsOfTurn * kRadiansPerReading)));
+    direction = {hn::Add(direction.sine, hn::Mul(direction.cosine, rest_rad)),
+                 hn::Sub(direction.cosine, hn::Mul(direction.sine, rest_rad)),
+                 hn::Sub(direction.azimuth_rad, turned_rad)};
+}
+
+/// Which lanes of a vector came back, from the lowest on.
+HWY_INLINE hn::Vec<Bytes> lanesOf(hn::Mask<Ints> came_back) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Ints(), came_back, bits);
+    return hn::LoadU(Bytes(), kLanesOfSets.lanes[bits[0]]);
+}
+
+void locate(const VelodyneBlock* blocks, std::size_t block_count, const PlacesInBlock& places,
+            const ReturnArrays& arrays) {
+    const ReturnArrays to = arrays;  // known to be written by nobody else
+    const Floats d;
+    const Ints d_int;
+    std::size_t n = 0;
+    for (const VelodyneBlock* block = blocks; block != blocks + block_count; ++block) {
+        const bool passes_behind = passesBehind(*block, places);
+        for (std::size_t i = 0; i < kReturnsOfBlock; i += hn::Lanes(d)) {
+            const Raw raw = load(block->returns + 3 * i);
+            Direction direction = turnOn(*block, places, i);
+            if (HWY_UNLIKELY(passes_behind)) wrap(*block, places, i, direction);
+            const auto range_m =
+                hn::Add(hn::Mul(hn::ConvertTo(d, raw.distance), hn::Set(d, kDistanceUnit_m)),
+                        hn::LoadU(d, places.distance_m + i));
+            const auto horizontal_m =
+                hn::Add(hn::Mul(range_m, hn::LoadU(d, places.elevation_cosine + i)),
+                        hn::LoadU(d, places.forward_m + i));
+            const auto sideways_m = hn::LoadU(d, places.sideways_m + i);
+            const auto x_m = hn::Add(hn::Mul(horizontal_m, direction.cosine),
+                                     hn::Mul(sideways_m, direction.sine));
+            const auto y_m = hn::Sub(hn::Mul(sideways_m, direction.cosine),
+                                     hn::Mul(horizontal_m, direction.sine));
+            const auto z_m = hn::Add(hn::Mul(range_m, hn::LoadU(d, places.elevation_sine + i)),
+                                     hn::LoadU(d, places.up_m + i));
+            const auto intensity = share(hn::ConvertTo(d, raw.intensity));
+            const auto time_s = hn::Add(hn::Set(d, block->time_s), hn::LoadU(d, places.time_s + i));
+
+            // What came back moves together; what is written behind it is written over later.
+            const auto came_back = hn::Ne(raw.distance, hn::Zero(d_int));
+            const auto byte_lanes = lanesOf(came_back);
+            const auto lanes = hn::IndicesFromVec(d, hn::PromoteTo(d_int, byte_lanes));
+            hn::StoreU(hn::TableLookupLanes(x_m, lanes), d, to.x_m + n);
+            hn::StoreU(hn::TableLookupLanes(y_m, lanes), d, to.y_m + n);
+            hn::StoreU(hn::TableLookupLanes(z_m, lanes), d, to.z_m + n);
+            hn::StoreU(hn::TableLookupLanes(intensity, lanes), d, to.intensity + n);
+            hn::StoreU(hn::TableLookupLanes(range_m, lanes), d, to.range_m + n);
+            hn::StoreU(hn::TableLookupLanes(direction.azimuth_rad, lanes), d, to.azimuth_rad + n);
+            hn::StoreU(hn::TableLookupLanes(time_s, lanes), d, to.time_s + n);
+            const auto row = hn::LoadU(Bytes(), places.row + i);
+            hn::StoreU(hn::TableLookupBytes(row, byte_lanes), Bytes(), to.row + n);
+            n += hn::CountTrue(d_int, came_back);
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(count);
+HWY_EXPORT(locate);
+
+}  // namespace
+
+std::size_t countReturns(const std::vector<VelodyneBlock>& blocks) {
+    return HWY_DYNAMIC_DISPATCH(count)(blocks.data(), blocks.size());
+}
+
+void locateReturns(const std::vector<VelodyneBlock>& blocks, const PlacesInBlock& places,
+                   const ReturnArrays& returns) {
+    HWY_DYNAMIC_DISPATCH(locate)(blocks.data(), blocks.size(), places, returns);
+}
+
+}  // namespace hagen
+#endif
