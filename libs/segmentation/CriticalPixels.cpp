@@ -14,14 +14,6 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Appends `first` + n for each bit n that is set.
-inline std::int32_t* AppendBits(std::uint64_t bits, std::int32_t first, std::int32_t* list) {
-    for (; bits != 0; bits &= bits - 1) {
-        *list++ = first + static_cast<std::int32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
-    }
-    return list;
-}
-
 /// Some columns side by side, all of which have their neighbours on the left (and right) earlier or
 /// later in the image than themselves. Positive floats order as their bits do, and of two equal
 /// ones the earlier is older: so a neighbour is older if its bits, plus 1 if it is earlier, are

@@ -23,6 +23,15 @@ HWY_INLINE std::uint64_t BitsOf(D d, Mask mask) {
     return bits;
 }
 
+/// Appends `first` + n for each bit n that is set; gives the new end.
+template <class Index>
+HWY_INLINE Index* AppendBits(std::uint64_t bits, Index first, Index* list) {
+    for (; bits != 0; bits &= bits - 1) {
+        *list++ = first + static_cast<Index>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
+    }
+    return list;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace hagen
 HWY_AFTER_NAMESPACE();

@@ -116,7 +116,14 @@ void letTheYoungerDie(Workspace& w) {
 }  // namespace
 
 void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proximity_m) {
-    proximity_m = (depth_m < zone_m).select(zone_m - depth_m, depth_m * 0.0f);  // NaN * 0 is NaN
+    proximity_m.resize(depth_m.rows(), depth_m.cols());
+    const float* const depth = depth_m.data();
+    float* const proximity = proximity_m.data();
+    for (Eigen::Index pixel = 0; pixel < depth_m.size(); ++pixel) {
+        const float within_zone = zone_m - depth[pixel];
+        const float beyond = depth[pixel] * 0.0f;  // NaN * 0 is NaN
+        proximity[pixel] = depth[pixel] < zone_m ? within_zone : beyond;
+    }
 }
 
 // Of all pixels, few matter: a component is born where no neighbour is older, and two can only meet
