@@ -106,7 +106,7 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
 void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
     number.assign(static_cast<std::size_t>(most) + 1, 0);
-    for (const std::uint32_t i : returns.roi) number[component[i]] = 1;
+    for (const std::int32_t c : component) number[c] = 1;
     number[0] = 0;
     for (std::size_t c = 1; c < number.size(); ++c) number[c] += number[c - 1];
     if (number.back() == most) return;  // none is missing

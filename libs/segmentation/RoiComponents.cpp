@@ -15,6 +15,7 @@ constexpr std::uint64_t kFarthest = ~std::uint64_t{0};
 /// between them. A run is a stretch of pixels linked one above the other.
 struct Workspace {
     PixelLinks links;
+    std::size_t runs = 0;                ///< how many, kNoRun included; the lists may be longer
     std::vector<std::int32_t> run;       ///< of each pixel that has one, framed
     std::vector<std::uint64_t> nearest;  ///< of each run: its closest pixel, depth before index
     std::vector<std::int32_t> nearer;    ///< of each run: a nearer one linked with it; or itself
@@ -31,7 +32,7 @@ void forEachBit(std::uint64_t bits, int first, Visit visit) {
 void findRuns(Workspace& w) {
     const PixelLinks& links = w.links;
     w.run.assign(links.value.size(), kNoRun);
-    w.nearest.resize(links.value.size());
+    if (w.nearest.size() < links.value.size()) w.nearest.resize(links.value.size());
     std::int32_t run = kNoRun;
     std::uint64_t nearest = kFarthest;
     w.nearest[run] = nearest;
@@ -41,15 +42,15 @@ void findRuns(Workspace& w) {
         const std::uint64_t begins = ~(links.above[word] << 1 | above_last);
         above_last = links.above[word] >> 63;
         forEachBit(links.present[word], first, [&](int pixel) {
-            const bool is_first = begins >> (pixel - first) & 1;
-            run += is_first;
-            nearest =
-                std::min(is_first ? kFarthest : nearest, sortingKey(links.value[pixel], pixel));
+            const std::uint64_t is_first = begins >> (pixel - first) & 1;
+            run += static_cast<std::int32_t>(is_first);
+            const std::uint64_t nearest_below = nearest | (0 - is_first);  // kFarthest at first
+            nearest = std::min(nearest_below, sortingKey(links.value[pixel], pixel));
             w.run[pixel] = run;
             w.nearest[run] = nearest;
         });
     }
-    w.nearest.resize(static_cast<std::size_t>(run + 1));
+    w.runs = static_cast<std::size_t>(run) + 1;
 }
 
 /// The nearest of the runs that this one is joined with so far.
@@ -63,8 +64,8 @@ std::int32_t nearestOf(std::int32_t run, std::vector<std::int32_t>& nearer) {
 
 void joinRuns(Workspace& w) {
     const PixelLinks& links = w.links;
-    w.nearer.resize(w.nearest.size());
-    for (std::size_t run = 0; run < w.nearer.size(); ++run) {
+    w.nearer.resize(w.runs);
+    for (std::size_t run = 0; run < w.runs; ++run) {
         w.nearer[run] = static_cast<std::int32_t>(run);
     }
     const int last_column = links.pixels() - links.stride();
@@ -84,7 +85,7 @@ void joinRuns(Workspace& w) {
 /// Components from the nearest on; each goes by its nearest run.
 void numberRuns(Workspace& w) {
     w.order.clear();
-    for (std::size_t run = 1; run < w.nearer.size(); ++run) {
+    for (std::size_t run = 1; run < w.runs; ++run) {
         if (w.nearer[run] == static_cast<std::int32_t>(run)) {
             w.order.push_back((w.nearest[run] & ~std::uint64_t{0xffffffff}) | run);
         }
@@ -94,7 +95,7 @@ void numberRuns(Workspace& w) {
     std::int32_t number = 0;
     w.number[kNoRun] = number;
     for (const std::uint64_t key : w.order) w.number[itemOf(key)] = ++number;
-    for (std::size_t run = 1; run < w.nearer.size(); ++run) {
+    for (std::size_t run = 1; run < w.runs; ++run) {
         w.number[run] = w.number[nearestOf(static_cast<std::int32_t>(run), w.nearer)];
     }
 }
@@ -117,10 +118,11 @@ void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels
     joinRuns(w);
     numberRuns(w);
     components.resize(rows, columns);
+    const std::int32_t* const number = w.number.data();
     for (int column = 0; column < columns; ++column) {
         const std::int32_t* const run = w.run.data() + column * w.links.stride();
         std::int32_t* const component = components.data() + column * rows;
-        for (int row = 0; row < rows; ++row) component[row] = w.number[run[row]];
+        for (int row = 0; row < rows; ++row) component[row] = number[run[row]];
     }
 }
 
