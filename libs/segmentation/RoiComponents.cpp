@@ -1,4 +1,5 @@
 #include <hagen/segmentation/RoiComponents.h>
+#include <hwy/base.h>
 #include <algorithm>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct Workspace {
 
 template <class Visit>
 void forEachBit(std::uint64_t bits, int first, Visit visit) {
-    for (; bits != 0; bits &= bits - 1) visit(first + __builtin_ctzll(bits));
+    for (; bits != 0; bits &= bits - 1) {
+        visit(first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)));
+    }
 }
 
 /// Runs, numbered in the order of pixels, and their closest pixels.
@@ -62,6 +65,7 @@ std::int32_t nearestOf(std::int32_t run, std::vector<std::int32_t>& nearer) {
     return run;
 }
 
+/// Joins the runs of columns side by side, by one link each where many say the same.
 void joinRuns(Workspace& w) {
     const PixelLinks& links = w.links;
     w.nearer.resize(w.runs);
@@ -74,10 +78,11 @@ void joinRuns(Workspace& w) {
             const int right = pixel < last_column ? pixel + links.stride() : pixel - last_column;
             const std::int32_t a = nearestOf(w.run[pixel], w.nearer);
             const std::int32_t b = nearestOf(w.run[right], w.nearer);
-            if (w.nearest[a] < w.nearest[b])
+            if (w.nearest[a] < w.nearest[b]) {
                 w.nearer[b] = a;
-            else
+            } else {
                 w.nearer[a] = b;
+            }
         });
     }
 }
@@ -102,6 +107,8 @@ void numberRuns(Workspace& w) {
 
 }  // namespace
 
+// Links are found for many pixels at once; then runs are joined and not pixels, and components
+// sorted and not pixels.
 void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels, float max_gap_m,
                          Image<std::int32_t>& components) {
     thread_local Workspace workspace;
