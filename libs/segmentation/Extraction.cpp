@@ -1,18 +1,116 @@
 #include <hagen/segmentation/Extraction.h>
 #include <algorithm>
 
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "Extraction.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "ExtractionParts.h"
+#include "MaskBits.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Labels whole words of returns, the first of which is return `first`. A scan's returns change
+/// label at every turn, so nothing branches on one.
+void LabelWords(const ExtractionRules& rules, const ExtractionInput& in, std::uint32_t first,
+                std::size_t words, std::uint64_t last_word_mask, ExtractionOutput& out) {
+    const hn::ScalableTag<float> df;
+    const hn::RebindToSigned<decltype(df)> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1), two = hn::Set(d, 2);
+    const auto min_range = hn::Set(df, rules.min_range_m),
+               max_range = hn::Set(df, rules.max_range_m);
+    auto most = zero;
+    const auto zone = hn::Set(df, rules.zone_m), gap = hn::Set(df, rules.component_gap_m);
+
+    for (std::size_t word = 0; word < words; ++word) {
+        std::uint64_t seen_bits = 0, roi_bits = 0;
+        for (std::size_t n = 0; n < kReturnsPerWord; n += lanes) {
+            const std::size_t i = word * kReturnsPerWord + n;
+            const auto range = hn::LoadU(df, in.range_m + i);
+            const auto pixel = hn::LoadU(d, in.pixel + i);
+            const auto verdict = hn::GatherIndex(d, in.verdict_of_pixel, pixel);
+            const auto is_seen = hn::And(hn::Ge(range, min_range), hn::Le(range, max_range));
+            auto is_rou = hn::Eq(hn::And(verdict, one), one);
+            auto component = hn::ShiftRight<1>(verdict);
+            if (in.own_label != nullptr) {
+                const auto own = hn::PromoteTo(d, hn::LoadU(d8, in.own_label + i));
+                const auto depth = hn::GatherIndex(df, in.depth_of_pixel_m, hn::Max(pixel, zero));
+                const auto has_none = hn::Eq(own, zero);
+                is_rou = hn::Or(hn::Eq(own, one), hn::And(has_none, is_rou));
+                const auto is_near = hn::RebindMask(d, hn::Lt(hn::Sub(range, depth), gap));
+                component = hn::IfThenElseZero(hn::Or(has_none, is_near), component);
+            }
+            const auto is_far = hn::Or(hn::RebindMask(d, hn::Gt(range, zone)), hn::Lt(pixel, zero));
+            const auto seen = hn::RebindMask(d, is_seen);
+            const auto is_roi = hn::AndNot(hn::Or(is_far, is_rou), seen);
+            const auto label = hn::IfThenElseZero(seen, hn::IfThenElse(is_roi, two, one));
+            hn::StoreU(hn::DemoteTo(d8, label), d8, out.label + i);
+            component = hn::IfThenElseZero(is_roi, component);
+            most = hn::Max(most, component);
+            hn::StoreU(component, d, out.component + i);
+            seen_bits |= BitsOf(d, seen) << n;
+            roi_bits |= BitsOf(d, is_roi) << n;
+        }
+        const std::uint64_t mask = word + 1 < words ? ~std::uint64_t{0} : last_word_mask;
+        const auto index = static_cast<std::uint32_t>(first + word * kReturnsPerWord);
+        out.roi = AppendBits(roi_bits & mask, index, out.roi);
+        out.rou = AppendBits(seen_bits & ~roi_bits & mask, index, out.rou);
+        out.unclassified = AppendBits(~seen_bits & mask, index, out.unclassified);
+    }
+    out.most_components = std::max(out.most_components, hn::GetLane(hn::MaxOfLanes(d, most)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <array>
+
 namespace hagen {
 namespace {
 
+HWY_EXPORT(LabelWords);
+
+/// All that is made of one scan. Kept from scan to scan, so that none is allocated; holds nothing
+/// between them.
+struct Workspace {
+    std::vector<std::int32_t> verdict;  ///< for no pixel, then for each
+    std::vector<std::int32_t> number;   ///< of each component
+    std::vector<std::uint32_t> roi, rou, unclassified;
+};
+
+/// Of each pixel 2 * component + 1 if it is ROU, so that a return looks it up once. What has no
+/// pixel is ROU.
+void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& components,
+                  std::vector<std::int32_t>& verdict) {
+    verdict.resize(static_cast<std::size_t>(labels.size()) + 1);
+    verdict[0] = 1;
+    const Label* const label = labels.data();
+    const std::int32_t* const component = components.data();
+    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
+        verdict[pixel + 1] = component[pixel] * 2 + (label[pixel] == Label::Rou);
+    }
+}
+
 /// Numbers components 1, 2, ... in their order, without those that no return is in: they are of
-/// repaired pixels alone.
-void renumber(std::vector<std::int32_t>& component) {
-    const auto most = std::max_element(component.begin(), component.end());
-    if (most == component.end()) return;
-    std::vector<std::int32_t> number(static_cast<std::size_t>(*most) + 1, 0);
-    for (const std::int32_t c : component) number[c] = c > 0;
+/// repaired pixels alone. Only RoI has any.
+void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
+    std::vector<std::int32_t>& component = returns.component;
+    number.assign(static_cast<std::size_t>(most) + 1, 0);
+    for (const std::int32_t c : component) number[c] = 1;
+    number[0] = 0;
     for (std::size_t c = 1; c < number.size(); ++c) number[c] += number[c - 1];
-    for (std::int32_t& c : component) c = c > 0 ? number[c] : 0;
+    if (number.back() == most) return;  // none is missing
+    for (const std::uint32_t i : returns.roi) component[i] = number[component[i]];
 }
 
 }  // namespace
@@ -21,34 +119,59 @@ void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImag
                     const Image<Label>& labels, const Image<std::int32_t>& components,
                     const std::vector<Label>& own_label, float zone_m, float component_gap_m,
                     LabelledReturns& returns) {
-    returns.label.resize(scan.size());
-    returns.component.assign(scan.size(), 0);
-    for (auto* indices : {&returns.roi, &returns.rou, &returns.unclassified}) indices->clear();
-
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const auto index = static_cast<std::uint32_t>(i);
-        const std::int32_t pixel = image.depth_mapper[i];
-        const bool is_far = scan.range_m[i] > zone_m || pixel == RangeImage::kNoPixel;
-        const Label own = own_label.empty() ? Label::Unclassified : own_label[i];
-        const Label label = is_far                       ? Label::Rou
-                            : own != Label::Unclassified ? own
-                                                         : labels.data()[pixel];
-        if (!sensor.sees(scan.range_m[i])) {
-            returns.label[i] = Label::Unclassified;
-            returns.unclassified.push_back(index);
-        } else if (label == Label::Rou) {
-            returns.label[i] = Label::Rou;
-            returns.rou.push_back(index);
-        } else {
-            returns.label[i] = Label::Roi;
-            const bool is_apart =
-                own != Label::Unclassified &&
-                !(scan.range_m[i] - image.depth_m.data()[pixel] < component_gap_m);
-            returns.component[i] = is_apart ? 0 : components.data()[pixel];
-            returns.roi.push_back(index);
-        }
+    static_assert(RangeImage::kNoPixel == -1 && static_cast<int>(Label::Roi) == 2 &&
+                  static_cast<int>(Label::Rou) == 1 && static_cast<int>(Label::Unclassified) == 0);
+    thread_local Workspace workspace;
+    Workspace& w = workspace;
+    const std::size_t size = scan.size();
+    for (auto* list : {&w.roi, &w.rou, &w.unclassified}) {
+        if (list->size() < size) list->resize(size);
     }
-    renumber(returns.component);
+    returns.label.resize(size);
+    returns.component.resize(size);
+    findVerdicts(labels, components, w.verdict);
+
+    const ExtractionRules rules{sensor.min_range_m, sensor.max_range_m, zone_m, component_gap_m};
+    ExtractionInput in{};
+    in.range_m = scan.range_m.data();
+    in.pixel = image.depth_mapper.data();
+    in.own_label =
+        own_label.empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(own_label.data());
+    in.verdict_of_pixel = w.verdict.data() + 1;
+    in.depth_of_pixel_m = image.depth_m.data();
+    ExtractionOutput out{};
+    out.label = reinterpret_cast<std::uint8_t*>(returns.label.data());
+    out.component = returns.component.data();
+    out.roi = w.roi.data();
+    out.rou = w.rou.data();
+    out.unclassified = w.unclassified.data();
+    const std::size_t words = size / kReturnsPerWord, whole = words * kReturnsPerWord;
+    HWY_DYNAMIC_DISPATCH(LabelWords)(rules, in, 0, words, ~std::uint64_t{0}, out);
+
+    if (const std::size_t rest = size - whole; rest > 0) {  // on copies as long as a word
+        std::array<float, kReturnsPerWord> range_m{};
+        std::array<std::int32_t, kReturnsPerWord> pixel{}, component{};
+        std::array<std::uint8_t, kReturnsPerWord> own{}, label{};
+        std::copy_n(in.range_m + whole, rest, range_m.data());
+        std::copy_n(in.pixel + whole, rest, pixel.data());
+        if (in.own_label != nullptr) std::copy_n(in.own_label + whole, rest, own.data());
+        in.range_m = range_m.data();
+        in.pixel = pixel.data();
+        if (in.own_label != nullptr) in.own_label = own.data();
+        std::uint8_t* const last_labels = out.label + whole;
+        std::int32_t* const last_components = out.component + whole;
+        out.label = label.data();
+        out.component = component.data();
+        HWY_DYNAMIC_DISPATCH(LabelWords)
+        (rules, in, static_cast<std::uint32_t>(whole), 1, (std::uint64_t{1} << rest) - 1, out);
+        std::copy_n(label.data(), rest, last_labels);
+        std::copy_n(component.data(), rest, last_components);
+    }
+    returns.roi.assign(w.roi.data(), out.roi);
+    returns.rou.assign(w.rou.data(), out.rou);
+    returns.unclassified.assign(w.unclassified.data(), out.unclassified);
+    renumber(out.most_components, returns, w.number);
 }
 
 }  // namespace hagen
+#endif

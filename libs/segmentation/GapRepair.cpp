@@ -3,16 +3,23 @@
 
 namespace hagen {
 
+// Columns lie one behind the other, so that all pixels are one row of numbers: each is computed
+// from those beside it, empty or not, without a branch. Where that mixed two columns, at their
+// ends, the pixel is put back.
 void repairGaps(const Image<float>& depth_m, float max_step_m, Image<float>& repaired_m) {
-    repaired_m = depth_m;
-    for (int column = 0; column < depth_m.cols(); ++column) {
-        for (int row = 1; row + 1 < depth_m.rows(); ++row) {
-            if (hasValue(depth_m(row, column))) continue;
-            const float below = depth_m(row - 1, column), above = depth_m(row + 1, column);
-            if (std::abs(above - below) < max_step_m) {  // false where either is empty
-                repaired_m(row, column) = 0.5f * (below + above);
-            }
-        }
+    const Eigen::Index rows = depth_m.rows(), pixels = depth_m.size();
+    repaired_m.resize(rows, depth_m.cols());
+    const float* const depth = depth_m.data();
+    float* const repaired = repaired_m.data();
+    for (Eigen::Index pixel = 1; pixel + 1 < pixels; ++pixel) {
+        const float own = depth[pixel], below = depth[pixel - 1], above = depth[pixel + 1];
+        const float mean = 0.5f * (below + above);
+        const float filled = std::abs(above - below) < max_step_m ? mean : own;
+        repaired[pixel] = own == own ? own : filled;
+    }
+    for (Eigen::Index first = 0; first < pixels; first += rows) {
+        repaired[first] = depth[first];
+        repaired[first + rows - 1] = depth[first + rows - 1];
     }
 }
 

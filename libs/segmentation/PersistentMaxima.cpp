@@ -1,80 +1,162 @@
 #include <hagen/segmentation/PersistentMaxima.h>
-#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "CriticalPixels.h"
+#include "RadixSort.h"
 
 namespace hagen {
 namespace {
 
-constexpr int kAbsent = -1;
-
-/// Components of the pixels that the sinking level has reached. Each is named by its root, the
-/// pixel at which it was born.
-class Components {
- public:
-    explicit Components(int pixels) : parent_(pixels, kAbsent) {}
-
-    bool contains(int pixel) const { return parent_[pixel] != kAbsent; }
-    void add(int pixel) { parent_[pixel] = pixel; }
-    void join(int younger_root, int elder_root) { parent_[younger_root] = elder_root; }
-
-    int root(int pixel) {
-        while (parent_[pixel] != pixel) {
-            parent_[pixel] = parent_[parent_[pixel]];
-            pixel = parent_[pixel];
-        }
-        return pixel;
-    }
-
- private:
-    std::vector<int> parent_;
+/// Where the components born at two maxima meet. Maxima go by their number in the list of critical
+/// pixels, which is in the order of pixels.
+struct Meeting {
+    float level_m;
+    std::int32_t maximum, other;
 };
+
+/// All that is made of one scan. Kept from scan to scan, so that none is allocated; holds nothing
+/// between them.
+struct Workspace {
+    FramedLevels proximity_m;
+    CriticalPixels critical;
+    std::vector<Meeting> meetings;
+    std::vector<std::int32_t> elder;  ///< of each maximum, an older one it has met; or itself
+    std::vector<float> birth_m, death_m;
+    std::vector<std::uint64_t> order, swap;
+};
+
+/// The neighbours of a saddle that stand for all older ones: one of each stretch of them that lie
+/// side by side.
+struct Arms {
+    int count = 0;
+    std::array<std::uint8_t, 4> neighbour{};
+};
+
+constexpr std::array<Arms, 256> makeArmsByOlderNeighbours() {
+    std::array<Arms, 256> table{};
+    for (unsigned older = 0; older < table.size(); ++older) {
+        for (int side = 0; side < kNeighbours; side += 2) {
+            const int corner = side + 1, next = (side + 2) % kNeighbours;
+            if (older >> side & 1 || !((older >> corner | older >> next) & 1)) continue;
+            const int first = older >> corner & 1 ? corner : next;
+            table[older].neighbour[table[older].count++] = static_cast<std::uint8_t>(first);
+        }
+    }
+    return table;
+}
+constexpr std::array<Arms, 256> kArmsByOlderNeighbours = makeArmsByOlderNeighbours();
+
+/// The number of the maximum that the way up from a pixel ends at, if maxima hold ~number. Makes
+/// the way half as long for the next one who goes it.
+std::int32_t maximumAbove(std::int32_t pixel, std::vector<std::int32_t>& ascent) {
+    while (true) {
+        const std::int32_t next = ascent[pixel];
+        if (next < 0) return ~next;
+        const std::int32_t after_next = ascent[next];
+        if (after_next < 0) return ~after_next;
+        ascent[pixel] = after_next;
+        pixel = after_next;
+    }
+}
+
+/// Where maxima meet, in the order of pixels.
+void findMeetings(Workspace& w) {
+    CriticalPixels& critical = w.critical;
+    for (std::size_t n = 0; n < critical.maxima; ++n) {
+        critical.ascent[critical.maximum[n]] = ~static_cast<std::int32_t>(n);
+    }
+    const auto offsets = neighbourOffsets(w.proximity_m.stride());
+    w.meetings.clear();
+    for (std::size_t n = 0; n < critical.saddles; ++n) {
+        const std::int32_t saddle = critical.saddle[n];
+        const Arms& arms = kArmsByOlderNeighbours[critical.older_neighbours[saddle]];
+        const auto reachedBy = [&](int arm) {
+            return maximumAbove(saddle + offsets[arms.neighbour[arm]], critical.ascent);
+        };
+        const std::int32_t maximum = reachedBy(0);
+        for (int arm = 1; arm < arms.count; ++arm) {
+            const std::int32_t other = reachedBy(arm);
+            if (other != maximum)
+                w.meetings.push_back({w.proximity_m.level[saddle], maximum, other});
+        }
+    }
+}
+
+/// The maximum at which the component that this one has become part of was born.
+std::int32_t eldest(std::int32_t maximum, std::vector<std::int32_t>& elder) {
+    while (elder[maximum] != maximum) {
+        elder[maximum] = elder[elder[maximum]];
+        maximum = elder[maximum];
+    }
+    return maximum;
+}
+
+/// The elder rule, meeting by meeting as the level sinks.
+void letTheYoungerDie(Workspace& w) {
+    w.order.clear();
+    for (const Meeting& meeting : w.meetings) {
+        w.order.push_back(sinkingKey(meeting.level_m, w.order.size()));
+    }
+    radixSort(w.order, w.swap);
+    w.elder.resize(w.critical.maxima);
+    for (std::size_t n = 0; n < w.elder.size(); ++n) w.elder[n] = static_cast<std::int32_t>(n);
+    for (const std::uint64_t key : w.order) {
+        const Meeting& meeting = w.meetings[itemOf(key)];
+        const std::int32_t a = eldest(meeting.maximum, w.elder), b = eldest(meeting.other, w.elder);
+        if (a == b) continue;
+        const bool a_is_older =
+            w.birth_m[a] > w.birth_m[b] || (w.birth_m[a] == w.birth_m[b] && a < b);
+        const std::int32_t younger = a_is_older ? b : a;
+        w.elder[younger] = a_is_older ? a : b;
+        w.death_m[younger] = meeting.level_m;
+    }
+}
 
 }  // namespace
 
 void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proximity_m) {
-    proximity_m = (depth_m < zone_m).select(zone_m - depth_m, depth_m * 0.0f);  // NaN * 0 is NaN
+    proximity_m.resize(depth_m.rows(), depth_m.cols());
+    const float* const depth = depth_m.data();
+    float* const proximity = proximity_m.data();
+    for (Eigen::Index pixel = 0; pixel < depth_m.size(); ++pixel) {
+        const float within_zone = zone_m - depth[pixel];
+        const float beyond = depth[pixel] * 0.0f;  // NaN * 0 is NaN
+        proximity[pixel] = depth[pixel] < zone_m ? within_zone : beyond;
+    }
 }
 
+// Of all pixels, few matter: a component is born where no neighbour is older, and two can only meet
+// where the older neighbours of a pixel are not side by side. Those are found for many pixels at
+// once, and only the meetings are sorted, not the pixels.
 void findPersistentMaxima(const Image<float>& proximity_m, float min_persistence_m,
                           std::vector<Maximum>& maxima) {
-    const int rows = static_cast<int>(proximity_m.rows());
-    const int columns = static_cast<int>(proximity_m.cols());
-    const auto level = [&](int pixel) { return proximity_m.data()[pixel]; };
-    const auto isOlder = [&](int a, int b) {
-        return level(a) > level(b) || (level(a) == level(b) && a < b);
-    };
-
-    std::vector<int> oldest_first;
-    for (int pixel = 0; pixel < rows * columns; ++pixel) {
-        if (level(pixel) > 0.0f) oldest_first.push_back(pixel);
+    thread_local Workspace workspace;
+    Workspace& w = workspace;
+    frame(proximity_m, w.proximity_m);
+    findCriticalPixels(w.proximity_m, w.critical);
+    w.birth_m.clear();
+    for (std::size_t n = 0; n < w.critical.maxima; ++n) {
+        w.birth_m.push_back(w.proximity_m.level[w.critical.maximum[n]]);
     }
-    std::sort(oldest_first.begin(), oldest_first.end(), isOlder);
+    w.death_m.assign(w.critical.maxima, 0.0f);
+    findMeetings(w);
+    letTheYoungerDie(w);
 
-    Components components(rows * columns);
-    std::vector<float> death_m(rows * columns, 0.0f);  // of the component born at a pixel
-    for (const int pixel : oldest_first) {
-        components.add(pixel);
-        const int row = pixel % rows, column = pixel / rows;
-        for (int column_step = -1; column_step <= 1; ++column_step) {
-            const int neighbour_column = wrapColumn(column + column_step, columns);
-            for (int neighbour_row = std::max(row - 1, 0);
-                 neighbour_row <= std::min(row + 1, rows - 1); ++neighbour_row) {
-                const int neighbour = neighbour_column * rows + neighbour_row;
-                if (!components.contains(neighbour)) continue;
-                int elder = components.root(neighbour), younger = components.root(pixel);
-                if (elder == younger) continue;
-                if (isOlder(younger, elder)) std::swap(elder, younger);
-                death_m[younger] = level(pixel);
-                components.join(younger, elder);
-            }
+    w.order.clear();
+    for (std::size_t n = 0; n < w.critical.maxima; ++n) {
+        const float persistence_m = w.birth_m[n] - w.death_m[n];
+        if (persistence_m > 0.0f && persistence_m >= min_persistence_m) {
+            w.order.push_back(sinkingKey(w.birth_m[n], n));
         }
     }
-
+    radixSort(w.order, w.swap);
     maxima.clear();
-    for (const int pixel : oldest_first) {
-        const Maximum maximum{pixel % rows, pixel / rows, level(pixel), death_m[pixel]};
-        if (maximum.persistence_m() > 0.0f && maximum.persistence_m() >= min_persistence_m) {
-            maxima.push_back(maximum);
-        }
+    for (const std::uint64_t key : w.order) {
+        const std::size_t n = itemOf(key);
+        const std::int32_t pixel = w.critical.maximum[n];
+        maxima.push_back({w.proximity_m.rowOf(pixel), w.proximity_m.columnOf(pixel), w.birth_m[n],
+                          w.death_m[n]});
     }
 }
 

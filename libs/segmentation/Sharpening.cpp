@@ -16,6 +16,8 @@ void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& 
     const int rows = static_cast<int>(proximity_m.rows());
     const int columns = static_cast<int>(proximity_m.cols());
     sharpened_m = proximity_m;
+    const float beside = gaussian(1.0f, sigma_px),
+                diagonal = gaussian(std::hypot(1.0f, 1.0f), sigma_px);
     for (const Maximum& maximum : maxima) {
         const float centre_m = proximity_m(maximum.row, maximum.column);
         float weighted_sum = 0.0f, weights = 0.0f;
@@ -26,9 +28,8 @@ void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& 
                 if (row < 0 || row >= rows || (row_step == 0 && column_step == 0)) continue;
                 const float neighbour_m = proximity_m(row, column);
                 if (!hasValue(neighbour_m)) continue;
-                const float distance_px = std::hypot(float(row_step), float(column_step));
-                const float weight = gaussian(std::abs(neighbour_m - centre_m), sigma_m) *
-                                     gaussian(distance_px, sigma_px);
+                const float spatial = row_step == 0 || column_step == 0 ? beside : diagonal;
+                const float weight = gaussian(std::abs(neighbour_m - centre_m), sigma_m) * spatial;
                 weighted_sum += weight * neighbour_m;
                 weights += weight;
             }

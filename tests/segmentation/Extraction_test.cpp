@@ -1,7 +1,13 @@
 #include <gtest/gtest.h>
 #include <hagen/segmentation/Extraction.h>
 
+#include <algorithm>
 #include <limits>
+#include <map>
+#include <string>
+
+#include "support/InstructionSets.h"
+#include "support/Random.h"
 
 namespace hagen {
 namespace {
@@ -36,6 +42,90 @@ struct Example {
         extractReturns(scan, sensor, image, labels, components, {}, 20.0f, 1.0f, returns);
     }
 };
+
+/// The definition, return by return.
+LabelledReturns plainReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
+                             const Image<Label>& labels, const Image<std::int32_t>& components,
+                             const std::vector<Label>& own_label, float zone_m,
+                             float component_gap_m) {
+    LabelledReturns returns;
+    std::map<std::int32_t, std::int32_t> numbers;
+    for (std::uint32_t i = 0; i < scan.size(); ++i) {
+        const float range_m = scan.range_m[i];
+        const std::int32_t pixel = image.depth_mapper[i];
+        const Label own = own_label.empty() ? Label::Unclassified : own_label[i];
+        Label label = Label::Unclassified;
+        std::int32_t component = 0;
+        if (sensor.sees(range_m)) {
+            label = Label::Rou;
+            if (range_m <= zone_m && pixel != RangeImage::kNoPixel) {
+                label = own != Label::Unclassified ? own : labels.data()[pixel];
+                if (label != Label::Rou) {
+                    label = Label::Roi;
+                    if (own == Label::Unclassified ||
+                        range_m - image.depth_m.data()[pixel] < component_gap_m) {
+                        component = components.data()[pixel];
+                    }
+                }
+            }
+        }
+        returns.label.push_back(label);
+        returns.component.push_back(component);
+        if (component > 0) numbers[component] = 0;
+        (label == Label::Roi   ? returns.roi
+         : label == Label::Rou ? returns.rou
+                               : returns.unclassified)
+            .push_back(i);
+    }
+    std::int32_t number = 0;
+    for (auto& [component, without_gaps] : numbers) without_gaps = ++number;
+    for (std::int32_t& component : returns.component) {
+        if (component > 0) component = numbers[component];
+    }
+    return returns;
+}
+
+TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
+    test::Random random(23);
+    const SensorModel sensor = sensorModel("VLP-16");
+    LabelledReturns returns;  // one for all, as in the filter
+    for (int round = 0; round < 200; ++round) {
+        const int size = random.chance(0.3) ? 64 * random.whole(0, 3) : random.whole(0, 500);
+        const int columns = random.whole(3, 40);
+        Scan scan;
+        std::vector<Label> own_label;
+        const bool has_own = random.chance(0.5);
+        for (int i = 0; i < size; ++i) {
+            scan.x_m.push_back(0.0f);
+            scan.range_m.push_back(random.chance(0.05) ? kNoValue : random.real(0.0f, 140.0f));
+            if (random.chance(0.7)) scan.range_m.back() = random.real(1.0f, 25.0f);
+            scan.azimuth_rad.push_back(random.real(-3.1f, 3.1f));
+            scan.row.push_back(static_cast<std::uint8_t>(random.whole(0, 15)));
+            if (has_own) own_label.push_back(static_cast<Label>(random.whole(0, 2)));
+        }
+        RangeImage image;
+        projectScan(scan, sensor, columns, random.real(10.0f, 100.0f), image);
+        Image<Label> labels(16, columns);
+        Image<std::int32_t> components(16, columns);
+        for (int pixel = 0; pixel < labels.size(); ++pixel) {
+            labels.data()[pixel] = static_cast<Label>(random.whole(0, 2));
+            components.data()[pixel] = random.whole(0, 60);
+        }
+        const auto expected =
+            plainReturns(scan, sensor, image, labels, components, own_label, 20.0f, 1.0f);
+        forEachInstructionSet([&](const std::string& name) {
+            SCOPED_TRACE(name + ", returns: " + std::to_string(size));
+            extractReturns(scan, sensor, image, labels, components, own_label, 20.0f, 1.0f,
+                           returns);
+            ASSERT_EQ(returns.label, expected.label);
+            ASSERT_EQ(returns.component, expected.component);
+            ASSERT_EQ(returns.roi, expected.roi);
+            ASSERT_EQ(returns.rou, expected.rou);
+            ASSERT_EQ(returns.unclassified, expected.unclassified);
+        });
+        if (HasFatalFailure()) return;
+    }
+}
 
 TEST(Extraction, EveryReturnTakesItsPixelsLabelAndComponent) {
     const Example example;

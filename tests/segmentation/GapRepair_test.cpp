@@ -70,6 +70,23 @@ TEST(GapRepair, LeavesEveryPixelWithDepthAsItIs) {
     }
 }
 
+TEST(GapRepair, IsThatOfThePlainDefinition) {
+    test::Random random(9);
+    for (int round = 0; round < 100; ++round) {
+        const Image<float> depth_m =
+            random.image(random.whole(1, 40), random.whole(1, 30), 1.0f, 5.0f, 0.4);
+        Image<float> expected = depth_m;
+        for (int column = 0; column < depth_m.cols(); ++column) {
+            for (int row = 1; row + 1 < depth_m.rows(); ++row) {
+                if (hasValue(depth_m(row, column))) continue;
+                const float below = depth_m(row - 1, column), above = depth_m(row + 1, column);
+                if (std::abs(above - below) < 1.0f) expected(row, column) = 0.5f * (below + above);
+            }
+        }
+        ASSERT_TRUE(test::same(repaired(depth_m, 1.0f), expected));
+    }
+}
+
 TEST(GapRepair, AnEmptyImageStaysEmpty) {
     EXPECT_TRUE(repaired(Image<float>::Constant(16, 870, kNoValue), 1.0f).isNaN().all());
 }

@@ -71,8 +71,9 @@ Image<Label> slowLabels(const Image<float>& depth_m, const Image<float>& angle_r
 TEST(Labelling, AgreesWithASlowerLabeller) {
     test::Random random(18);
     for (int round = 0; round < 60; ++round) {
-        const Image<float> depth_m = random.image(8, 20, 1.0f, 30.0f, 0.2);
-        Image<float> angle_rad = random.image(8, 20, 0.0f, 1.0f, 0.1);
+        const int rows = random.whole(1, 40), columns = random.whole(1, 40);
+        const Image<float> depth_m = random.image(rows, columns, 1.0f, 30.0f, 0.2);
+        Image<float> angle_rad = random.image(rows, columns, 0.0f, 1.0f, 0.1);
         angle_rad = depth_m.isNaN().select(kNoValue, angle_rad);
         const float beta_rad = random.real(0.05f, 0.6f);
         for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {

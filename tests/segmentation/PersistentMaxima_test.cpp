@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "support/InstructionSets.h"
 #include "support/Random.h"
 
 namespace hagen {
@@ -59,6 +62,61 @@ std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min
     return maxima;
 }
 
+/// The definition as a sweep: every pixel from the oldest to the youngest joins the components that
+/// it touches. In the order that is promised.
+std::vector<Maximum> sweptMaxima(const Image<float>& proximity_m, float min_persistence_m) {
+    const int rows = static_cast<int>(proximity_m.rows());
+    const int columns = static_cast<int>(proximity_m.cols());
+    const auto level = [&](int p) { return proximity_m.data()[p]; };
+    const auto isOlder = [&](int a, int b) {
+        return level(a) > level(b) || (level(a) == level(b) && a < b);
+    };
+    std::vector<int> oldest_first, parent(rows * columns, -1);
+    for (int pixel = 0; pixel < rows * columns; ++pixel) {
+        if (level(pixel) > 0.0f) oldest_first.push_back(pixel);
+    }
+    std::sort(oldest_first.begin(), oldest_first.end(), isOlder);
+    const auto root = [&](int pixel) {
+        while (parent[pixel] != pixel) pixel = parent[pixel] = parent[parent[pixel]];
+        return pixel;
+    };
+    std::vector<float> death_m(rows * columns, 0.0f);
+    for (const int pixel : oldest_first) {
+        parent[pixel] = pixel;
+        for (int column_step = -1; column_step <= 1; ++column_step) {
+            const int column = wrapColumn(pixel / rows + column_step, columns);
+            for (int row_step = -1; row_step <= 1; ++row_step) {
+                const int row = pixel % rows + row_step;
+                if (row < 0 || row >= rows || parent[column * rows + row] < 0) continue;
+                int elder = root(column * rows + row), younger = root(pixel);
+                if (elder == younger) continue;
+                if (isOlder(younger, elder)) std::swap(elder, younger);
+                death_m[younger] = level(pixel);
+                parent[younger] = elder;
+            }
+        }
+    }
+    std::vector<Maximum> maxima;
+    for (const int pixel : oldest_first) {
+        const Maximum maximum{pixel % rows, pixel / rows, level(pixel), death_m[pixel]};
+        if (maximum.persistence_m() > 0.0f && maximum.persistence_m() >= min_persistence_m) {
+            maxima.push_back(maximum);
+        }
+    }
+    return maxima;
+}
+
+/// The same to the last bit, in the same order.
+void expectIdentical(const std::vector<Maximum>& found, const std::vector<Maximum>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        ASSERT_EQ(found[i].row, expected[i].row) << i;
+        ASSERT_EQ(found[i].column, expected[i].column) << i;
+        ASSERT_EQ(found[i].birth_m, expected[i].birth_m) << i;
+        ASSERT_EQ(found[i].death_m, expected[i].death_m) << i;
+    }
+}
+
 void expectSame(std::vector<Maximum> found, std::vector<Maximum> expected) {
     const auto by_pixel = [](const Maximum& a, const Maximum& b) {
         return std::pair(a.column, a.row) < std::pair(b.column, b.row);
@@ -91,6 +149,49 @@ TEST(PersistentMaxima, AgreeWithBruteForceWhereManyPixelsAreEquallyHigh) {
         proximity_m = proximity_m.round();
         expectSame(maximaOf(proximity_m), bruteForceMaxima(proximity_m, 0.0f));
     }
+}
+
+TEST(PersistentMaxima, AreThoseOfAPlainSweepOnEveryInstructionSet) {
+    test::Random random(21);
+    for (int round = 0; round < 150; ++round) {
+        const int rows = random.chance(0.5) ? random.whole(1, 12) : random.whole(13, 128);
+        const int columns = random.chance(0.5) ? random.whole(1, 5) : random.whole(6, 90);
+        Image<float> proximity_m =
+            random.image(rows, columns, -4.0f, 20.0f, random.chance(0.5) ? 0.02 : 0.6);
+        if (random.chance(0.4)) proximity_m = proximity_m.round();  // ties, plateaus
+        if (random.chance(0.3)) {                                   // long ways up
+            for (int column = 0; column < columns; ++column) {
+                proximity_m.col(column) += static_cast<float>(20 * column);
+            }
+        }
+        const float least = random.chance(0.5) ? 0.0f : 1.0f;
+        const auto expected = sweptMaxima(proximity_m, least);
+        forEachInstructionSet([&](const std::string& name) {
+            SCOPED_TRACE(name + " " + std::to_string(rows) + " x " + std::to_string(columns));
+            expectIdentical(maximaOf(proximity_m, least), expected);
+        });
+        if (HasFatalFailure()) return;
+    }
+}
+
+TEST(PersistentMaxima, AWindingWayUpHasOneMaximumAtItsEnd) {
+    // A serpentine over the whole image that rises by a step a pixel, its turns far apart.
+    constexpr int kRows = 31, kColumns = 200;
+    Image<float> proximity_m = Image<float>::Constant(kRows, kColumns, kNoValue);
+    float level = 0.0f;
+    for (int column = 1; column < kColumns - 2; ++column) {
+        const int phase = (column - 1) % 8;
+        const bool is_lane = phase % 4 == 0, rises = phase < 4;
+        if (is_lane) {
+            for (int row = 0; row < kRows; ++row) {
+                proximity_m(rises ? row : kRows - 1 - row, column) = level += 0.001f;
+            }
+        } else {
+            proximity_m(rises ? kRows - 1 : 0, column) = level += 0.001f;
+        }
+    }
+    expectIdentical(maximaOf(proximity_m), sweptMaxima(proximity_m, 0.0f));
+    EXPECT_EQ(maximaOf(proximity_m).size(), 1u);
 }
 
 TEST(PersistentMaxima, TheLowerOfTwoPeaksDiesAtTheSaddle) {

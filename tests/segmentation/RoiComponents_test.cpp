@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 #include <hagen/segmentation/RoiComponents.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <vector>
 
+#include "support/InstructionSets.h"
 #include "support/Random.h"
 
 namespace hagen {
@@ -14,6 +18,61 @@ Image<std::int32_t> numbered(const Image<float>& depth_m, const Image<Label>& la
     Image<std::int32_t> components;
     numberRoiComponents(depth_m, labels, max_gap_m, components);
     return components;
+}
+
+/// The definition: from the closest pixel without a number on, all that can be reached.
+Image<std::int32_t> floodedNumbers(const Image<float>& depth_m, const Image<Label>& labels,
+                                   float max_gap_m) {
+    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
+    Image<std::int32_t> components = Image<std::int32_t>::Zero(rows, columns);
+    std::vector<int> nearest_first;
+    for (int pixel = 0; pixel < rows * columns; ++pixel) {
+        if (labels.data()[pixel] == Label::Roi) nearest_first.push_back(pixel);
+    }
+    std::stable_sort(nearest_first.begin(), nearest_first.end(),
+                     [&](int a, int b) { return depth_m.data()[a] < depth_m.data()[b]; });
+    std::int32_t number = 0;
+    for (const int closest : nearest_first) {
+        if (components.data()[closest] != 0) continue;
+        components.data()[closest] = ++number;
+        std::vector<int> queue{closest};
+        for (std::size_t next = 0; next < queue.size(); ++next) {
+            const int row = queue[next] % rows, column = queue[next] / rows;
+            forEachOf4Neighbours(row, column, rows, columns, [&](int to_row, int to_column) {
+                if (labels(to_row, to_column) != Label::Roi) return;
+                if (components(to_row, to_column) != 0) return;
+                const float gap_m = std::abs(depth_m(to_row, to_column) - depth_m(row, column));
+                if (!(gap_m < max_gap_m)) return;
+                components(to_row, to_column) = number;
+                queue.push_back(to_column * rows + to_row);
+            });
+        }
+    }
+    return components;
+}
+
+TEST(RoiComponents, AreThoseOfAPlainFloodOnEveryInstructionSet) {
+    test::Random random(20);
+    for (int round = 0; round < 150; ++round) {
+        const int rows = random.chance(0.5) ? random.whole(2, 16) : random.whole(17, 128);
+        const int columns = random.chance(0.3) ? random.whole(1, 3) : random.whole(4, 90);
+        Image<float> depth_m = random.image(rows, columns, 1.0f, 5.0f, 0.1);
+        if (random.chance(0.4)) depth_m = depth_m.round();  // equally near ones
+        const double share = random.real(0.0f, 1.0f);
+        Image<Label> labels(rows, columns);
+        for (int pixel = 0; pixel < depth_m.size(); ++pixel) {
+            labels.data()[pixel] = !hasValue(depth_m.data()[pixel]) ? Label::Unclassified
+                                   : random.chance(share)           ? Label::Roi
+                                                                    : Label::Rou;
+        }
+        const float max_gap_m = random.real(0.0f, 4.0f);
+        const auto expected = floodedNumbers(depth_m, labels, max_gap_m);
+        forEachInstructionSet([&](const std::string& name) {
+            const auto found = numbered(depth_m, labels, max_gap_m);
+            ASSERT_TRUE((found == expected).all()) << name << " " << rows << " x " << columns;
+        });
+        if (HasFatalFailure()) return;
+    }
 }
 
 TEST(RoiComponents, TheNearestObstacleIsNumberOne) {

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace hagen {
+
+/// What of Extraction.cpp all instruction sets share. Labels are their numbers.
+constexpr std::size_t kReturnsPerWord = 64;
+
+struct ExtractionRules {
+    float min_range_m, max_range_m, zone_m, component_gap_m;
+};
+
+struct ExtractionInput {
+    const float* range_m;
+    const std::int32_t* pixel;
+    const std::uint8_t* own_label;         ///< or null
+    const std::int32_t* verdict_of_pixel;  ///< 2 * component + 1 if ROU; at -1 for no pixel
+    const float* depth_of_pixel_m;
+};
+
+struct ExtractionOutput {
+    std::uint8_t* label;
+    std::int32_t* component;
+    std::uint32_t *roi, *rou, *unclassified;  ///< the lists' ends
+    std::int32_t most_components;             ///< the greatest number met so far
+};
+
+}  // namespace hagen

@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace hagen {
+
+/// A number above or equal to 0 and what goes with it, to be sorted by the number.
+inline std::uint64_t sortingKey(float number, std::size_t item) {
+    std::uint32_t bits;  // order as the numbers do
+    std::memcpy(&bits, &number, sizeof bits);
+    return std::uint64_t{bits} << 32 | item;
+}
+
+/// The same, the greatest number first.
+inline std::uint64_t sinkingKey(float number, std::size_t item) {
+    return sortingKey(number, item) ^ 0xffffffff00000000;
+}
+
+inline std::size_t itemOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
+
+/// Sorts by the numbers, and keeps the order of equal ones: a digit of 8 bits at a time, so that
+/// time goes with the count of keys. `swap` is a buffer.
+inline void radixSort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& swap) {
+    constexpr int kDigits = 4, kValues = 256;
+    const auto digitOf = [](std::uint64_t key, int digit) { return key >> (32 + 8 * digit) & 255; };
+    std::array<std::array<std::uint32_t, kValues>, kDigits> place{};
+    for (const std::uint64_t key : keys) {
+        for (int digit = 0; digit < kDigits; ++digit) ++place[digit][digitOf(key, digit)];
+    }
+    swap.resize(keys.size());
+    for (int digit = 0; digit < kDigits; ++digit) {
+        std::uint32_t next = 0;
+        for (std::uint32_t& first : place[digit]) {
+            const std::uint32_t count = first;
+            first = next;
+            next += count;
+        }
+        for (const std::uint64_t key : keys) swap[place[digit][digitOf(key, digit)]++] = key;
+        keys.swap(swap);
+    }
+}
+
+}  // namespace hagen
