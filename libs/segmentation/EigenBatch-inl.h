@@ -7,8 +7,8 @@
 
 namespace hagen {
 
-/// So many matrices at once: the doubles of the widest vector. Narrower ones take several vectors
-/// for them, whose waits for a division or a root overlap.
+/// So many matrices at once, in several vectors even where vectors are widest: while one waits for
+/// a root or a division, the others go on.
 constexpr int kLanes = 16;
 
 /// The same number of each matrix.
@@ -238,15 +238,16 @@ HWY_INLINE Rotation* qlSweep(const Sweep& sweep, EigenBatch& batch, Rotation* to
     return to;
 }
 
-/// T becomes diagonal, by rotations that are kept. Where the rounding of a matrix is in its way, a
-/// lane may keep entries beside its diagonal; its vectors are orthonormal all the same.
+/// T becomes diagonal, by rotations that are kept; returns how many. Should rounding be in its way,
+/// a lane may keep entries beside its diagonal; its vectors are orthonormal all the same. What is
+/// taken for 0 is far below what the squares of floats tell.
 inline std::size_t diagonaliseTridiagonal(int m, EigenBatch& batch) {
     Pack largest = all(0.0);
     for (int i = 0; i < m; ++i) {
         largest = max(largest, absolute(load(batch.diagonal[i])));
         if (i + 1 < m) largest = max(largest, absolute(load(batch.beside[i])));
     }
-    const Pack negligible = largest * all(0x1p-50) + all(1e-300);
+    const Pack negligible = largest * all(0x1p-44) + all(1e-300);
     std::size_t rotations = 0;
     Sweep sweep{0, m - 1, all(0.0)};
     for (int sweeps = 0; sweeps < 30 * m; ++sweeps) {

@@ -21,7 +21,7 @@ namespace {
 /// Runs of `values` values each, at most kLanes, and what smoothing them needs.
 struct RunBatch {
     int values = 0;
-    std::vector<Lanes> series, scores, sums;
+    std::vector<Lanes> series, sums;
     EigenBatch eigen;
 };
 
@@ -51,24 +51,20 @@ void rowProducts(int m, RunBatch& batch) {
     }
 }
 
-/// The sums along the antidiagonals of the trajectory matrix's projection onto the eigenvectors.
+/// The sums along the antidiagonals of the trajectory matrix's projection onto the eigenvectors:
+/// its scores, convolved with them.
 void antidiagonalSums(int m, int vectors, RunBatch& batch) {
     const int columns = batch.values - m + 1;
-    const Lanes* const s = batch.series.data();
-    batch.scores.resize(columns);
-    batch.sums.assign(batch.values, Lanes{});
+    const Lanes* const series = batch.series.data();
+    batch.sums.resize(batch.values);
+    Lanes* const sums = batch.sums.data();
+    for (int n = 0; n < batch.values; ++n) store(all(0.0), sums[n]);
     for (int c = 0; c < vectors; ++c) {
-        const Lanes* const v = batch.eigen.vectors.data() + c * m;
+        const Lanes* const v = &batch.eigen.vectors[c * m];
         for (int k = 0; k < columns; ++k) {
             Pack score = all(0.0);
-            for (int w = 0; w < m; ++w) score = score + load(v[w]) * load(s[w + k]);
-            store(score, batch.scores[k]);
-        }
-        for (int n = 0; n < batch.values; ++n) {
-            Pack sum = load(batch.sums[n]);
-            const int first = std::max(0, n - columns + 1), last = std::min(n, m - 1);
-            for (int w = first; w <= last; ++w) sum = sum + load(v[w]) * load(batch.scores[n - w]);
-            store(sum, batch.sums[n]);
+            for (int w = 0; w < m; ++w) score = score + load(v[w]) * load(series[k + w]);
+            for (int w = 0; w < m; ++w) store(load(sums[k + w]) + load(v[w]) * score, sums[k + w]);
         }
     }
 }
@@ -109,9 +105,13 @@ struct Run {
 };
 
 /// Those of at least `fewest` values, in order of their length.
-void findRuns(Image<float>& image, int fewest, std::vector<Run>& found, std::vector<Run>& runs) {
-    thread_local std::vector<int> kept_starts;
-    std::vector<int>& start_of = kept_starts;
+void findRuns(Image<float>& image, int fewest, std::vector<Run>& runs) {
+    // Kept from scan to scan, so that none is allocated; hold nothing between them.
+    thread_local std::vector<Run> kept_found;
+    thread_local std::vector<int> kept_start_of;
+    std::vector<Run>& found = kept_found;
+    std::vector<int>& start_of = kept_start_of;  // the place of the next run of this length
+
     const int rows = static_cast<int>(image.rows());
     found.clear();
     start_of.assign(rows + 2, 0);
@@ -159,16 +159,16 @@ void smoothRuns(const Run* runs, int count, int window_size, int principal_compo
 
 void smoothColumns(const Image<float>& values, int window_size, int principal_components,
                    Image<float>& smoothed) {
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local std::vector<Run> kept_found, kept_runs;
+    // Kept from scan to scan, so that none is allocated; hold nothing between them.
+    thread_local std::vector<Run> kept_runs;
     thread_local RunBatch kept_batch;
-    std::vector<Run>&found = kept_found, &runs = kept_runs;
+    std::vector<Run>& runs = kept_runs;
     RunBatch& batch = kept_batch;
 
     smoothed = values;
     if (principal_components == window_size) return;
     // A shorter run's trajectory matrix has no more rows or columns than components are kept.
-    findRuns(smoothed, window_size + principal_components, found, runs);
+    findRuns(smoothed, window_size + principal_components, runs);
     for (std::size_t first = 0, end; first < runs.size(); first = end) {
         end = first;
         while (end < runs.size() && end < first + kLanes && runs[end].values == runs[first].values)
