@@ -146,15 +146,11 @@ inline void tridiagonalise(int m, EigenBatch& batch) {
         store(last + norm, v[k - 1]);
         store(scale, batch.scale[k]);
 
-        // p = A v, each entry of the lower triangle read once
+        // p = A v, of which only the lower triangle counts
         for (int i = 0; i < k; ++i) {
-            const Pack v_i = load(v[i]);
-            Pack sum = load(row(i)[i]) * v_i;
-            for (int j = 0; j < i; ++j) {
-                const Pack a_ij = load(row(i)[j]);
-                sum = sum + a_ij * load(v[j]);
-                store(load(p[j]) + a_ij * v_i, p[j]);
-            }
+            Pack sum = zero;
+            for (int j = 0; j <= i; ++j) sum = sum + load(row(i)[j]) * load(v[j]);
+            for (int j = i + 1; j < k; ++j) sum = sum + load(row(j)[i]) * load(v[j]);
             store(sum, p[i]);
         }
         // A - v w^T - w v^T, w = scale (p - v scale (p^T v) / 2)
