@@ -1,10 +1,60 @@
 #include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/RangeAngle.h>
 #include <Eigen/Geometry>
-#include <cmath>
-#include <vector>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "Levelling.cpp"
+#include <hwy/foreach_target.h>  // once more for each instruction set
+#include <hwy/highway.h>
+
+#include "SlopeAngle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace hagen {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Of one column, the plane of two level unit vectors: `outwards` and `upwards`.
+void columnLevelAngles(const float* depth_m, const float* sine, const float* cosine,
+                       const float* outwards, const float* upwards, int angles, float* angle_rad) {
+    coverRows(angles, [=](auto d, int row) HWY_ATTR {
+        const auto [out_m, up_m] = stepToBeamAbove(d, depth_m + row, sine + row, cosine + row);
+        const auto along = [=, out = out_m, up = up_m](int axis) HWY_ATTR {
+            return hn::Add(hn::Mul(out, hn::Set(d, outwards[axis])),
+                           hn::Mul(up, hn::Set(d, upwards[axis])));
+        };
+        const auto dx = along(0), dy = along(1), dz = along(2);
+        const auto run_m = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
+        hn::StoreU(slopeAngle(d, hn::Abs(dz), run_m), d, angle_rad + row);
+    });
+}
+
+}  // namespace
+
+void allLevelAngles(const Image<float>& depth_m, const PixelDirections& directions,
+                    const float* level, Image<float>& range_angle_rad) {
+    const float *forward = level, *left = level + 3, *upwards = level + 6;
+    const int angles = static_cast<int>(range_angle_rad.rows());
+    for (Eigen::Index column = 0; column < depth_m.cols(); ++column) {
+        float outwards[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            outwards[axis] = directions.column_cosine[column] * forward[axis] +
+                             directions.column_sine[column] * left[axis];
+        }
+        columnLevelAngles(depth_m.data() + column * (angles + 1), directions.row_sine.data(),
+                          directions.row_cosine.data(), outwards, upwards, angles,
+                          range_angle_rad.data() + column * angles);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+
+HWY_EXPORT(allLevelAngles);
 
 Eigen::Matrix3f levelFromSensor(const Attitude& attitude) {
     return (Eigen::AngleAxisf(attitude.pitch_rad, Eigen::Vector3f::UnitY()) *
@@ -15,25 +65,10 @@ Eigen::Matrix3f levelFromSensor(const Attitude& attitude) {
 void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  const std::optional<Attitude>& attitude, Image<float>& range_angle_rad) {
     if (!attitude) return rangeAngles(depth_m, directions, range_angle_rad);
-    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
     const Eigen::Matrix3f level = levelFromSensor(*attitude);
-    range_angle_rad.resize(rows - 1, columns);
-    for (int column = 0; column < columns; ++column) {
-        const Eigen::Vector3f outwards = level * Eigen::Vector3f(directions.column_cosine[column],
-                                                                 directions.column_sine[column], 0);
-        const Eigen::Vector3f upwards = level.col(2);
-        const auto at = [&](int row) -> Eigen::Vector3f {
-            return depth_m(row, column) *
-                   (directions.row_cosine[row] * outwards + directions.row_sine[row] * upwards);
-        };
-        for (int row = 0; row + 1 < rows; ++row) {
-            const Eigen::Vector3f step_m = at(row + 1) - at(row);
-            range_angle_rad(row, column) =
-                hasValue(depth_m(row, column)) && hasValue(depth_m(row + 1, column))
-                    ? std::atan2(std::abs(step_m.z()), step_m.head<2>().norm())
-                    : kNoValue;
-        }
-    }
+    range_angle_rad.resize(depth_m.rows() - 1, depth_m.cols());
+    HWY_DYNAMIC_DISPATCH(allLevelAngles)(depth_m, directions, level.data(), range_angle_rad);
 }
 
 }  // namespace hagen
+#endif

@@ -1,34 +1,85 @@
+// Vectors go along a column, over pixels without a value as well: a branch a pixel would cost more
+// than the arithmetic.
 #include <hagen/segmentation/RangeAngle.h>
-#include <cmath>
-#include <vector>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "RangeAngle.cpp"
+#include <hwy/foreach_target.h>  // once more for each instruction set
+#include <hwy/highway.h>
+
+#include "SlopeAngle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace hagen {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Of one column: I_h depths make I_h - 1 angles.
+void columnAngles(const float* depth_m, const float* sine, const float* cosine, int angles,
+                  float* angle_rad) {
+    coverRows(angles, [=](auto d, int row) HWY_ATTR {
+        const auto [out_m, up_m] = stepToBeamAbove(d, depth_m + row, sine + row, cosine + row);
+        hn::StoreU(slopeAngle(d, hn::Abs(up_m), hn::Abs(out_m)), d, angle_rad + row);
+    });
+}
+
+/// Of one column's pixels that have a beam above and one below.
+void columnCarried(const float* angle_rad, int pixels, float* pixel_angle_rad) {
+    coverRows(pixels, [=](auto d, int row) HWY_ATTR {
+        const auto with_below = hn::LoadU(d, angle_rad + row);
+        const auto with_above = hn::LoadU(d, angle_rad + row + 1);
+        hn::StoreU(hn::IfThenElse(hn::IsNaN(with_above), with_below, with_above), d,
+                   pixel_angle_rad + row);
+    });
+}
+
+}  // namespace
+
+void allAngles(const Image<float>& depth_m, const PixelDirections& directions,
+               Image<float>& range_angle_rad) {
+    const int angles = static_cast<int>(range_angle_rad.rows());
+    for (Eigen::Index column = 0; column < depth_m.cols(); ++column) {
+        columnAngles(depth_m.data() + column * (angles + 1), directions.row_sine.data(),
+                     directions.row_cosine.data(), angles,
+                     range_angle_rad.data() + column * angles);
+    }
+}
+
+void allCarried(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad) {
+    const Eigen::Index angles = range_angle_rad.rows();
+    for (Eigen::Index column = 0; column < range_angle_rad.cols(); ++column) {
+        const float* from = range_angle_rad.data() + column * angles;
+        float* to = pixel_angle_rad.data() + column * (angles + 1);
+        to[0] = from[0];
+        columnCarried(from, static_cast<int>(angles) - 1, to + 1);
+        to[angles] = from[angles - 1];
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+
+HWY_EXPORT(allAngles);
+HWY_EXPORT(allCarried);
 
 void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  Image<float>& range_angle_rad) {
-    const int rows = static_cast<int>(depth_m.rows());
-    const std::vector<float>&sines = directions.row_sine, &cosines = directions.row_cosine;
-    range_angle_rad.resize(rows - 1, depth_m.cols());
-    for (int column = 0; column < depth_m.cols(); ++column) {
-        for (int row = 0; row + 1 < rows; ++row) {
-            const float below = depth_m(row, column), above = depth_m(row + 1, column);
-            const float dz = above * sines[row + 1] - below * sines[row];
-            const float dx = above * cosines[row + 1] - below * cosines[row];
-            range_angle_rad(row, column) = std::atan2(std::abs(dz), std::abs(dx));
-        }
-    }
+    range_angle_rad.resize(depth_m.rows() - 1, depth_m.cols());
+    HWY_DYNAMIC_DISPATCH(allAngles)(depth_m, directions, range_angle_rad);
 }
 
 void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad) {
-    const int rows = static_cast<int>(range_angle_rad.rows()) + 1;
-    pixel_angle_rad.resize(rows, range_angle_rad.cols());
-    for (int column = 0; column < range_angle_rad.cols(); ++column) {
-        for (int row = 0; row < rows; ++row) {
-            const float with_above = row + 1 < rows ? range_angle_rad(row, column) : kNoValue;
-            const float with_below = row > 0 ? range_angle_rad(row - 1, column) : kNoValue;
-            pixel_angle_rad(row, column) = hasValue(with_above) ? with_above : with_below;
-        }
+    pixel_angle_rad.resize(range_angle_rad.rows() + 1, range_angle_rad.cols());
+    if (range_angle_rad.rows() == 0) {
+        pixel_angle_rad.setConstant(kNoValue);
+        return;
     }
+    HWY_DYNAMIC_DISPATCH(allCarried)(range_angle_rad, pixel_angle_rad);
 }
 
 }  // namespace hagen
+#endif

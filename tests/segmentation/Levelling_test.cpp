@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "support/InstructionSets.h"
 #include "support/Random.h"
 #include "support/SimpleScene.h"
 
@@ -152,6 +153,19 @@ TEST(Levelling, WithoutTiltItIsTheRangeAngleOfThePaper) {
     const Image<float> level_rad = levelAngles(depth_m, sensor, Attitude{});
     EXPECT_TRUE((level_rad.isNaN() == papers_rad.isNaN()).all());
     EXPECT_LT((level_rad.isNaN()).select(0.0f, (level_rad - papers_rad).abs()).maxCoeff(), 1e-5f);
+}
+
+TEST(Levelling, IsTheSameOnEveryInstructionSet) {
+    test::Random random(65);
+    for (const char* name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
+        const SensorModel sensor = sensorModel(name);
+        const Image<float> depth_m = random.image(sensor.rows(), 87, 0.5f, 30.0f, 0.2);
+        const Attitude attitude = randomAttitude(random);
+        const Image<float> expected = levelAngles(depth_m, sensor, attitude);
+        forEachInstructionSet([&](const std::string& set) {
+            EXPECT_TRUE(test::same(levelAngles(depth_m, sensor, attitude), expected)) << set;
+        });
+    }
 }
 
 TEST(Levelling, AnEmptyImageHasNoAngles) {

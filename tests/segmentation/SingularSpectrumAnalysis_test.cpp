@@ -2,9 +2,11 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "support/InstructionSets.h"
 #include "support/Random.h"
 
 namespace hagen {
@@ -54,6 +56,153 @@ bool isDefined(const Eigen::VectorXd& series, int window_size, int principal_com
         Eigen::JacobiSVD<Eigen::MatrixXd>(trajectory).singularValues().cwiseAbs2();
     if (principal_components >= values.size()) return true;
     return values(principal_components - 1) - values(principal_components) > 1e-3 * values(0);
+}
+
+/// One run at a time, by the eigenvectors of X X^T: the definition as the header has it.
+Eigen::ArrayXd plainSmoothed(const Eigen::ArrayXd& series, int window_size,
+                             int principal_components, bool& is_defined) {
+    const Eigen::Index columns = series.size() - window_size + 1;
+    Eigen::MatrixXd trajectory(window_size, columns);
+    for (Eigen::Index k = 0; k < columns; ++k) trajectory.col(k) = series.segment(k, window_size);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(trajectory *
+                                                                trajectory.transpose());
+    const Eigen::VectorXd values = solver.eigenvalues().reverse();
+    is_defined = principal_components >= std::min<Eigen::Index>(window_size, columns) ||
+                 values(principal_components - 1) - values(principal_components) > 1e-3 * values(0);
+    const auto kept = solver.eigenvectors().rightCols(principal_components);
+    const Eigen::MatrixXd projection = kept * (kept.transpose() * trajectory);
+    Eigen::ArrayXd smooth(series.size());
+    for (Eigen::Index n = 0; n < series.size(); ++n) {
+        const Eigen::Index first = std::max<Eigen::Index>(0, n - columns + 1);
+        const Eigen::Index last = std::min<Eigen::Index>(n, window_size - 1);
+        double sum = 0;
+        for (Eigen::Index w = first; w <= last; ++w) sum += projection(w, n - w);
+        smooth(n) = sum / static_cast<double>(last - first + 1);
+    }
+    return smooth;
+}
+
+/// Columns as scans have them: noise, constants, ramps, steps, walls above ground, waves, few
+/// distinct values; some with gaps.
+Image<float> realLike(test::Random& random, int rows, int columns) {
+    Image<float> image(rows, columns);
+    for (int column = 0; column < columns; ++column) {
+        const int kind = random.whole(0, 6), edge = random.whole(0, rows);
+        const float level = random.real(0, 1.5f), noise = random.chance(0.5) ? 0.01f : 0.0f;
+        for (int row = 0; row < rows; ++row) {
+            const float at = static_cast<float>(row) / static_cast<float>(rows);
+            const float shape[] = {random.real(0, 1.57f),
+                                   level,
+                                   level * at,
+                                   row < edge ? 0.1f : level,
+                                   row < edge ? 0.02f : 1.57f,
+                                   0.7f + 0.5f * std::sin(level * static_cast<float>(row)),
+                                   0.4f * static_cast<float>(random.whole(0, 3))};
+            image(row, column) = shape[kind] + noise * random.real(-1, 1);
+        }
+        if (random.chance(0.3)) image(random.whole(0, rows - 1), column) = kNoValue;
+    }
+    return image;
+}
+
+/// Visits the runs of values of a column: visit(first row, values).
+template <class Column, class Visit>
+void forEachRun(const Column& column, Visit visit) {
+    for (int row = 0, end; row < column.size(); row = end + 1) {
+        for (end = row; end < column.size() && hasValue(column(end));) ++end;
+        if (end > row) visit(row, end - row);
+    }
+}
+
+TEST(Ssa, ManyRunsAtOnceAreSmoothedAsEachByItself) {
+    test::Random random(18);
+    int compared = 0;
+    for (const int rows : {2, 7, 8, 13, 15, 16, 31, 63, 127}) {
+        for (const int window_size : {2, 3, 5, 8, 12, 16}) {
+            if (window_size > rows) continue;
+            const Image<float> values = realLike(random, rows, 37);
+            for (const int components :
+                 {1, window_size / 2, window_size * 5 / 8, window_size - 1}) {
+                if (components < 1) continue;
+                const Image<float> found = smoothed(values, window_size, components);
+                ASSERT_TRUE((found.isNaN() == values.isNaN()).all());
+                for (int column = 0; column < values.cols(); ++column) {
+                    forEachRun(values.col(column), [&](int first, int count) {
+                        const auto run = found.col(column).segment(first, count);
+                        const auto was = values.col(column).segment(first, count);
+                        if (count < window_size) {
+                            EXPECT_TRUE((run == was).all());
+                            return;
+                        }
+                        bool is_defined = false;
+                        const Eigen::ArrayXd expected =
+                            plainSmoothed(was.cast<double>(), window_size, components, is_defined);
+                        if (!is_defined) return;
+                        ++compared;
+                        EXPECT_LT((run.cast<double>() - expected).abs().maxCoeff(), 1e-6)
+                            << count << " values, W " << window_size << ", PC " << components;
+                    });
+                }
+            }
+        }
+    }
+    EXPECT_GT(compared, 4000);
+}
+
+TEST(Ssa, ARunDoesNotFeelItsNeighbours) {
+    test::Random random(20);
+    for (const int rows : {13, 14, 15, 40}) {
+        const Image<float> values = realLike(random, rows, 50);
+        const Image<float> together = smoothed(values, 8, 5);
+        for (int column = 0; column < values.cols(); ++column) {
+            ASSERT_TRUE(test::same(smoothed(values.col(column), 8, 5), together.col(column)));
+        }
+    }
+}
+
+TEST(Ssa, IsTheSameOnEveryInstructionSet) {
+    test::Random random(21);
+    for (const auto& [rows, window_size, components] :
+         {std::tuple{15, 8, 5}, {14, 8, 5}, {31, 8, 2}, {63, 16, 10}, {40, 20, 3}}) {
+        const Image<float> values = realLike(random, rows, 45);
+        const Image<float> expected = smoothed(values, window_size, components);
+        forEachInstructionSet([&, w = window_size, c = components](const std::string& name) {
+            EXPECT_TRUE(test::same(smoothed(values, w, c), expected)) << name;
+        });
+    }
+}
+
+TEST(Ssa, IsFiniteWhateverTheValues) {
+    test::Random random(22);
+    for (const float scale : {1e-38f, 1e-20f, 1e15f}) {
+        const Image<float> values = realLike(random, 31, 60) * scale;
+        const Image<float> found = smoothed(values, 8, 5);
+        ASSERT_TRUE((found.isNaN() == values.isNaN()).all());
+        ASSERT_LE(found.isNaN().select(0.0f, found.abs()).maxCoeff(), 10 * scale);
+    }
+    // Few values: eigenvalues coincide, matrices fall apart into blocks.
+    for (int round = 0; round < 50; ++round) {
+        Image<float> values = random.image(random.whole(9, 40), 40, 0, 1, 0.02);
+        const float least = 0.1f * static_cast<float>(round % 7);
+        for (float& value : values.reshaped()) value = value < least ? 0.0f : value;
+        if (round % 2) values = values.isNaN().select(values, values.round());
+        const Image<float> found = smoothed(values, 8, random.whole(1, 7));
+        ASSERT_TRUE((found.isNaN() == values.isNaN()).all());
+        ASSERT_LE(found.isNaN().select(0.0f, found.abs()).maxCoeff(), 10);
+    }
+}
+
+TEST(Ssa, WindowsAsLongAsTheColumnAllows) {
+    test::Random random(23);
+    const Image<float> values = random.image(127, 9, 0, 1.57f, 0.0);
+    for (const int window_size : {64, 126}) {
+        bool is_defined = false;
+        const Image<float> found = smoothed(values, window_size, 1);
+        const Eigen::ArrayXd expected =
+            plainSmoothed(values.col(3).cast<double>(), window_size, 1, is_defined);
+        EXPECT_TRUE(is_defined);
+        EXPECT_LT((found.col(3).cast<double>() - expected).abs().maxCoeff(), 1e-6);
+    }
 }
 
 TEST(Ssa, AgreesWithADenseSingularValueDecomposition) {

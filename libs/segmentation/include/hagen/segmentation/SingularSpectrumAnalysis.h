@@ -7,8 +7,9 @@ namespace hagen {
 /// Stage 7, singular spectrum analysis (section III-D) of each column of angles: the trajectory
 /// matrix X (W x K, K = N - W + 1) of a series of N values, its projection onto the
 /// `principal_components` (PC) leading eigenvectors of X X^T, and the means along its antidiagonals
-/// (hankelization). A series is a run of values without a gap; a run shorter than W stays as it is.
-/// PC = W gives the input back.
+/// (hankelization). A series is a run of values without a gap; a run shorter than W stays as it is,
+/// and one shorter than W + PC, whose matrix has no more than PC components. PC = W gives the input
+/// back.
 /// Requires 1 <= PC <= W. Where the eigenvalues PC and PC + 1 coincide, the leading components, and
 /// so the result, are not unique. `smoothed` has the size and the gaps (NaN) of `values`, and must
 /// not be it.
