@@ -7,9 +7,11 @@ function(hagen_target target)
                       # One result on every machine: no fused multiply-add unless it is written.
                       -ffp-contract=off)
   # SIMD (Highway): one binary for every machine, with these instruction sets to choose from at run
-  # time; the ones between them gain nothing here, and each costs a compilation.
-  target_compile_definitions(
-    ${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+  # time; the ones between them gain nothing here, and each costs a compilation. (ARM's SVE, whose
+  # vectors have no size when compiled, cannot be held in arrays.)
+  set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128)
+  list(JOIN left_out "|" left_out)
+  target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(${left_out})")
   if(HAGEN_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE})
