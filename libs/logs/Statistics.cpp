@@ -25,7 +25,8 @@ Json settingsOf(const Settings& settings) {
     return json;
 }
 
-/// The smallest latency that a share of the scans does not exceed.
+/// The smallest latency that a share of the scans does not exceed; as evaluation/Latency.h has it,
+/// a library that this one does without.
 double percentile(const std::vector<double>& ascending, double share) {
     const auto rank =
         static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));
@@ -37,7 +38,8 @@ Json latencyOf(const std::vector<ScanReport>& scans) {
     std::vector<double> latencies_ms;
     for (const ScanReport& scan : scans) latencies_ms.push_back(scan.latency_ms);
     std::sort(latencies_ms.begin(), latencies_ms.end());
-    return {{"p50", percentile(latencies_ms, 0.50)},
+    return {{"scans", scans.size()},
+            {"p50", percentile(latencies_ms, 0.50)},
             {"p95", percentile(latencies_ms, 0.95)},
             {"p99", percentile(latencies_ms, 0.99)},
             {"max", latencies_ms.back()}};
