@@ -5,7 +5,6 @@
 #include <hagen/observations/MrptMessage.h>
 #include <hagen/observations/ScenePreview.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <tbb/info.h>
 
 #include <algorithm>
 #include <chrono>
@@ -252,8 +251,7 @@ void Converter::run(const std::function<bool(EntryOnItsWay&)>& read, const std::
     steps.write = [this](EntryOnItsWay& entry) {
         if (!entry.member.empty()) outputs_.writeMember(entry.packed);
     };
-    const std::size_t cores = static_cast<std::size_t>(tbb::info::default_concurrency());
-    runPipeline(steps, conversion_.jobs == 0 ? cores : conversion_.jobs);
+    runPipeline(steps, conversion_.jobs == 0 ? coresOfThisMachine() : conversion_.jobs);
     if (!end) return;
     try {
         std::rethrow_exception(end);

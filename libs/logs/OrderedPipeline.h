@@ -1,4 +1,6 @@
 #pragma once
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -6,9 +8,14 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace hagen {
+
+inline std::size_t coresOfThisMachine() {
+    return static_cast<std::size_t>(tbb::info::default_concurrency());
+}
 
 /// What is done to each of a stream of pieces. Steps "in order" see one piece at a time, in the
 /// order in which they were read, and need no locks of their own; the others may work on several.
@@ -59,6 +66,11 @@ void runPipeline(const PipelineSteps<Piece>& steps, std::size_t threads) {
         });
     };
     const auto in_order = tbb::filter_mode::serial_in_order, in_any = tbb::filter_mode::parallel;
+    // More threads than cores have to be allowed, or TBB grumbles.
+    std::optional<tbb::global_control> more;
+    if (threads > coresOfThisMachine()) {
+        more.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
     tbb::task_arena arena(static_cast<int>(threads));
     arena.execute([&] {
         tbb::parallel_pipeline(
