@@ -251,7 +251,10 @@ void Converter::run(const std::function<bool(EntryOnItsWay&)>& read, const std::
     steps.write = [this](EntryOnItsWay& entry) {
         if (!entry.member.empty()) outputs_.writeMember(entry.packed);
     };
-    runPipeline(steps, conversion_.jobs == 0 ? coresOfThisMachine() : conversion_.jobs);
+    // Pictures take a second each, one after the other. Threads would gain nothing, but read on,
+    // and have that much to finish when they are interrupted.
+    const std::size_t most = conversion_.jobs == 0 ? coresOfThisMachine() : conversion_.jobs;
+    runPipeline(steps, conversion_.pictures.empty() ? most : 1);
     if (!end) return;
     try {
         std::rethrow_exception(end);

@@ -45,6 +45,11 @@ Json latencyOf(const std::vector<ScanReport>& scans) {
             {"max", latencies_ms.back()}};
 }
 
+/// File names need not be UTF-8; what is not becomes U+FFFD.
+std::string dumped(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 double inMillimetres(float metres) {
     return std::round(static_cast<double>(metres) * 1e3) / 1e3;  // what a sensor resolves
 }
@@ -85,12 +90,16 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
                        {"rou", report.rou},
                        {"unclassified", report.unclassified}};
     json["latency_ms"] = latencyOf(report.scan_reports);
-    json["scans"] = Json::array();
-    for (const ScanReport& scan : report.scan_reports) json["scans"].push_back(lineOf(scan));
 
+    // Scan by scan, a line each, for a long log has many: together they would take a thousand bytes
+    // each in memory.
     std::ofstream out(file);
-    // File names need not be UTF-8; what is not becomes U+FFFD.
-    out << json.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";
+    const std::string head = dumped(json, 1);
+    out << head.substr(0, head.rfind("\n}")) << ",\n \"scans\": [";
+    for (std::size_t i = 0; i < report.scan_reports.size(); ++i) {
+        out << (i == 0 ? "\n  " : ",\n  ") << dumped(lineOf(report.scan_reports[i]), -1);
+    }
+    out << "]\n}\n";
     closeWritten(out, file);
 }
 

@@ -556,7 +556,7 @@ TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
     for (const char* signal : {"INT", "TERM"}) {
         const auto outcome = test::run(
             "/usr/bin/timeout", {"--preserve-status", "-s", signal, "1", HAGEN_RAWLOG_SEGMENT, "-i",
-                                 log, "-o", path("out.rawlog"), "--overwrite"});
+                                 log, "-o", path("out.rawlog"), "--overwrite", "--jobs", "2"});
         EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
         EXPECT_NE(outcome.err.find("interrupted; the "), std::string::npos) << outcome.err;
         EXPECT_FALSE(fs::exists(path("out.rawlog")));

@@ -85,7 +85,8 @@ struct Interrupted : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Segments a whole log, a few entries in memory at a time: two for each of `jobs` threads.
+/// Segments a whole log, a few entries in memory at a time: two for each of `jobs` threads, of
+/// which there is but one where pictures are drawn.
 ///
 /// A segmented rawlog keeps every entry of the input in its order. After each LiDAR observation
 /// come its `_roi` and `_non_roi` clouds, and its preview if asked for; in a sensory frame they

@@ -23,7 +23,7 @@ class RawlogWriter {
     void write(const mrpt::serialization::CSerializable& entry);
 
     /// write() in steps, for who works on several threads: serialise() and packGzipMember() may be
-    /// called on any, these two in the log's order.
+    /// called on any, these two in the log's order; one may be called while the other is.
     ///
     /// Adds entries that stay together. Where they fill a member, it goes into `member`; which is
     /// empty otherwise. `entries` is left with no particular content.
