@@ -28,9 +28,48 @@ struct PipelineSteps {
     std::function<void(Piece&)> write;  ///< in order
 };
 
+/// A piece's place in a pipeline. TBB alone sees to it that one thread has it at a time, and nobody
+/// ever waits for its lock; that is for ThreadSanitizer, which does not see into TBB (and still
+/// frets about how a pipeline begins and ends).
+template <class Piece>
+struct PipelinePlace {
+    Piece piece;
+    std::mutex lock;
+    ~PipelinePlace() { const std::lock_guard last(lock); }
+};
+
+/// Places that are used again and again.
+template <class Piece>
+class PipelinePlaces {
+ public:
+    using Place = PipelinePlace<Piece>;
+
+    explicit PipelinePlaces(std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i) {
+            giveBack(places_.emplace_back(std::make_unique<Place>()).get());
+        }
+    }
+    ~PipelinePlaces() { const std::lock_guard last(is_used_); }
+    Place* take() {
+        const std::lock_guard lock(is_used_);
+        Place* const place = idle_.back();
+        idle_.pop_back();
+        return place;
+    }
+    void giveBack(Place* place) {
+        const std::lock_guard lock(is_used_);
+        idle_.push_back(place);
+    }
+
+ private:
+    std::vector<std::unique_ptr<Place>> places_;
+    std::vector<Place*> idle_;
+    std::mutex is_used_;
+};
+
 /// Takes all pieces through the steps, on up to `threads` threads; on one, piece by piece, and by
 /// the caller's own. A step that throws ends it, with what it threw: pieces before it may then be
-/// written or not. Memory is that of two pieces a thread, which are used again and again.
+/// written or not. Memory is that of two pieces a thread.
 template <class Piece>
 void runPipeline(const PipelineSteps<Piece>& steps, std::size_t threads) {
     if (threads == 1) {
@@ -43,50 +82,48 @@ void runPipeline(const PipelineSteps<Piece>& steps, std::size_t threads) {
         return;
     }
     const std::size_t most = 2 * threads;  // one to work on, one to wait for its turn
-    std::vector<std::unique_ptr<Piece>> pieces;
-    std::vector<Piece*> idle;
-    std::mutex idle_is_used;  // read and write may meet
-    for (std::size_t i = 0; i < most; ++i) {
-        idle.push_back(pieces.emplace_back(std::make_unique<Piece>()).get());
-    }
-    const auto take = [&] {
-        const std::lock_guard lock(idle_is_used);
-        Piece* const piece = idle.back();
-        idle.pop_back();
-        return piece;
+    PipelinePlaces<Piece> places(most);
+    using Place = PipelinePlace<Piece>;
+
+    std::mutex reads, accounts, writes;  // never waited for, either
+    const auto read = [&](tbb::flow_control& flow) -> Place* {
+        Place* const place = places.take();
+        const std::scoped_lock lock(place->lock, reads);
+        if (steps.read(place->piece)) return place;
+        flow.stop();
+        return nullptr;
     };
-    const auto giveBack = [&](Piece* piece) {
-        const std::lock_guard lock(idle_is_used);
-        idle.push_back(piece);
-    };
-    const auto step = [](tbb::filter_mode mode, const std::function<void(Piece&)>& does) {
-        return tbb::make_filter<Piece*, Piece*>(mode, [&does](Piece* piece) {
-            does(*piece);
-            return piece;
+    const auto side_by_side = [](const auto& step) {
+        return tbb::make_filter<Place*, Place*>(tbb::filter_mode::parallel, [&](Place* place) {
+            const std::lock_guard lock(place->lock);
+            step(place->piece);
+            return place;
         });
     };
-    const auto in_order = tbb::filter_mode::serial_in_order, in_any = tbb::filter_mode::parallel;
+    const auto account = [&](Place* place) {
+        const std::scoped_lock lock(place->lock, accounts);
+        steps.account(place->piece);
+        return place;
+    };
+    const auto write = [&](Place* place) {
+        {
+            const std::scoped_lock lock(place->lock, writes);
+            steps.write(place->piece);
+        }
+        places.giveBack(place);
+    };
+    constexpr auto in_order = tbb::filter_mode::serial_in_order;
+
     // More threads than cores have to be allowed, or TBB grumbles.
     std::optional<tbb::global_control> more;
     if (threads > coresOfThisMachine()) {
         more.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }
-    tbb::task_arena arena(static_cast<int>(threads));
-    arena.execute([&] {
+    tbb::task_arena(static_cast<int>(threads)).execute([&] {
         tbb::parallel_pipeline(
-            most, tbb::make_filter<void, Piece*>(in_order,
-                                                 [&](tbb::flow_control& flow) -> Piece* {
-                                                     Piece* const piece = take();
-                                                     if (steps.read(*piece)) return piece;
-                                                     flow.stop();
-                                                     return nullptr;
-                                                 }) &
-                      step(in_any, steps.work) & step(in_order, steps.account) &
-                      step(in_any, steps.pack) &
-                      tbb::make_filter<Piece*, void>(in_order, [&](Piece* piece) {
-                          steps.write(*piece);
-                          giveBack(piece);
-                      }));
+            most, tbb::make_filter<void, Place*>(in_order, read) & side_by_side(steps.work) &
+                      tbb::make_filter<Place*, Place*>(in_order, account) &
+                      side_by_side(steps.pack) & tbb::make_filter<Place*, void>(in_order, write));
     });
 }
 
