@@ -9,7 +9,8 @@
 #include <fstream>
 
 #include "Rows.h"
-#include "Tables.h"
+#include "support/Processor.h"
+#include "support/Tables.h"
 
 namespace hagen {
 namespace {
@@ -361,17 +362,6 @@ std::string ablationSection(const std::vector<Measured>& all) {
 }
 
 // ---- what made it
-
-std::string processor() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t colon = line.find(": ");
-        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-            return line.substr(colon + 2);
-        }
-    }
-    return "unknown";
-}
 
 std::string provenanceSection(const Provenance& provenance) {
     Table table({"", ""});

@@ -8,9 +8,9 @@
 #include "paper-results/DataSets.h"
 #include "paper-results/Document.h"
 #include "paper-results/Rows.h"
-#include "paper-results/Tables.h"
 #include "support/Program.h"
 #include "support/SimpleScene.h"
+#include "support/Tables.h"
 
 namespace hagen {
 namespace {

@@ -1,4 +1,4 @@
-#include "Tables.h"
+#include "support/Tables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,224 @@
+#include "Document.h"
+
+#include <hagen/pictures/Gnuplot.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <locale>
+#include <numeric>
+#include <sstream>
+
+#include "support/Processor.h"
+#include "support/Tables.h"
+
+namespace hagen {
+namespace {
+
+const std::string kPaper = "paper pipeline", kDefault = "default pipeline", kMrpt = "mrpt decode";
+
+std::string microseconds(double ms) { return cell(1e3 * ms, ms < 0.01 ? 1 : 0); }
+
+double medianOf(const Performance& p, const std::string& sensor, const std::string& what) {
+    const TimedRow* row = find(p.rows, sensor, what);
+    return row == nullptr ? NAN : row->latency.p50_ms;
+}
+
+bool isGrid(const std::string& sensor) { return sensor.find(" x ") != std::string::npos; }
+
+std::vector<std::string> sensorsOf(const Performance& p) {
+    std::vector<std::string> sensors;
+    for (const TimedRow& row : p.rows) {
+        const bool is_new = std::find(sensors.begin(), sensors.end(), row.sensor) == sensors.end();
+        if (is_new && !isGrid(row.sensor)) sensors.push_back(row.sensor);
+    }
+    return sensors;
+}
+
+std::string wholeSection(const Performance& p) {
+    std::string text =
+        "## From packets to labels\n\n"
+        "One scan on one core, microseconds: raw packets (of an HDL-64E, which MRPT has no packets "
+        "of, coordinates) to a label for each return and lists of indices. `mrpt decode` is MRPT's "
+        "`generatePointCloud()` on the same scan, which decodes half of it; `floor` reads the "
+        "input "
+        "once and writes a label a return; `zermas ground fit` has decoded returns given. "
+        "`VLP-16` is a real scan, the others are four simulated ones each.\n\n";
+    Table table({"sensor", "", "median", "p95", "p99", "max", "/ mrpt decode", "p99 / median",
+                 "allocations"});
+    for (const std::string& sensor : sensorsOf(p)) {
+        for (const std::string& what :
+             {std::string("floor"), kMrpt, kPaper, kDefault, std::string("zermas ground fit")}) {
+            const TimedRow* row = find(p.rows, sensor, what);
+            if (row == nullptr) continue;
+            const Latency& t = row->latency;
+            table.add({sensor, "`" + what + "`", microseconds(t.p50_ms), microseconds(t.p95_ms),
+                       microseconds(t.p99_ms), microseconds(t.max_ms),
+                       cell(t.p50_ms / medianOf(p, sensor, kMrpt), 2), cell(t.p99_ms / t.p50_ms, 2),
+                       cell(row->allocations, 1)});
+        }
+    }
+    text += table.text();
+    for (const std::string& sensor : sensorsOf(p)) {
+        text += "- " + sensor + ": the default pipeline takes " +
+                cell(medianOf(p, sensor, kDefault) / medianOf(p, sensor, kPaper), 2) +
+                " times what the paper's takes.\n";
+    }
+    return text + "\n";
+}
+
+std::string stageSection(const Performance& p) {
+    const std::vector<std::string> sensors = sensorsOf(p);
+    std::vector<std::string> heads{"median, microseconds"};
+    heads.insert(heads.end(), sensors.begin(), sensors.end());
+    Table table(heads);
+    for (const TimedRow& row : p.rows) {
+        const bool is_whole = row.what == "floor" || row.what == kMrpt || row.what == kPaper ||
+                              row.what == kDefault || row.what == "zermas ground fit";
+        if (row.sensor != sensors.front() || is_whole) continue;
+        std::vector<std::string> line{row.what};
+        for (const std::string& sensor : sensors) {
+            line.push_back(microseconds(medianOf(p, sensor, row.what)));
+        }
+        table.add(line);
+    }
+    return "## Each stage\n\n"
+           "Of the paper's stages with the paper's settings, of `own` ones with the default "
+           "settings. `decode` gives every return with its coordinates, beam, azimuth and "
+           "time.\n\n" +
+           table.text();
+}
+
+std::string growthTable(const Performance& p, const std::string& what_grows,
+                        const std::vector<std::pair<double, std::string>>& sizes) {
+    Table table({what_grows, "paper, microseconds", "default, microseconds"});
+    std::vector<double> x, papers, ours;
+    for (const auto& [size, sensor] : sizes) {
+        x.push_back(size);
+        papers.push_back(medianOf(p, sensor, kPaper));
+        ours.push_back(medianOf(p, sensor, kDefault));
+        table.add({sensor, microseconds(papers.back()), microseconds(ours.back())});
+    }
+    table.add({"fitted exponent", cell(exponentOf(x, papers), 2), cell(exponentOf(x, ours), 2)});
+    return table.text();
+}
+
+std::string growthSection(const Performance& p) {
+    return "## Growth\n\n"
+           "From coordinates to labels over the size of the image, a return a pixel, one simulated "
+           "scan of an orchard each. An exponent of 1 is cost in proportion.\n\n" +
+           growthTable(
+               p, "beams x columns",
+               {{435, "16 x 435"}, {870, "16 x 870"}, {1740, "16 x 1740"}, {3480, "16 x 3480"}}) +
+           growthTable(p, "beams x columns",
+                       {{16, "16 x 870"}, {32, "32 x 870"}, {64, "64 x 870"}, {128, "128 x 870"}});
+}
+
+std::string latencySection(const Performance& p) {
+    Table table({"settings", "scans", "p50", "p95", "p99", "max"});
+    for (const auto& [settings, t] : p.packets_to_labels) {
+        table.add({settings, std::to_string(t.runs), microseconds(t.p50_ms), microseconds(t.p95_ms),
+                   microseconds(t.p99_ms), microseconds(t.max_ms)});
+    }
+    return "## Latency\n\n"
+           "From a scan's last packet to its labels, microseconds, over a simulated flight of a "
+           "VLP-16. `rawlog-segment --stats` gives the same of your own log.\n\n" +
+           table.text();
+}
+
+std::string flightSection(const Performance& p) {
+    const std::size_t scans = p.table.returns.size();
+    const std::size_t returns =
+        std::accumulate(p.table.returns.begin(), p.table.returns.end(), std::size_t{0});
+    Table table({"`" + p.table.scenario + "`", "mean +- sd [ms]", "p50", "p95", "p99", "max"});
+    for (const auto& method : p.table.methods) {
+        const Latency t = latencyOf(method.runs_ms);
+        table.add({method.name, cell(t.mean_ms) + " +- " + cell(t.sd_ms), cell(t.p50_ms),
+                   cell(t.p95_ms), cell(t.p99_ms), cell(t.max_ms)});
+    }
+    return "## Beside other methods\n\n"
+           "The paper's run-time table anew, over a simulated flight of " +
+           std::to_string(scans) + " VLP-16 scans of " +
+           std::to_string(returns / std::max<std::size_t>(scans, 1)) +
+           " returns on average: every method labels each scan, one after the other, from returns "
+           "that know their beam. The paper states 25 ms a scan, on a laptop.\n\n" +
+           table.text() + "Three flights of " + std::to_string(p.chart.front().returns.size()) +
+           " scans, medians of ten scans:\n\n![Run time along three "
+           "flights](performance/by_flight.svg)\n\n";
+}
+
+std::string conversionSection(const Performance& p) {
+    if (p.conversion.empty()) return "";
+    std::string text = "## Converting a log\n\n";
+    return text;
+}
+
+std::string provenanceSection(const Performance& p) {
+    Table table({"", ""});
+    table.add({"command",
+               std::string("`scripts/measure-performance") + (p.is_quick ? " --quick`" : "`")});
+    table.add({"hagen", std::string(HAGEN_VERSION) + ", " + p.revision});
+    table.add({"MRPT", HAGEN_MRPT_VERSION});
+    table.add({"compiler", HAGEN_COMPILER});
+    table.add({"processor", processor()});
+    return "## What made these figures\n\n" + table.text();
+}
+
+std::vector<double> mediansOfTen(const std::vector<double>& values) {
+    std::vector<double> medians;
+    for (std::size_t first = 0; first + 10 <= values.size(); first += 10) {
+        std::array<double, 10> ten;
+        std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), 10, ten.begin());
+        std::sort(ten.begin(), ten.end());
+        medians.push_back(0.5 * (ten[4] + ten[5]));
+    }
+    return medians;
+}
+
+}  // namespace
+
+std::string documentOf(const Performance& performance) {
+    return "<!-- Made by scripts/measure-performance, which replaces it. -->\n"
+           "# Performance\n\n"
+           "`scripts/measure-performance` makes this page and its figure; `scripts/benchmark` the "
+           "first tables alone. Ratios are of one run on one machine.\n\n" +
+           std::string(performance.is_quick ? "**A quick run: to see that it works, not to "
+                                              "quote.**\n\n"
+                                            : "") +
+           wholeSection(performance) + stageSection(performance) + growthSection(performance) +
+           latencySection(performance) + flightSection(performance) +
+           conversionSection(performance) + provenanceSection(performance);
+}
+
+void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTimes>& flights) {
+    // Colours that the colour-blind tell apart (Okabe and Ito).
+    constexpr std::array<const char*, 6> kColours{"#D55E00", "#0072B2", "#009E73",
+                                                  "#CC79A7", "#E69F00", "#333333"};
+    std::ostringstream script;
+    script.imbue(std::locale::classic());
+    script << "set terminal svg size 1100," << 300 * flights.size()
+           << " font 'sans,14' background '#FFFFFF'\nset output 'by_flight.svg'\n"
+              "set grid y lc rgb '#DDDDDD' lw 1 lt 1\nset tics nomirror out scale 0.5\n"
+              "set border 3 lc rgb '#333333'\nset logscale y\nset ylabel 'run time [ms]'\n"
+              "set key outside right top noenhanced samplen 1.5\nset multiplot layout "
+           << flights.size() << ",1\n";
+    for (const FlightTimes& flight : flights) {
+        std::string plot;
+        for (std::size_t m = 0; m < flight.methods.size(); ++m) {
+            script << "$line" << m << " << EOD\n";
+            const std::vector<double> medians = mediansOfTen(flight.methods[m].runs_ms);
+            for (std::size_t i = 0; i < medians.size(); ++i) {
+                script << 10 * i + 5 << " " << medians[i] << "\n";
+            }
+            script << "EOD\n";
+            plot += (m == 0 ? "plot " : ", ") + ("$line" + std::to_string(m)) +
+                    " using 1:2 with lines lw 1.5 lc rgb '" + kColours[m % kColours.size()] +
+                    "' title " + gnuplotString(flight.methods[m].name);
+        }
+        script << "set title " << gnuplotString(flight.scenario) << " noenhanced\n"
+               << (&flight == &flights.back() ? "set xlabel 'scan'\n" : "") << plot << "\n";
+    }
+    script << "unset multiplot\nunset output\n";
+    runGnuplot(script.str(), folder, {"by_flight.svg"});
+}
+
+}  // namespace hagen

@@ -1,0 +1,31 @@
+// docs/performance.md and its figure.
+#pragma once
+#include <hagen/evaluation/Latency.h>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Flights.h"
+#include "TimedRows.h"
+
+namespace hagen {
+
+struct Performance {
+    std::vector<TimedRow> rows;  ///< of stage-benchmarks
+    struct PacketsToLabels {
+        std::string settings;
+        Latency latency;
+    };
+    std::vector<PacketsToLabels> packets_to_labels;
+    FlightTimes table;               ///< the flight of the table of run times
+    std::vector<FlightTimes> chart;  ///< those of the figure
+    std::vector<TimedRow> conversion;
+    std::string revision;
+    bool is_quick = false;
+};
+
+std::string documentOf(const Performance& performance);
+/// Draws by_flight.svg.
+void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTimes>& flights);
+
+}  // namespace hagen

@@ -1,0 +1,195 @@
+#include "StageRows.h"
+
+#include <hagen/evaluation/BaselineZermas.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
+#include <hagen/segmentation/FartherReturns.h>
+#include <hagen/segmentation/GapRepair.h>
+#include <hagen/segmentation/GroundFrame.h>
+#include <hagen/segmentation/HeightLabels.h>
+#include <hagen/segmentation/Labelling.h>
+#include <hagen/segmentation/RangeAngle.h>
+#include <hagen/segmentation/RoiBoxes.h>
+#include <hagen/segmentation/RoiComponents.h>
+#include <hagen/segmentation/Sharpening.h>
+#include <hagen/segmentation/SingularSpectrumAnalysis.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace hagen {
+namespace {
+
+float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
+
+/// Sums up `bytes` bytes, eight at a time: as fast as memory is read.
+std::uint64_t readAll(const void* memory, std::size_t bytes) {
+    std::uint64_t sum = 0, word;
+    const auto* at = static_cast<const char*>(memory);
+    for (std::size_t i = 0; i + sizeof word <= bytes; i += sizeof word) {
+        std::memcpy(&word, at + i, sizeof word);
+        sum += word;
+    }
+    return sum;
+}
+
+void floorOf(Case& c) {
+    std::uint64_t sum = 0;
+    if (c.packets) {
+        const auto& packets = c.packets->scan_packets;
+        sum = readAll(packets.data(), packets.size() * sizeof packets.front());
+    } else {
+        for (const auto* values : {&c.scan.x_m, &c.scan.y_m, &c.scan.z_m}) {
+            sum += readAll(values->data(), values->size() * sizeof(float));
+        }
+    }
+    c.floor_labels.resize(c.scan.size());
+    std::fill(c.floor_labels.begin(), c.floor_labels.end(), sum % 2 == 0 ? Label::Roi : Label::Rou);
+}
+
+void wholePipeline(Case& c) {
+    readReturns(c);
+    c.filter.segment(c.scan);
+}
+
+const std::vector<StageRow>& papersStages() {
+    static const std::vector<StageRow> rows{
+        {"decode", true, false, readReturns},
+        {"1 depth image", true, false,
+         [](Case& c) {
+             projectScan(c.scan, c.sensor, c.options.columns, c.options.context_m,
+                         c.result.range_image);
+         }},
+        {"2 gap repair", true, false,
+         [](Case& c) { repairGaps(c.result.range_image.depth_m, 1.0f, c.result.sharpened_m); }},
+        {"3 local maxima", true, false,
+         [](Case& c) {
+             proximityOf(c.result.repaired_m, c.options.zone_m, c.result.proximity_m);
+             findPersistentMaxima(c.result.proximity_m, c.options.persistence_m, c.result.maxima);
+         }},
+        {"4+5 sharpening and merge", true, false,
+         [](Case& c) {
+             sharpenMaxima(c.result.proximity_m, c.result.maxima, c.options.sharpening_sigma_px,
+                           c.options.sharpening_sigma_m, c.result.sharpened_m);
+             mergeMaxima(c.result.repaired_m, c.result.proximity_m, c.result.sharpened_m,
+                         c.result.maxima, c.sensor.min_range_m, c.result.merged_m);
+         }},
+        {"6 range angles", true, false,
+         [](Case& c) {
+             rangeAngles(c.result.merged_m, c.directions, c.result.range_angle_rad);
+             carryAngles(c.result.smoothed_rad, c.result.pixel_angle_rad);
+         }},
+        {"7 singular spectrum analysis", true, false,
+         [](Case& c) {
+             smoothColumns(c.result.range_angle_rad, c.options.window_size,
+                           c.options.principal_components, c.result.smoothed_rad);
+         }},
+        {"8 labelling", true, false,
+         [](Case& c) {
+             labelRegions(c.result.repaired_m, c.result.pixel_angle_rad,
+                          radiansf(c.options.beta_deg), c.options.seeds,
+                          radiansf(c.options.seed_gate_deg), c.result.labels);
+             limitToZone(c.result.repaired_m, c.options.zone_m, c.result.labels);
+         }},
+        {"obstacles numbered", true, false,
+         [](Case& c) {
+             numberRoiComponents(c.result.repaired_m, c.result.labels, c.options.component_gap_m,
+                                 c.result.components);
+         }},
+        {"9 extraction", true, false, [](Case& c) {
+             extractReturns(c.scan, c.sensor, c.result.range_image, c.result.labels,
+                            c.result.components, c.result.own_label, c.options.zone_m,
+                            c.options.component_gap_m, c.result.returns);
+         }}};
+    return rows;
+}
+
+const std::vector<StageRow>& ownStages() {
+    static const std::vector<StageRow> rows{
+        {"own: ground frame", false, false,
+         [](Case& c) {
+             static PixelPoints pixels;
+             locatePixels(c.scan, c.directions, c.result.range_image, c.result.repaired_m, pixels);
+             movePixels(fitGroundFrame(pixels, Attitude{}), pixels);
+         }},
+        {"own: ground surface", false, false,
+         [](Case& c) {
+             static GroundSurface surface;
+             fitGroundSurface(c.result.ground.pixels, c.result.labels, surface);
+         }},
+        {"own: heights and tolerances", false, false,
+         [](Case& c) {
+             const Options& o = c.options;
+             Ground& g = c.result.ground;
+             heightsAbove(g.surface, g.pixels, g.height_m);
+             toleratedHeights(
+                 g.pixels, g.height_m,
+                 {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
+                 g.tolerance_m);
+         }},
+        {"own: canopy", false, false,
+         [](Case& c) {
+             Ground& g = c.result.ground;
+             tolerateCanopy(g.pixels, g.height_m, g.tolerance_m);
+         }},
+        {"own: labels, feet, specks", false, false,
+         [](Case& c) {
+             const Ground& g = c.result.ground;
+             labelByHeight(g.height_m, g.tolerance_m, c.result.labels);
+             growFeet(g.pixels, g.height_m, c.result.labels);
+             removeSpecks(g.pixels, g.height_m, g.tolerance_m, c.result.labels);
+         }},
+        {"own: farther returns", false, false,
+         [](Case& c) {
+             judgeFartherReturns(c.scan, c.result.range_image, c.result.ground, c.result.own_label);
+         }},
+        {"boxes (on demand)", false, false,
+         [](Case& c) { boxRoiComponents(c.scan, c.result.returns); }}};
+    return rows;
+}
+
+}  // namespace
+
+Options paperOptions() {
+    Settings settings;
+    mergeSettings(HAGEN_SOURCE_DIR "/config/paper.yaml", settings);
+    return settings.options;
+}
+
+Case::Case(const Input& input, std::size_t which, const Options& with)
+    : packets(input.packets.empty() ? nullptr : input.packets[which]),
+      sensor(input.model),
+      options(with),
+      directions(pixelDirections(sensor, options.columns)),
+      filter(sensor, options) {
+    if (!packets) scan = input.points[which];
+    readReturns(*this);
+    result = filter.segment(scan);
+}
+
+void readReturns(Case& one) {
+    if (one.packets) {
+        decodePackets(*one.packets, one.scan);
+    } else {
+        locateBeams(one.sensor, one.scan);
+    }
+}
+
+const std::vector<StageRow>& stageRows() {
+    static const std::vector<StageRow> rows = [] {
+        std::vector<StageRow> all{
+            {"floor", true, false, floorOf},
+            {"mrpt decode", true, true, [](Case& c) { c.packets->generatePointCloud(); }},
+            {"paper pipeline", true, false, wholePipeline},
+            {"default pipeline", false, false, wholePipeline},
+            {"zermas ground fit", true, false, [](Case& c) { zermasGroundFit(c.scan, c.sensor); }}};
+        all.insert(all.end(), papersStages().begin(), papersStages().end());
+        all.insert(all.end(), ownStages().begin(), ownStages().end());
+        return all;
+    }();
+    return rows;
+}
+
+}  // namespace hagen
