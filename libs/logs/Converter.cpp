@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -27,13 +28,14 @@ ScanReport reportOf(const ObservationSegmenter::Output& out) {
     report.roi = out.roi->pointcloud->size();
     report.rou = out.non_roi->pointcloud->size();
     report.unclassified = report.returns - report.roi - report.rou;
-    report.nearest_roi_m = kNoValue;
+    float nearest_m = std::numeric_limits<float>::infinity();
     std::int32_t obstacles = 0;
     for (const std::uint32_t i : out.result->returns.roi) {
         if (i >= out.scan->size()) break;  // ascending; the rest are older scans' of the window
-        report.nearest_roi_m = std::fmin(report.nearest_roi_m, out.scan->range_m[i]);
+        nearest_m = std::min(nearest_m, out.scan->range_m[i]);
         obstacles = std::max(obstacles, out.result->returns.component[i]);
     }
+    report.nearest_roi_m = std::isinf(nearest_m) ? kNoValue : nearest_m;
     report.obstacles = static_cast<std::size_t>(obstacles);
     report.latency_ms = std::chrono::duration<double, std::milli>(out.time_to_labels).count();
     return report;
