@@ -16,9 +16,9 @@ namespace hagen {
 ///                 "latency_ms": ...}, ...]}
 ///
 /// A latency is the time from a scan's last packet, the whole observation being in memory, to its
-/// labels; clouds are made after that, and do not count. Where scans are segmented side by side (see
-/// Conversion::jobs) they hinder one another a little. Latencies differ from run to run, all else
-/// does not. Throws std::runtime_error, naming the file.
+/// labels; clouds are made after that, and do not count. Where scans are segmented side by side
+/// (see Conversion::jobs) they hinder one another a little. Latencies differ from run to run, all
+/// else does not. Throws std::runtime_error, naming the file.
 void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
                      const ConversionReport& report);
 
