@@ -1,5 +1,6 @@
 #include "Interrupt.h"
 
+#include <atomic>
 #include <csignal>
 #include <ctime>
 #include <initializer_list>
@@ -7,16 +8,19 @@
 namespace hagen {
 namespace {
 
-volatile std::sig_atomic_t is_interrupted = 0;
-volatile std::time_t interrupted_at = 0;
+// Signals may come to any thread, and any may ask.
+std::atomic<bool> is_interrupted{false};
+std::atomic<std::time_t> interrupted_at{0};
+static_assert(std::atomic<bool>::is_always_lock_free &&
+              std::atomic<std::time_t>::is_always_lock_free);
 
 /// Shells and timeout(1) may send the same signal twice: only a later one ends the program at once.
 void interrupt(int signal) {
     const std::time_t now = std::time(nullptr);
-    if (is_interrupted == 0) {
-        is_interrupted = 1;
-        interrupted_at = now;
-    } else if (now > interrupted_at + 1) {
+    std::time_t before = 0;
+    if (interrupted_at.compare_exchange_strong(before, now)) {
+        is_interrupted = true;
+    } else if (now > before + 1) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
@@ -37,6 +41,6 @@ void catchSignals() {
     }
 }
 
-bool isInterrupted() { return is_interrupted != 0; }
+bool isInterrupted() { return is_interrupted; }
 
 }  // namespace hagen

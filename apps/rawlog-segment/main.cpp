@@ -128,6 +128,11 @@ void declare(CLI::App& app, CommandLine& line) {
         ->group("Output");
     app.add_flag("--overwrite", conversion.overwrite, "replace outputs that exist")
         ->group("Output");
+    app.add_option("--jobs", conversion.jobs,
+                   "threads (default: as many as there are cores); results do not depend on it")
+        ->check(CLI::Range(1, 1024))
+        ->option_text("N")
+        ->group("Output");
     app.add_flag("-q,--quiet", line.is_quiet, "print errors only")->group("Output");
 
     app.add_option("-c,--config", line.configs, "settings file; may be repeated, later ones win")

@@ -18,9 +18,11 @@ class ConversionOutputs {
 
     bool wantsRawlog() const { return rawlog_.has_value(); }
 
-    void writeEntry(const mrpt::serialization::CSerializable& entry) {
-        if (rawlog_) rawlog_->write(entry);
+    /// Adds an entry and its clouds to the rawlog; see RawlogWriter.
+    void gather(Bytes& entries, Bytes& member) {
+        if (rawlog_) rawlog_->gather(entries, member);
     }
+    void writeMember(const Bytes& packed) { rawlog_->writeMember(packed); }
 
     /// Adds a segmented scan of this sensor to folders and pictures; an empty name: the next
     /// number. Returns the name it has there.

@@ -1,14 +1,30 @@
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <hagen/logs/GzipOutput.h>
 
 #include <cerrno>
 #include <cstring>
-#include <limits>
+#include <new>
 #include <stdexcept>
 
 namespace hagen {
 namespace {
+
+constexpr int kLevel = 1;
+
+struct FreeCompressor {
+    void operator()(libdeflate_compressor* compressor) const {
+        libdeflate_free_compressor(compressor);
+    }
+};
+
+/// One a thread: a compressor's memory is larger than most of what it packs.
+libdeflate_compressor* compressor() {
+    thread_local std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor;
+    if (!compressor) compressor.reset(libdeflate_alloc_compressor(kLevel));
+    if (!compressor) throw std::bad_alloc();
+    return compressor.get();
+}
 
 [[noreturn]] void refuse(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": cannot be written" +
@@ -17,40 +33,30 @@ namespace {
 
 }  // namespace
 
-GzipOutput::GzipOutput(const std::filesystem::path& file)
-    : path_(file), file_(gzopen(file.c_str(), "wb1")) {
-    if (file_ == nullptr) refuse(path_);
-    gzbuffer(file_, 1 << 17);
+void packGzipMember(const Bytes& plain, Bytes& packed) {
+    const std::size_t bound = libdeflate_gzip_compress_bound(compressor(), plain.size());
+    if (packed.size() < bound) packed.resize(bound);
+    const std::size_t size = libdeflate_gzip_compress(compressor(), plain.data(), plain.size(),
+                                                      packed.data(), packed.size());
+    if (size == 0) throw std::logic_error("a gzip member exceeds its own bound");
+    packed.resize(size);
 }
 
-GzipOutput::~GzipOutput() {
-    if (file_ != nullptr) gzclose_w(file_);
-}
-
-std::size_t GzipOutput::Write(const void* buffer, std::size_t count) {
-    if (count == 0) return 0;  // gzwrite() would answer as if it had failed
-    if (count > std::numeric_limits<int>::max()) {
-        throw std::runtime_error(path_.string() + ": an entry part of more than 2 GiB");
-    }
+GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
     errno = 0;
-    if (gzwrite(file_, buffer, static_cast<unsigned>(count)) <= 0) refuse(path_);
-    position_ += count;
-    return count;
+    file_.reset(std::fopen(file.c_str(), "wb"));
+    if (!file_) refuse(path_);
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is a buffer of its own
+}
+
+void GzipOutput::write(const Bytes& member) {
+    errno = 0;
+    if (std::fwrite(member.data(), 1, member.size(), file_.get()) != member.size()) refuse(path_);
 }
 
 void GzipOutput::close() {
     errno = 0;
-    const int code = gzclose_w(file_);
-    file_ = nullptr;
-    if (code != Z_OK) refuse(path_);
+    if (std::fclose(file_.release()) != 0) refuse(path_);
 }
-
-std::size_t GzipOutput::Read(void*, std::size_t) {
-    throw std::logic_error("an output is not read");
-}
-std::uint64_t GzipOutput::Seek(std::int64_t, TSeekOrigin) {
-    throw std::logic_error("a packed output is written from its start to its end");
-}
-std::uint64_t GzipOutput::getTotalBytesCount() const { return position_; }
 
 }  // namespace hagen

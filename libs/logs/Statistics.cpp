@@ -25,7 +25,8 @@ Json settingsOf(const Settings& settings) {
     return json;
 }
 
-/// The smallest latency that a share of the scans does not exceed.
+/// The smallest latency that a share of the scans does not exceed; as evaluation/Latency.h has it,
+/// a library that this one does without.
 double percentile(const std::vector<double>& ascending, double share) {
     const auto rank =
         static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));
@@ -37,10 +38,16 @@ Json latencyOf(const std::vector<ScanReport>& scans) {
     std::vector<double> latencies_ms;
     for (const ScanReport& scan : scans) latencies_ms.push_back(scan.latency_ms);
     std::sort(latencies_ms.begin(), latencies_ms.end());
-    return {{"p50", percentile(latencies_ms, 0.50)},
+    return {{"scans", scans.size()},
+            {"p50", percentile(latencies_ms, 0.50)},
             {"p95", percentile(latencies_ms, 0.95)},
             {"p99", percentile(latencies_ms, 0.99)},
             {"max", latencies_ms.back()}};
+}
+
+/// File names need not be UTF-8; what is not becomes U+FFFD.
+std::string dumped(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 double inMillimetres(float metres) {
@@ -83,12 +90,16 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
                        {"rou", report.rou},
                        {"unclassified", report.unclassified}};
     json["latency_ms"] = latencyOf(report.scan_reports);
-    json["scans"] = Json::array();
-    for (const ScanReport& scan : report.scan_reports) json["scans"].push_back(lineOf(scan));
 
+    // Scan by scan, a line each, for a long log has many: together they would take a thousand bytes
+    // each in memory.
     std::ofstream out(file);
-    // File names need not be UTF-8; what is not becomes U+FFFD.
-    out << json.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";
+    const std::string head = dumped(json, 1);
+    out << head.substr(0, head.rfind("\n}")) << ",\n \"scans\": [";
+    for (std::size_t i = 0; i < report.scan_reports.size(); ++i) {
+        out << (i == 0 ? "\n  " : ",\n  ") << dumped(lineOf(report.scan_reports[i]), -1);
+    }
+    out << "]\n}\n";
     closeWritten(out, file);
 }
 

@@ -81,17 +81,25 @@ const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observ
     return lidar.window.add(deskewed_, *sensor_pose, observed_.sensor);
 }
 
-std::optional<Attitude> ObservationSegmenter::attitudeOf(
-    const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
-    const std::optional<mrpt::poses::CPose3D>& sensor_pose) const {
-    std::optional<mrpt::poses::CPose3D> pose = horizon_.at(observation.timestamp);
-    if (pose) {
-        *pose += mrpt::poses::CPose3D(observation.sensorPose());
-    } else if (vehicle.has_horizon) {
-        pose = sensor_pose;
+ObservationSegmenter::Whereabouts ObservationSegmenter::whereaboutsOf(
+    const mrpt::obs::CObservation& scan, const Trajectory& vehicle) const {
+    const mrpt::poses::CPose3D sensor_on_vehicle(scan.sensorPose());
+    Whereabouts known;
+    known.sensor_pose = vehicle.at(scan.timestamp);
+    if (known.sensor_pose) *known.sensor_pose += sensor_on_vehicle;
+    known.pose_has_horizon = known.sensor_pose && vehicle.has_horizon;
+
+    std::optional<mrpt::poses::CPose3D> levelled = horizon_.at(scan.timestamp);
+    if (levelled) {
+        *levelled += sensor_on_vehicle;
+    } else if (known.pose_has_horizon) {
+        levelled = known.sensor_pose;
     }
-    if (!pose) return std::nullopt;
-    return Attitude{static_cast<float>(pose->roll()), static_cast<float>(pose->pitch())};
+    if (levelled) {
+        known.attitude =
+            Attitude{static_cast<float>(levelled->roll()), static_cast<float>(levelled->pitch())};
+    }
+    return known;
 }
 
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
@@ -100,6 +108,13 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
         see(observation);
         return false;
     }
+    return process(observation, out, whereaboutsOf(observation, vehicle), vehicle);
+}
+
+bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
+                                   const Whereabouts& whereabouts, const Trajectory& vehicle) {
+    const auto start = std::chrono::steady_clock::now();
+    if (!isLidarScan(observation)) return false;
     const mrpt::system::CTimeLoggerEntry whole(profiler, "process");
     {
         const mrpt::system::CTimeLoggerEntry part(profiler, "process.read");
@@ -109,16 +124,14 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     Lidar& lidar = lidarOf(observation.sensorLabel, observed_.sensor);
 
     std::string remark = observed_.remark;
-    std::optional<mrpt::poses::CPose3D> sensor_pose = vehicle.at(observation.timestamp);
-    if (sensor_pose) *sensor_pose += mrpt::poses::CPose3D(observation.sensorPose());
-    const Scan& window = windowOf(observation, vehicle, sensor_pose, lidar, remark);
+    const Scan& window = windowOf(observation, vehicle, whereabouts.sensor_pose, lidar, remark);
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
 
-    const std::optional<Attitude> attitude = attitudeOf(observation, vehicle, sensor_pose);
     std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
                                                              "process.segment");
-    const SegmentationResult& result = lidar.filter.segment(window, attitude);
+    const SegmentationResult& result = lidar.filter.segment(window, whereabouts.attitude);
     segmenting.reset();
+    const auto labelled = std::chrono::steady_clock::now();
 
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
     // Indices beyond the scan are those of older ones in its window.
@@ -129,10 +142,11 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.result = &result;
     out.sensor = &lidar.filter.sensor();
     out.is_sensor_assumed = observed_.is_sensor_assumed;
-    out.sensor_pose = sensor_pose;
-    out.pose_has_horizon = sensor_pose && vehicle.has_horizon;
-    out.attitude = attitude;
+    out.sensor_pose = whereabouts.sensor_pose;
+    out.pose_has_horizon = whereabouts.pose_has_horizon;
+    out.attitude = whereabouts.attitude;
     out.remark = remark;
+    out.time_to_labels = labelled - start;
     return true;
 }
 

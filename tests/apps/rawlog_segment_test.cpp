@@ -92,11 +92,12 @@ TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
     EXPECT_EQ(fs::file_size(scans.labelFile(0)), 22591u * 4);
 }
 
-TEST_F(RawlogSegment, TheSameInputGivesTheSameBytes) {
-    for (const std::string name : {"a", "b"}) {
-        ASSERT_EQ(
-            run({"-i", kRecording, "-o", path(name), "--kitti", path(name + "_scans")}).exit_code,
-            0);
+TEST_F(RawlogSegment, TheSameInputGivesTheSameBytesWithAnyNumberOfThreads) {
+    for (const auto& [name, jobs] : {std::pair<std::string, std::string>{"a", "1"}, {"b", "3"}}) {
+        ASSERT_EQ(run({"-i", kRecording, "-o", path(name), "--kitti", path(name + "_scans"),
+                       "--preview", "--jobs", jobs})
+                      .exit_code,
+                  0);
     }
     EXPECT_EQ(test::readFile(path("a")), test::readFile(path("b")));
     EXPECT_EQ(test::readFile(path("a_scans/labels/000009.label")),
@@ -243,6 +244,7 @@ TEST_F(RawlogSegment, WritesStatisticsThatAddUp) {
         EXPECT_GT(scan["nearest_roi_m"], 5.0);  // no pole stands nearer
     }
     EXPECT_EQ(returns, 157114);
+    EXPECT_EQ(json["latency_ms"]["scans"], 10);
     EXPECT_LE(json["latency_ms"]["p50"], json["latency_ms"]["max"]);
 }
 
@@ -406,6 +408,7 @@ TEST_F(RawlogSegment, RefusesASettingsFileThatIsNotThere) {
 TEST_F(RawlogSegment, RefusesFlagsThatContradictOneAnother) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--from", "5", "--to", "4"}, 2, "--from");
     expectFailure({"-i", kRecording, "-o", path("out"), "--from", "-1"}, 2, "--from");
+    expectFailure({"-i", kRecording, "-o", path("out"), "--jobs", "0"}, 2, "--jobs");
     expectFailure({"-i", kRecording, "--kitti", path("out"), "--preview"}, 2, "--output");
     expectFailure({"-i", kRecording, "-o", path("out"), "--cloud", "rgb"}, 2, "--cloud");
     expectFailure({"-i", kRecording, "-o", path("out"), "--picture-azimuth", "3"}, 2, "--pictures");
@@ -553,7 +556,7 @@ TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
     for (const char* signal : {"INT", "TERM"}) {
         const auto outcome = test::run(
             "/usr/bin/timeout", {"--preserve-status", "-s", signal, "1", HAGEN_RAWLOG_SEGMENT, "-i",
-                                 log, "-o", path("out.rawlog"), "--overwrite"});
+                                 log, "-o", path("out.rawlog"), "--overwrite", "--jobs", "2"});
         EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
         EXPECT_NE(outcome.err.find("interrupted; the "), std::string::npos) << outcome.err;
         EXPECT_FALSE(fs::exists(path("out.rawlog")));

@@ -12,6 +12,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "support/Program.h"
@@ -36,7 +37,8 @@ CObservation::Ptr pose() {
     return observation;
 }
 
-class ConversionTest : public testing::Test {
+/// The argument: threads.
+class ConversionTest : public testing::TestWithParam<std::size_t> {
  protected:
     fs::path writeLog(const std::vector<mrpt::serialization::CSerializable::Ptr>& entries) {
         RawlogWriter writer(folder_ / "in.rawlog", true);
@@ -64,8 +66,13 @@ class ConversionTest : public testing::Test {
         return names;
     }
 
-    Conversion conversion() {
+    static Conversion nothing() {
         Conversion conversion;
+        conversion.jobs = GetParam();
+        return conversion;
+    }
+    Conversion conversion() {
+        Conversion conversion = nothing();
         conversion.input = folder_ / "in.rawlog";
         conversion.rawlog = folder_ / "out.rawlog";
         return conversion;
@@ -90,7 +97,7 @@ class ConversionTest : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(ConversionTest, KeepsEveryEntryInOrderWithTheCloudsAfterTheirScan) {
+TEST_P(ConversionTest, KeepsEveryEntryInOrderWithTheCloudsAfterTheirScan) {
     writeLog({pose(), scanFrom(0), pose(), scanFrom(1, ""), pose()});
     const ConversionReport report = convert(conversion());
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
@@ -102,7 +109,7 @@ TEST_F(ConversionTest, KeepsEveryEntryInOrderWithTheCloudsAfterTheirScan) {
     EXPECT_GT(report.roi, 80u);
 }
 
-TEST_F(ConversionTest, InSensoryFramesTheCloudsJoinTheFrame) {
+TEST_P(ConversionTest, InSensoryFramesTheCloudsJoinTheFrame) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scanFrom(0, "front"));
     frame->insert(pose());
@@ -115,7 +122,7 @@ TEST_F(ConversionTest, InSensoryFramesTheCloudsJoinTheFrame) {
                   "[ front pose rear front_roi front_non_roi rear_roi rear_non_roi ]"}));
 }
 
-TEST_F(ConversionTest, AgainGivesTheSameBytes) {
+TEST_P(ConversionTest, AgainGivesTheSameBytes) {
     writeLog({scanFrom(0), scanFrom(1)});
     Conversion first = conversion(), second = conversion();
     first.folder = folder_ / "scans";
@@ -131,7 +138,7 @@ TEST_F(ConversionTest, AgainGivesTheSameBytes) {
     }
 }
 
-TEST_F(ConversionTest, ItsOwnOutputIsNotSegmentedAgain) {
+TEST_P(ConversionTest, ItsOwnOutputIsNotSegmentedAgain) {
     writeLog({scanFrom(0)});
     convert(conversion());
     Conversion again = conversion();
@@ -143,7 +150,7 @@ TEST_F(ConversionTest, ItsOwnOutputIsNotSegmentedAgain) {
                                         "lidar_non_roi"}));
 }
 
-TEST_F(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
+TEST_P(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
     writeLog({scanFrom(0), scanFrom(1)});
     Conversion both = conversion();
     both.folder = folder_ / "scans";
@@ -161,12 +168,12 @@ TEST_F(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
     EXPECT_EQ(returns, report.returns);
 }
 
-TEST_F(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
+TEST_P(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
     writeLog({scanFrom(0)});
     convertToFolder("scans");
     fs::rename(folder_ / "scans/velodyne/000000.bin", folder_ / "scans/velodyne/000042.bin");
 
-    Conversion from_folder;
+    Conversion from_folder = nothing();
     from_folder.input = folder_ / "scans";
     from_folder.rawlog = folder_ / "from_folder.rawlog";
     from_folder.folder = folder_ / "labels";
@@ -179,12 +186,12 @@ TEST_F(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
               test::readFile(folder_ / "scans/velodyne/000042.bin"));
 }
 
-TEST_F(ConversionTest, ARecordingsOwnBeamsWin) {
+TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
     fs::create_directories(folder_ / "scans/velodyne");
     writeScan(folder_ / "scans/velodyne/000000.bin",
               test::scanScene({}, sensorModel("HDL-32E"), 100, {0, 0, 2}).scan);
     folder_.write("scans/sensor.yaml", "sensor: {model: HDL-32E}");
-    Conversion from_folder;
+    Conversion from_folder = nothing();
     from_folder.input = folder_ / "scans";
     from_folder.folder = folder_ / "labels";
     from_folder.settings.sensor.model = "HDL-64E";
@@ -194,7 +201,7 @@ TEST_F(ConversionTest, ARecordingsOwnBeamsWin) {
     EXPECT_EQ(written.sensorModel().rows(), 32);
 }
 
-TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
+TEST_P(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     // The first scan sees a pole straight ahead, the second flat ground alone. Put together, ground
     // that shares a pixel with the pole is RoI: ahead, or aside where poses.txt says that the
     // sensor has moved.
@@ -206,7 +213,7 @@ TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
               test::scanScene(scene, sensor, 870, {0, 0, 2}).scan);
     writeScan(folder_ / "scans/velodyne/000001.bin",
               test::scanScene({}, sensor, 870, {0, 0, 2}).scan);
-    Conversion windowed;
+    Conversion windowed = nothing();
     windowed.input = folder_ / "scans";
     windowed.folder = folder_ / "labels";
     windowed.overwrite = true;
@@ -240,7 +247,7 @@ TEST_F(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     EXPECT_EQ(readKittiPoses(folder_ / "labels/poses.txt").size(), 2u);
 }
 
-TEST_F(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
+TEST_P(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
     const auto poseAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationRobotPose::Create();
         observation->sensorLabel = "pose";
@@ -261,7 +268,7 @@ TEST_F(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
     EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
 }
 
-TEST_F(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
+TEST_P(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
     writeLog({scanFrom(0), scanFrom(1)});
     Conversion windowed = conversion();
     windowed.settings.options.window_scans = 3;
@@ -273,7 +280,7 @@ TEST_F(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
     EXPECT_NE(remarks[1].find("no pose"), std::string::npos);
 }
 
-TEST_F(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
+TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
     auto broken = scanFrom(0);
     std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
         ->scan_packets[0]
@@ -293,7 +300,7 @@ TEST_F(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
               (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
-TEST_F(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
+TEST_P(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
     writeLog({scanFrom(0), scanFrom(1), scanFrom(2)});
     const std::string bytes = test::readFile(folder_ / "in.rawlog");
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() / 2));
@@ -309,11 +316,11 @@ TEST_F(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
               (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
-TEST_F(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
+TEST_P(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
     writeLog({scanFrom(0), scanFrom(1)});
     convertToFolder("scans.v1");
     folder_.write("scans.v1/velodyne/000001.bin", "cut");
-    Conversion from_folder;
+    Conversion from_folder = nothing();
     from_folder.input = folder_ / "scans.v1";
     from_folder.folder = folder_ / "labels.v1";
     try {
@@ -326,7 +333,7 @@ TEST_F(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
     EXPECT_EQ(ScanFolder(folder_ / "labels.v1.partial").size(), 1u);
 }
 
-TEST_F(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
+TEST_P(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
     writeLog({scanFrom(0, "front"), scanFrom(0, "rear"), scanFrom(1, "front"), scanFrom(1, "a/b")});
     Conversion all = conversion();
     all.folder = folder_ / "scans";
@@ -345,7 +352,7 @@ TEST_F(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
         (std::vector<std::string>{"front", "rear", "rear_roi", "rear_non_roi", "front", "a/b"}));
 }
 
-TEST_F(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
+TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
     writeLog({scanFrom(0, "front"), pose()});
     Conversion other = conversion();
     other.sensor_labels = {"rear"};
@@ -361,7 +368,7 @@ TEST_F(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
 }
 
-TEST_F(ConversionTest, EntriesFromAndToAreIncluded) {
+TEST_P(ConversionTest, EntriesFromAndToAreIncluded) {
     writeLog({pose(), scanFrom(0), pose(), scanFrom(1), pose()});
     Conversion part = conversion();
     part.from = 1;
@@ -378,7 +385,7 @@ TEST_F(ConversionTest, EntriesFromAndToAreIncluded) {
     EXPECT_THROW(convert(part), std::runtime_error);
 }
 
-TEST_F(ConversionTest, APreviewFollowsTheClouds) {
+TEST_P(ConversionTest, APreviewFollowsTheClouds) {
     writeLog({scanFrom(0)});
     Conversion with_preview = conversion();
     with_preview.preview = true;
@@ -391,7 +398,7 @@ TEST_F(ConversionTest, APreviewFollowsTheClouds) {
     EXPECT_EQ(reader.next(), nullptr);
 }
 
-TEST_F(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
+TEST_P(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
     writeLog({pose(), scanFrom(0), pose()});
     int asked = 0;
     ConversionListener listener;
@@ -407,11 +414,11 @@ TEST_F(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);
 }
 
-TEST_F(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
+TEST_P(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
     writeLog({scanFrom(0)});
     convertToFolder("scans");
     folder_.write("scans/times.txt", "7.25\n");
-    Conversion from_folder;
+    Conversion from_folder = nothing();
     from_folder.input = folder_ / "scans";
     from_folder.rawlog = folder_ / "timed.rawlog";
     convert(from_folder);
@@ -422,7 +429,7 @@ TEST_F(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
     }
 }
 
-TEST_F(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
+TEST_P(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
     Scan scan;
     scan.x_m = {5, 6};
     scan.y_m = scan.z_m = {0, 1};
@@ -442,7 +449,7 @@ TEST_F(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
     EXPECT_NE(remarks[0].find((folder_ / "out_Images").string()), std::string::npos) << remarks[0];
 }
 
-TEST_F(ConversionTest, TheInputIsNeverReplaced) {
+TEST_P(ConversionTest, TheInputIsNeverReplaced) {
     writeLog({scanFrom(0)});
     Conversion onto_itself = conversion();
     onto_itself.rawlog = onto_itself.input;
@@ -451,20 +458,122 @@ TEST_F(ConversionTest, TheInputIsNeverReplaced) {
     EXPECT_EQ(entriesOf(folder_ / "in.rawlog").size(), 1u);
 }
 
-TEST_F(ConversionTest, OutputsThatExistAreRefused) {
+TEST_P(ConversionTest, OutputsThatExistAreRefused) {
     writeLog({scanFrom(0)});
     folder_.write("out.rawlog", "old");
     EXPECT_THROW(convert(conversion()), std::runtime_error);
     EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), "old");
 }
 
-TEST_F(ConversionTest, ProgressCountsEntries) {
+TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) {
+    // A cloud takes the settings' sensor; packets are of 16 beams, too few for this window.
+    Scan scan;
+    scan.x_m = {5, 6};
+    scan.y_m = scan.z_m = {0, 1};
+    scan.intensity = {0, 1};
+    writeLog({pose(), observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)), scanFrom(0),
+              pose(), pose(), pose()});
+    Conversion unfit = conversion();
+    unfit.settings.sensor.model = "HDL-64E";
+    unfit.settings.options.window_size = 20;
+    std::size_t entries = 0;
+    ConversionListener listener;
+    listener.progress = [&](const ConversionReport& report) { entries = report.entries; };
+    EXPECT_THROW(convert(unfit, listener), SettingsError);
+    EXPECT_EQ(entries, 2u);
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+    EXPECT_FALSE(fs::exists(folder_ / "out.partial.rawlog"));
+}
+
+TEST_P(ConversionTest, ABreakAfterAFailureIsNotWhatIsTold) {
+    writeLog({pose(), scanFrom(0), scanFrom(1), scanFrom(2)});
+    const std::string bytes = test::readFile(folder_ / "in.rawlog");
+    folder_.write("in.rawlog", bytes.substr(0, bytes.size() - 10));
+    Conversion unfit = conversion();
+    unfit.settings.options.window_size = 20;
+    EXPECT_THROW(convert(unfit), SettingsError);
+}
+
+TEST_P(ConversionTest, ALogOfSmallEntriesTakesLittleMoreThanTheyDo) {
+    writeLog(std::vector<mrpt::serialization::CSerializable::Ptr>(2000, pose()));
+    convert(conversion());
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog").size(), 2000u);
+    EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), test::readFile(folder_ / "in.rawlog"));
+    EXPECT_LT(fs::file_size(folder_ / "out.rawlog"), 50000u);
+}
+
+TEST_P(ConversionTest, ProgressCountsEntries) {
     writeLog({pose(), scanFrom(0), pose()});
     std::vector<std::size_t> counts;
     ConversionListener listener;
     listener.progress = [&](const ConversionReport& report) { counts.push_back(report.entries); };
     convert(conversion(), listener);
     EXPECT_EQ(counts, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ConversionTest, testing::Values(1, 4));
+
+/// All that a user sees of a conversion with so many threads: what was told, and the files.
+std::string storyOf(Conversion conversion, const test::TemporaryFolder& folder, std::size_t jobs) {
+    conversion.jobs = jobs;
+    conversion.overwrite = true;
+    conversion.rawlog = folder / "out.rawlog";
+    conversion.folder = folder / "scans";
+    std::string story;
+    ConversionListener listener;
+    listener.remark = [&](const auto& entry, const auto& what) { story += entry + what + "\n"; };
+    listener.unreadable = [&](const auto& entry, const auto& why) { story += entry + why + "\n"; };
+    listener.progress = [&](const ConversionReport& report) {
+        story += std::to_string(report.entries) + " " + std::to_string(report.fraction) + "\n";
+    };
+    for (const ScanReport& scan : convert(conversion, listener).scan_reports) {
+        story += std::to_string(scan.entry) + scan.sensor_label + scan.name + " " +
+                 std::to_string(scan.roi) + "\n";
+    }
+    story += test::readFile(conversion.rawlog);
+    std::vector<fs::path> files{fs::recursive_directory_iterator(conversion.folder), {}};
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) {
+        if (fs::is_regular_file(file)) story += file.string() + test::readFile(file);
+    }
+    return story;
+}
+
+TEST(ConversionThreads, NothingThatIsSeenDependsOnTheirNumber) {
+    const test::TemporaryFolder folder;
+    {
+        RawlogWriter writer(folder / "in.rawlog", true);
+        for (int i = 0; i < 24; ++i) {
+            const double x_m = 0.1 * i;
+            auto pose = mrpt::obs::CObservationRobotPose::Create();
+            pose->sensorLabel = "pose";
+            pose->timestamp = scanFrom(x_m)->timestamp;
+            pose->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0, 0.01 * i, 0);
+            if (i % 5 != 3) writer.write(*pose);
+            auto frame = mrpt::obs::CSensoryFrame::Create();
+            frame->insert(scanFrom(x_m, "front"));
+            frame->insert(scanFrom(x_m, "rear"));
+            if (i % 7 == 2) writer.write(*frame);
+            const auto broken = scanFrom(x_m);
+            std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
+                ->scan_packets[0]
+                .velodyne_model_ID = 0x99;
+            if (i % 11 == 5) writer.write(*broken);
+            writer.write(*scanFrom(x_m));
+        }
+        writer.commit();
+    }
+    Conversion conversion;
+    conversion.input = folder / "in.rawlog";
+    for (const int window_scans : {1, 3}) {
+        conversion.settings.options.window_scans = window_scans;
+        const std::string alone = storyOf(conversion, folder, 1);
+        EXPECT_NE(alone.find("0x99"), std::string::npos);
+        for (const std::size_t jobs : {0, 2, 3, 8}) {
+            EXPECT_TRUE(storyOf(conversion, folder, jobs) == alone)
+                << jobs << " threads, a window of " << window_scans;
+        }
+    }
 }
 
 }  // namespace

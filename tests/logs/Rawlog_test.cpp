@@ -129,6 +129,75 @@ TEST(Rawlog, GzipMembersOneAfterTheOtherAreOneLog) {
     EXPECT_EQ(readAll(folder.write("twice.rawlog", bytes + bytes)).first, 6u);
 }
 
+/// A log of which each entry fills a member, and how long the file is after each.
+std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
+    RawlogWriter writer(file, true);
+    std::vector<std::size_t> ends;
+    Bytes bytes, member, packed;
+    for (int i = 0; i < entries; ++i) {
+        bytes.clear();
+        mrpt::obs::CObservationRobotPose entry;
+        entry.sensorLabel = std::string(300000, static_cast<char>('a' + i));
+        serialise(entry, bytes);
+        writer.gather(bytes, member);
+        packGzipMember(member, packed);
+        writer.writeMember(packed);
+        ends.push_back(packed.size() + (ends.empty() ? 0 : ends.back()));
+    }
+    writer.commit();
+    return ends;
+}
+
+TEST(Rawlog, MembersEndWithTheEntryThatFillsThem) {
+    const test::TemporaryFolder folder;
+    RawlogWriter writer(folder / "a.rawlog", false);
+    Bytes small(1000, 1), member;
+    for (int i = 0; i < 262; ++i) {
+        Bytes entries = small;
+        writer.gather(entries, member);
+        ASSERT_TRUE(member.empty()) << i;
+    }
+    Bytes entries(5000, 2);  // which begins before the quarter of a megabyte, and ends after it
+    writer.gather(entries, member);
+    ASSERT_EQ(member.size(), 267000u);
+    EXPECT_EQ(member.front(), 1);
+    EXPECT_EQ(member.back(), 2);
+    entries = small;
+    writer.gather(entries, member);
+    EXPECT_TRUE(member.empty());
+}
+
+TEST(Rawlog, ALogOfSeveralMembersIsReadByMrptAndByUs) {
+    const test::TemporaryFolder folder;
+    const auto ends = writeLargeEntries(folder / "a.rawlog", 4);
+    EXPECT_EQ(fs::file_size(folder / "a.rawlog"), ends.back());
+    EXPECT_EQ(readAll(folder / "a.rawlog"), (std::pair<std::size_t, std::string>(4, "")));
+    mrpt::obs::CRawlog rawlog;
+    ASSERT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    ASSERT_EQ(rawlog.size(), 4u);
+    EXPECT_EQ(rawlog.getAsObservation(3)->sensorLabel, std::string(300000, 'd'));
+}
+
+TEST(Rawlog, ALogCutOffWithinALaterMemberSaysSo) {
+    const test::TemporaryFolder folder;
+    const auto ends = writeLargeEntries(folder / "whole.rawlog", 3);
+    const std::string bytes = test::readFile(folder / "whole.rawlog");
+    // Between two members (and a byte behind) nothing tells that there were more.
+    for (std::size_t length = ends[0] + 2; length < ends[1]; ++length) {
+        const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+        ASSERT_GE(read, 1u);  // the second, too, where only its check sum is missing
+        ASSERT_NE(broken, "") << length;
+    }
+}
+
+TEST(Rawlog, ALogWithoutEntriesIsAGzipFileAllTheSame) {
+    const test::TemporaryFolder folder;
+    RawlogWriter(folder / "a.rawlog", false).commit();
+    mrpt::obs::CRawlog rawlog;
+    EXPECT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    EXPECT_EQ(rawlog.size(), 0u);
+}
+
 TEST(Rawlog, AClassThatIsNotKnownIsNamed) {
     const test::TemporaryFolder folder;
     mrpt::obs::CObservationRobotPose pose;

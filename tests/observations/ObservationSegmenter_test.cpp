@@ -3,7 +3,9 @@
 #include <hagen/observations/ObservationSegmenter.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 
+#include <chrono>
 #include <stdexcept>
 
 #include "support/Captures.h"
@@ -216,6 +218,38 @@ TEST(ObservationSegmenter, AScanOfAnUnknownModelThrows) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     EXPECT_THROW(segmenter.process(*scan, out), std::runtime_error);
+}
+
+TEST(ObservationSegmenter, AScanWhoseWhereaboutsWereNotedMayBeSegmentedLaterAndElsewhere) {
+    const auto poseWithPitch = [](double pitch_rad) {
+        mrpt::obs::CObservationRobotPose pose;
+        pose.timestamp = scanFrom(0)->timestamp;
+        pose.pose.mean = mrpt::poses::CPose3D(0, 0, 0, 0, pitch_rad, 0);
+        return pose;
+    };
+    const Trajectory vehicle = standingAt(mrpt::poses::CPose3D(1, 2, 3, 0, 0, 0), -0.5, 0.5);
+    ObservationSegmenter in_order, elsewhere;
+    ObservationSegmenter::Output expected, out;
+    in_order.see(poseWithPitch(0.1));
+    const auto whereabouts = in_order.whereaboutsOf(*scanFrom(0), vehicle);
+    ASSERT_TRUE(in_order.process(*scanFrom(0), expected, vehicle));
+    in_order.see(poseWithPitch(0.3));
+
+    ASSERT_TRUE(elsewhere.process(*scanFrom(0), out, whereabouts));
+    ASSERT_TRUE(out.attitude && out.sensor_pose);
+    EXPECT_EQ(out.attitude->pitch_rad, expected.attitude->pitch_rad);
+    EXPECT_EQ(*out.sensor_pose, *expected.sensor_pose);
+    EXPECT_TRUE(out.pose_has_horizon);
+    EXPECT_EQ(out.result->returns.label, expected.result->returns.label);
+}
+
+TEST(ObservationSegmenter, TellsHowLongTheLabelsTook) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_TRUE(segmenter.process(*scanFrom(0), out));
+    EXPECT_GT(out.time_to_labels.count(), 0);
+    EXPECT_LT(out.time_to_labels, std::chrono::steady_clock::now() - start);
 }
 
 TEST(ObservationSegmenter, TakesTimesWhenAskedTo) {

@@ -28,6 +28,7 @@ struct Conversion {
     std::size_t to = std::numeric_limits<std::size_t>::max();
     std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty: all
     CloudClass cloud_class = CloudClass::Simple;
+    std::size_t jobs = 0;  ///< threads; 0: as many as there are cores. No output depends on it
     bool preview = false;  ///< adds a coloured scene after each pair of clouds
     std::optional<float>
         picture_azimuth_deg;  ///< of the column drawn; none: the nearest obstacle's
@@ -43,7 +44,7 @@ struct ScanReport {
     std::size_t returns, roi, rou, unclassified;
     std::size_t obstacles;  ///< RoI components
     float nearest_roi_m;    ///< NaN where there is no RoI
-    double latency_ms;      ///< from the observation to its labels and clouds
+    double latency_ms;      ///< from the observation in memory to its labels
 };
 
 /// What was read, and what the filter said of it.
@@ -63,7 +64,8 @@ struct ConversionReport {
     Settings settings;    ///< in force: those of the conversion, and of a scan folder's sensor.yaml
 };
 
-/// What a conversion tells and asks while it goes on.
+/// What a conversion tells and asks while it goes on: in the log's order, one call at a time, but
+/// not always on the same thread.
 struct ConversionListener {
     /// After each entry.
     std::function<void(const ConversionReport&)> progress = [](const auto&) {};
@@ -73,7 +75,8 @@ struct ConversionListener {
     /// About a scan that is kept, but could not be segmented: what it is, and why.
     std::function<void(const std::string& entry, const std::string& why)> unreadable =
         [](const auto&, const auto&) {};
-    /// Asked before each entry; no ends the conversion with Interrupted.
+    /// Asked before each entry is read; no ends the conversion with Interrupted, once those before
+    /// it are converted.
     std::function<bool()> keep_going = [] { return true; };
 };
 
@@ -82,7 +85,8 @@ struct Interrupted : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Segments a whole log, one entry in memory at a time.
+/// Segments a whole log, a few entries in memory at a time: two for each of `jobs` threads, of
+/// which there is but one where pictures are drawn.
 ///
 /// A segmented rawlog keeps every entry of the input in its order. After each LiDAR observation
 /// come its `_roi` and `_non_roi` clouds, and its preview if asked for; in a sensory frame they

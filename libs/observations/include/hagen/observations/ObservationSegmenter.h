@@ -12,6 +12,7 @@
 #include <mrpt/system/COutputLogger.h>
 #include <mrpt/system/CTimeLogger.h>
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
@@ -56,6 +57,17 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
         /// What a user should know about this scan; empty where there is nothing. Logged, too.
         std::string remark;
+
+        /// From the call of process() to the labels; the clouds are made after that.
+        std::chrono::steady_clock::duration time_to_labels{};
+    };
+
+    /// What a log tells of a scan besides its returns.
+    struct Whereabouts {
+        /// The sensor in the map at the scan's time, where the trajectory tells it.
+        std::optional<mrpt::poses::CPose3D> sensor_pose;
+        bool pose_has_horizon = false;     ///< that map's z axis points against gravity
+        std::optional<Attitude> attitude;  ///< how the sensor was tilted, where it is known
     };
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
@@ -79,6 +91,13 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const Trajectory& vehicle = Trajectory());
 
+    /// What process() would take the scan's whereabouts to be now. Scans whose whereabouts were
+    /// noted in the log's order may be segmented in any, and by several segmenters at once.
+    Whereabouts whereaboutsOf(const mrpt::obs::CObservation& scan, const Trajectory& vehicle) const;
+    /// process() with whereabouts that are known.
+    bool process(const mrpt::obs::CObservation& observation, Output& out,
+                 const Whereabouts& whereabouts, const Trajectory& vehicle = Trajectory());
+
     /// Remembers how the vehicle is tilted, where an observation tells it (Horizon.h). process()
     /// does so with what is no scan; call it for what comes in the same sensory frame as a scan.
     void see(const mrpt::obs::CObservation& observation) { horizon_.see(observation); }
@@ -96,9 +115,6 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         SlidingWindow window;
     };
     Lidar& lidarOf(const std::string& label, const SensorModel& sensor);
-    std::optional<Attitude> attitudeOf(
-        const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
-        const std::optional<mrpt::poses::CPose3D>& sensor_pose) const;
     /// What the filter shall see of the scan in observed_, and a word where that is not all it
     /// could be.
     const Scan& windowOf(const mrpt::obs::CObservation& observation, const Trajectory& vehicle,

@@ -1,0 +1,190 @@
+// How long a conversion takes, beside reading the log and writing the same bytes without
+// segmenting.
+#include <hagen/logs/Conversion.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/RawlogWriter.h>
+#include <mrpt/obs/CObservation.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace hagen;
+namespace fs = std::filesystem;
+
+/// A folder for what is written, gone with it.
+struct WorkFolder {
+    fs::path path =
+        fs::temp_directory_path() / ("conversion-benchmark-" + std::to_string(getpid()));
+    WorkFolder() { fs::create_directories(path); }
+    ~WorkFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// Times of something that is done again and again. Those of the processor tell more than the
+/// clock's on a machine that is busy with other things.
+struct Times {
+    std::vector<double> seconds, processor_s;
+
+    template <class Work>
+    void add(const Work& work) {
+        const std::clock_t processor_start = std::clock();
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        seconds.push_back(
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        processor_s.push_back(static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC);
+    }
+};
+
+bool isResult(const mrpt::serialization::CSerializable& entry) {
+    const auto* observation = dynamic_cast<const mrpt::obs::CObservation*>(&entry);
+    if (observation == nullptr) return false;
+    const std::string& label = observation->sensorLabel;
+    for (const std::string ending : {"_roi", "_preview"}) {
+        const bool ends_so =
+            label.size() >= ending.size() &&
+            label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
+        if (ends_so) return true;
+    }
+    return false;
+}
+
+/// What a segmented log holds, the bytes of each entry of its input with the results behind it.
+std::vector<Bytes> groupsOf(const fs::path& segmented) {
+    std::vector<Bytes> groups;
+    RawlogReader reader(segmented);
+    while (const auto entry = reader.next()) {
+        if (groups.empty() || !isResult(*entry)) groups.emplace_back();
+        serialise(*entry, groups.back());
+    }
+    return groups;
+}
+
+/// Reads a log, every object of it, and writes these bytes in its place.
+void copyThrough(const fs::path& log, const std::vector<Bytes>& groups, const fs::path& out) {
+    RawlogReader reader(log);
+    RawlogWriter writer(out, true);
+    Bytes entries, member, packed;
+    for (const Bytes& group : groups) {
+        if (!reader.next()) throw std::runtime_error("the log has fewer entries than its copy");
+        entries = group;
+        writer.gather(entries, member);
+        if (member.empty()) continue;
+        packGzipMember(member, packed);
+        writer.writeMember(packed);
+    }
+    if (reader.next()) throw std::runtime_error("the log has results among its own entries");
+    writer.commit();
+}
+
+bool haveSameBytes(const fs::path& a, const fs::path& b) {
+    std::ifstream in_a(a, std::ios::binary), in_b(b, std::ios::binary);
+    return fs::file_size(a) == fs::file_size(b) &&
+           std::equal(std::istreambuf_iterator<char>(in_a), {},
+                      std::istreambuf_iterator<char>(in_b));
+}
+
+double peakMegabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void measure(Conversion conversion, bool copies_through, int repetitions) {
+    const WorkFolder folder;
+    conversion.rawlog = folder.path / "segmented.rawlog";
+    conversion.overwrite = true;
+    const ConversionReport report = convert(conversion);  // warms up, and says what there is
+    if (report.scans == 0) throw std::runtime_error("the log has no LiDAR scan");
+    const double peak_megabytes = peakMegabytes();  // before all results are loaded
+    const double flight_s = report.scan_reports.back().time_s - report.scan_reports.front().time_s;
+
+    std::vector<Bytes> groups;
+    const fs::path copy = folder.path / "copy.rawlog";
+    if (copies_through) groups = groupsOf(conversion.rawlog);
+
+    Times converting, copying;
+    std::vector<double> labelled_s;
+    for (int i = 0; i < repetitions; ++i) {
+        ConversionReport again;
+        converting.add([&] { again = convert(conversion); });
+        labelled_s.push_back(std::accumulate(
+            again.scan_reports.begin(), again.scan_reports.end(), 0.0,
+            [](double sum, const ScanReport& scan) { return sum + scan.latency_ms / 1000; }));
+        if (!copies_through) continue;
+        copying.add([&] { copyThrough(conversion.input, groups, copy); });
+        if (!haveSameBytes(conversion.rawlog, copy)) throw std::runtime_error("the copy differs");
+    }
+
+    const auto scans = static_cast<double>(report.scans);
+    std::printf("%zu scans, %.1f s of flight, %zu job(s), medians of %d\n", report.scans, flight_s,
+                conversion.jobs, repetitions);
+    const auto line = [&](const char* what, const Times& times) {
+        const double seconds = median(times.seconds);
+        std::printf("  %-28s %8.3f s, of the processor %8.3f s, %7.3f ms a scan\n", what, seconds,
+                    median(times.processor_s), 1000 * median(times.processor_s) / scans);
+    };
+    line("conversion", converting);
+    std::printf("  %-28s %8.3f s, summed over jobs\n", "of it, packets to labels",
+                median(labelled_s));
+    std::printf("  %-28s %8.1f x\n", "real time", flight_s / median(converting.seconds));
+    std::printf("  %-28s %8.0f MB\n", "peak memory", peak_megabytes);
+    if (!copies_through) return;
+    line("copy of the same bytes, 1 job", copying);
+    std::printf("  %-28s %8.2f    of the processor %8.2f\n", "conversion / copy",
+                median(converting.seconds) / median(copying.seconds),
+                median(converting.processor_s) / median(copying.processor_s));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Times the conversion of a rawlog, as rawlog-segment does it."};
+    Conversion conversion;
+    std::vector<std::string> configs;
+    bool copies_through = false;
+    int repetitions = 5;
+    conversion.jobs = 1;
+    app.add_option("log", conversion.input, "a .rawlog")->check(CLI::ExistingFile)->required();
+    app.add_flag("--copy-through", copies_through,
+                 "beside it: reading the log, and writing the same bytes without segmenting");
+    app.add_option("--jobs", conversion.jobs, "threads of the conversion; 0: all cores")
+        ->capture_default_str();
+    app.add_option("--repetitions", repetitions, "of which medians are printed")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("-c,--config", configs, "settings file; may be repeated, later ones win")
+        ->allow_extra_args(false);
+    CLI11_PARSE(app, argc, argv);
+    try {
+        for (const std::string& config : configs) mergeSettings(config, conversion.settings);
+        measure(conversion, copies_through, repetitions);
+    } catch (const std::exception& e) {
+        std::cerr << "conversion-benchmark: " << e.what() << "\n";
+        return 1;
+    }
+    return 0;
+}
