@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ConversionTimes.h"
 #include "Flights.h"
 #include "TimedRows.h"
 
@@ -19,7 +20,7 @@ struct Performance {
     std::vector<PacketsToLabels> packets_to_labels;
     FlightTimes table;               ///< the flight of the table of run times
     std::vector<FlightTimes> chart;  ///< those of the figure
-    std::vector<TimedRow> conversion;
+    std::vector<ConversionTimes> conversions;
     std::string revision;
     bool is_quick = false;
 };

@@ -38,7 +38,7 @@ Performance measure(const Flags& flags) {
     p.revision = flags.revision;
     p.is_quick = flags.is_quick;
     p.rows = readTimedRows(flags.stages);
-    if (!flags.conversion.empty()) p.conversion = readTimedRows(flags.conversion);
+    if (!flags.conversion.empty()) p.conversions = readConversionTimes(flags.conversion);
     const int scale = flags.is_quick ? 50 : 1;
     for (const auto& [name, options] :
          {std::pair<std::string, Options>{"paper", paperOptions()}, {"default", Options()}}) {

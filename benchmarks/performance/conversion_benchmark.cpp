@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+#include "ConversionTimes.h"
+
 namespace {
 
 using namespace hagen;
@@ -113,7 +115,8 @@ double peakMegabytes() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-void measure(Conversion conversion, bool copies_through, int repetitions) {
+void measure(Conversion conversion, bool copies_through, int repetitions,
+             const std::string& settings, const fs::path& json_lines) {
     const WorkFolder folder;
     conversion.rawlog = folder.path / "segmented.rawlog";
     conversion.overwrite = true;
@@ -147,6 +150,22 @@ void measure(Conversion conversion, bool copies_through, int repetitions) {
         std::printf("  %-28s %8.3f s, of the processor %8.3f s, %7.3f ms a scan\n", what, seconds,
                     median(times.processor_s), 1000 * median(times.processor_s) / scans);
     };
+    if (!json_lines.empty()) {
+        ConversionTimes times;
+        times.settings = settings;
+        times.scans = report.scans;
+        times.flight_s = flight_s;
+        times.jobs = conversion.jobs;
+        times.conversion_s = median(converting.seconds);
+        times.conversion_processor_s = median(converting.processor_s);
+        times.packets_to_labels_s = median(labelled_s);
+        times.peak_megabytes = peak_megabytes;
+        if (copies_through) {
+            times.copy_s = median(copying.seconds);
+            times.copy_processor_s = median(copying.processor_s);
+        }
+        appendTo(json_lines, times);
+    }
     line("conversion", converting);
     std::printf("  %-28s %8.3f s, summed over jobs\n", "of it, packets to labels",
                 median(labelled_s));
@@ -178,10 +197,13 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("-c,--config", configs, "settings file; may be repeated, later ones win")
         ->allow_extra_args(false);
+    std::string settings = "default", json_lines;
+    app.add_option("--json", json_lines, "file to which a line of JSON is added");
+    app.add_option("--name", settings, "of the settings, for that line")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     try {
         for (const std::string& config : configs) mergeSettings(config, conversion.settings);
-        measure(conversion, copies_through, repetitions);
+        measure(conversion, copies_through, repetitions, settings, json_lines);
     } catch (const std::exception& e) {
         std::cerr << "conversion-benchmark: " << e.what() << "\n";
         return 1;
