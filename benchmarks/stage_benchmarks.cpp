@@ -89,14 +89,15 @@ void addOurs() {
         const Options& o = f.options;
         Ground& g = f.result.ground;
         heightsAbove(g.surface, g.pixels, g.height_m);
+        findCellTops(g.pixels, g.height_m, g.tops);
         toleratedHeights(
-            g.pixels, g.height_m,
+            g.pixels, g.tops,
             {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
             g.tolerance_m);
     });
     addOne("canopy", [](Fixture& f) {
         const Ground& g = f.result.ground;
-        tolerateCanopy(g.pixels, g.height_m, f.result.ground.tolerance_m);
+        tolerateCanopy(g.tops, g.height_m, f.result.ground.tolerance_m);
     });
     addOne("labels by height, feet, specks", [](Fixture& f) {
         const Ground& g = f.result.ground;

@@ -10,10 +10,26 @@ constexpr float kFarther_m = 0.3f;
 void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground& ground,
                          std::vector<Label>& own_label) {
     own_label.assign(scan.size(), Label::Unclassified);
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const std::int32_t pixel = image.depth_mapper[i];
-        if (pixel == RangeImage::kNoPixel) continue;
-        if (!(scan.range_m[i] > image.depth_m.data()[pixel] + kFarther_m)) continue;
+    if (image.depth_m.size() == 0) return;
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local std::vector<std::int32_t> kept_farther;
+    if (kept_farther.size() < scan.size() + 1) kept_farther.resize(scan.size() + 1);
+
+    // Few are farther, here and there: they are listed without a branch.
+    std::int32_t* const farther = kept_farther.data();
+    const std::int32_t* const pixels = image.depth_mapper.data();
+    const float* const depth_m = image.depth_m.data();
+    const float* const range_m = scan.range_m.data();
+    const std::int32_t size = static_cast<std::int32_t>(scan.size());
+    std::int32_t n = 0;
+    for (std::int32_t i = 0; i < size; ++i) {
+        const bool has_pixel = pixels[i] != RangeImage::kNoPixel;
+        const std::int32_t pixel = has_pixel ? pixels[i] : 0;
+        farther[n] = i;
+        n += has_pixel & (range_m[i] > depth_m[pixel] + kFarther_m);
+    }
+    for (std::int32_t k = 0; k < n; ++k) {
+        const std::int32_t i = farther[k], pixel = pixels[i];
         const Eigen::Vector3f point =
             ground.from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
         const float height_m = point.z() - ground.surface.at(point.x(), point.y());

@@ -23,8 +23,16 @@ void locatePixels(const Scan& scan, const PixelDirections& directions, const Ran
 }
 
 void movePixels(const Eigen::Isometry3f& to_from_here, PixelPoints& pixels) {
+    const Eigen::Matrix3f turn = to_from_here.linear();
+    const Eigen::Vector3f shift_m = to_from_here.translation();
+    float* const x_m = pixels.x_m.data();
+    float* const y_m = pixels.y_m.data();
+    float* const z_m = pixels.z_m.data();
     for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
-        pixels.set(pixel, to_from_here * pixels.at(pixel));
+        const float x = x_m[pixel], y = y_m[pixel], z = z_m[pixel];
+        x_m[pixel] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + shift_m.x();
+        y_m[pixel] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + shift_m.y();
+        z_m[pixel] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + shift_m.z();
     }
 }
 
