@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace hagen {
 namespace {
@@ -55,13 +56,15 @@ struct Stand {
 };
 using Stands = std::array<Stand, kBlocks * kBlocks>;  // column by column
 
+constexpr float kNothing_m[kBlockCells] = {CellTops::kNone_m, CellTops::kNone_m, CellTops::kNone_m,
+                                           CellTops::kNone_m};
+
 void findStands(const CellTops& tops, Stands& stands) {
     for (int j = 0; j < kCells; ++j) {
         const float* const column_m = tops.top_m.col(j + 1).data() + 1;  // without the border
         for (int block = 0; block < kBlocks; ++block) {
             const float* const top_m = column_m + block * kBlockCells;
-            const float highest_m = std::max({top_m[0], top_m[1], top_m[2], top_m[3]});
-            if (highest_m == CellTops::kNone_m) continue;  // as most are
+            if (std::memcmp(top_m, kNothing_m, sizeof(kNothing_m)) == 0) continue;  // as most are
             Stand& stand = stands[j / kBlockCells * kBlocks + block];
             for (int k = 0; k < kBlockCells; ++k) {
                 if (top_m[k] != CellTops::kNone_m) stand.addCell(top_m[k]);
@@ -90,23 +93,22 @@ void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<fl
     for (int j = 0; j < kBlocks; ++j) sumAlong(&stands[j * kBlocks], 1, &sums[j * kBlocks]);
     for (int i = 0; i < kBlocks; ++i) sumAlong(&sums[i], kBlocks, &stands[i]);
 
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local Eigen::ArrayXXf canopy_m;
-    canopy_m.setZero(kCells + 2, kCells + 2);  // of cells, as in `tops`
-    bool is_any = false;
-    for (int j = 0; j < kBlocks; ++j) {
-        for (int i = 0; i < kBlocks; ++i) {
-            const float of_block_m = stands[j * kBlocks + i].canopy_m();
-            if (of_block_m == 0) continue;
-            is_any = true;
-            canopy_m.block<kBlockCells, kBlockCells>(1 + i * kBlockCells, 1 + j * kBlockCells) =
-                of_block_m;
-        }
+    std::array<float, kBlocks * kBlocks> canopy_m;
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        canopy_m[block] = stands[block].canopy_m();
     }
-    if (!is_any) return;  // as over most of the world
+    if (*std::max_element(canopy_m.begin(), canopy_m.end()) == 0) return;  // as nearly everywhere
+
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local Eigen::ArrayXXf of_cells_m;
+    of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        of_cells_m.block<kBlockCells, kBlockCells>(
+            1 + block % kBlocks * kBlockCells, 1 + block / kBlocks * kBlockCells) = canopy_m[block];
+    }
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         float& tolerated_m = tolerance_m.data()[pixel];
-        const float of_cell_m = canopy_m.data()[tops.cell.data()[pixel]];
+        const float of_cell_m = of_cells_m.data()[tops.cell.data()[pixel]];
         tolerated_m = of_cell_m > tolerated_m ? of_cell_m : tolerated_m;  // not where it is NaN
     }
 }

@@ -23,10 +23,11 @@ void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground
     const std::int32_t size = static_cast<std::int32_t>(scan.size());
     std::int32_t n = 0;
     for (std::int32_t i = 0; i < size; ++i) {
-        const bool has_pixel = pixels[i] != RangeImage::kNoPixel;
-        const std::int32_t pixel = has_pixel ? pixels[i] : 0;
+        static_assert(RangeImage::kNoPixel == -1);
+        const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0 or all bits
+        const std::int32_t is_farther = range_m[i] > depth_m[pixel & has_pixel] + kFarther_m;
         farther[n] = i;
-        n += has_pixel & (range_m[i] > depth_m[pixel] + kFarther_m);
+        n += is_farther & has_pixel;
     }
     for (std::int32_t k = 0; k < n; ++k) {
         const std::int32_t i = farther[k], pixel = pixels[i];

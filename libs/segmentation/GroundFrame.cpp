@@ -39,24 +39,23 @@ struct Points {
     std::vector<double> x_m, y_m, z_m, nearness;
     std::size_t size = 0;
 
-    void clear() {
-        for (auto* values : {&x_m, &y_m, &z_m, &nearness}) values->clear();
-        size = 0;
+    std::size_t filledUp() const { return (size + kParts - 1) / kParts * kParts; }
+    void resize(std::size_t points) {
+        size = points;
+        for (auto* values : {&x_m, &y_m, &z_m, &nearness}) {
+            values->resize(std::max(values->size(), filledUp()));
+            std::fill(values->begin() + size, values->begin() + filledUp(), 0.0);
+        }
     }
-    void add(const Eigen::Vector3d& point_m) {
-        push(point_m, 1.0 / (1.0 + point_m.head<2>().squaredNorm() / kRangeScale_m2));
-        ++size;
+    void set(std::size_t k, const Eigen::Vector3d& point_m) {
+        x_m[k] = point_m.x();
+        y_m[k] = point_m.y();
+        z_m[k] = point_m.z();
     }
-    void fillUp() {
-        while (x_m.size() % kParts != 0) push(Eigen::Vector3d::Zero(), 0);
-    }
-
- private:
-    void push(const Eigen::Vector3d& point_m, double weight) {
-        x_m.push_back(point_m.x());
-        y_m.push_back(point_m.y());
-        z_m.push_back(point_m.z());
-        nearness.push_back(weight);
+    void weigh() {
+        for (std::size_t k = 0; k < size; ++k) {
+            nearness[k] = 1 / (1 + (x_m[k] * x_m[k] + y_m[k] * y_m[k]) / kRangeScale_m2);
+        }
     }
 };
 
@@ -123,7 +122,7 @@ void SumUpIn(const Points& points, const Doubt& doubt, PartialSums& sums) {
     for (std::size_t part = 0; part < kParts; part += hn::Lanes(d)) {
         V w_ = hn::Zero(d), wx = w_, wy = w_, wxx = w_, wxy = w_, wyy = w_, wz = w_, wxz = w_,
           wyz = w_;
-        for (std::size_t k = part; k < points.x_m.size(); k += kParts) {
+        for (std::size_t k = part; k < points.filledUp(); k += kParts) {
             const V x = hn::LoadU(d, points.x_m.data() + k),
                     y = hn::LoadU(d, points.y_m.data() + k);
             const V z = hn::LoadU(d, points.z_m.data() + k);
@@ -183,13 +182,19 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level, 
         std::int64_t& low = lowest[cell[pixel]];
         low = std::min(low, own);
     }
-    points.clear();
-    for (int k = 0; k < kCells * kCells; ++k) {
-        if (lowest[k] == kNone) continue;
-        const Eigen::Vector3f point = level * pixels.at(lowest[k] & 0xffffffff);
-        points.add(point.cast<double>());
+    thread_local std::vector<std::int32_t> kept_occupied(kCells * kCells + 1);
+    std::int32_t* const occupied = kept_occupied.data();
+    std::size_t n = 0;
+    for (std::int32_t k = 0; k < kCells * kCells; ++k) {
+        occupied[n] = k;
+        n += lowest[k] != kNone;
     }
-    points.fillUp();
+    points.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const Eigen::Index pixel = lowest[occupied[k]] & 0xffffffff;
+        points.set(k, (level * pixels.at(pixel)).cast<double>());
+    }
+    points.weigh();
 }
 
 /// The plane z = a x + b y + c through the points, by weighted least squares.

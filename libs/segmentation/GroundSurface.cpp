@@ -43,6 +43,13 @@ struct Level {
     Heights height_m;  ///< filled
 
     int column(int j) const { return (j + 1) * (cells + 2) + 1; }
+    /// Gives the border at both ends of each column the heights beside it.
+    void extendColumns() {
+        for (int j = 0; j < cells; ++j) {
+            height_m[column(j) - 1] = height_m[column(j)];
+            height_m[column(j) + cells] = height_m[column(j) + cells - 1];
+        }
+    }
 };
 
 /// Memory that a fit needs.
@@ -50,6 +57,7 @@ struct Workspace {
     std::vector<std::int32_t> cell;  ///< of the candidates
     Heights z_m;
     std::size_t candidates = 0;
+    Image<float> height_m;  ///< of all pixels, above the first surface
 
     Heights lowest_m, cleaned_m, envelope_m;
     Heights sum_m, number;  ///< of the candidates that a cell's mean is taken of
@@ -85,31 +93,6 @@ namespace {
 
 using F = hn::ScalableTag<float>;
 using V = hn::Vec<F>;
-
-/// The surface's height at points, bilinear; NaN gives that of a corner.
-template <class D, class VD = hn::Vec<D>>
-HWY_INLINE VD surfaceAt(D d, const float* HWY_RESTRICT surface_m, VD x_m, VD y_m) {
-    const hn::RebindToSigned<D> di;
-    const auto cells = [&](VD coordinate_m) HWY_ATTR {
-        const VD c = hn::Add(hn::Mul(coordinate_m, hn::Set(d, 1 / kCell_m)),
-                             hn::Set(d, 0.5f * kCells - 0.5f));
-        return hn::Min(hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c), hn::Set(d, kCells - 1));
-    };
-    const VD u = cells(x_m), v = cells(y_m);
-    const auto i = hn::Min(hn::ConvertTo(di, u), hn::Set(di, kCells - 2));
-    const auto j = hn::Min(hn::ConvertTo(di, v), hn::Set(di, kCells - 2));
-    const VD to_next_i = hn::Sub(u, hn::ConvertTo(d, i)),
-             to_next_j = hn::Sub(v, hn::ConvertTo(d, j));
-    static_assert(kCells == 128);
-    const auto cell = hn::Add(hn::ShiftLeft<7>(j), i);
-    const auto alongJ = [&](int next_i) HWY_ATTR {
-        const VD here = hn::GatherIndex(d, surface_m + next_i, cell);
-        const VD there = hn::GatherIndex(d, surface_m + next_i + kCells, cell);
-        return hn::Add(here, hn::Mul(to_next_j, hn::Sub(there, here)));
-    };
-    const VD here = alongJ(0), there = alongJ(1);
-    return hn::Add(here, hn::Mul(to_next_i, hn::Sub(there, here)));
-}
 
 /// Lists the pixels on the grid that isCandidate(d, pixel, x_m, y_m, z_m).
 template <class IsCandidate>
@@ -152,26 +135,73 @@ void ListMarkedIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float
 
 /// What is close to a first surface can be ground: the farther away, the less is known.
 void ListCloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-                 const float* HWY_RESTRICT z_m, const float* HWY_RESTRICT surface_m,
+                 const float* HWY_RESTRICT z_m, const float* HWY_RESTRICT height_m,
                  Workspace& work) {
     listCandidates(
-        pixels, x_m, y_m, z_m, work, [&](auto d, std::size_t, auto x, auto y, auto z) HAGEN_INLINE {
-            const auto height_m = hn::Sub(z, surfaceAt(d, surface_m, x, y));
+        pixels, x_m, y_m, z_m, work,
+        [&](auto d, std::size_t pixel, auto x, auto y, auto) HAGEN_INLINE {
+            const auto h_m = hn::LoadU(d, height_m + pixel);
             const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
             const auto least_m = hn::Sub(hn::Set(d, -0.2f), hn::Mul(hn::Set(d, 0.01f), distance_m));
             const auto most_m = hn::Add(hn::Set(d, 0.2f), hn::Mul(hn::Set(d, 0.005f), distance_m));
-            return hn::And(hn::Gt(height_m, least_m), hn::Lt(height_m, most_m));
+            return hn::And(hn::Gt(h_m, least_m), hn::Lt(h_m, most_m));
         });
 }
 
+/// Where some pixels lie among the middles of cells, and the heights of the four around.
+struct Corners {
+    static constexpr std::size_t kPixels = 256;
+    HWY_ALIGN std::int32_t cell[kPixels];
+    HWY_ALIGN float to_next_i[kPixels], to_next_j[kPixels];
+    HWY_ALIGN float here_m[2 * kPixels];  ///< of cells (i, j) and (i + 1, j)
+    HWY_ALIGN float next_m[2 * kPixels];  ///< of cells (i, j + 1) and (i + 1, j + 1)
+};
+
+/// Bilinear. Heights are fetched pair by pair, for gathering instructions are slower; and for some
+/// hundred pixels before any is used, since what was just written in halves is read late.
 void HeightsAboveIn(std::size_t pixels, const float* HWY_RESTRICT x_m,
                     const float* HWY_RESTRICT y_m, const float* HWY_RESTRICT z_m,
                     const float* HWY_RESTRICT surface_m, float* HWY_RESTRICT height_m) {
-    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
-        const auto z = hn::LoadU(d, z_m + pixel);
-        hn::StoreU(hn::Sub(z, surfaceAt(d, surface_m, x, y)), d, height_m + pixel);
-    });
+    Corners at;
+    for (std::size_t first = 0; first < pixels; first += Corners::kPixels) {
+        const std::size_t size = std::min(Corners::kPixels, pixels - first);
+        forEachVector(size, [&](auto d, std::size_t k) HAGEN_INLINE {
+            const hn::RebindToSigned<decltype(d)> di;
+            const auto cells = [&](auto coordinate_m) HAGEN_INLINE {
+                const auto c = hn::Add(hn::Mul(coordinate_m, hn::Set(d, 1 / kCell_m)),
+                                       hn::Set(d, 0.5f * kCells - 0.5f));
+                const auto positive = hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c);  // not NaN
+                return hn::Min(positive, hn::Set(d, kCells - 1));
+            };
+            const auto u = cells(hn::LoadU(d, x_m + first + k));
+            const auto v = cells(hn::LoadU(d, y_m + first + k));
+            const auto i = hn::Min(hn::ConvertTo(di, u), hn::Set(di, kCells - 2));
+            const auto j = hn::Min(hn::ConvertTo(di, v), hn::Set(di, kCells - 2));
+            static_assert(kCells == 128);
+            hn::StoreU(hn::Add(hn::ShiftLeft<7>(j), i), di, at.cell + k);
+            hn::StoreU(hn::Sub(u, hn::ConvertTo(d, i)), d, at.to_next_i + k);
+            hn::StoreU(hn::Sub(v, hn::ConvertTo(d, j)), d, at.to_next_j + k);
+        });
+        for (std::size_t k = 0; k < size; ++k) {
+            const float* HWY_RESTRICT corner_m = surface_m + at.cell[k];
+            std::memcpy(at.here_m + 2 * k, corner_m, 2 * sizeof(float));
+            std::memcpy(at.next_m + 2 * k, corner_m + kCells, 2 * sizeof(float));
+        }
+        forEachVector(size, [&](auto d, std::size_t k) HAGEN_INLINE {
+            using VD = hn::Vec<decltype(d)>;
+            const VD to_next_i = hn::LoadU(d, at.to_next_i + k);
+            const VD to_next_j = hn::LoadU(d, at.to_next_j + k);
+            VD here_m, here_next_i_m, next_j_m, next_ij_m;
+            hn::LoadInterleaved2(d, at.here_m + 2 * k, here_m, here_next_i_m);
+            hn::LoadInterleaved2(d, at.next_m + 2 * k, next_j_m, next_ij_m);
+            const auto between = [](VD from, VD to, VD part) HAGEN_INLINE {
+                return hn::Add(from, hn::Mul(part, hn::Sub(to, from)));
+            };
+            const VD ground_m = between(between(here_m, next_j_m, to_next_j),
+                                        between(here_next_i_m, next_ij_m, to_next_j), to_next_i);
+            hn::StoreU(hn::Sub(hn::LoadU(d, z_m + first + k), ground_m), d, height_m + first + k);
+        });
+    }
 }
 
 /// Step 1: returns below the ground do not count.
@@ -290,24 +320,21 @@ void weigh(Heights& sums_m, Heights& numbers) {
     }
 }
 
-/// Sums of a cell and both neighbours along a column or across columns, weighted 1 : 2 : 1.
-HWY_INLINE V binomial(const float* HWY_RESTRICT cell, int to_neighbour) {
-    const F d;
-    const V sides = hn::Add(hn::LoadU(d, cell - to_neighbour), hn::LoadU(d, cell + to_neighbour));
-    return hn::Add(hn::Mul(hn::Set(d, 0.25f), sides),
-                   hn::Mul(hn::Set(d, 0.5f), hn::LoadU(d, cell)));
-}
-
 /// Step 4, first half: in `from` every cell, into `to`.
 void smoothHeights(const Heights& from, Heights& to) {
     const F d;
-    HWY_ALIGN float across[kGridStride + 64] = {};  // sums over three columns, and their border
     for (int j = 0; j < kCells; ++j) {
         for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
-            hn::StoreU(binomial(from.data() + gridColumn(j) + i, kGridStride), d, across + 1 + i);
-        }
-        for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
-            hn::StoreU(binomial(across + 1 + i, 1), d, to.data() + gridColumn(j) + i);
+            const float* HWY_RESTRICT cell = from.data() + gridColumn(j) + i;
+            const auto bothSides = [&](int step) HAGEN_INLINE {
+                return hn::Add(hn::LoadU(d, cell - step), hn::LoadU(d, cell + step));
+            };
+            const V sides = hn::Add(bothSides(1), bothSides(kGridStride));
+            const V corners = hn::Add(bothSides(kGridStride - 1), bothSides(kGridStride + 1));
+            const V sum = hn::Add(hn::Add(hn::Mul(hn::Set(d, 0.25f), hn::LoadU(d, cell)),
+                                          hn::Mul(hn::Set(d, 0.125f), sides)),
+                                  hn::Mul(hn::Set(d, 0.0625f), corners));
+            hn::StoreU(sum, d, to.data() + gridColumn(j) + i);
         }
     }
 }
@@ -318,24 +345,32 @@ template <class D>
 HWY_INLINE void pull(D d, const Level& fine, Level& coarse) {
     using VD = hn::Vec<D>;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const auto sumsOf4 = [&](const float* HWY_RESTRICT left,
-                             const float* HWY_RESTRICT right) HWY_ATTR {
-        VD even_left, odd_left, even_right, odd_right;
-        hn::LoadInterleaved2(d, left, even_left, odd_left);
-        hn::LoadInterleaved2(d, right, even_right, odd_right);
-        return hn::Add(hn::Add(even_left, odd_left), hn::Add(even_right, odd_right));
-    };
+    HWY_ALIGN float across[kGridStride + 64];  // sums over two columns
+    const VD one = hn::Set(d, 1.0f);
     for (int j = 0; j < coarse.cells; ++j) {
         const int left = fine.column(2 * j), right = fine.column(2 * j + 1);
+        const auto sumAcross = [&](const Heights& values) HAGEN_INLINE {
+            for (int i = 0; i < fine.cells; i += lanes) {
+                hn::StoreU(hn::Add(hn::LoadU(d, values.data() + left + i),
+                                   hn::LoadU(d, values.data() + right + i)),
+                           d, across + i);
+            }
+        };
+        const auto sumAlong = [&](int i) HAGEN_INLINE {
+            VD even, odd;
+            hn::LoadInterleaved2(d, across + 2 * i, even, odd);
+            return hn::Add(even, odd);
+        };
+        float* HWY_RESTRICT weighted_m = coarse.weighted_m.data() + coarse.column(j);
+        float* HWY_RESTRICT weight = coarse.weight.data() + coarse.column(j);
+        sumAcross(fine.weighted_m);
+        for (int i = 0; i < coarse.cells; i += lanes) hn::StoreU(sumAlong(i), d, weighted_m + i);
+        sumAcross(fine.weight);
         for (int i = 0; i < coarse.cells; i += lanes) {
-            const auto sums = [&](const Heights& values) HWY_ATTR {
-                return sumsOf4(values.data() + left + 2 * i, values.data() + right + 2 * i);
-            };
-            const VD weights = sums(fine.weight), one = hn::Set(d, 1.0f);
-            const int cell = coarse.column(j) + i;
-            hn::StoreU(hn::Div(sums(fine.weighted_m), hn::Max(weights, one)), d,
-                       coarse.weighted_m.data() + cell);
-            hn::StoreU(hn::Min(weights, one), d, coarse.weight.data() + cell);
+            const VD weights = sumAlong(i);
+            hn::StoreU(hn::Div(hn::LoadU(d, weighted_m + i), hn::Max(weights, one)), d,
+                       weighted_m + i);
+            hn::StoreU(hn::Min(weights, one), d, weight + i);
         }
     }
 }
@@ -349,33 +384,28 @@ HWY_INLINE void push(D d, const Level& coarse, const Level& fine, float* HWY_RES
     using VD = hn::Vec<D>;
     const int lanes = static_cast<int>(hn::Lanes(d)), last = coarse.cells - 1;
     const VD near = hn::Set(d, 0.75f), far = hn::Set(d, 0.25f), one = hn::Set(d, 1.0f);
-    HWY_ALIGN float column_m[kGridStride + 64];  // of the coarse grid's, between two of its columns
+    HWY_ALIGN float below_m[kGridStride + 64];  // of the fine grid's cells
     for (int j = 0; j < fine.cells; ++j) {
         const int own = j / 2, next = std::clamp(j % 2 == 0 ? own - 1 : own + 1, 0, last);
         const float* HWY_RESTRICT own_m = coarse.height_m.data() + coarse.column(own);
         const float* HWY_RESTRICT next_m = coarse.height_m.data() + coarse.column(next);
         for (int i = 0; i < coarse.cells; i += lanes) {
-            hn::StoreU(hn::Add(hn::Mul(near, hn::LoadU(d, own_m + i)),
-                               hn::Mul(far, hn::LoadU(d, next_m + i))),
-                       d, column_m + 1 + i);
-        }
-        column_m[0] = column_m[1];
-        column_m[coarse.cells + 1] = column_m[coarse.cells];
-        for (int i = 0; i < coarse.cells; i += lanes) {
-            const float* HWY_RESTRICT here = column_m + 1 + i;
-            const VD mostly = hn::Mul(near, hn::LoadU(d, here));
-            const VD even_m = hn::Add(mostly, hn::Mul(far, hn::LoadU(d, here - 1)));
-            const VD odd_m = hn::Add(mostly, hn::Mul(far, hn::LoadU(d, here + 1)));
-            const int cell = fine.column(j) + 2 * i;
-            VD even_weight, odd_weight, even_weighted_m, odd_weighted_m;
-            hn::LoadInterleaved2(d, fine.weight.data() + cell, even_weight, odd_weight);
-            hn::LoadInterleaved2(d, fine.weighted_m.data() + cell, even_weighted_m, odd_weighted_m);
-            const auto filled = [&](VD weight, VD weighted_m, VD below_m) HWY_ATTR {
-                return hn::Add(weighted_m, hn::Mul(hn::Sub(one, weight), below_m));
+            const auto betweenColumns = [&](int cell) HAGEN_INLINE {
+                return hn::Add(hn::Mul(near, hn::LoadU(d, own_m + cell)),
+                               hn::Mul(far, hn::LoadU(d, next_m + cell)));
             };
-            hn::StoreInterleaved2(filled(even_weight, even_weighted_m, even_m),
-                                  filled(odd_weight, odd_weighted_m, odd_m), d,
-                                  filled_m + j * stride + 2 * i);
+            const VD mostly = hn::Mul(near, betweenColumns(i));
+            const VD even_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i - 1)));
+            const VD odd_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i + 1)));
+            hn::StoreInterleaved2(even_m, odd_m, d, below_m + 2 * i);
+        }
+        const float* HWY_RESTRICT weight = fine.weight.data() + fine.column(j);
+        const float* HWY_RESTRICT weighted_m = fine.weighted_m.data() + fine.column(j);
+        for (int i = 0; i < fine.cells; i += lanes) {
+            const VD lacking = hn::Sub(one, hn::LoadU(d, weight + i));
+            hn::StoreU(
+                hn::Add(hn::LoadU(d, weighted_m + i), hn::Mul(lacking, hn::LoadU(d, below_m + i))),
+                d, filled_m + j * stride + i);
         }
     }
 }
@@ -400,6 +430,7 @@ void fill(std::vector<Level>& levels, float* HWY_RESTRICT surface_m) {
         whole.weight[only] > 0 ? whole.weighted_m[only] / whole.weight[only] : 0.0f;
     for (std::size_t k = levels.size() - 1; k > 0; --k) {
         Level& fine = levels[k - 1];
+        levels[k].extendColumns();
         float* const filled_m = k > 1 ? fine.height_m.data() + fine.column(0) : surface_m;
         const int stride = k > 1 ? fine.cells + 2 : kCells;
         withVectorsFor(levels[k].cells,
@@ -427,9 +458,11 @@ void FitIn(Workspace& work, float* HWY_RESTRICT surface_m) {
     float* HWY_RESTRICT number = work.number.data();
     for (std::size_t k = 0; k < work.candidates; ++k) {
         const float above_m = z_m[k] - ground_m[cell[k]];
-        const bool is_ground = (above_m >= -kBelowLowest_m) & (above_m <= kAboveLowest_m);
-        sum_m[cell[k]] += is_ground ? z_m[k] : 0.0f;
-        number[cell[k]] += is_ground ? 1.0f : 0.0f;
+        // 1 where it is ground, 0 where it is not; a comparison alone would become a branch.
+        const float is_ground =
+            static_cast<float>((above_m >= -kBelowLowest_m) & (above_m <= kAboveLowest_m));
+        sum_m[cell[k]] += is_ground * z_m[k];
+        number[cell[k]] += is_ground;
     }
     weigh(work.sum_m, work.number);
     Level& finest = work.levels.front();
@@ -497,10 +530,12 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       GroundSurface& surface) {
     const auto* label = reinterpret_cast<const std::uint8_t*>(labels.data());
     fitToMarked(pixels, label, static_cast<std::uint8_t>(Label::Rou), surface);
+    Workspace& work = workspace();
+    heightsAbove(surface, pixels, work.height_m);
     HWY_DYNAMIC_DISPATCH(ListCloseIn)
     (pixels.x_m.size(), pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(),
-     surface.height_m.data(), workspace());
-    HWY_DYNAMIC_DISPATCH(FitIn)(workspace(), surface.height_m.data());
+     work.height_m.data(), work);
+    HWY_DYNAMIC_DISPATCH(FitIn)(work, surface.height_m.data());
 }
 
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {

@@ -36,25 +36,17 @@ namespace HWY_NAMESPACE {
 void TallestAroundIn(const float* HWY_RESTRICT top_m, float* HWY_RESTRICT tallest_m) {
     const hn::ScalableTag<float> d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    HWY_ALIGN float across_m[kGridStride + 64];  // the tallest of three columns, with the border's
     for (int j = 0; j < kCells; ++j) {
-        const float* HWY_RESTRICT column = top_m + gridColumn(j);
-        const auto tallestAcross = [&](auto df, int i) HAGEN_INLINE {
-            const auto sides_m = hn::Max(hn::LoadU(df, column + i - kGridStride),
-                                         hn::LoadU(df, column + i + kGridStride));
-            hn::StoreU(hn::Max(hn::LoadU(df, column + i), sides_m), df, across_m + 1 + i);
-        };
-        const hn::CappedTag<float, 1> one;
-        tallestAcross(one, -1);
-        for (int i = 0; i < kCells; i += lanes) tallestAcross(d, i);
-        tallestAcross(one, kCells);
         float* HWY_RESTRICT result_m = tallest_m + gridColumn(j);
         for (int i = 0; i < kCells; i += lanes) {
-            const auto sides_m =
-                hn::Max(hn::LoadU(d, across_m + i), hn::LoadU(d, across_m + i + 2));
-            const auto highest_m = hn::Max(hn::LoadU(d, across_m + 1 + i), sides_m);
-            hn::StoreU(hn::Min(hn::Max(highest_m, hn::Zero(d)), hn::Set(d, kTallest_m)), d,
-                       result_m + i);
+            const float* HWY_RESTRICT cell = top_m + gridColumn(j) + i;
+            auto highest_m = hn::Zero(d);
+            for (const int column : {-kGridStride, 0, kGridStride}) {
+                for (const int row : {-1, 0, 1}) {
+                    highest_m = hn::Max(highest_m, hn::LoadU(d, cell + column + row));
+                }
+            }
+            hn::StoreU(hn::Min(highest_m, hn::Set(d, kTallest_m)), d, result_m + i);
         }
         result_m[-1] = result_m[0];
         result_m[kCells] = result_m[kCells - 1];
@@ -176,7 +168,7 @@ struct Ballot {
     std::vector<std::uint8_t> elected;
 
     void resize(std::size_t size) {
-        for (auto* image : {&distance_m, &beyond_m, &roi}) image->assign(size, kNoValue);
+        for (auto* image : {&distance_m, &beyond_m, &roi}) image->resize(size);
         elected.resize(size);
     }
 };
@@ -213,17 +205,18 @@ void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Lab
         int above = rows + kFootRows;  // out of reach
         Label label_above = Label::Unclassified;
         for (int row = rows - 1; row >= 0; --row) {
-            if (label[row] == Label::Unclassified) continue;
-            if (label[row] == Label::Rou && label_above == Label::Roi && above - row <= kFootRows &&
-                height_m(row, column) > kFootHeight_m) {
+            if ((label[row] == Label::Rou) & (label_above == Label::Roi)) {  // few are
                 const float dx_m = pixels.x_m(above, column) - pixels.x_m(row, column);
                 const float dy_m = pixels.y_m(above, column) - pixels.y_m(row, column);
                 const float dz_m = pixels.z_m(above, column) - pixels.z_m(row, column);
                 const bool is_steep = dz_m * dz_m > dx_m * dx_m + dy_m * dy_m;  // than 45 degrees
-                if (is_steep) label[row] = Label::Roi;
+                const bool is_foot =
+                    is_steep && above - row <= kFootRows && height_m(row, column) > kFootHeight_m;
+                if (is_foot) label[row] = Label::Roi;
             }
-            above = row;
-            label_above = label[row];
+            const bool is_empty = label[row] == Label::Unclassified;
+            above = is_empty ? above : row;
+            label_above = is_empty ? label_above : label[row];
         }
     }
 }
@@ -244,6 +237,10 @@ void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
         (rows, pixels.x_m.data() + from, pixels.y_m.data() + from, height_m.data() + from,
          tolerance_m.data() + from, bytesOf(labels) + from, ballot.distance_m.data() + to,
          ballot.beyond_m.data() + to, ballot.roi.data() + to);
+        for (const int border : {to - 1, to + rows}) {
+            ballot.distance_m[border] = ballot.beyond_m[border] = kNoValue;
+            ballot.roi[border] = 0;
+        }
     }
     HWY_DYNAMIC_DISPATCH(CountVotesIn)
     (placeOf(0), placeOf(columns - 1) + rows, stride, ballot.distance_m.data(),
