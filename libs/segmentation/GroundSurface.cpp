@@ -312,6 +312,7 @@ void weigh(Heights& sums_m, Heights& numbers) {
             float* HWY_RESTRICT sum_m = sums_m.data() + gridColumn(j) + i;
             float* HWY_RESTRICT number = numbers.data() + gridColumn(j) + i;
             const V n = hn::LoadU(d, number), one = hn::Set(d, 1.0f);
+            if (hn::AllTrue(d, hn::Eq(n, hn::Zero(d)))) continue;  // as most are
             const V weight = hn::Min(hn::Mul(n, hn::Set(d, 1 / kSureReturns)), one);
             const V mean_m = hn::Div(hn::LoadU(d, sum_m), hn::Max(n, one));
             hn::StoreU(hn::Mul(mean_m, weight), d, sum_m);
@@ -320,21 +321,30 @@ void weigh(Heights& sums_m, Heights& numbers) {
     }
 }
 
-/// Step 4, first half: in `from` every cell, into `to`.
-void smoothHeights(const Heights& from, Heights& to) {
+/// A binomial of 3 x 3 cells.
+HWY_INLINE V binomial(const float* HWY_RESTRICT cell) {
+    const F d;
+    const auto bothSides = [&](int step) HAGEN_INLINE {
+        return hn::Add(hn::LoadU(d, cell - step), hn::LoadU(d, cell + step));
+    };
+    const V sides = hn::Add(bothSides(1), bothSides(kGridStride));
+    const V corners = hn::Add(bothSides(kGridStride - 1), bothSides(kGridStride + 1));
+    return hn::Add(
+        hn::Add(hn::Mul(hn::Set(d, 0.25f), hn::LoadU(d, cell)), hn::Mul(hn::Set(d, 0.125f), sides)),
+        hn::Mul(hn::Set(d, 0.0625f), corners));
+}
+
+/// Step 4, first half: weighted heights and weights.
+void smoothHeights(const Heights& sum_m, const Heights& number, Level& smooth) {
     const F d;
     for (int j = 0; j < kCells; ++j) {
         for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
-            const float* HWY_RESTRICT cell = from.data() + gridColumn(j) + i;
-            const auto bothSides = [&](int step) HAGEN_INLINE {
-                return hn::Add(hn::LoadU(d, cell - step), hn::LoadU(d, cell + step));
-            };
-            const V sides = hn::Add(bothSides(1), bothSides(kGridStride));
-            const V corners = hn::Add(bothSides(kGridStride - 1), bothSides(kGridStride + 1));
-            const V sum = hn::Add(hn::Add(hn::Mul(hn::Set(d, 0.25f), hn::LoadU(d, cell)),
-                                          hn::Mul(hn::Set(d, 0.125f), sides)),
-                                  hn::Mul(hn::Set(d, 0.0625f), corners));
-            hn::StoreU(sum, d, to.data() + gridColumn(j) + i);
+            const int cell = gridColumn(j) + i;
+            const V weight = binomial(number.data() + cell);
+            hn::StoreU(weight, d, smooth.weight.data() + cell);
+            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // as many are
+            const V weighted_m = is_empty ? hn::Zero(d) : binomial(sum_m.data() + cell);
+            hn::StoreU(weighted_m, d, smooth.weighted_m.data() + cell);
         }
     }
 }
@@ -465,9 +475,7 @@ void FitIn(Workspace& work, float* HWY_RESTRICT surface_m) {
         number[cell[k]] += is_ground;
     }
     weigh(work.sum_m, work.number);
-    Level& finest = work.levels.front();
-    smoothHeights(work.sum_m, finest.weighted_m);
-    smoothHeights(work.number, finest.weight);
+    smoothHeights(work.sum_m, work.number, work.levels.front());
     fill(work.levels, surface_m);
 }
 
@@ -538,11 +546,16 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
     HWY_DYNAMIC_DISPATCH(FitIn)(work, surface.height_m.data());
 }
 
+void heightsAbove(const GroundSurface& surface, std::size_t points, const float* x_m,
+                  const float* y_m, const float* z_m, float* height_m) {
+    HWY_DYNAMIC_DISPATCH(HeightsAboveIn)
+    (points, x_m, y_m, z_m, surface.height_m.data(), height_m);
+}
+
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {
     height_m.resize(pixels.z_m.rows(), pixels.z_m.cols());
-    HWY_DYNAMIC_DISPATCH(HeightsAboveIn)
-    (pixels.x_m.size(), pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(),
-     surface.height_m.data(), height_m.data());
+    heightsAbove(surface, pixels.x_m.size(), pixels.x_m.data(), pixels.y_m.data(),
+                 pixels.z_m.data(), height_m.data());
 }
 
 }  // namespace hagen
