@@ -59,12 +59,12 @@ struct Workspace {
     std::size_t candidates = 0;
     Image<float> height_m;  ///< of all pixels, above the first surface
 
-    Heights lowest_m, cleaned_m, envelope_m;
+    Heights lowest_m, cleaned_m, envelope_m, ramp_m;
     Heights sum_m, number;  ///< of the candidates that a cell's mean is taken of
     std::vector<Level> levels;
 
     Workspace() {
-        for (auto* heights_m : {&lowest_m, &cleaned_m, &envelope_m}) {
+        for (auto* heights_m : {&lowest_m, &cleaned_m, &envelope_m, &ramp_m}) {
             heights_m->assign(kGridSize, kNone);
         }
         for (auto* sums : {&sum_m, &number}) sums->assign(kGridSize, 0.0f);
@@ -232,66 +232,117 @@ void removeStrays(const Heights& lowest_m, Heights& cleaned_m) {
     }
 }
 
-/// Four floats, whatever the machine's vectors are (Highway's may be shorter).
-using Four = float __attribute__((vector_size(16)));
-HWY_INLINE Four four(float value) { return Four{value, value, value, value}; }
-HWY_INLINE Four load(const float* from) {
-    Four values;
-    std::memcpy(&values, from, sizeof(values));
-    return values;
-}
-HWY_INLINE Four least(Four a, Four b) { return b < a ? b : a; }
+/// Vectors of a chamfer's way along a column, of cells that lie one after the other.
+using Along = hn::CappedTag<float, 8>;
+using VA = hn::Vec<Along>;
 
-/// One column of a chamfer's pass (Borgefors 1986). From cell to cell along the column there is no
-/// way but one after the other; so four are joined at a time, and the sums that lead to a cell are
-/// the same on every machine.
+/// Each cell's combined with all before it in the vector. `neutral` changes nothing.
+template <bool kForward, class Combine>
+HWY_INLINE VA combinedSoFar(VA cells, VA neutral, Combine combine) {
+#if HWY_TARGET == HWY_SCALAR
+    (void)neutral, (void)combine;
+    return cells;
+#else
+    const Along d;
+    if constexpr (kForward) {
+        cells = combine(cells, hn::CombineShiftRightBytes<12>(d, cells, neutral));
+        cells = combine(cells, hn::CombineShiftRightBytes<8>(d, cells, neutral));
+        if constexpr (hn::MaxLanes(d) == 8) {
+            cells = combine(cells, hn::ConcatLowerLower(d, hn::Broadcast<3>(cells), neutral));
+        }
+    } else {
+        cells = combine(cells, hn::CombineShiftRightBytes<4>(d, neutral, cells));
+        cells = combine(cells, hn::CombineShiftRightBytes<8>(d, neutral, cells));
+        if constexpr (hn::MaxLanes(d) == 8) {
+            cells = combine(cells, hn::ConcatUpperUpper(d, neutral, hn::Broadcast<0>(cells)));
+        }
+    }
+    return cells;
+#endif
+}
+
+/// The last cell's in every lane.
 template <bool kForward>
-HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m,
+HWY_INLINE VA lastOf(VA cells) {
+#if HWY_TARGET == HWY_SCALAR
+    return cells;
+#else
+    const Along d;
+    if constexpr (kForward) {
+        cells = hn::Broadcast<3>(cells);
+        return hn::MaxLanes(d) == 8 ? hn::ConcatUpperUpper(d, cells, cells) : cells;
+    } else {
+        cells = hn::Broadcast<0>(cells);
+        return hn::MaxLanes(d) == 8 ? hn::ConcatLowerLower(d, cells, cells) : cells;
+    }
+#endif
+}
+
+/// How high the ground may climb along a column, from before its first cell up to each: whole
+/// numbers of steps over cells with a height and over others, the same in any order.
+HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRICT ramp_m) {
+    const Along d;
+    const VA seen_m = hn::Set(d, kCell_m * kSteepest), one = hn::Set(d, 1.0f);
+    const VA unseen_m = hn::Set(d, kCell_m * kSteepestUnseen);
+    VA seen = hn::Zero(d);  // cells, up to the last vector
+    ramp_m[-1] = 0;
+    for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
+        const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), hn::Set(d, kNone));
+        const auto sum = [](VA a, VA b) HAGEN_INLINE { return hn::Add(a, b); };
+        const VA more = combinedSoFar<true>(hn::IfThenElseZero(is_seen, one), hn::Zero(d), sum);
+        const VA number = hn::Add(seen, more);
+        const VA others = hn::Sub(hn::Iota(d, static_cast<float>(i + 1)), number);
+        hn::StoreU(hn::Add(hn::Mul(number, seen_m), hn::Mul(others, unseen_m)), d, ramp_m + i);
+        seen = hn::Add(seen, lastOf<true>(more));
+    }
+}
+
+/// One column of a chamfer's pass (Borgefors 1986). Along the column a cell is reached from all
+/// before it: against the ramp, that is the lowest of them, which is the same in any order.
+template <bool kForward>
+HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* HWY_RESTRICT ramp_m,
                               const float* HWY_RESTRICT before_m, float* HWY_RESTRICT envelope_m) {
-    const Four none = four(kNone), zero = four(0), corner = four(1.41421356f);
-    const Four seen_m = four(kCell_m * kSteepest), unseen_m = four(kCell_m * kSteepestUnseen);
-    // Each cell's predecessor, and the one before that; `first` has those of the first ones.
-    const auto before = [](Four cells, Four first) HWY_ATTR {
-        return kForward ? __builtin_shufflevector(first, cells, 3, 4, 5, 6)
-                        : __builtin_shufflevector(cells, first, 1, 2, 3, 4);
-    };
-    const auto twoBefore = [](Four cells, Four first) HWY_ATTR {
-        return kForward ? __builtin_shufflevector(first, cells, 2, 3, 4, 5)
-                        : __builtin_shufflevector(cells, first, 2, 3, 4, 5);
-    };
-    const auto last = [](Four cells) HWY_ATTR {
-        return kForward ? __builtin_shufflevector(cells, cells, 3, 3, 3, 3)
-                        : __builtin_shufflevector(cells, cells, 0, 0, 0, 0);
-    };
-    Four reached_m = none;  // the last cell of the four before
-    for (int step = 0; step < kCells; step += 4) {
-        const int i = kForward ? step : kCells - 4 - step;
-        const Four side_m = load(cleaned_m + i) == none ? unseen_m : seen_m;
-        const Four corners_m = least(load(before_m + i - 1), load(before_m + i + 1));
-        Four e_m = least(load(envelope_m + i), load(before_m + i) + side_m);
-        e_m = least(e_m, corners_m + corner * side_m);
-        e_m = least(e_m, before(e_m, none) + side_m);
-        const Four sides2_m = side_m + before(side_m, zero);
-        e_m = least(e_m, twoBefore(e_m, none) + sides2_m);
-        const Four sides4_m = sides2_m + twoBefore(sides2_m, zero);
-        const Four from_last_m = least(e_m, reached_m + sides4_m);
-        std::memcpy(envelope_m + i, &from_last_m, sizeof(from_last_m));
-        reached_m = least(last(e_m), reached_m + last(sides4_m));
+    const Along d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const VA none = hn::Set(d, kNone), corner = hn::Set(d, 1.41421356f);
+    const VA seen_m = hn::Set(d, kCell_m * kSteepest);
+    const VA unseen_m = hn::Set(d, kCell_m * kSteepestUnseen);
+    const auto lower = [](VA a, VA b) HAGEN_INLINE { return hn::Min(a, b); };
+    VA lowest_m = none;  // of all vectors before, against the ramp
+    for (int step = 0; step < kCells; step += lanes) {
+        const int i = kForward ? step : kCells - lanes - step;
+        const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), none);
+        const VA side_m = hn::IfThenElse(is_seen, seen_m, unseen_m);
+        const VA corners_m =
+            hn::Min(hn::LoadU(d, before_m + i - 1), hn::LoadU(d, before_m + i + 1));
+        const VA from_side_m = hn::Add(hn::LoadU(d, before_m + i), side_m);
+        const VA from_corners_m = hn::Add(corners_m, hn::Mul(corner, side_m));
+        const VA own_m =
+            hn::Min(hn::LoadU(d, envelope_m + i), hn::Min(from_side_m, from_corners_m));
+        const VA climb_m =
+            kForward ? hn::LoadU(d, ramp_m + i) : hn::Neg(hn::LoadU(d, ramp_m + i - 1));
+        const VA against_m = combinedSoFar<kForward>(hn::Sub(own_m, climb_m), none, lower);
+        const VA reached_m = hn::Add(hn::Min(lowest_m, against_m), climb_m);
+        hn::StoreU(hn::Min(own_m, reached_m), d, envelope_m + i);
+        lowest_m = hn::Min(lowest_m, lastOf<kForward>(against_m));
     }
 }
 
 /// Step 2: the greatest surface below `cleaned_m` that is nowhere too steep: kSteepest in a cell
 /// that has a height, kSteepestUnseen in one that has none. What stands out of it is taken away.
-void removeObstacles(Heights& cleaned_m, Heights& envelope_m) {
+void removeObstacles(Heights& cleaned_m, Heights& ramp_m, Heights& envelope_m) {
     std::copy(cleaned_m.begin(), cleaned_m.end(), envelope_m.begin());
+    const float* const cleaned = cleaned_m.data();
     float* const e = envelope_m.data();
+    float* const ramp = ramp_m.data();
     for (int j = 0; j < kCells; ++j) {
-        chamferColumn<true>(cleaned_m.data() + gridColumn(j), e + gridColumn(j - 1),
-                            e + gridColumn(j));
+        const int column = gridColumn(j);
+        findRamp(cleaned + column, ramp + column);
+        chamferColumn<true>(cleaned + column, ramp + column, e + column - kGridStride, e + column);
     }
     for (int j = kCells - 1; j >= 0; --j) {
-        chamferColumn<false>(cleaned_m.data() + gridColumn(j), e + gridColumn(j + 1),
-                             e + gridColumn(j));
+        const int column = gridColumn(j);
+        chamferColumn<false>(cleaned + column, ramp + column, e + column + kGridStride, e + column);
     }
     const F d;
     for (int j = 0; j < kCells; ++j) {
@@ -459,7 +510,7 @@ void FitIn(Workspace& work, float* HWY_RESTRICT surface_m) {
         lowest_m[cell[k]] = std::min(lowest_m[cell[k]], z_m[k]);
     }
     removeStrays(work.lowest_m, work.cleaned_m);
-    removeObstacles(work.cleaned_m, work.envelope_m);
+    removeObstacles(work.cleaned_m, work.ramp_m, work.envelope_m);
 
     // Step 3: a cell's mean is of its candidates close to the lowest; none where it is no ground.
     for (auto* sums : {&work.sum_m, &work.number}) std::fill(sums->begin(), sums->end(), 0.0f);
