@@ -9,7 +9,7 @@ namespace hagen {
 /// What is known of the ground under a scan, beyond the paper. Images are I_h x I_w, NaN where a
 /// pixel is empty.
 struct Ground {
-    bool is_seen = false;  ///< else nothing was judged by it, and all but the first three is old
+    bool is_seen = false;  ///< else nothing was judged by it, and all but the first three are old
     Eigen::Isometry3f from_sensor;  ///< into the frame of the plane that the ground lies about
     PixelPoints pixels;             ///< where the pixels lie, in that frame
     GroundSurface surface;          ///< under the ROU
