@@ -21,7 +21,8 @@ constexpr float kFootHeight_m = 0.015f;  // a foot is no lower than this
 constexpr int kFootRows = 4;             // a pixel's angle is with the next of so many rows above
 constexpr float kDoubt_m = 0.2f;         // a height so close to its tolerance is put to the vote
 constexpr float kVoteReach_m = 1.0f;     // in distance from the sensor
-constexpr float kLeastVotes = 3;
+constexpr int kLeastVotes = 3;
+constexpr float kVote = 1, kVoteForRoi = 17;  // sums of 9 tell both numbers, the latter's in 16s
 
 }  // namespace
 }  // namespace hagen
@@ -96,7 +97,7 @@ void LabelByHeightIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
 void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                    const float* HWY_RESTRICT height_m, const float* HWY_RESTRICT tolerance_m,
                    const std::uint8_t* HWY_RESTRICT label, float* HWY_RESTRICT distance_m,
-                   float* HWY_RESTRICT beyond_m, float* HWY_RESTRICT roi) {
+                   float* HWY_RESTRICT beyond_m, float* HWY_RESTRICT vote) {
     forEachVector(rows, [&](auto d, std::size_t row) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const hn::Rebind<std::uint8_t, decltype(d)> d8;
@@ -107,40 +108,43 @@ void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float*
         hn::StoreU(hn::Sub(h_m, hn::LoadU(d, tolerance_m + row)), d, beyond_m + row);
         const auto labels = hn::PromoteTo(di, hn::LoadU(d8, label + row));
         const auto is_roi = hn::Eq(labels, hn::Set(di, static_cast<std::int32_t>(Label::Roi)));
-        hn::StoreU(hn::IfThenElseZero(hn::RebindMask(d, is_roi), hn::Set(d, 1.0f)), d, roi + row);
+        hn::StoreU(
+            hn::IfThenElse(hn::RebindMask(d, is_roi), hn::Set(d, kVoteForRoi), hn::Set(d, kVote)),
+            d, vote + row);
     });
 }
 
 /// What the vote makes of each pixel: a label, or 0 where it stays as it is.
 void CountVotesIn(std::size_t first, std::size_t end, int stride,
                   const float* HWY_RESTRICT distance_m, const float* HWY_RESTRICT beyond_m,
-                  const float* HWY_RESTRICT roi, std::uint8_t* HWY_RESTRICT elected) {
+                  const float* HWY_RESTRICT vote, std::uint8_t* HWY_RESTRICT elected) {
     forEachVector(end - first, [&](auto d, std::size_t i) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const hn::Rebind<std::uint8_t, decltype(d)> d8;
         const std::size_t pixel = first + i;
-        const auto own_m = hn::LoadU(d, distance_m + pixel), one = hn::Set(d, 1.0f);
+        const auto own_m = hn::LoadU(d, distance_m + pixel);
         const auto reach_m = hn::Set(d, kVoteReach_m);
-        auto votes = hn::Zero(d), for_roi = hn::Zero(d);
+        auto sum = hn::Zero(d);
         for (int column = -1; column <= 1; ++column) {
             for (int row = -1; row <= 1; ++row) {
                 const std::size_t voter = pixel + column * stride + row;
                 const auto apart_m = hn::Abs(hn::Sub(hn::LoadU(d, distance_m + voter), own_m));
                 const auto has_vote = hn::Le(apart_m, reach_m);  // not where it is NaN
-                votes = hn::Add(votes, hn::IfThenElseZero(has_vote, one));
-                for_roi = hn::Add(for_roi, hn::IfThenElseZero(has_vote, hn::LoadU(d, roi + voter)));
+                sum = hn::Add(sum, hn::IfThenElseZero(has_vote, hn::LoadU(d, vote + voter)));
             }
         }
-        const auto twice = hn::Add(for_roi, for_roi);
-        const auto is_doubtful =
-            hn::Lt(hn::Abs(hn::LoadU(d, beyond_m + pixel)), hn::Set(d, kDoubt_m));
+        const auto counted = hn::ConvertTo(di, sum);
+        const auto votes = hn::And(counted, hn::Set(di, 15));
+        const auto twice_for_roi = hn::ShiftLeft<1>(hn::ShiftRight<4>(counted));
+        const auto is_doubtful = hn::RebindMask(
+            di, hn::Lt(hn::Abs(hn::LoadU(d, beyond_m + pixel)), hn::Set(d, kDoubt_m)));
         const auto is_decided =
-            hn::And(hn::Ge(votes, hn::Set(d, kLeastVotes)), hn::Ne(twice, votes));
+            hn::And(hn::Gt(votes, hn::Set(di, kLeastVotes - 1)), hn::Ne(twice_for_roi, votes));
         const auto is = [&](Label what)
                             HAGEN_INLINE { return hn::Set(di, static_cast<std::int32_t>(what)); };
-        const auto winner = hn::IfThenElse(hn::RebindMask(di, hn::Gt(twice, votes)), is(Label::Roi),
-                                           is(Label::Rou));
-        const auto changes = hn::RebindMask(di, hn::And(is_doubtful, is_decided));
+        const auto winner =
+            hn::IfThenElse(hn::Gt(twice_for_roi, votes), is(Label::Roi), is(Label::Rou));
+        const auto changes = hn::And(is_doubtful, is_decided);
         hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(changes, winner)), d8, elected + pixel);
     });
 }
@@ -164,11 +168,11 @@ HWY_EXPORT(CountVotesIn);
 struct Ballot {
     std::vector<float> distance_m;  ///< from the sensor, along the ground; NaN: empty
     std::vector<float> beyond_m;    ///< the tolerance
-    std::vector<float> roi;         ///< 1 where RoI, 0 elsewhere
+    std::vector<float> vote;        ///< kVoteForRoi or kVote
     std::vector<std::uint8_t> elected;
 
     void resize(std::size_t size) {
-        for (auto* image : {&distance_m, &beyond_m, &roi}) image->resize(size);
+        for (auto* image : {&distance_m, &beyond_m, &vote}) image->resize(size);
         elected.resize(size);
     }
 };
@@ -236,15 +240,15 @@ void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
         HWY_DYNAMIC_DISPATCH(EnterColumnIn)
         (rows, pixels.x_m.data() + from, pixels.y_m.data() + from, height_m.data() + from,
          tolerance_m.data() + from, bytesOf(labels) + from, ballot.distance_m.data() + to,
-         ballot.beyond_m.data() + to, ballot.roi.data() + to);
+         ballot.beyond_m.data() + to, ballot.vote.data() + to);
         for (const int border : {to - 1, to + rows}) {
             ballot.distance_m[border] = ballot.beyond_m[border] = kNoValue;
-            ballot.roi[border] = 0;
+            ballot.vote[border] = 0;
         }
     }
     HWY_DYNAMIC_DISPATCH(CountVotesIn)
     (placeOf(0), placeOf(columns - 1) + rows, stride, ballot.distance_m.data(),
-     ballot.beyond_m.data(), ballot.roi.data(), ballot.elected.data());
+     ballot.beyond_m.data(), ballot.vote.data(), ballot.elected.data());
     for (int column = 0; column < columns; ++column) {
         std::uint8_t* const label = bytesOf(labels) + static_cast<Eigen::Index>(rows) * column;
         const std::uint8_t* const elected = ballot.elected.data() + placeOf(column);
