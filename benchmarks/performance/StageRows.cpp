@@ -124,15 +124,16 @@ const std::vector<StageRow>& ownStages() {
              const Options& o = c.options;
              Ground& g = c.result.ground;
              heightsAbove(g.surface, g.pixels, g.height_m);
+             findCellTops(g.pixels, g.height_m, g.tops);
              toleratedHeights(
-                 g.pixels, g.height_m,
+                 g.pixels, g.tops,
                  {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
                  g.tolerance_m);
          }},
         {"own: canopy", false, false,
          [](Case& c) {
              Ground& g = c.result.ground;
-             tolerateCanopy(g.pixels, g.height_m, g.tolerance_m);
+             tolerateCanopy(g.tops, g.height_m, g.tolerance_m);
          }},
         {"own: labels, feet, specks", false, false,
          [](Case& c) {

@@ -1,7 +1,9 @@
 #include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/GroundSurface.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace hagen {
 namespace {
@@ -14,28 +16,23 @@ constexpr int kReach = 6;                      // blocks to each side
 constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of what may be a canopy
 constexpr float kLeastShare = 0.35f;                  // of the cells seen around
 constexpr float kLeastCells = 30;                     // seen around; fewer tell nothing
-constexpr float kDeviations = 2.0f;
-constexpr float kMargin_m = 0.1f;
+constexpr double kDeviations = 2.0;
+constexpr double kMargin_m = 0.1;
 
-/// The cell of a coordinate, or -1 beyond the grid.
-int cellOf(float coordinate_m) {
-    const float cell = std::floor(coordinate_m / GroundSurface::kCell_m) + 0.5f * kCells;
-    return cell >= 0 && cell < kCells ? static_cast<int>(cell) : -1;
-}
-
-/// What stands in the cells of a block, or of many.
+/// What stands in the cells of a block, or of many. Sums are double, so that what is taken away
+/// again leaves nothing behind.
 struct Stand {
-    float seen = 0;    ///< cells with returns
-    float plants = 0;  ///< of those, cells whose highest return is that of a low plant
-    float sum_m = 0;   ///< of the plants' heights
-    float sum_m2 = 0;  ///< of their squares
+    float seen = 0;     ///< cells with returns
+    float plants = 0;   ///< of those, cells whose highest return is that of a low plant
+    double sum_m = 0;   ///< of the plants' heights
+    double sum_m2 = 0;  ///< of their squares
 
     void addCell(float top_m) {
         seen += 1;
         if (!(top_m > kLowest_m && top_m < kTallest_m)) return;
         plants += 1;
         sum_m += top_m;
-        sum_m2 += top_m * top_m;
+        sum_m2 += static_cast<double>(top_m) * top_m;
     }
     void add(const Stand& other) {
         seen += other.seen;
@@ -43,54 +40,76 @@ struct Stand {
         sum_m += other.sum_m;
         sum_m2 += other.sum_m2;
     }
+    void remove(const Stand& other) {
+        seen -= other.seen;
+        plants -= other.plants;
+        sum_m -= other.sum_m;
+        sum_m2 -= other.sum_m2;
+    }
     /// The height that no plant exceeds; 0 where there is no canopy.
     float canopy_m() const {
-        if (seen < kLeastCells || plants < kLeastShare * seen) return 0;
-        const float mean_m = sum_m / plants;
-        const float variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0f);
-        return mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m;
+        if (seen < kLeastCells || plants < kLeastShare * static_cast<float>(seen)) return 0;
+        const double mean_m = sum_m / plants;
+        const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
+        return static_cast<float>(mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m);
     }
 };
-using Stands = Eigen::Array<Stand, Eigen::Dynamic, Eigen::Dynamic>;
+using Stands = std::array<Stand, kBlocks * kBlocks>;  // column by column
 
-/// The sums over kReach blocks to each side, along the first index.
-Stands sumsAlong(const Stands& stands) {
-    Stands sums(kBlocks, kBlocks);
-    for (int j = 0; j < kBlocks; ++j) {
-        for (int i = 0; i < kBlocks; ++i) {
-            const int first = std::max(i - kReach, 0), last = std::min(i + kReach, kBlocks - 1);
-            for (int k = first; k <= last; ++k) sums(i, j).add(stands(k, j));
+constexpr float kNothing_m[kBlockCells] = {CellTops::kNone_m, CellTops::kNone_m, CellTops::kNone_m,
+                                           CellTops::kNone_m};
+
+void findStands(const CellTops& tops, Stands& stands) {
+    for (int j = 0; j < kCells; ++j) {
+        const float* const column_m = tops.top_m.col(j + 1).data() + 1;  // without the border
+        for (int block = 0; block < kBlocks; ++block) {
+            const float* const top_m = column_m + block * kBlockCells;
+            if (std::memcmp(top_m, kNothing_m, sizeof(kNothing_m)) == 0) continue;  // as most are
+            Stand& stand = stands[j / kBlockCells * kBlocks + block];
+            for (int k = 0; k < kBlockCells; ++k) {
+                if (top_m[k] != CellTops::kNone_m) stand.addCell(top_m[k]);
+            }
         }
     }
-    return sums;
+}
+
+/// The sums over kReach blocks to each side along a line of blocks that lie `stride` apart: from
+/// one to the next, one block comes in and one goes out.
+void sumAlong(const Stand* stands, int stride, Stand* sums) {
+    Stand around;
+    for (int k = 0; k < kReach; ++k) around.add(stands[k * stride]);
+    for (int k = 0; k < kBlocks; ++k) {
+        if (k + kReach < kBlocks) around.add(stands[(k + kReach) * stride]);
+        if (k - kReach - 1 >= 0) around.remove(stands[(k - kReach - 1) * stride]);
+        sums[k * stride] = around;
+    }
 }
 
 }  // namespace
 
-void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
-                    Image<float>& tolerance_m) {
-    Eigen::ArrayXXf top_m = Eigen::ArrayXXf::Constant(kCells, kCells, kNoValue);
-    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
-        const float h_m = height_m.data()[pixel];
-        if (!hasValue(h_m)) continue;
-        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
-        if (i < 0 || j < 0) continue;
-        if (!(top_m(i, j) >= h_m)) top_m(i, j) = h_m;
+void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<float>& tolerance_m) {
+    Stands stands{}, sums;
+    findStands(tops, stands);
+    for (int j = 0; j < kBlocks; ++j) sumAlong(&stands[j * kBlocks], 1, &sums[j * kBlocks]);
+    for (int i = 0; i < kBlocks; ++i) sumAlong(&sums[i], kBlocks, &stands[i]);
+
+    std::array<float, kBlocks * kBlocks> canopy_m;
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        canopy_m[block] = stands[block].canopy_m();
     }
-    Stands stands(kBlocks, kBlocks);
-    for (int j = 0; j < kCells; ++j) {
-        for (int i = 0; i < kCells; ++i) {
-            if (hasValue(top_m(i, j)))
-                stands(i / kBlockCells, j / kBlockCells).addCell(top_m(i, j));
-        }
+    if (*std::max_element(canopy_m.begin(), canopy_m.end()) == 0) return;  // as nearly everywhere
+
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local Eigen::ArrayXXf of_cells_m;
+    of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        of_cells_m.block<kBlockCells, kBlockCells>(
+            1 + block % kBlocks * kBlockCells, 1 + block / kBlocks * kBlockCells) = canopy_m[block];
     }
-    const Stands around = sumsAlong(sumsAlong(stands).transpose()).transpose();
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
-        if (!hasValue(height_m.data()[pixel])) continue;
-        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
-        if (i < 0 || j < 0) continue;
         float& tolerated_m = tolerance_m.data()[pixel];
-        tolerated_m = std::max(tolerated_m, around(i / kBlockCells, j / kBlockCells).canopy_m());
+        const float of_cell_m = of_cells_m.data()[tops.cell.data()[pixel]];
+        tolerated_m = of_cell_m > tolerated_m ? of_cell_m : tolerated_m;  // not where it is NaN
     }
 }
 

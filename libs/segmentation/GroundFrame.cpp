@@ -2,8 +2,17 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "GroundFrame.cpp"
+#include <hwy/foreach_target.h>
+#include "GroundGrid-inl.h"
+
+#ifndef HAGEN_GROUND_FRAME
+#define HAGEN_GROUND_FRAME
 namespace hagen {
 namespace {
 
@@ -23,52 +32,191 @@ constexpr float kLeastHeight_m = 0.1f;   // of the sensor above it
 constexpr float kLeastCosine = 0.7071f;  // of the tilt against it, 45 degrees
 constexpr Eigen::Index kLeastPixels = 50;
 
+/// The points that a plane is fitted to, and what each weighs for its distance. Sums over them are
+/// taken in kParts parts, the same on every machine; points of weight 0 fill the last of each up.
+constexpr int kParts = 4;
+struct Points {
+    std::vector<double> x_m, y_m, z_m, nearness;
+    std::size_t size = 0;
+
+    std::size_t filledUp() const { return (size + kParts - 1) / kParts * kParts; }
+    void resize(std::size_t points) {
+        size = points;
+        for (auto* values : {&x_m, &y_m, &z_m, &nearness}) {
+            values->resize(std::max(values->size(), filledUp()));
+            std::fill(values->begin() + size, values->begin() + filledUp(), 0.0);
+        }
+    }
+    void set(std::size_t k, const Eigen::Vector3d& point_m) {
+        x_m[k] = point_m.x();
+        y_m[k] = point_m.y();
+        z_m[k] = point_m.z();
+    }
+    void weigh() {
+        for (std::size_t k = 0; k < size; ++k) {
+            nearness[k] = 1 / (1 + (x_m[k] * x_m[k] + y_m[k] * y_m[k]) / kRangeScale_m2);
+        }
+    }
+};
+
+/// How a point weighs that is off the plane z = a x + b y + c.
+struct Doubt {
+    double a = 0, b = 0, c = 0;
+    double above_per_m2 = 0, below_per_m2 = 0;
+};
+
+/// The parts of the sums over w, w x, w y, w x x, w x y, w y y, w z, w x z, w y z.
+constexpr int kSums = 9;
+using PartialSums = double[kSums][kParts];
+
+}  // namespace
+}  // namespace hagen
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// The cell of each pixel and its height, both in a level frame, as whole numbers: heights so that
+/// they order as the floats do. The cell is kCells * kCells for what is not within reach.
+void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
+                   const float* HWY_RESTRICT z_m, const Eigen::Matrix3f& level,
+                   std::int32_t* HWY_RESTRICT cell, std::int32_t* HWY_RESTRICT height) {
+    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+        const auto z = hn::LoadU(d, z_m + pixel);
+        const auto along = [&](int row) HAGEN_INLINE {
+            return hn::Add(hn::Add(hn::Mul(hn::Set(d, level(row, 0)), x),
+                                   hn::Mul(hn::Set(d, level(row, 1)), y)),
+                           hn::Mul(hn::Set(d, level(row, 2)), z));
+        };
+        const auto cells = [&](int row) HAGEN_INLINE {
+            return hn::Mul(hn::Add(along(row), hn::Set(d, kReach_m)), hn::Set(d, 1 / kCell_m));
+        };
+        const auto u = cells(0), v = cells(1), end = hn::Set(d, kCells), zero = hn::Zero(d);
+        const auto is_within = hn::And(hn::And(hn::Ge(u, zero), hn::Lt(u, end)),
+                                       hn::And(hn::Ge(v, zero), hn::Lt(v, end)));
+        const auto whole = [&](auto value) HAGEN_INLINE {
+            return hn::ConvertTo(di, hn::IfThenElseZero(is_within, value));
+        };
+        const auto j = hn::Mul(hn::ConvertTo(d, whole(u)), end);
+        const auto place = hn::Add(hn::ConvertTo(di, j), whole(v));
+        hn::StoreU(
+            hn::IfThenElse(hn::RebindMask(di, is_within), place, hn::Set(di, kCells * kCells)), di,
+            cell + pixel);
+        const auto bits = hn::BitCast(di, along(2));
+        const auto magnitude = hn::And(hn::ShiftRight<31>(bits), hn::Set(di, 0x7fffffff));
+        hn::StoreU(hn::Xor(bits, magnitude), di, height + pixel);
+    });
+}
+
+void SumUpIn(const Points& points, const Doubt& doubt, PartialSums& sums) {
+    const hn::CappedTag<double, kParts> d;
+    using V = hn::Vec<decltype(d)>;
+    const V one = hn::Set(d, 1.0), a = hn::Set(d, doubt.a), b = hn::Set(d, doubt.b);
+    const V c = hn::Set(d, doubt.c);
+    const V above_per_m2 = hn::Set(d, doubt.above_per_m2);
+    const V below_per_m2 = hn::Set(d, doubt.below_per_m2);
+    for (std::size_t part = 0; part < kParts; part += hn::Lanes(d)) {
+        V w_ = hn::Zero(d), wx = w_, wy = w_, wxx = w_, wxy = w_, wyy = w_, wz = w_, wxz = w_,
+          wyz = w_;
+        for (std::size_t k = part; k < points.filledUp(); k += kParts) {
+            const V x = hn::LoadU(d, points.x_m.data() + k),
+                    y = hn::LoadU(d, points.y_m.data() + k);
+            const V z = hn::LoadU(d, points.z_m.data() + k);
+            const V residual_m = hn::Sub(z, hn::Add(hn::Add(hn::Mul(a, x), hn::Mul(b, y)), c));
+            const V per_m2 =
+                hn::IfThenElse(hn::Gt(residual_m, hn::Zero(d)), above_per_m2, below_per_m2);
+            const V doubts = hn::Add(one, hn::Mul(per_m2, hn::Mul(residual_m, residual_m)));
+            const V w = hn::Div(hn::LoadU(d, points.nearness.data() + k), hn::Mul(doubts, doubts));
+            const V x_w = hn::Mul(w, x), y_w = hn::Mul(w, y);
+            w_ = hn::Add(w_, w);
+            wx = hn::Add(wx, x_w);
+            wy = hn::Add(wy, y_w);
+            wxx = hn::Add(wxx, hn::Mul(x_w, x));
+            wxy = hn::Add(wxy, hn::Mul(x_w, y));
+            wyy = hn::Add(wyy, hn::Mul(y_w, y));
+            wz = hn::Add(wz, hn::Mul(w, z));
+            wxz = hn::Add(wxz, hn::Mul(x_w, z));
+            wyz = hn::Add(wyz, hn::Mul(y_w, z));
+        }
+        const V all[kSums] = {w_, wx, wy, wxx, wxy, wyy, wz, wxz, wyz};
+        for (int k = 0; k < kSums; ++k) hn::StoreU(all[k], d, sums[k] + part);
+    }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(LevelPixelsIn);
+HWY_EXPORT(SumUpIn);
+
 /// The lowest point of each cell that has one.
-std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels,
-                                           const Eigen::Matrix3f& rotation) {
-    std::vector<Eigen::Vector3f> lowest(kCells * kCells, Eigen::Vector3f::Constant(kNoValue));
-    for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
-        if (!hasValue(pixels.x_m.data()[pixel])) continue;
-        const Eigen::Vector3f point = rotation * pixels.at(pixel);
-        const float u = (point.x() + kReach_m) / kCell_m, v = (point.y() + kReach_m) / kCell_m;
-        if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;
-        Eigen::Vector3f& low = lowest[static_cast<int>(u) * kCells + static_cast<int>(v)];
-        if (!(low.z() <= point.z())) low = point;
+void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level, Points& points) {
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local std::vector<std::int32_t> kept_cell, kept_height;
+    thread_local std::vector<std::int64_t> kept_lowest;
+    std::vector<std::int32_t>&cell = kept_cell, &height = kept_height;
+    const std::size_t size = pixels.x_m.size();
+    cell.resize(size);
+    height.resize(size);
+    HWY_DYNAMIC_DISPATCH(LevelPixelsIn)
+    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), level, cell.data(),
+     height.data());
+
+    // A height with the pixel's number after it: the least of them is the first of the lowest.
+    constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+    kept_lowest.assign(kCells * kCells + 1, kNone);
+    std::int64_t* const lowest = kept_lowest.data();
+    for (std::size_t pixel = 0; pixel < size; ++pixel) {
+        const std::int64_t own = std::int64_t{height[pixel]} * (std::int64_t{1} << 32) +
+                                 static_cast<std::int64_t>(pixel);
+        std::int64_t& low = lowest[cell[pixel]];
+        low = std::min(low, own);
     }
-    std::vector<Eigen::Vector3d> points;
-    for (const Eigen::Vector3f& point : lowest) {
-        if (hasValue(point.z())) points.push_back(point.cast<double>());
+    thread_local std::vector<std::int32_t> kept_occupied(kCells * kCells + 1);
+    std::int32_t* const occupied = kept_occupied.data();
+    std::size_t n = 0;
+    for (std::int32_t k = 0; k < kCells * kCells; ++k) {
+        occupied[n] = k;
+        n += lowest[k] != kNone;
     }
-    return points;
+    points.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const Eigen::Index pixel = lowest[occupied[k]] & 0xffffffff;
+        points.set(k, (level * pixels.at(pixel)).cast<double>());
+    }
+    points.weigh();
 }
 
 /// The plane z = a x + b y + c through the points, by weighted least squares.
-template <class Weight>
-Eigen::Vector3d planeThrough(const std::vector<Eigen::Vector3d>& points, Weight weight) {
+Eigen::Vector3d planeThrough(const Points& points, const Doubt& doubt) {
+    PartialSums parts;
+    HWY_DYNAMIC_DISPATCH(SumUpIn)(points, doubt, parts);
+    double sum[kSums];
+    for (int k = 0; k < kSums; ++k)
+        sum[k] = (parts[k][0] + parts[k][1]) + (parts[k][2] + parts[k][3]);
+    const auto& [w, wx, wy, wxx, wxy, wyy, wz, wxz, wyz] = sum;
     Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // points on a line are no error
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& p : points) {
-        const Eigen::Vector3d row(p.x(), p.y(), 1);
-        const double w = weight(p);
-        normal += w * row * row.transpose();
-        right += w * p.z() * row;
-    }
-    return normal.ldlt().solve(right);
+    normal += (Eigen::Matrix3d() << wxx, wxy, wx, wxy, wyy, wy, wx, wy, w).finished();
+    return normal.ldlt().solve(Eigen::Vector3d(wxz, wyz, wz));
 }
 
-Eigen::Vector3d fitPlane(const std::vector<Eigen::Vector3d>& points) {
-    const auto nearness = [](const Eigen::Vector3d& p) {
-        return 1.0 / (1.0 + p.head<2>().squaredNorm() / kRangeScale_m2);
-    };
-    Eigen::Vector3d plane = planeThrough(points, nearness);
+Eigen::Vector3d fitPlane(const Points& points) {
+    Eigen::Vector3d plane = planeThrough(points, Doubt{});
     double scale_m = kFirstScale_m;
     for (int round = 0; round < kRounds; ++round) {
-        plane = planeThrough(points, [&](const Eigen::Vector3d& p) {
-            const double residual_m = p.z() - plane.dot(Eigen::Vector3d(p.x(), p.y(), 1));
-            const double step = residual_m / scale_m;
-            const double doubt = 1.0 + (residual_m > 0 ? kAbove : kBelow) * step * step;
-            return nearness(p) / (doubt * doubt);
-        });
+        const double per_m2 = 1 / (scale_m * scale_m);
+        plane = planeThrough(points,
+                             {plane.x(), plane.y(), plane.z(), kAbove * per_m2, kBelow * per_m2});
         scale_m = std::max(kLeastScale_m, scale_m * kScaleStep);
     }
     return plane;
@@ -78,13 +226,15 @@ Eigen::Vector3d fitPlane(const std::vector<Eigen::Vector3d>& points) {
 
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude) {
     const Eigen::Matrix3f level = levelFromSensor(attitude);
-    const std::vector<Eigen::Vector3d> points = lowestOfCells(pixels, level);
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local Points points;
+    findLowestOfCells(pixels, level, points);
 
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();
-    if (points.size() >= 3) {
+    if (points.size >= 3) {
         plane = fitPlane(points);
-    } else if (!points.empty()) {
-        plane.z() = std::min(points.front().z(), points.back().z());
+    } else if (points.size > 0) {
+        plane.z() = std::min(points.z_m.front(), points.z_m[points.size - 1]);
     }
     const Eigen::Vector3d normal = Eigen::Vector3d(-plane.x(), -plane.y(), 1).normalized();
     const Eigen::Quaterniond turn =
@@ -112,3 +262,4 @@ Eigen::Vector3f upwards(const Eigen::Isometry3f& ground_from_sensor,
 }
 
 }  // namespace hagen
+#endif

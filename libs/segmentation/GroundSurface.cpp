@@ -1,227 +1,613 @@
 #include <hagen/segmentation/GroundSurface.h>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <vector>
 
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "GroundSurface.cpp"
+#include <hwy/foreach_target.h>
+#include "GroundGrid-inl.h"
+
+// Why it is fast: a pixel is touched by two short loops a fit, the lowest of its cell and the mean,
+// whose lists of cells and heights are written by compressing stores; all else is whole vectors
+// of cells.
+
+#ifndef HAGEN_GROUND_SURFACE
+#define HAGEN_GROUND_SURFACE
 namespace hagen {
 namespace {
 
-using Grid = Eigen::ArrayXXf;
-
 constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
-constexpr float kReach_m = 0.5f * kCells * kCell_m;
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr float kStray_m = 0.4f;  // so far below its neighbours nothing is ground
-constexpr int kStrayNeighbours = 3;
+constexpr float kStrayNeighbours = 3;
 constexpr float kSteepest = 0.3f;         // slope of the ground against its plane, where it is seen
 constexpr float kSteepestUnseen = 0.17f;  // and where it is not: tall things hide it, not hills
 constexpr float kEnvelope_m = 0.15f;      // a cell may stand out of the steepest slopes by this
 constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // what a cell's mean is taken of
 constexpr float kSureReturns = 5;  // a mean of so many has its full weight
 
-int cellOf(float coordinate_m) {
-    const float cell = std::floor((coordinate_m + kReach_m) / kCell_m);
-    return cell >= 0 && cell < kCells ? static_cast<int>(cell) : -1;
-}
+using Heights = std::vector<float>;  // a cell's at its place in the grid
 
-template <class Visit>
-void forEachCandidate(const PixelPoints& pixels, const Image<bool>& is_candidate, Visit visit) {
-    for (Eigen::Index pixel = 0; pixel < is_candidate.size(); ++pixel) {
-        if (!is_candidate.data()[pixel]) continue;
-        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
-        if (i >= 0 && j >= 0) visit(i, j, pixels.z_m.data()[pixel]);
+/// A grid of heights and how much each is to be trusted, 0 to 1; each level covers the square with
+/// cells twice as wide, and has a border too.
+struct Level {
+    int cells = 0;
+    Heights weighted_m;  ///< height * weight
+    Heights weight;
+    Heights height_m;  ///< filled
+
+    int column(int j) const { return (j + 1) * (cells + 2) + 1; }
+    /// Gives the border at both ends of each column the heights beside it.
+    void extendColumns() {
+        for (int j = 0; j < cells; ++j) {
+            height_m[column(j) - 1] = height_m[column(j)];
+            height_m[column(j) + cells] = height_m[column(j) + cells - 1];
+        }
     }
+};
+
+/// Memory that a fit needs.
+struct Workspace {
+    std::vector<std::int32_t> cell;  ///< of the candidates
+    Heights z_m;
+    std::size_t candidates = 0;
+    Image<float> height_m;  ///< of all pixels, above the first surface
+
+    Heights lowest_m, cleaned_m, envelope_m, ramp_m;
+    Heights sum_m, number;  ///< of the candidates that a cell's mean is taken of
+    std::vector<Level> levels;
+
+    Workspace() {
+        for (auto* heights_m : {&lowest_m, &cleaned_m, &envelope_m, &ramp_m}) {
+            heights_m->assign(kGridSize, kNone);
+        }
+        for (auto* sums : {&sum_m, &number}) sums->assign(kGridSize, 0.0f);
+        for (int cells = kCells; cells >= 1; cells /= 2) {
+            const Heights zero((cells + 2) * (cells + 2), 0.0f);
+            levels.push_back({cells, zero, zero, zero});
+        }
+    }
+    /// Makes room for the candidates among so many pixels, and so much more that vectors fit.
+    void reserve(std::size_t pixels) {
+        constexpr std::size_t kWidest = 64;
+        if (cell.size() >= pixels + kWidest) return;
+        cell.resize(pixels + kWidest);
+        z_m.resize(pixels + kWidest);
+    }
+};
+
+}  // namespace
+}  // namespace hagen
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+namespace {
+
+using F = hn::ScalableTag<float>;
+using V = hn::Vec<F>;
+
+/// Lists the pixels on the grid that isCandidate(d, pixel, x_m, y_m, z_m).
+template <class IsCandidate>
+HWY_INLINE void listCandidates(std::size_t pixels, const float* HWY_RESTRICT x_m,
+                               const float* HWY_RESTRICT y_m, const float* HWY_RESTRICT z_m,
+                               Workspace& work, IsCandidate isCandidate) {
+    work.reserve(pixels);
+    std::int32_t* HWY_RESTRICT cell = work.cell.data();
+    float* HWY_RESTRICT height_m = work.z_m.data();
+    std::size_t n = 0;
+    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+        const auto z = hn::LoadU(d, z_m + pixel);
+        const auto cells = gridCells(d, x, y);
+        const auto is_candidate = hn::And(cells.is_on_grid, isCandidate(d, pixel, x, y, z));
+        // Whole vectors are written, what is too much is written over by the next: masked stores
+        // are slow on some machines.
+        auto heights_m = z;
+        auto place = cells.cell;
+        const std::size_t listed = compress(d, is_candidate, heights_m, place);
+        hn::StoreU(heights_m, d, height_m + n);
+        hn::StoreU(place, di, cell + n);
+        n += listed;
+    });
+    work.candidates = n;
 }
 
-Grid lowestOfCells(const PixelPoints& pixels, const Image<bool>& is_candidate) {
-    Grid lowest_m = Grid::Constant(kCells, kCells, kNone);
-    forEachCandidate(pixels, is_candidate, [&](int i, int j, float z_m) {
-        lowest_m(i, j) = std::min(lowest_m(i, j), z_m);
-    });
-    return lowest_m;
+void ListMarkedIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
+                  const float* HWY_RESTRICT z_m, const std::uint8_t* HWY_RESTRICT mark,
+                  std::uint8_t wanted, Workspace& work) {
+    listCandidates(pixels, x_m, y_m, z_m, work,
+                   [&](auto d, std::size_t pixel, auto, auto, auto) HAGEN_INLINE {
+                       const hn::RebindToSigned<decltype(d)> di;
+                       const hn::Rebind<std::uint8_t, decltype(d)> d8;
+                       const auto marks = hn::PromoteTo(di, hn::LoadU(d8, mark + pixel));
+                       return hn::RebindMask(d, hn::Eq(marks, hn::Set(di, wanted)));
+                   });
+}
+
+/// What is close to a first surface can be ground: the farther away, the less is known.
+void ListCloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
+                 const float* HWY_RESTRICT z_m, const float* HWY_RESTRICT height_m,
+                 Workspace& work) {
+    listCandidates(
+        pixels, x_m, y_m, z_m, work,
+        [&](auto d, std::size_t pixel, auto x, auto y, auto) HAGEN_INLINE {
+            const auto h_m = hn::LoadU(d, height_m + pixel);
+            const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+            const auto least_m = hn::Sub(hn::Set(d, -0.2f), hn::Mul(hn::Set(d, 0.01f), distance_m));
+            const auto most_m = hn::Add(hn::Set(d, 0.2f), hn::Mul(hn::Set(d, 0.005f), distance_m));
+            return hn::And(hn::Gt(h_m, least_m), hn::Lt(h_m, most_m));
+        });
+}
+
+/// Where some pixels lie among the middles of cells, and the heights of the four around.
+struct Corners {
+    static constexpr std::size_t kPixels = 256;
+    HWY_ALIGN std::int32_t cell[kPixels];
+    HWY_ALIGN float to_next_i[kPixels], to_next_j[kPixels];
+    HWY_ALIGN float here_m[2 * kPixels];  ///< of cells (i, j) and (i + 1, j)
+    HWY_ALIGN float next_m[2 * kPixels];  ///< of cells (i, j + 1) and (i + 1, j + 1)
+};
+
+/// Bilinear. Heights are fetched pair by pair, for gathering instructions are slower; and for some
+/// hundred pixels before any is used, since what was just written in halves is read late.
+void HeightsAboveIn(std::size_t pixels, const float* HWY_RESTRICT x_m,
+                    const float* HWY_RESTRICT y_m, const float* HWY_RESTRICT z_m,
+                    const float* HWY_RESTRICT surface_m, float* HWY_RESTRICT height_m) {
+    Corners at;
+    for (std::size_t first = 0; first < pixels; first += Corners::kPixels) {
+        const std::size_t size = std::min(Corners::kPixels, pixels - first);
+        forEachVector(size, [&](auto d, std::size_t k) HAGEN_INLINE {
+            const hn::RebindToSigned<decltype(d)> di;
+            const auto cells = [&](auto coordinate_m) HAGEN_INLINE {
+                const auto c = hn::Add(hn::Mul(coordinate_m, hn::Set(d, 1 / kCell_m)),
+                                       hn::Set(d, 0.5f * kCells - 0.5f));
+                const auto positive = hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c);  // not NaN
+                return hn::Min(positive, hn::Set(d, kCells - 1));
+            };
+            const auto u = cells(hn::LoadU(d, x_m + first + k));
+            const auto v = cells(hn::LoadU(d, y_m + first + k));
+            const auto i = hn::Min(hn::ConvertTo(di, u), hn::Set(di, kCells - 2));
+            const auto j = hn::Min(hn::ConvertTo(di, v), hn::Set(di, kCells - 2));
+            static_assert(kCells == 128);
+            hn::StoreU(hn::Add(hn::ShiftLeft<7>(j), i), di, at.cell + k);
+            hn::StoreU(hn::Sub(u, hn::ConvertTo(d, i)), d, at.to_next_i + k);
+            hn::StoreU(hn::Sub(v, hn::ConvertTo(d, j)), d, at.to_next_j + k);
+        });
+        for (std::size_t k = 0; k < size; ++k) {
+            const float* HWY_RESTRICT corner_m = surface_m + at.cell[k];
+            std::memcpy(at.here_m + 2 * k, corner_m, 2 * sizeof(float));
+            std::memcpy(at.next_m + 2 * k, corner_m + kCells, 2 * sizeof(float));
+        }
+        forEachVector(size, [&](auto d, std::size_t k) HAGEN_INLINE {
+            using VD = hn::Vec<decltype(d)>;
+            const VD to_next_i = hn::LoadU(d, at.to_next_i + k);
+            const VD to_next_j = hn::LoadU(d, at.to_next_j + k);
+            VD here_m, here_next_i_m, next_j_m, next_ij_m;
+            hn::LoadInterleaved2(d, at.here_m + 2 * k, here_m, here_next_i_m);
+            hn::LoadInterleaved2(d, at.next_m + 2 * k, next_j_m, next_ij_m);
+            const auto between = [](VD from, VD to, VD part) HAGEN_INLINE {
+                return hn::Add(from, hn::Mul(part, hn::Sub(to, from)));
+            };
+            const VD ground_m = between(between(here_m, next_j_m, to_next_j),
+                                        between(here_next_i_m, next_ij_m, to_next_j), to_next_i);
+            hn::StoreU(hn::Sub(hn::LoadU(d, z_m + first + k), ground_m), d, height_m + first + k);
+        });
+    }
 }
 
 /// Step 1: returns below the ground do not count.
-Grid withoutStrays(const Grid& lowest_m) {
-    Grid cleaned_m = lowest_m;
+void removeStrays(const Heights& lowest_m, Heights& cleaned_m) {
+    const F d;
     for (int j = 0; j < kCells; ++j) {
-        for (int i = 0; i < kCells; ++i) {
-            if (lowest_m(i, j) == kNone) continue;
-            int higher = 0;
-            float lowest_around_m = kNone;
-            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, kCells - 1); ++y) {
-                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, kCells - 1); ++x) {
-                    if ((x == i && y == j) || lowest_m(x, y) == kNone) continue;
-                    higher += lowest_m(x, y) - lowest_m(i, j) > kStray_m;
-                    lowest_around_m = std::min(lowest_around_m, lowest_m(x, y));
+        for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
+            const float* HWY_RESTRICT cell = lowest_m.data() + gridColumn(j) + i;
+            const V low_m = hn::LoadU(d, cell), none = hn::Set(d, kNone);
+            V cleaned = low_m;
+            if (!hn::AllTrue(d, hn::Eq(low_m, none))) {
+                const V stray_m = hn::Set(d, kStray_m), one = hn::Set(d, 1.0f);
+                V higher = hn::Zero(d), lowest_around_m = none;
+                for (const int neighbour : {-kGridStride - 1, -kGridStride, -kGridStride + 1, -1, 1,
+                                            kGridStride - 1, kGridStride, kGridStride + 1}) {
+                    const V around_m = hn::LoadU(d, cell + neighbour);
+                    const auto is_higher =
+                        hn::And(hn::Gt(hn::Sub(around_m, low_m), stray_m), hn::Lt(around_m, none));
+                    higher = hn::Add(higher, hn::IfThenElseZero(is_higher, one));
+                    lowest_around_m = hn::Min(lowest_around_m, around_m);
                 }
+                const auto is_stray =
+                    hn::And(hn::Ge(higher, hn::Set(d, kStrayNeighbours)), hn::Lt(low_m, none));
+                cleaned = hn::IfThenElse(is_stray, hn::Max(low_m, lowest_around_m), low_m);
             }
-            if (higher >= kStrayNeighbours) {
-                cleaned_m(i, j) = std::max(lowest_m(i, j), lowest_around_m);
-            }
+            hn::StoreU(cleaned, d, cleaned_m.data() + gridColumn(j) + i);
         }
     }
-    return cleaned_m;
 }
 
-/// The greatest surface below `height_m` that is nowhere too steep: kSteepest in a cell that has a
-/// height, kSteepestUnseen in one that has none. Distances are those of a chamfer in two passes
-/// (Borgefors 1986).
-Grid lowerEnvelope(const Grid& height_m) {
-    Grid e = Grid::Constant(kCells + 2, kCells + 2, kNone);  // with a border all around
-    e.block(1, 1, kCells, kCells) = height_m;
-    const Grid side_m =
-        kCell_m * (e == kNone)
-                      .select(Grid::Constant(kCells + 2, kCells + 2, kSteepestUnseen),
-                              Grid::Constant(kCells + 2, kCells + 2, kSteepest));
-    const float corner = std::sqrt(2.0f);
-    for (int j = 1; j <= kCells; ++j) {
-        for (int i = 1; i <= kCells; ++i) {
-            const float sides_m = std::min(e(i - 1, j), e(i, j - 1));
-            const float corners_m = std::min(e(i - 1, j - 1), e(i + 1, j - 1));
-            e(i, j) =
-                std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
+/// Vectors of a chamfer's way along a column, of cells that lie one after the other.
+using Along = hn::CappedTag<float, 8>;
+using VA = hn::Vec<Along>;
+
+/// Each cell's combined with all before it in the vector. `neutral` changes nothing.
+template <bool kForward, class Combine>
+HWY_INLINE VA combinedSoFar(VA cells, VA neutral, Combine combine) {
+#if HWY_TARGET == HWY_SCALAR
+    (void)neutral, (void)combine;
+    return cells;
+#else
+    const Along d;
+    if constexpr (kForward) {
+        cells = combine(cells, hn::CombineShiftRightBytes<12>(d, cells, neutral));
+        cells = combine(cells, hn::CombineShiftRightBytes<8>(d, cells, neutral));
+        if constexpr (hn::MaxLanes(d) == 8) {
+            cells = combine(cells, hn::ConcatLowerLower(d, hn::Broadcast<3>(cells), neutral));
+        }
+    } else {
+        cells = combine(cells, hn::CombineShiftRightBytes<4>(d, neutral, cells));
+        cells = combine(cells, hn::CombineShiftRightBytes<8>(d, neutral, cells));
+        if constexpr (hn::MaxLanes(d) == 8) {
+            cells = combine(cells, hn::ConcatUpperUpper(d, neutral, hn::Broadcast<0>(cells)));
         }
     }
-    for (int j = kCells; j >= 1; --j) {
-        for (int i = kCells; i >= 1; --i) {
-            const float sides_m = std::min(e(i + 1, j), e(i, j + 1));
-            const float corners_m = std::min(e(i + 1, j + 1), e(i - 1, j + 1));
-            e(i, j) =
-                std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
-        }
-    }
-    return e.block(1, 1, kCells, kCells);
+    return cells;
+#endif
 }
 
-/// Heights and how much each is to be trusted, 0 to 1.
-struct WeightedGrid {
-    Grid height_m, weight;
-};
+/// The last cell's in every lane.
+template <bool kForward>
+HWY_INLINE VA lastOf(VA cells) {
+#if HWY_TARGET == HWY_SCALAR
+    return cells;
+#else
+    const Along d;
+    if constexpr (kForward) {
+        cells = hn::Broadcast<3>(cells);
+        return hn::MaxLanes(d) == 8 ? hn::ConcatUpperUpper(d, cells, cells) : cells;
+    } else {
+        cells = hn::Broadcast<0>(cells);
+        return hn::MaxLanes(d) == 8 ? hn::ConcatLowerLower(d, cells, cells) : cells;
+    }
+#endif
+}
 
-WeightedGrid binomial(const WeightedGrid& grid) {
-    static constexpr float kKernel[3] = {0.25f, 0.5f, 0.25f};
-    WeightedGrid smooth{Grid::Zero(kCells, kCells), Grid::Zero(kCells, kCells)};
+/// How high the ground may climb along a column, from before its first cell up to each: whole
+/// numbers of steps over cells with a height and over others, the same in any order.
+HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRICT ramp_m) {
+    const Along d;
+    const VA seen_m = hn::Set(d, kCell_m * kSteepest), one = hn::Set(d, 1.0f);
+    const VA unseen_m = hn::Set(d, kCell_m * kSteepestUnseen);
+    VA seen = hn::Zero(d);  // cells, up to the last vector
+    ramp_m[-1] = 0;
+    for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
+        const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), hn::Set(d, kNone));
+        const auto sum = [](VA a, VA b) HAGEN_INLINE { return hn::Add(a, b); };
+        const VA more = combinedSoFar<true>(hn::IfThenElseZero(is_seen, one), hn::Zero(d), sum);
+        const VA number = hn::Add(seen, more);
+        const VA others = hn::Sub(hn::Iota(d, static_cast<float>(i + 1)), number);
+        hn::StoreU(hn::Add(hn::Mul(number, seen_m), hn::Mul(others, unseen_m)), d, ramp_m + i);
+        seen = hn::Add(seen, lastOf<true>(more));
+    }
+}
+
+/// One column of a chamfer's pass (Borgefors 1986). Along the column a cell is reached from all
+/// before it: against the ramp, that is the lowest of them, which is the same in any order.
+template <bool kForward>
+HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* HWY_RESTRICT ramp_m,
+                              const float* HWY_RESTRICT before_m, float* HWY_RESTRICT envelope_m) {
+    const Along d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const VA none = hn::Set(d, kNone), corner = hn::Set(d, 1.41421356f);
+    const VA seen_m = hn::Set(d, kCell_m * kSteepest);
+    const VA unseen_m = hn::Set(d, kCell_m * kSteepestUnseen);
+    const auto lower = [](VA a, VA b) HAGEN_INLINE { return hn::Min(a, b); };
+    VA lowest_m = none;  // of all vectors before, against the ramp
+    for (int step = 0; step < kCells; step += lanes) {
+        const int i = kForward ? step : kCells - lanes - step;
+        const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), none);
+        const VA side_m = hn::IfThenElse(is_seen, seen_m, unseen_m);
+        const VA corners_m =
+            hn::Min(hn::LoadU(d, before_m + i - 1), hn::LoadU(d, before_m + i + 1));
+        const VA from_side_m = hn::Add(hn::LoadU(d, before_m + i), side_m);
+        const VA from_corners_m = hn::Add(corners_m, hn::Mul(corner, side_m));
+        const VA own_m =
+            hn::Min(hn::LoadU(d, envelope_m + i), hn::Min(from_side_m, from_corners_m));
+        const VA climb_m =
+            kForward ? hn::LoadU(d, ramp_m + i) : hn::Neg(hn::LoadU(d, ramp_m + i - 1));
+        const VA against_m = combinedSoFar<kForward>(hn::Sub(own_m, climb_m), none, lower);
+        const VA reached_m = hn::Add(hn::Min(lowest_m, against_m), climb_m);
+        hn::StoreU(hn::Min(own_m, reached_m), d, envelope_m + i);
+        lowest_m = hn::Min(lowest_m, lastOf<kForward>(against_m));
+    }
+}
+
+/// Step 2: the greatest surface below `cleaned_m` that is nowhere too steep: kSteepest in a cell
+/// that has a height, kSteepestUnseen in one that has none. What stands out of it is taken away.
+void removeObstacles(Heights& cleaned_m, Heights& ramp_m, Heights& envelope_m) {
+    std::copy(cleaned_m.begin(), cleaned_m.end(), envelope_m.begin());
+    const float* const cleaned = cleaned_m.data();
+    float* const e = envelope_m.data();
+    float* const ramp = ramp_m.data();
     for (int j = 0; j < kCells; ++j) {
-        for (int i = 0; i < kCells; ++i) {
-            float sum_m = 0, weights = 0;
-            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, kCells - 1); ++y) {
-                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, kCells - 1); ++x) {
-                    const float w = kKernel[x - i + 1] * kKernel[y - j + 1] * grid.weight(x, y);
-                    sum_m += w * grid.height_m(x, y);
-                    weights += w;
-                }
+        const int column = gridColumn(j);
+        findRamp(cleaned + column, ramp + column);
+        chamferColumn<true>(cleaned + column, ramp + column, e + column - kGridStride, e + column);
+    }
+    for (int j = kCells - 1; j >= 0; --j) {
+        const int column = gridColumn(j);
+        chamferColumn<false>(cleaned + column, ramp + column, e + column + kGridStride, e + column);
+    }
+    const F d;
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
+            float* HWY_RESTRICT cell = cleaned_m.data() + gridColumn(j) + i;
+            const V low_m = hn::LoadU(d, cell);
+            const V most_m = hn::Add(hn::LoadU(d, e + gridColumn(j) + i), hn::Set(d, kEnvelope_m));
+            hn::StoreU(hn::IfThenElse(hn::Le(low_m, most_m), low_m, hn::Set(d, kNone)), d, cell);
+        }
+    }
+}
+
+/// Step 3, second half: sums of heights and their numbers become weighted heights and weights.
+void weigh(Heights& sums_m, Heights& numbers) {
+    const F d;
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
+            float* HWY_RESTRICT sum_m = sums_m.data() + gridColumn(j) + i;
+            float* HWY_RESTRICT number = numbers.data() + gridColumn(j) + i;
+            const V n = hn::LoadU(d, number), one = hn::Set(d, 1.0f);
+            if (hn::AllTrue(d, hn::Eq(n, hn::Zero(d)))) continue;  // as most are
+            const V weight = hn::Min(hn::Mul(n, hn::Set(d, 1 / kSureReturns)), one);
+            const V mean_m = hn::Div(hn::LoadU(d, sum_m), hn::Max(n, one));
+            hn::StoreU(hn::Mul(mean_m, weight), d, sum_m);
+            hn::StoreU(weight, d, number);
+        }
+    }
+}
+
+/// A binomial of 3 x 3 cells.
+HWY_INLINE V binomial(const float* HWY_RESTRICT cell) {
+    const F d;
+    const auto bothSides = [&](int step) HAGEN_INLINE {
+        return hn::Add(hn::LoadU(d, cell - step), hn::LoadU(d, cell + step));
+    };
+    const V sides = hn::Add(bothSides(1), bothSides(kGridStride));
+    const V corners = hn::Add(bothSides(kGridStride - 1), bothSides(kGridStride + 1));
+    return hn::Add(
+        hn::Add(hn::Mul(hn::Set(d, 0.25f), hn::LoadU(d, cell)), hn::Mul(hn::Set(d, 0.125f), sides)),
+        hn::Mul(hn::Set(d, 0.0625f), corners));
+}
+
+/// Step 4, first half: weighted heights and weights.
+void smoothHeights(const Heights& sum_m, const Heights& number, Level& smooth) {
+    const F d;
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; i += static_cast<int>(hn::Lanes(d))) {
+            const int cell = gridColumn(j) + i;
+            const V weight = binomial(number.data() + cell);
+            hn::StoreU(weight, d, smooth.weight.data() + cell);
+            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // as many are
+            const V weighted_m = is_empty ? hn::Zero(d) : binomial(sum_m.data() + cell);
+            hn::StoreU(weighted_m, d, smooth.weighted_m.data() + cell);
+        }
+    }
+}
+
+/// Each coarse cell is the weighted mean of the four it covers. `d` has at most as many lanes as
+/// there are coarse cells in a column.
+template <class D>
+HWY_INLINE void pull(D d, const Level& fine, Level& coarse) {
+    using VD = hn::Vec<D>;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    HWY_ALIGN float across[kGridStride + 64];  // sums over two columns
+    const VD one = hn::Set(d, 1.0f);
+    for (int j = 0; j < coarse.cells; ++j) {
+        const int left = fine.column(2 * j), right = fine.column(2 * j + 1);
+        const auto sumAcross = [&](const Heights& values) HAGEN_INLINE {
+            for (int i = 0; i < fine.cells; i += lanes) {
+                hn::StoreU(hn::Add(hn::LoadU(d, values.data() + left + i),
+                                   hn::LoadU(d, values.data() + right + i)),
+                           d, across + i);
             }
-            if (weights > 0) smooth.height_m(i, j) = sum_m / weights;
-            smooth.weight(i, j) = weights;
-        }
-    }
-    return smooth;
-}
-
-/// Each coarse cell is the weighted mean of the four it covers.
-WeightedGrid pull(const WeightedGrid& fine) {
-    const Eigen::Index cells = fine.weight.rows() / 2;
-    WeightedGrid coarse{Grid::Zero(cells, cells), Grid::Zero(cells, cells)};
-    for (Eigen::Index j = 0; j < cells; ++j) {
-        for (Eigen::Index i = 0; i < cells; ++i) {
-            const auto weight = fine.weight.block<2, 2>(2 * i, 2 * j);
-            const float weights = weight.sum();
-            if (!(weights > 0)) continue;
-            coarse.height_m(i, j) =
-                (weight * fine.height_m.block<2, 2>(2 * i, 2 * j)).sum() / weights;
-            coarse.weight(i, j) = std::min(1.0f, weights);
-        }
-    }
-    return coarse;
-}
-
-float bilinear(const Grid& grid, float i, float j) {
-    const Eigen::Index last = grid.rows() - 1;
-    i = std::clamp(i, 0.0f, static_cast<float>(last));
-    j = std::clamp(j, 0.0f, static_cast<float>(last));
-    const Eigen::Index i0 = static_cast<Eigen::Index>(i), j0 = static_cast<Eigen::Index>(j);
-    const Eigen::Index i1 = std::min(i0 + 1, last), j1 = std::min(j0 + 1, last);
-    const float u = i - static_cast<float>(i0), v = j - static_cast<float>(j0);
-    return (1 - u) * ((1 - v) * grid(i0, j0) + v * grid(i0, j1)) +
-           u * ((1 - v) * grid(i1, j0) + v * grid(i1, j1));
-}
-
-/// What a fine cell lacks in weight it takes from the coarse grid.
-void push(const Grid& coarse_m, WeightedGrid& fine) {
-    for (Eigen::Index j = 0; j < fine.weight.cols(); ++j) {
-        for (Eigen::Index i = 0; i < fine.weight.rows(); ++i) {
-            const float w = fine.weight(i, j);
-            if (w >= 1) continue;
-            const float below_m = bilinear(coarse_m, 0.5f * static_cast<float>(i) - 0.25f,
-                                           0.5f * static_cast<float>(j) - 0.25f);
-            fine.height_m(i, j) = w * fine.height_m(i, j) + (1 - w) * below_m;
+        };
+        const auto sumAlong = [&](int i) HAGEN_INLINE {
+            VD even, odd;
+            hn::LoadInterleaved2(d, across + 2 * i, even, odd);
+            return hn::Add(even, odd);
+        };
+        float* HWY_RESTRICT weighted_m = coarse.weighted_m.data() + coarse.column(j);
+        float* HWY_RESTRICT weight = coarse.weight.data() + coarse.column(j);
+        sumAcross(fine.weighted_m);
+        for (int i = 0; i < coarse.cells; i += lanes) hn::StoreU(sumAlong(i), d, weighted_m + i);
+        sumAcross(fine.weight);
+        for (int i = 0; i < coarse.cells; i += lanes) {
+            const VD weights = sumAlong(i);
+            hn::StoreU(hn::Div(hn::LoadU(d, weighted_m + i), hn::Max(weights, one)), d,
+                       weighted_m + i);
+            hn::StoreU(hn::Min(weights, one), d, weight + i);
         }
     }
 }
 
-Grid filled(const WeightedGrid& grid) {
-    std::vector<WeightedGrid> levels{grid};
-    while (levels.back().weight.rows() > 1) levels.push_back(pull(levels.back()));
-    for (std::size_t level = levels.size() - 1; level > 0; --level) {
-        push(levels[level].height_m, levels[level - 1]);
+/// What a fine cell lacks in weight it takes from the coarse grid, bilinear between the middles of
+/// its cells: those of a fine cell's own and the next one have 3/4 and 1/4. Column j of the result
+/// goes to filled_m + j * stride.
+template <class D>
+HWY_INLINE void push(D d, const Level& coarse, const Level& fine, float* HWY_RESTRICT filled_m,
+                     int stride) {
+    using VD = hn::Vec<D>;
+    const int lanes = static_cast<int>(hn::Lanes(d)), last = coarse.cells - 1;
+    const VD near = hn::Set(d, 0.75f), far = hn::Set(d, 0.25f), one = hn::Set(d, 1.0f);
+    HWY_ALIGN float below_m[kGridStride + 64];  // of the fine grid's cells
+    for (int j = 0; j < fine.cells; ++j) {
+        const int own = j / 2, next = std::clamp(j % 2 == 0 ? own - 1 : own + 1, 0, last);
+        const float* HWY_RESTRICT own_m = coarse.height_m.data() + coarse.column(own);
+        const float* HWY_RESTRICT next_m = coarse.height_m.data() + coarse.column(next);
+        for (int i = 0; i < coarse.cells; i += lanes) {
+            const auto betweenColumns = [&](int cell) HAGEN_INLINE {
+                return hn::Add(hn::Mul(near, hn::LoadU(d, own_m + cell)),
+                               hn::Mul(far, hn::LoadU(d, next_m + cell)));
+            };
+            const VD mostly = hn::Mul(near, betweenColumns(i));
+            const VD even_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i - 1)));
+            const VD odd_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i + 1)));
+            hn::StoreInterleaved2(even_m, odd_m, d, below_m + 2 * i);
+        }
+        const float* HWY_RESTRICT weight = fine.weight.data() + fine.column(j);
+        const float* HWY_RESTRICT weighted_m = fine.weighted_m.data() + fine.column(j);
+        for (int i = 0; i < fine.cells; i += lanes) {
+            const VD lacking = hn::Sub(one, hn::LoadU(d, weight + i));
+            hn::StoreU(
+                hn::Add(hn::LoadU(d, weighted_m + i), hn::Mul(lacking, hn::LoadU(d, below_m + i))),
+                d, filled_m + j * stride + i);
+        }
     }
-    return levels.front().height_m;
 }
 
-/// Whether a height above the first fit can be ground: the farther away, the less is known.
-bool isCloseToGround(float height_m, float distance_m) {
-    return height_m > -0.2f - 0.01f * distance_m && height_m < 0.2f + 0.005f * distance_m;
+/// Calls visit(d, level) with the widest vectors that fit into a column of so many cells.
+template <class Visit>
+HWY_INLINE void withVectorsFor(int cells, Visit visit) {
+    if (cells >= 16) return visit(hn::CappedTag<float, 16>());
+    if (cells >= 4) return visit(hn::CappedTag<float, 4>());
+    visit(hn::CappedTag<float, 1>());
+}
+
+/// Step 4, second half.
+void fill(std::vector<Level>& levels, float* HWY_RESTRICT surface_m) {
+    for (std::size_t k = 1; k < levels.size(); ++k) {
+        withVectorsFor(levels[k].cells,
+                       [&](auto d) HAGEN_INLINE { pull(d, levels[k - 1], levels[k]); });
+    }
+    Level& whole = levels.back();
+    const int only = whole.column(0);
+    whole.height_m[only] =
+        whole.weight[only] > 0 ? whole.weighted_m[only] / whole.weight[only] : 0.0f;
+    for (std::size_t k = levels.size() - 1; k > 0; --k) {
+        Level& fine = levels[k - 1];
+        levels[k].extendColumns();
+        float* const filled_m = k > 1 ? fine.height_m.data() + fine.column(0) : surface_m;
+        const int stride = k > 1 ? fine.cells + 2 : kCells;
+        withVectorsFor(levels[k].cells,
+                       [&](auto d) HAGEN_INLINE { push(d, levels[k], fine, filled_m, stride); });
+    }
+}
+
+/// All steps, for the candidates listed.
+void FitIn(Workspace& work, float* HWY_RESTRICT surface_m) {
+    const std::int32_t* HWY_RESTRICT cell = work.cell.data();
+    const float* HWY_RESTRICT z_m = work.z_m.data();
+
+    std::fill(work.lowest_m.begin(), work.lowest_m.end(), kNone);
+    float* HWY_RESTRICT lowest_m = work.lowest_m.data();
+    for (std::size_t k = 0; k < work.candidates; ++k) {
+        lowest_m[cell[k]] = std::min(lowest_m[cell[k]], z_m[k]);
+    }
+    removeStrays(work.lowest_m, work.cleaned_m);
+    removeObstacles(work.cleaned_m, work.ramp_m, work.envelope_m);
+
+    // Step 3: a cell's mean is of its candidates close to the lowest; none where it is no ground.
+    for (auto* sums : {&work.sum_m, &work.number}) std::fill(sums->begin(), sums->end(), 0.0f);
+    const float* HWY_RESTRICT ground_m = work.cleaned_m.data();
+    float* HWY_RESTRICT sum_m = work.sum_m.data();
+    float* HWY_RESTRICT number = work.number.data();
+    for (std::size_t k = 0; k < work.candidates; ++k) {
+        const float above_m = z_m[k] - ground_m[cell[k]];
+        // 1 where it is ground, 0 where it is not; a comparison alone would become a branch.
+        const float is_ground =
+            static_cast<float>((above_m >= -kBelowLowest_m) & (above_m <= kAboveLowest_m));
+        sum_m[cell[k]] += is_ground * z_m[k];
+        number[cell[k]] += is_ground;
+    }
+    weigh(work.sum_m, work.number);
+    smoothHeights(work.sum_m, work.number, work.levels.front());
+    fill(work.levels, surface_m);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(ListMarkedIn);
+HWY_EXPORT(ListCloseIn);
+HWY_EXPORT(FitIn);
+HWY_EXPORT(HeightsAboveIn);
+
+/// Kept from scan to scan, so that none is allocated; holds nothing between them.
+Workspace& workspace() {
+    thread_local Workspace work;
+    return work;
+}
+
+/// Fits the surface to the pixels whose `mark` is `wanted`.
+void fitToMarked(const PixelPoints& pixels, const std::uint8_t* mark, std::uint8_t wanted,
+                 GroundSurface& surface) {
+    Workspace& work = workspace();
+    const std::size_t size = pixels.x_m.size();
+    work.reserve(size);
+    surface.height_m.resize(kCells, kCells);
+    HWY_DYNAMIC_DISPATCH(ListMarkedIn)
+    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), mark, wanted, work);
+    HWY_DYNAMIC_DISPATCH(FitIn)(work, surface.height_m.data());
 }
 
 }  // namespace
 
 float GroundSurface::at(float x_m, float y_m) const {
-    return bilinear(height_m, (x_m + kReach_m) / kCell_m - 0.5f, (y_m + kReach_m) / kCell_m - 0.5f);
+    const auto cells = [](float coordinate_m) {
+        return std::clamp(coordinate_m * (1 / kCell_m) + (0.5f * kCells - 0.5f), 0.0f,
+                          static_cast<float>(kCells - 1));
+    };
+    const float u = cells(x_m), v = cells(y_m);
+    const int i = std::min(static_cast<int>(u), kCells - 2);
+    const int j = std::min(static_cast<int>(v), kCells - 2);
+    const float to_next_i = u - static_cast<float>(i), to_next_j = v - static_cast<float>(j);
+    const auto alongJ = [&](int k) {
+        return height_m(k, j) + to_next_j * (height_m(k, j + 1) - height_m(k, j));
+    };
+    return alongJ(i) + to_next_i * (alongJ(i + 1) - alongJ(i));
 }
 
 void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
                       GroundSurface& surface) {
-    const Grid lowest_m = withoutStrays(lowestOfCells(pixels, is_candidate));
-    const Grid envelope_m = lowerEnvelope(lowest_m);
-
-    WeightedGrid grid{Grid::Zero(kCells, kCells), Grid::Zero(kCells, kCells)};
-    forEachCandidate(pixels, is_candidate, [&](int i, int j, float z_m) {
-        const bool is_ground = lowest_m(i, j) <= envelope_m(i, j) + kEnvelope_m;
-        const float above_m = z_m - lowest_m(i, j);
-        if (!is_ground || above_m < -kBelowLowest_m || above_m > kAboveLowest_m) return;
-        grid.height_m(i, j) += z_m;
-        grid.weight(i, j) += 1;
-    });
-    grid.height_m = (grid.weight > 0).select(grid.height_m / grid.weight, 0.0f);
-    grid.weight = (grid.weight / kSureReturns).min(1.0f);
-    surface.height_m = filled(binomial(grid));
+    static_assert(sizeof(bool) == 1);
+    fitToMarked(pixels, reinterpret_cast<const std::uint8_t*>(is_candidate.data()), true, surface);
 }
 
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       GroundSurface& surface) {
-    Image<bool> is_candidate = labels == Label::Rou;
-    fitGroundSurface(pixels, is_candidate, surface);
+    const auto* label = reinterpret_cast<const std::uint8_t*>(labels.data());
+    fitToMarked(pixels, label, static_cast<std::uint8_t>(Label::Rou), surface);
+    Workspace& work = workspace();
+    heightsAbove(surface, pixels, work.height_m);
+    HWY_DYNAMIC_DISPATCH(ListCloseIn)
+    (pixels.x_m.size(), pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(),
+     work.height_m.data(), work);
+    HWY_DYNAMIC_DISPATCH(FitIn)(work, surface.height_m.data());
+}
 
-    Image<float> height_m;
-    heightsAbove(surface, pixels, height_m);
-    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
-        const float distance_m = std::hypot(pixels.x_m.data()[pixel], pixels.y_m.data()[pixel]);
-        is_candidate.data()[pixel] = isCloseToGround(height_m.data()[pixel], distance_m);
-    }
-    fitGroundSurface(pixels, is_candidate, surface);
+void heightsAbove(const GroundSurface& surface, std::size_t points, const float* x_m,
+                  const float* y_m, const float* z_m, float* height_m) {
+    HWY_DYNAMIC_DISPATCH(HeightsAboveIn)
+    (points, x_m, y_m, z_m, surface.height_m.data(), height_m);
 }
 
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {
     height_m.resize(pixels.z_m.rows(), pixels.z_m.cols());
-    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
-        const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
-        height_m.data()[pixel] =
-            hasValue(x_m) ? pixels.z_m.data()[pixel] - surface.at(x_m, y_m) : kNoValue;
-    }
+    heightsAbove(surface, pixels.x_m.size(), pixels.x_m.data(), pixels.y_m.data(),
+                 pixels.z_m.data(), height_m.data());
 }
 
 }  // namespace hagen
+#endif

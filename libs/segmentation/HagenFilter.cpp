@@ -86,11 +86,12 @@ void HagenFilter::judgeByGround(const Scan& scan) {
     // every pixel against the surface under the ROU
     fitGroundSurface(g.pixels, r.labels, g.surface);
     heightsAbove(g.surface, g.pixels, g.height_m);
+    findCellTops(g.pixels, g.height_m, g.tops);
     toleratedHeights(
-        g.pixels, g.height_m,
+        g.pixels, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
         g.tolerance_m);
-    if (o.canopy_layer) tolerateCanopy(g.pixels, g.height_m, g.tolerance_m);
+    if (o.canopy_layer) tolerateCanopy(g.tops, g.height_m, g.tolerance_m);
     labelByHeight(g.height_m, g.tolerance_m, r.labels);
 
     // obstacles down to their feet, without specks; what is seen past them

@@ -21,7 +21,9 @@ constexpr float kBefore_m = 0.2f;  // tolerance before the canopy
 Image<float> tolerated(const PixelPoints& pixels) {
     Image<float> tolerance_m = pixels.z_m.isNaN().select(
         kNoValue, Image<float>::Constant(pixels.z_m.rows(), pixels.z_m.cols(), kBefore_m));
-    tolerateCanopy(pixels, pixels.z_m, tolerance_m);
+    CellTops tops;
+    findCellTops(pixels, pixels.z_m, tops);
+    tolerateCanopy(tops, pixels.z_m, tolerance_m);
     return tolerance_m;
 }
 
@@ -99,7 +101,9 @@ TEST(CanopyLayer, ThirtyCellsAreEnoughToTell) {
 TEST(CanopyLayer, NeverToleratesLess) {
     const PixelPoints pixels = pixelsAt(field(20, [](int) { return 0.3f; }));
     Image<float> tolerance_m = Image<float>::Constant(1, pixels.z_m.cols(), 5.0f);
-    tolerateCanopy(pixels, pixels.z_m, tolerance_m);
+    CellTops tops;
+    findCellTops(pixels, pixels.z_m, tops);
+    tolerateCanopy(tops, pixels.z_m, tolerance_m);
     EXPECT_TRUE((tolerance_m == 5.0f).all());
 }
 

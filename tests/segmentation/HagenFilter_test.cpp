@@ -561,8 +561,9 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         movePixels(g.from_sensor, g.pixels);
         fitGroundSurface(g.pixels, labels, g.surface);
         heightsAbove(g.surface, g.pixels, g.height_m);
-        toleratedHeights(g.pixels, g.height_m, {0.3f, 0.02f, 0.2f}, g.tolerance_m);
-        if ((switches & 1) != 0) tolerateCanopy(g.pixels, g.height_m, g.tolerance_m);
+        findCellTops(g.pixels, g.height_m, g.tops);
+        toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.tolerance_m);
+        if ((switches & 1) != 0) tolerateCanopy(g.tops, g.height_m, g.tolerance_m);
         labelByHeight(g.height_m, g.tolerance_m, labels);
         if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels);
         if ((switches & 4) != 0) removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels);

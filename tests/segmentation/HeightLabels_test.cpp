@@ -17,7 +17,9 @@ using test::pixelsAt;
 /// Over the plane z = 0, where a pixel's height is its z.
 Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {}) {
     Image<float> tolerance_m;
-    toleratedHeights(pixels, pixels.z_m, tolerance, tolerance_m);
+    CellTops tops;
+    findCellTops(pixels, pixels.z_m, tops);
+    toleratedHeights(pixels, tops, tolerance, tolerance_m);
     return tolerance_m;
 }
 

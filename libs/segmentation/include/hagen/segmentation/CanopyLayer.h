@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/segmentation/PixelPoints.h>
+#include <hagen/segmentation/CellTops.h>
 
 namespace hagen {
 
@@ -9,8 +9,7 @@ namespace hagen {
 /// an obstacle only where it is higher than the plants: the mean + 2 standard deviations of the
 /// cells' highest returns, + 0.1 m. Shares and means are those of 13 x 13 blocks of 4 x 4 cells;
 /// where fewer than 30 of these cells were seen, there is no telling, and no canopy.
-/// `pixels` in the ground's frame, `height_m` above the surface, both NaN where a pixel is empty.
-void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
-                    Image<float>& tolerance_m);
+/// `height_m` above the surface, and the tops of the same; NaN where a pixel is empty.
+void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<float>& tolerance_m);
 
 }  // namespace hagen

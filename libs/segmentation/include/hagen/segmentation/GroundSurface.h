@@ -3,6 +3,7 @@
 #include <hagen/range_image/Label.h>
 #include <hagen/segmentation/PixelPoints.h>
 #include <Eigen/Core>
+#include <cstddef>
 
 namespace hagen {
 
@@ -40,5 +41,9 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
 
 /// Each pixel's height above the surface; NaN where it is empty.
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);
+
+/// The same of any points; height_m has room for all.
+void heightsAbove(const GroundSurface& surface, std::size_t points, const float* x_m,
+                  const float* y_m, const float* z_m, float* height_m);
 
 }  // namespace hagen

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/Label.h>
+#include <hagen/segmentation/CellTops.h>
 #include <hagen/segmentation/PixelPoints.h>
 
 namespace hagen {
@@ -15,8 +16,8 @@ struct HeightTolerance {
 /// The tolerance of each pixel, at least 0.04 m; NaN where it is empty. It is less where something
 /// tall stands in the same cell of 0.75 m or in one beside it: there, what is a little above the
 /// ground is the foot of an obstacle rather than grass.
-/// `pixels` in the ground's frame, `height_m` above the surface.
-void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
+/// `pixels` in the ground's frame, `tops` of their heights above the surface.
+void toleratedHeights(const PixelPoints& pixels, const CellTops& tops,
                       const HeightTolerance& tolerance, Image<float>& tolerance_m);
 
 /// RoI where a pixel is higher than its tolerance, ROU else; Unclassified where it is empty.
@@ -24,8 +25,8 @@ void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m
                    Image<Label>& labels);
 
 /// Follows each obstacle down to its foot: below a RoI pixel, what is not level with the ground
-/// (0.015 m) and leads up to it more steeply than 45 degrees is RoI too. Up to three empty pixels
-/// may lie between the two. `pixels` in the ground's frame.
+/// (0.015 m) and leads up to it more steeply than 45 degrees is RoI too. Up to three empty pixels,
+/// which are Unclassified, may lie between the two. `pixels` in the ground's frame.
 void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels);
 
 /// One vote of each pixel's 8 neighbours, and the pixel itself, where its height is within 0.2 m of

@@ -1,0 +1,46 @@
+#include <hagen/segmentation/CellTops.h>
+
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "CellTops.cpp"
+#include <hwy/foreach_target.h>
+#include "GroundGrid-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+
+void FindCellsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
+                 std::int32_t* HWY_RESTRICT cell) {
+    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto cells = gridCells(d, hn::LoadU(d, x_m + pixel), hn::LoadU(d, y_m + pixel));
+        hn::StoreU(cells.cell, di, cell + pixel);
+    });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+
+HWY_EXPORT(FindCellsIn);
+
+void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellTops& tops) {
+    tops.cell.resize(height_m.rows(), height_m.cols());
+    HWY_DYNAMIC_DISPATCH(FindCellsIn)
+    (tops.cell.size(), pixels.x_m.data(), pixels.y_m.data(), tops.cell.data());
+
+    tops.top_m.setConstant(kGridStride, kGridStride, CellTops::kNone_m);
+    float* const top_m = tops.top_m.data();
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        const float h_m = height_m.data()[pixel];
+        float& highest_m = top_m[tops.cell.data()[pixel]];
+        highest_m = h_m > highest_m ? h_m : highest_m;  // not where it is NaN
+    }
+}
+
+}  // namespace hagen
+#endif

@@ -1,0 +1,116 @@
+// The grid that the ground's surface and the tops of its cells are kept on, many pixels at a time.
+// For files that Highway compiles once per instruction set.
+#ifndef HAGEN_GROUND_GRID
+#define HAGEN_GROUND_GRID
+#include <hagen/segmentation/GroundSurface.h>
+#include <cstddef>
+#include <cstdint>
+
+namespace hagen {
+
+/// The grid has a border of one cell all around, so that every cell has eight neighbours; cells lie
+/// column by column.
+constexpr int kGridStride = GroundSurface::kCells + 2;
+constexpr int kGridSize = kGridStride * kGridStride;
+
+/// Where column j of the grid begins, the border left out: -1 and kCells are the border's.
+constexpr int gridColumn(int j) { return (j + 1) * kGridStride + 1; }
+
+/// For each choice among 8 lanes, a bit a lane: the lanes chosen, from the first on.
+struct ChosenLanes {
+    std::uint8_t of[256][8] = {};
+    constexpr ChosenLanes() {
+        for (int choice = 0; choice < 256; ++choice) {
+            int n = 0;
+            for (std::uint8_t lane = 0; lane < 8; ++lane) {
+                if ((choice >> lane & 1) != 0) of[choice][n++] = lane;
+            }
+        }
+    }
+};
+inline constexpr ChosenLanes kChosenLanes;
+
+}  // namespace hagen
+#endif
+
+#if defined(HAGEN_GROUND_GRID_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HAGEN_GROUND_GRID_INL
+#undef HAGEN_GROUND_GRID_INL
+#else
+#define HAGEN_GROUND_GRID_INL
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// What a lambda needs to become part of the loop that calls it.
+#undef HAGEN_INLINE
+#define HAGEN_INLINE HWY_ATTR __attribute__((always_inline))
+
+/// Calls visit(d, i) for `size` floats: i is the first of a vector, d its tag. What is left over at
+/// the end comes one by one, as vectors of one lane. `visit` is HAGEN_INLINE.
+template <class Visit>
+HWY_INLINE void forEachVector(std::size_t size, Visit visit) {
+    const hn::ScalableTag<float> d;
+    std::size_t i = 0;
+    for (; i + hn::Lanes(d) <= size; i += hn::Lanes(d)) visit(d, i);
+    for (; i < size; ++i) visit(hn::CappedTag<float, 1>(), i);
+}
+
+/// The lanes of two vectors that `is_chosen`, to the front of each; returns how many. Highway's own
+/// Compress() would copy its table of 1 KB at every call where GCC compiles it for AVX2.
+template <class D, class VF, class VI>
+HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& integers) {
+    const hn::RebindToSigned<D> di;
+#if HWY_TARGET == HWY_AVX2
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, is_chosen, bits);
+    const hn::Rebind<std::uint8_t, D> d8;
+    const auto lanes = hn::PromoteTo(di, hn::LoadU(d8, kChosenLanes.of[bits[0]]));
+    floats = hn::TableLookupLanes(floats, hn::IndicesFromVec(d, lanes));
+    integers = hn::TableLookupLanes(integers, hn::IndicesFromVec(di, lanes));
+#else
+    floats = hn::Compress(floats, is_chosen);
+    integers = hn::Compress(integers, hn::RebindMask(di, is_chosen));
+#endif
+    return hn::CountTrue(d, is_chosen);
+}
+
+/// The cells that points lie in.
+template <class D>
+struct GridCells {
+    hn::Vec<hn::RebindToSigned<D>> cell;  ///< of the border where a point is not on the grid
+    hn::Mask<D> is_on_grid;
+};
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE GridCells<D> gridCells(D d, V x_m, V y_m) {
+    const hn::RebindToSigned<D> di;
+    const V cells_per_m = hn::Set(d, 1 / GroundSurface::kCell_m);
+    const V middle = hn::Set(d, GroundSurface::kCells / 2 + 1), last = hn::Set(d, kGridStride - 1);
+    const V u = hn::Add(hn::Mul(x_m, cells_per_m), middle);
+    const V v = hn::Add(hn::Mul(y_m, cells_per_m), middle);
+    const auto whole = [&](V cell) HWY_ATTR {  // 0 for NaN
+        const V positive = hn::IfThenElseZero(hn::Gt(cell, hn::Zero(d)), cell);
+        return hn::ConvertTo(di, hn::Min(positive, last));
+    };
+    const auto isInside = [&](V cell) HWY_ATTR {
+        return hn::And(hn::Ge(cell, hn::Set(d, 1.0f)), hn::Lt(cell, last));
+    };
+    const auto j = whole(v);
+    static_assert(kGridStride == 128 + 2);
+    const auto column = hn::Add(hn::ShiftLeft<7>(j), hn::ShiftLeft<1>(j));
+    return {hn::Add(column, whole(u)), hn::And(isInside(u), isInside(v))};
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+#endif

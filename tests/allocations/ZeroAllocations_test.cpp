@@ -1,0 +1,106 @@
+// From packets to labels and lists of indices nothing is allocated, once the memory is there. In a
+// program of its own, for it replaces malloc().
+#include <gtest/gtest.h>
+#include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/observations/VelodyneModel.h>
+#include <hagen/segmentation/HagenFilter.h>
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "support/Allocations.h"
+#include "support/PaperOptions.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen {
+namespace {
+
+test::SimpleScene street() {
+    test::SimpleScene scene;
+    scene.boxes = {
+        {{6, -8, 0}, {10, -5, 2}}, {{-15, 5, 0}, {15, 6, 4}}, {{3, 1, 0}, {3.5, 1.5, 0.3}}};
+    scene.poles = {{8, 2, 0.1, 5}, {-6, -3, 0.2, 3}};
+    return scene;
+}
+
+/// Scans of the same sensor, as it goes on.
+std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& model_name) {
+    const VelodyneModel& model = velodyneModel(model_name);
+    std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans;
+    for (int i = 0; i < 4; ++i) {
+        scans.push_back(encodeScan(model, test::fireAt(street(), model, {0.5 * i, 0, 2})));
+    }
+    return scans;
+}
+
+void expectNoAllocations(const std::string& model, const Options& options,
+                         const std::optional<Attitude>& attitude) {
+    const auto scans = drive(model);
+    HagenFilter filter(sensorOf(*scans.front()), options);
+    Scan scan;
+    std::size_t before = 0, roi = 0;
+    for (int round = 0; round < 3; ++round) {
+        if (round == 1) before = allocations();
+        for (const auto& observation : scans) {
+            decodePackets(*observation, scan);
+            roi += filter.segment(scan, attitude).returns.roi.size();
+        }
+    }
+    EXPECT_EQ(allocations() - before, 0u);
+    EXPECT_GT(roi, 0u);
+}
+
+class ZeroAllocations : public testing::TestWithParam<const char*> {
+ protected:
+    void SetUp() override {
+        if (!countsAllocations()) GTEST_SKIP() << "a sanitizer has malloc() for itself";
+    }
+};
+
+TEST_P(ZeroAllocations, OfThePapersPipeline) {
+    expectNoAllocations(GetParam(), test::paperOptions(), {});
+}
+
+TEST_P(ZeroAllocations, OfTheDefaultPipeline) { expectNoAllocations(GetParam(), Options(), {}); }
+
+TEST_P(ZeroAllocations, WithAKnownAttitudeAndEveryOption) {
+    Options options;
+    options.ground_is_roi_below_m = 1.5f;
+    expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
+    options.seeds = Seeds::TopAndNearest;
+    options.persistence_m = 0;
+    expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
+}
+
+TEST(ZeroAllocationsAScan, OfCoordinates) {
+    if (!countsAllocations()) GTEST_SKIP() << "a sanitizer has malloc() for itself";
+    const SensorModel sensor = sensorModel("HDL-64E");
+    test::LabelledScan seen = test::scanScene(street(), sensor, 600, {0, 0, 1.7});
+    HagenFilter filter(sensor, Options());
+    std::size_t before = 0;
+    for (int round = 0; round < 3; ++round) {
+        if (round == 2) before = allocations();
+        locateBeams(sensor, seen.scan);
+        filter.segment(seen.scan);
+    }
+    EXPECT_EQ(allocations() - before, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sensors, ZeroAllocations, testing::Values("VLP-16", "HDL-32E"),
+                         [](const auto& of) {
+                             return std::string(of.param) == "VLP-16" ? "Vlp16" : "Hdl32";
+                         });
+
+/// The counter counts: what every way to ask for memory adds.
+TEST(AllocationCounter, SeesNewAndEigen) {
+    if (!countsAllocations()) GTEST_SKIP() << "a sanitizer has malloc() for itself";
+    const std::size_t before = allocations();
+    const auto number = std::make_unique<int>(1);
+    EXPECT_EQ(allocations() - before, 1u);
+    const Eigen::ArrayXXf numbers = Eigen::ArrayXXf::Zero(8, 8);
+    EXPECT_EQ(allocations() - before, 2u);
+    EXPECT_EQ(numbers(3, 3) + static_cast<float>(*number), 1);
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,585 @@
+#include "support/PlainGround.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+// Each stage in a namespace of its own, for they share names.
+namespace hagen::test::plain {
+namespace {
+
+/// The cell of a coordinate along one side, counted from the grid's first. Rounded as the fast
+/// stages round: what lies within some micrometres of a cell's border is in one cell or the other.
+float wholeCells(float coordinate_m) {
+    constexpr int kCells = GroundSurface::kCells;
+    return std::floor(coordinate_m * (1 / GroundSurface::kCell_m) + (kCells / 2 + 1)) - 1;
+}
+
+}  // namespace
+
+namespace surface_stage {
+namespace {
+
+using Grid = Eigen::ArrayXXf;
+
+constexpr int kCells = GroundSurface::kCells;
+constexpr float kCell_m = GroundSurface::kCell_m;
+constexpr float kReach_m = 0.5f * kCells * kCell_m;
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+constexpr float kStray_m = 0.4f;  // so far below its neighbours nothing is ground
+constexpr int kStrayNeighbours = 3;
+constexpr float kSteepest = 0.3f;         // slope of the ground against its plane, where it is seen
+constexpr float kSteepestUnseen = 0.17f;  // and where it is not: tall things hide it, not hills
+constexpr float kEnvelope_m = 0.15f;      // a cell may stand out of the steepest slopes by this
+constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // what a cell's mean is taken of
+constexpr float kSureReturns = 5;  // a mean of so many has its full weight
+
+int cellOf(float coordinate_m) {
+    const float cell = wholeCells(coordinate_m);
+    return cell >= 0 && cell < kCells ? static_cast<int>(cell) : -1;
+}
+
+template <class Visit>
+void forEachCandidate(const PixelPoints& pixels, const Image<bool>& is_candidate, Visit visit) {
+    for (Eigen::Index pixel = 0; pixel < is_candidate.size(); ++pixel) {
+        if (!is_candidate.data()[pixel]) continue;
+        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
+        if (i >= 0 && j >= 0) visit(i, j, pixels.z_m.data()[pixel]);
+    }
+}
+
+Grid lowestOfCells(const PixelPoints& pixels, const Image<bool>& is_candidate) {
+    Grid lowest_m = Grid::Constant(kCells, kCells, kNone);
+    forEachCandidate(pixels, is_candidate, [&](int i, int j, float z_m) {
+        lowest_m(i, j) = std::min(lowest_m(i, j), z_m);
+    });
+    return lowest_m;
+}
+
+/// Step 1: returns below the ground do not count.
+Grid withoutStrays(const Grid& lowest_m) {
+    Grid cleaned_m = lowest_m;
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; ++i) {
+            if (lowest_m(i, j) == kNone) continue;
+            int higher = 0;
+            float lowest_around_m = kNone;
+            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, kCells - 1); ++y) {
+                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, kCells - 1); ++x) {
+                    if ((x == i && y == j) || lowest_m(x, y) == kNone) continue;
+                    higher += lowest_m(x, y) - lowest_m(i, j) > kStray_m;
+                    lowest_around_m = std::min(lowest_around_m, lowest_m(x, y));
+                }
+            }
+            if (higher >= kStrayNeighbours) {
+                cleaned_m(i, j) = std::max(lowest_m(i, j), lowest_around_m);
+            }
+        }
+    }
+    return cleaned_m;
+}
+
+/// The greatest surface below `height_m` that is nowhere too steep: kSteepest in a cell that has a
+/// height, kSteepestUnseen in one that has none. Distances are those of a chamfer in two passes
+/// (Borgefors 1986).
+Grid lowerEnvelope(const Grid& height_m) {
+    Grid e = Grid::Constant(kCells + 2, kCells + 2, kNone);  // with a border all around
+    e.block(1, 1, kCells, kCells) = height_m;
+    const Grid side_m =
+        kCell_m * (e == kNone)
+                      .select(Grid::Constant(kCells + 2, kCells + 2, kSteepestUnseen),
+                              Grid::Constant(kCells + 2, kCells + 2, kSteepest));
+    const float corner = std::sqrt(2.0f);
+    for (int j = 1; j <= kCells; ++j) {
+        for (int i = 1; i <= kCells; ++i) {
+            const float sides_m = std::min(e(i - 1, j), e(i, j - 1));
+            const float corners_m = std::min(e(i - 1, j - 1), e(i + 1, j - 1));
+            e(i, j) =
+                std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
+        }
+    }
+    for (int j = kCells; j >= 1; --j) {
+        for (int i = kCells; i >= 1; --i) {
+            const float sides_m = std::min(e(i + 1, j), e(i, j + 1));
+            const float corners_m = std::min(e(i + 1, j + 1), e(i - 1, j + 1));
+            e(i, j) =
+                std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
+        }
+    }
+    return e.block(1, 1, kCells, kCells);
+}
+
+/// Heights and how much each is to be trusted, 0 to 1.
+struct WeightedGrid {
+    Grid height_m, weight;
+};
+
+WeightedGrid binomial(const WeightedGrid& grid) {
+    static constexpr float kKernel[3] = {0.25f, 0.5f, 0.25f};
+    WeightedGrid smooth{Grid::Zero(kCells, kCells), Grid::Zero(kCells, kCells)};
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; ++i) {
+            float sum_m = 0, weights = 0;
+            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, kCells - 1); ++y) {
+                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, kCells - 1); ++x) {
+                    const float w = kKernel[x - i + 1] * kKernel[y - j + 1] * grid.weight(x, y);
+                    sum_m += w * grid.height_m(x, y);
+                    weights += w;
+                }
+            }
+            if (weights > 0) smooth.height_m(i, j) = sum_m / weights;
+            smooth.weight(i, j) = weights;
+        }
+    }
+    return smooth;
+}
+
+/// Each coarse cell is the weighted mean of the four it covers.
+WeightedGrid pull(const WeightedGrid& fine) {
+    const Eigen::Index cells = fine.weight.rows() / 2;
+    WeightedGrid coarse{Grid::Zero(cells, cells), Grid::Zero(cells, cells)};
+    for (Eigen::Index j = 0; j < cells; ++j) {
+        for (Eigen::Index i = 0; i < cells; ++i) {
+            const auto weight = fine.weight.block<2, 2>(2 * i, 2 * j);
+            const float weights = weight.sum();
+            if (!(weights > 0)) continue;
+            coarse.height_m(i, j) =
+                (weight * fine.height_m.block<2, 2>(2 * i, 2 * j)).sum() / weights;
+            coarse.weight(i, j) = std::min(1.0f, weights);
+        }
+    }
+    return coarse;
+}
+
+float bilinear(const Grid& grid, float i, float j) {
+    const Eigen::Index last = grid.rows() - 1;
+    i = std::clamp(i, 0.0f, static_cast<float>(last));
+    j = std::clamp(j, 0.0f, static_cast<float>(last));
+    const Eigen::Index i0 = static_cast<Eigen::Index>(i), j0 = static_cast<Eigen::Index>(j);
+    const Eigen::Index i1 = std::min(i0 + 1, last), j1 = std::min(j0 + 1, last);
+    const float u = i - static_cast<float>(i0), v = j - static_cast<float>(j0);
+    return (1 - u) * ((1 - v) * grid(i0, j0) + v * grid(i0, j1)) +
+           u * ((1 - v) * grid(i1, j0) + v * grid(i1, j1));
+}
+
+/// What a fine cell lacks in weight it takes from the coarse grid.
+void push(const Grid& coarse_m, WeightedGrid& fine) {
+    for (Eigen::Index j = 0; j < fine.weight.cols(); ++j) {
+        for (Eigen::Index i = 0; i < fine.weight.rows(); ++i) {
+            const float w = fine.weight(i, j);
+            if (w >= 1) continue;
+            const float below_m = bilinear(coarse_m, 0.5f * static_cast<float>(i) - 0.25f,
+                                           0.5f * static_cast<float>(j) - 0.25f);
+            fine.height_m(i, j) = w * fine.height_m(i, j) + (1 - w) * below_m;
+        }
+    }
+}
+
+Grid filled(const WeightedGrid& grid) {
+    std::vector<WeightedGrid> levels{grid};
+    while (levels.back().weight.rows() > 1) levels.push_back(pull(levels.back()));
+    for (std::size_t level = levels.size() - 1; level > 0; --level) {
+        push(levels[level].height_m, levels[level - 1]);
+    }
+    return levels.front().height_m;
+}
+
+/// Whether a height above the first fit can be ground: the farther away, the less is known.
+bool isCloseToGround(float height_m, float distance_m) {
+    return height_m > -0.2f - 0.01f * distance_m && height_m < 0.2f + 0.005f * distance_m;
+}
+
+}  // namespace
+
+float surfaceAt(const GroundSurface& surface, float x_m, float y_m) {
+    return bilinear(surface.height_m, (x_m + kReach_m) / kCell_m - 0.5f,
+                    (y_m + kReach_m) / kCell_m - 0.5f);
+}
+
+void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {
+    height_m.resize(pixels.z_m.rows(), pixels.z_m.cols());
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
+        height_m.data()[pixel] =
+            hasValue(x_m) ? pixels.z_m.data()[pixel] - surfaceAt(surface, x_m, y_m) : kNoValue;
+    }
+}
+
+void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
+                      GroundSurface& surface) {
+    const Grid lowest_m = withoutStrays(lowestOfCells(pixels, is_candidate));
+    const Grid envelope_m = lowerEnvelope(lowest_m);
+
+    WeightedGrid grid{Grid::Zero(kCells, kCells), Grid::Zero(kCells, kCells)};
+    forEachCandidate(pixels, is_candidate, [&](int i, int j, float z_m) {
+        const bool is_ground = lowest_m(i, j) <= envelope_m(i, j) + kEnvelope_m;
+        const float above_m = z_m - lowest_m(i, j);
+        if (!is_ground || above_m < -kBelowLowest_m || above_m > kAboveLowest_m) return;
+        grid.height_m(i, j) += z_m;
+        grid.weight(i, j) += 1;
+    });
+    grid.height_m = (grid.weight > 0).select(grid.height_m / grid.weight, 0.0f);
+    grid.weight = (grid.weight / kSureReturns).min(1.0f);
+    surface.height_m = filled(binomial(grid));
+}
+
+void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
+                      GroundSurface& surface) {
+    Image<bool> is_candidate = labels == Label::Rou;
+    surface_stage::fitGroundSurface(pixels, is_candidate, surface);
+
+    Image<float> height_m;
+    surface_stage::heightsAbove(surface, pixels, height_m);
+    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
+        const float distance_m = std::hypot(pixels.x_m.data()[pixel], pixels.y_m.data()[pixel]);
+        is_candidate.data()[pixel] = isCloseToGround(height_m.data()[pixel], distance_m);
+    }
+    surface_stage::fitGroundSurface(pixels, is_candidate, surface);
+}
+
+}  // namespace surface_stage
+
+namespace labels_stage {
+namespace {
+
+constexpr float kLeastTolerance_m = 0.04f;
+constexpr float kTallest_m = 1.1f;       // more than this is no reason to tolerate less
+constexpr float kFootHeight_m = 0.015f;  // a foot is no lower than this
+constexpr int kFootRows = 4;             // a pixel's angle is with the next of so many rows above
+constexpr float kDoubt_m = 0.2f;         // a height so close to its tolerance is put to the vote
+constexpr float kVoteReach_m = 1.0f;     // in distance from the sensor
+constexpr int kLeastVotes = 3;
+
+}  // namespace
+
+void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
+                      const HeightTolerance& tolerance, Image<float>& tolerance_m) {
+    constexpr int kCells = GroundSurface::kCells;
+    Eigen::ArrayXXf tallest_m = Eigen::ArrayXXf::Zero(kCells + 2, kCells + 2);  // with a border
+    const auto cellOf = [&](float coordinate_m) {
+        const float cell = wholeCells(coordinate_m);
+        return static_cast<int>(std::clamp(cell, -1.0f, static_cast<float>(kCells))) + 1;
+    };
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        const float h_m = height_m.data()[pixel];
+        if (!hasValue(h_m)) continue;
+        float& tall_m =
+            tallest_m(cellOf(pixels.x_m.data()[pixel]), cellOf(pixels.y_m.data()[pixel]));
+        tall_m = std::max(tall_m, std::min(h_m, kTallest_m));
+    }
+    tolerance_m.setConstant(height_m.rows(), height_m.cols(), kNoValue);
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        if (!hasValue(height_m.data()[pixel])) continue;
+        const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
+        const int i = std::clamp(cellOf(x_m), 1, kCells), j = std::clamp(cellOf(y_m), 1, kCells);
+        const float tall_m = tallest_m.block<3, 3>(i - 1, j - 1).maxCoeff();
+        tolerance_m.data()[pixel] =
+            std::max(kLeastTolerance_m, tolerance.near_m + tolerance.per_m * std::hypot(x_m, y_m) -
+                                            tolerance.beside_tall * tall_m);
+    }
+}
+
+void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
+                   Image<Label>& labels) {
+    labels.resize(height_m.rows(), height_m.cols());
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        const float h_m = height_m.data()[pixel];
+        labels.data()[pixel] = !hasValue(h_m)                    ? Label::Unclassified
+                               : h_m > tolerance_m.data()[pixel] ? Label::Roi
+                                                                 : Label::Rou;
+    }
+}
+
+void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels) {
+    const int rows = static_cast<int>(labels.rows());
+    for (int column = 0; column < labels.cols(); ++column) {
+        int above = -1;
+        for (int row = rows - 1; row >= 0; --row) {
+            if (!hasValue(height_m(row, column))) continue;
+            if (above >= 0 && above - row <= kFootRows && labels(above, column) == Label::Roi &&
+                height_m(row, column) > kFootHeight_m) {
+                const float dx_m = pixels.x_m(above, column) - pixels.x_m(row, column);
+                const float dy_m = pixels.y_m(above, column) - pixels.y_m(row, column);
+                const float dz_m = pixels.z_m(above, column) - pixels.z_m(row, column);
+                const bool is_steep = std::abs(dz_m) > std::hypot(dx_m, dy_m);  // than 45 degrees
+                if (is_steep) labels(row, column) = Label::Roi;
+            }
+            above = row;
+        }
+    }
+}
+
+void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
+                  const Image<float>& tolerance_m, Image<Label>& labels) {
+    const int rows = static_cast<int>(labels.rows()), columns = static_cast<int>(labels.cols());
+    const Image<Label> before = labels;
+    const auto distance = [&](int row, int column) {
+        return std::hypot(pixels.x_m(row, column), pixels.y_m(row, column));
+    };
+    for (int column = 0; column < columns; ++column) {
+        for (int row = 0; row < rows; ++row) {
+            const float beyond_m = height_m(row, column) - tolerance_m(row, column);
+            if (!(std::abs(beyond_m) < kDoubt_m)) continue;
+            int votes = 0, for_roi = 0;
+            for (int step = -1; step <= 1; ++step) {
+                const int c = wrapColumn(column + step, columns);
+                for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r) {
+                    if (!hasValue(height_m(r, c))) continue;
+                    if (std::abs(distance(r, c) - distance(row, column)) > kVoteReach_m) continue;
+                    ++votes;
+                    for_roi += before(r, c) == Label::Roi;
+                }
+            }
+            if (votes < kLeastVotes || 2 * for_roi == votes) continue;
+            labels(row, column) = 2 * for_roi > votes ? Label::Roi : Label::Rou;
+        }
+    }
+}
+}  // namespace labels_stage
+
+namespace canopy_stage {
+namespace {
+
+constexpr int kCells = GroundSurface::kCells;
+constexpr int kBlockCells = 4;
+constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
+constexpr int kReach = 6;                      // blocks to each side
+
+constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of what may be a canopy
+constexpr float kLeastShare = 0.35f;                  // of the cells seen around
+constexpr float kLeastCells = 30;                     // seen around; fewer tell nothing
+constexpr float kDeviations = 2.0f;
+constexpr float kMargin_m = 0.1f;
+
+/// The cell of a coordinate, or -1 beyond the grid.
+int cellOf(float coordinate_m) {
+    const float cell = wholeCells(coordinate_m);
+    return cell >= 0 && cell < kCells ? static_cast<int>(cell) : -1;
+}
+
+/// What stands in the cells of a block, or of many.
+struct Stand {
+    float seen = 0;    ///< cells with returns
+    float plants = 0;  ///< of those, cells whose highest return is that of a low plant
+    float sum_m = 0;   ///< of the plants' heights
+    float sum_m2 = 0;  ///< of their squares
+
+    void addCell(float top_m) {
+        seen += 1;
+        if (!(top_m > kLowest_m && top_m < kTallest_m)) return;
+        plants += 1;
+        sum_m += top_m;
+        sum_m2 += top_m * top_m;
+    }
+    void add(const Stand& other) {
+        seen += other.seen;
+        plants += other.plants;
+        sum_m += other.sum_m;
+        sum_m2 += other.sum_m2;
+    }
+    /// The height that no plant exceeds; 0 where there is no canopy.
+    float canopy_m() const {
+        if (seen < kLeastCells || plants < kLeastShare * seen) return 0;
+        const float mean_m = sum_m / plants;
+        const float variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0f);
+        return mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m;
+    }
+};
+using Stands = Eigen::Array<Stand, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// The sums over kReach blocks to each side, along the first index.
+Stands sumsAlong(const Stands& stands) {
+    Stands sums(kBlocks, kBlocks);
+    for (int j = 0; j < kBlocks; ++j) {
+        for (int i = 0; i < kBlocks; ++i) {
+            const int first = std::max(i - kReach, 0), last = std::min(i + kReach, kBlocks - 1);
+            for (int k = first; k <= last; ++k) sums(i, j).add(stands(k, j));
+        }
+    }
+    return sums;
+}
+
+}  // namespace
+
+void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
+                    Image<float>& tolerance_m) {
+    Eigen::ArrayXXf top_m = Eigen::ArrayXXf::Constant(kCells, kCells, kNoValue);
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        const float h_m = height_m.data()[pixel];
+        if (!hasValue(h_m)) continue;
+        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
+        if (i < 0 || j < 0) continue;
+        if (!(top_m(i, j) >= h_m)) top_m(i, j) = h_m;
+    }
+    Stands stands(kBlocks, kBlocks);
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; ++i) {
+            if (hasValue(top_m(i, j)))
+                stands(i / kBlockCells, j / kBlockCells).addCell(top_m(i, j));
+        }
+    }
+    const Stands around = sumsAlong(sumsAlong(stands).transpose()).transpose();
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        if (!hasValue(height_m.data()[pixel])) continue;
+        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
+        if (i < 0 || j < 0) continue;
+        float& tolerated_m = tolerance_m.data()[pixel];
+        tolerated_m = std::max(tolerated_m, around(i / kBlockCells, j / kBlockCells).canopy_m());
+    }
+}
+}  // namespace canopy_stage
+
+namespace frame_stage {
+namespace {
+
+constexpr float kCell_m = 0.75f;
+constexpr float kReach_m = 40.0f;
+constexpr int kCells = 107;  // 2 kReach_m / kCell_m, rounded up
+
+constexpr int kRounds = 6;
+constexpr double kFirstScale_m = 1.0;  // of residuals, in the first round
+constexpr double kScaleStep = 0.8;
+constexpr double kLeastScale_m = 0.3;
+constexpr double kAbove = 2.0, kBelow = 1.0;  // what is above the ground counts less, sooner
+constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
+
+/// The lowest point of each cell that has one.
+std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels,
+                                           const Eigen::Matrix3f& rotation) {
+    std::vector<Eigen::Vector3f> lowest(kCells * kCells, Eigen::Vector3f::Constant(kNoValue));
+    for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
+        if (!hasValue(pixels.x_m.data()[pixel])) continue;
+        const Eigen::Vector3f point = rotation * pixels.at(pixel);
+        const float u = (point.x() + kReach_m) / kCell_m, v = (point.y() + kReach_m) / kCell_m;
+        if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;
+        Eigen::Vector3f& low = lowest[static_cast<int>(u) * kCells + static_cast<int>(v)];
+        if (!(low.z() <= point.z())) low = point;
+    }
+    std::vector<Eigen::Vector3d> points;
+    for (const Eigen::Vector3f& point : lowest) {
+        if (hasValue(point.z())) points.push_back(point.cast<double>());
+    }
+    return points;
+}
+
+/// The plane z = a x + b y + c through the points, by weighted least squares.
+template <class Weight>
+Eigen::Vector3d planeThrough(const std::vector<Eigen::Vector3d>& points, Weight weight) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // points on a line are no error
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : points) {
+        const Eigen::Vector3d row(p.x(), p.y(), 1);
+        const double w = weight(p);
+        normal += w * row * row.transpose();
+        right += w * p.z() * row;
+    }
+    return normal.ldlt().solve(right);
+}
+
+Eigen::Vector3d fitPlane(const std::vector<Eigen::Vector3d>& points) {
+    const auto nearness = [](const Eigen::Vector3d& p) {
+        return 1.0 / (1.0 + p.head<2>().squaredNorm() / kRangeScale_m2);
+    };
+    Eigen::Vector3d plane = planeThrough(points, nearness);
+    double scale_m = kFirstScale_m;
+    for (int round = 0; round < kRounds; ++round) {
+        plane = planeThrough(points, [&](const Eigen::Vector3d& p) {
+            const double residual_m = p.z() - plane.dot(Eigen::Vector3d(p.x(), p.y(), 1));
+            const double step = residual_m / scale_m;
+            const double doubt = 1.0 + (residual_m > 0 ? kAbove : kBelow) * step * step;
+            return nearness(p) / (doubt * doubt);
+        });
+        scale_m = std::max(kLeastScale_m, scale_m * kScaleStep);
+    }
+    return plane;
+}
+
+}  // namespace
+
+Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude) {
+    const Eigen::Matrix3f level = levelFromSensor(attitude);
+    const std::vector<Eigen::Vector3d> points = lowestOfCells(pixels, level);
+
+    Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+    if (points.size() >= 3) {
+        plane = fitPlane(points);
+    } else if (!points.empty()) {
+        plane.z() = std::min(points.front().z(), points.back().z());
+    }
+    const Eigen::Vector3d normal = Eigen::Vector3d(-plane.x(), -plane.y(), 1).normalized();
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ());
+
+    Eigen::Isometry3f ground_from_sensor = Eigen::Isometry3f::Identity();
+    ground_from_sensor.linear() = turn.toRotationMatrix().cast<float>() * level;
+    ground_from_sensor.translation().z() = static_cast<float>(-plane.z() * normal.z());
+    return ground_from_sensor;
+}
+}  // namespace frame_stage
+
+namespace points_stage {
+void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
+                  const Image<float>& depth_m, PixelPoints& pixels) {
+    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
+    for (auto* coordinate : {&pixels.x_m, &pixels.y_m, &pixels.z_m}) {
+        coordinate->setConstant(rows, columns, kNoValue);
+    }
+    for (Eigen::Index pixel = 0; pixel < depth_m.size(); ++pixel) {
+        const std::int32_t i = image.closest_return.data()[pixel];
+        if (i != RangeImage::kNoReturn) {
+            pixels.set(pixel, {scan.x_m[i], scan.y_m[i], scan.z_m[i]});
+        } else if (hasValue(depth_m.data()[pixel])) {
+            const Eigen::Index row = pixel % rows, column = pixel / rows;
+            const float level_m = depth_m.data()[pixel] * directions.row_cosine[row];
+            pixels.set(pixel, {level_m * directions.column_cosine[column],
+                               level_m * directions.column_sine[column],
+                               depth_m.data()[pixel] * directions.row_sine[row]});
+        }
+    }
+}
+
+void movePixels(const Eigen::Isometry3f& to_from_here, PixelPoints& pixels) {
+    for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
+        pixels.set(pixel, to_from_here * pixels.at(pixel));
+    }
+}
+}  // namespace points_stage
+
+Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude) {
+    return frame_stage::fitGroundFrame(pixels, attitude);
+}
+void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
+                  const Image<float>& depth_m, PixelPoints& pixels) {
+    points_stage::locatePixels(scan, directions, image, depth_m, pixels);
+}
+void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
+                      GroundSurface& surface) {
+    surface_stage::fitGroundSurface(pixels, labels, surface);
+}
+void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {
+    surface_stage::heightsAbove(surface, pixels, height_m);
+}
+void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
+                      const HeightTolerance& tolerance, Image<float>& tolerance_m) {
+    labels_stage::toleratedHeights(pixels, height_m, tolerance, tolerance_m);
+}
+void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
+                    Image<float>& tolerance_m) {
+    canopy_stage::tolerateCanopy(pixels, height_m, tolerance_m);
+}
+void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
+                   Image<Label>& labels) {
+    labels_stage::labelByHeight(height_m, tolerance_m, labels);
+}
+void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels) {
+    labels_stage::growFeet(pixels, height_m, labels);
+}
+void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
+                  const Image<float>& tolerance_m, Image<Label>& labels) {
+    labels_stage::removeSpecks(pixels, height_m, tolerance_m, labels);
+}
+
+}  // namespace hagen::test::plain

@@ -1,0 +1,27 @@
+#pragma once
+#include <hagen/segmentation/GroundFrame.h>
+#include <hagen/segmentation/GroundSurface.h>
+#include <hagen/segmentation/HeightLabels.h>
+#include <hagen/segmentation/PixelPoints.h>
+
+/// The stages of the ground written plainly, pixel by pixel and cell by cell: what the fast ones
+/// are compared with.
+namespace hagen::test::plain {
+
+void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
+                  const Image<float>& depth_m, PixelPoints& pixels);
+Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);
+void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
+                      GroundSurface& surface);
+void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);
+void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
+                      const HeightTolerance& tolerance, Image<float>& tolerance_m);
+void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
+                    Image<float>& tolerance_m);
+void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
+                   Image<Label>& labels);
+void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels);
+void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
+                  const Image<float>& tolerance_m, Image<Label>& labels);
+
+}  // namespace hagen::test::plain
