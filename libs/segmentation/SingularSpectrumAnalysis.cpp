@@ -5,6 +5,7 @@
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -13,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "EigenBatch-inl.h"
+#include "MaskBits.h"
 
 #ifndef HAGEN_RUN_BATCH
 #define HAGEN_RUN_BATCH
@@ -172,6 +174,22 @@ void smoothBatch(int principal_components, RunBatch<Real>& batch) {
 
 }  // namespace
 
+/// A bit a pixel, set where it has a value.
+void findValues(const float* pixels, std::size_t count, std::uint64_t* words) {
+    const hn::CappedTag<float, 64> d;
+    for (std::size_t first = 0; first < count; first += 64) {
+        std::uint64_t bits = 0;
+        const std::size_t end = std::min(count - first, std::size_t{64});
+        std::size_t n = 0;
+        for (; n + hn::Lanes(d) <= end; n += hn::Lanes(d)) {
+            const auto values = hn::LoadU(d, pixels + first + n);
+            bits |= BitsOf(d, hn::Eq(values, values)) << n;
+        }
+        for (; n < end; ++n) bits |= std::uint64_t{hasValue(pixels[first + n])} << n;
+        words[first / 64] = bits;
+    }
+}
+
 void smoothWithFloats(int principal_components, RunBatch<float>& batch) {
     smoothBatch(principal_components, batch);
     judgeRounding(batch);
@@ -188,11 +206,12 @@ HWY_AFTER_NAMESPACE();
 namespace hagen {
 namespace {
 
+HWY_EXPORT(findValues);
 HWY_EXPORT(smoothWithFloats);
 HWY_EXPORT(smoothWithDoubles);
 
-/// What rounding may change, in the values' unit. Found changes are less than a third of it.
-constexpr float kTolerance = 1e-4f;
+/// What rounding may change, in the values' unit. On scans changes were less than a fifth of it.
+constexpr float kTolerance = 2e-4f;
 
 /// A run of `values` pixels with a value.
 struct Run {
@@ -200,35 +219,47 @@ struct Run {
     int values;
 };
 
+/// The first bit of [from, end) that differs from those of `same`, 0 or all; `end` if there is
+/// none.
+std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t end,
+                     std::uint64_t same) {
+    for (; from < end; from = (from / 64 + 1) * 64) {
+        const std::uint64_t others = (words[from / 64] ^ same) >> from % 64;
+        if (others != 0) {
+            return std::min(end, from + hwy::Num0BitsBelowLS1Bit_Nonzero64(others));
+        }
+    }
+    return end;
+}
+
 /// Those of at least `fewest` values, in order of their length.
 void findRuns(Image<float>& image, int fewest, std::vector<Run>& runs) {
     // Kept from scan to scan, so that none is allocated; hold nothing between them.
+    thread_local std::vector<std::uint64_t> kept_words;
     thread_local std::vector<Run> kept_found;
     thread_local std::vector<int> kept_start_of;
+    std::vector<std::uint64_t>& words = kept_words;
     std::vector<Run>& found = kept_found;
     std::vector<int>& start_of = kept_start_of;  // the place of the next run of this length
 
-    const int rows = static_cast<int>(image.rows());
+    const auto rows = static_cast<std::size_t>(image.rows());
+    const auto pixels = static_cast<std::size_t>(image.size());
+    words.resize((pixels + 63) / 64);
+    HWY_DYNAMIC_DISPATCH(findValues)(image.data(), pixels, words.data());
     found.clear();
     start_of.assign(rows + 2, 0);
-    for (int column = 0; column < image.cols(); ++column) {
-        const auto pixels = image.data() + column * image.rows();
-        for (int row = 0; row + fewest <= rows;) {
-            // Backwards, so that a gap rules out all that begins before it.
-            int end = row + fewest;
-            while (end > row && hasValue(pixels[end - 1])) --end;
-            if (end > row) {
-                row = end;
-                continue;
-            }
-            end = row + fewest;
-            while (end < rows && hasValue(pixels[end])) ++end;
-            found.push_back({pixels + row, end - row});
-            ++start_of[end - row + 1];
-            row = end + 1;
+    for (std::size_t column = 0; column < pixels; column += rows) {
+        const std::size_t end = column + rows;
+        for (std::size_t pixel = column; pixel + fewest <= end;) {
+            const std::size_t begin = otherBit(words.data(), pixel, end, 0);
+            pixel = otherBit(words.data(), begin, end, ~std::uint64_t{0});
+            const int values = static_cast<int>(pixel - begin);
+            if (values < fewest) continue;
+            found.push_back({image.data() + begin, values});
+            ++start_of[values + 1];
         }
     }
-    for (int length = 1; length <= rows; ++length) start_of[length + 1] += start_of[length];
+    for (std::size_t length = 1; length <= rows; ++length) start_of[length + 1] += start_of[length];
     runs.resize(found.size());
     for (const Run& run : found) runs[start_of[run.values]++] = run;
 }

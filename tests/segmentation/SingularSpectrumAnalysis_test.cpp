@@ -60,7 +60,7 @@ bool isDefined(const Eigen::VectorXd& series, int window_size, int principal_com
 
 /// How far a result may be off, and how far it is where the eigenvalues on both sides of the cut
 /// differ by 1e-3 of the greatest one or more.
-constexpr double kTolerance = 1e-4, kAccuracy = kTolerance / 3;
+constexpr double kTolerance = 2e-4, kAccuracy = 1e-4 / 3;
 
 /// One run at a time, by the eigenvectors of X X^T: the definition as the header has it. `gap` is
 /// how much the eigenvalues on both sides of the cut differ, over the greatest one.
