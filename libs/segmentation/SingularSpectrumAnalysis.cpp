@@ -247,6 +247,8 @@ void findRuns(Image<float>& image, int fewest, std::vector<Run>& runs) {
     words.resize((pixels + 63) / 64);
     HWY_DYNAMIC_DISPATCH(findValues)(image.data(), pixels, words.data());
     found.clear();
+    found.reserve(pixels / fewest);
+    runs.reserve(pixels / fewest);
     start_of.assign(rows + 2, 0);
     for (std::size_t column = 0; column < pixels; column += rows) {
         const std::size_t end = column + rows;
@@ -269,6 +271,21 @@ void smooth(int principal_components, RunBatch<float>& batch) {
 }
 void smooth(int principal_components, RunBatch<double>& batch) {
     HWY_DYNAMIC_DISPATCH(smoothWithDoubles)(principal_components, batch);
+}
+
+/// Memory for whatever runs come, so that none is allocated in a later scan.
+template <class Real>
+void reserve(int window_size, int rows, RunBatch<Real>& batch) {
+    const int m = std::min(window_size, (rows + 1) / 2);
+    EigenBatch<Real>& eigen = batch.eigen;
+    for (auto* values :
+         {&batch.series, &batch.tail, &batch.smooth, &batch.smooth_tail, &batch.head, &batch.filter,
+          &eigen.scale, &eigen.diagonal, &eigen.beside, &eigen.product}) {
+        values->reserve(rows);
+    }
+    eigen.matrix.reserve(m * m);
+    eigen.vectors.reserve(m * m);
+    eigen.rotations.reserve(4 * m * m);  // two sweeps an eigenvalue are usual
 }
 
 /// Lanes without a run of their own repeat the last one.
@@ -340,6 +357,8 @@ void smoothColumns(const Image<float>& values, int window_size, int principal_co
     if (principal_components == window_size) return;
     // A shorter run's trajectory matrix has no more rows or columns than components are kept.
     findRuns(smoothed, window_size + principal_components, runs);
+    reserve(window_size, static_cast<int>(values.rows()), floats);
+    reserve(window_size, static_cast<int>(values.rows()), doubles);
     smoothRuns(window_size, principal_components, floats, runs);
     smoothRuns(window_size, principal_components, doubles, runs);
 }
