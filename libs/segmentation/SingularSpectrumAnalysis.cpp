@@ -148,13 +148,13 @@ void takeAway(RunBatch<Real>& batch) {
 }
 
 /// Rounding turns the cut between the components by a rounding error of the matrix over the gap
-/// between the eigenvalues there, which rounding may have widened. So much of the last component
-/// that is kept may be lost, no entry of which is greater than its singular value.
+/// between the eigenvalues there. So much of the last component that is kept may be lost, no entry
+/// of which is greater than its singular value.
 void judgeRounding(RunBatch<float>& batch) {
-    constexpr double rounding = 0x1p-24;
+    constexpr double rounding = 0x1p-24, of_eigenvalue = 16 * rounding;
     const Pack<float> last = load(batch.eigen.last), next = load(batch.eigen.next);
-    const Pack<float> gap = absolute(last - next) - all<float>(16 * rounding);
-    const Pack<float> kept = max(max(last, next), all<float>(16 * rounding));
+    const Pack<float> gap = absolute(last - next) - all<float>(of_eigenvalue);
+    const Pack<float> kept = max(max(last, next), all<float>(of_eigenvalue));
     const Pack<float> singular_value = squareRoot(kept * load(batch.trace));
     store(singular_value * all<float>(rounding) / max(gap, all<float>(kTiny<float>)), batch.error);
 }
