@@ -1,9 +1,11 @@
-// Runs of one length are smoothed together, a run a lane. A trajectory matrix and its transpose
-// have the same components, so the shorter side is the window; and of the components, the fewer are
-// computed, the leading ones or those to be taken away.
+// Runs are smoothed many at once, a run a lane. A trajectory matrix and its transpose have the same
+// components, so the shorter side is the window, and of the components the fewer are computed, the
+// leading ones or those to be taken away. Projection and hankelization are one linear filter.
+// All of this is done with floats, and again with doubles for the few runs that need them.
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -12,17 +14,30 @@
 #include <hwy/highway.h>
 
 #include "EigenBatch-inl.h"
+#include "MaskBits.h"
 
 #ifndef HAGEN_RUN_BATCH
 #define HAGEN_RUN_BATCH
 namespace hagen {
 namespace {
 
-/// Runs of `values` values each, at most kLanes, and what smoothing them needs.
+/// No more than kLanes runs, and what smoothing them needs.
+template <class Real>
 struct RunBatch {
-    int values = 0;
-    std::vector<Lanes> series, sums;
-    EigenBatch eigen;
+    using Values = std::vector<Lanes<Real>>;
+    int m = 0;            ///< the window; each run has at least 2 m - 1 values
+    int values = 0;       ///< of the longest run
+    Values series;        ///< with zeros behind the shorter ones
+    Values tail;          ///< the last 2 (m - 1) values of each
+    Lanes<Real> columns;  ///< of each trajectory matrix
+
+    Values smooth;        ///< the result but for the last m - 1 values of each,
+    Values smooth_tail;   ///< and those
+    Lanes<Real> error{};  ///< how far rounding may have moved a value of the result
+
+    Lanes<Real> trace;
+    Values head, filter;
+    EigenBatch<Real> eigen;
 };
 
 }  // namespace
@@ -34,58 +49,153 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The m x m products of the trajectory matrix's rows, along each diagonal from the one before.
-void rowProducts(int m, RunBatch& batch) {
-    const int columns = batch.values - m + 1;
-    const Lanes* const s = batch.series.data();
+/// The m x m products of the trajectory matrix's rows, along each diagonal from the one before,
+/// over their trace.
+template <class Real>
+void rowProducts(RunBatch<Real>& batch) {
+    const int m = batch.m, columns = batch.values - m + 1;
+    const Pack<Real> zero = all<Real>(0);
+    const Lanes<Real>* const series = batch.series.data();
+    const Lanes<Real>* const tail = batch.tail.data() + m - 1;  // what the first row has not
+    batch.head.resize(columns);                                 // the first row
+    for (int k = 0; k < columns; ++k) {
+        const auto is_within = all<Real>(k) < load(batch.columns);
+        store(select(is_within, load(series[k]), zero), batch.head[k]);
+    }
     batch.eigen.matrix.resize(m * m);
+    Lanes<Real>* const matrix = batch.eigen.matrix.data();
+    Pack<Real> trace = zero;
     for (int i = 0; i < m; ++i) {
-        Pack sum = all(0.0);
-        for (int k = 0; k < columns; ++k) sum = sum + load(s[k]) * load(s[i + k]);
-        store(sum, batch.eigen.matrix[i * m]);
+        Pack<Real> sum = zero;
+        for (int k = 0; k < columns; ++k) sum = sum + load(batch.head[k]) * load(series[i + k]);
+        store(sum, matrix[i * m]);
         for (int j = 1; i + j < m; ++j) {
-            sum = sum - load(s[j - 1]) * load(s[i + j - 1]) +
-                  load(s[j - 1 + columns]) * load(s[i + j - 1 + columns]);
-            store(sum, batch.eigen.matrix[(i + j) * m + j]);
+            sum = sum - load(series[j - 1]) * load(series[i + j - 1]) +
+                  load(tail[j - 1]) * load(tail[i + j - 1]);
+            store(sum, matrix[(i + j) * m + j]);
+        }
+    }
+    for (int i = 0; i < m; ++i) trace = trace + load(matrix[i * m + i]);
+    store(trace, batch.trace);
+    const Pack<Real> scale = all<Real>(1) / max(trace, all<Real>(kTiny<Real>));
+    for (int i = 0; i < m; ++i) {
+        for (int j = 0; j <= i; ++j) store(load(matrix[i * m + j]) * scale, matrix[i * m + j]);
+    }
+}
+
+/// The projection onto the eigenvectors, m x m, where the matrix was.
+template <class Real>
+void projection(int m, int vectors, EigenBatch<Real>& eigen) {
+    const Lanes<Real>* const v = eigen.vectors.data();
+    for (int i = 0; i < m; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            Pack<Real> sum = all<Real>(0);
+            for (int c = 0; c < vectors; ++c) sum = sum + load(v[c * m + i]) * load(v[c * m + j]);
+            store(sum, eigen.matrix[i * m + j]);
+            store(sum, eigen.matrix[j * m + i]);
         }
     }
 }
 
-/// The sums along the antidiagonals of the trajectory matrix's projection onto the eigenvectors:
-/// its scores, convolved with them.
-void antidiagonalSums(int m, int vectors, RunBatch& batch) {
-    const int columns = batch.values - m + 1;
-    const Lanes* const series = batch.series.data();
-    batch.sums.resize(batch.values);
-    Lanes* const sums = batch.sums.data();
-    for (int n = 0; n < batch.values; ++n) store(all(0.0), sums[n]);
-    for (int c = 0; c < vectors; ++c) {
-        const Lanes* const v = &batch.eigen.vectors[c * m];
-        for (int k = 0; k < columns; ++k) {
-            Pack score = all(0.0);
-            for (int w = 0; w < m; ++w) score = score + load(v[w]) * load(series[k + w]);
-            for (int w = 0; w < m; ++w) store(load(sums[k + w]) + load(v[w]) * score, sums[k + w]);
-        }
+template <class Real>
+HWY_INLINE Pack<Real> weightedSum(const Lanes<Real>* weights, const Lanes<Real>* values,
+                                  int count) {
+    Pack<Real> sum = all<Real>(0);
+    for (int k = 0; k < count; ++k) sum = sum + load(weights[k]) * load(values[k]);
+    return sum;
+}
+
+/// The means along the antidiagonals of the trajectory matrix's projection. They are a filter of
+/// the series: the sum along each diagonal of the m x m projection weighs the value so far away.
+/// Over the first m - 1 values the filter grows by a row of the projection each, over the last it
+/// loses them again.
+template <class Real>
+void antidiagonalMeans(RunBatch<Real>& batch) {
+    const int m = batch.m;
+    const Lanes<Real>*const series = batch.series.data(), *const tail = batch.tail.data();
+    const Lanes<Real>* const row = batch.eigen.matrix.data();
+    batch.smooth.resize(batch.values);
+    batch.smooth_tail.resize(m);
+    batch.filter.assign(2 * m - 1, Lanes<Real>{});
+    Lanes<Real>* const filter = batch.filter.data();
+    for (int n = 0; n < m; ++n) {
+        Lanes<Real>* const added = filter + m - 1 - n;
+        for (int w = 0; w < m; ++w) store(load(added[w]) + load(row[n * m + w]), added[w]);
+        store(weightedSum(added, series, m + n) * all<Real>(1.0 / (n + 1)), batch.smooth[n]);
     }
+    for (int n = m; n <= batch.values - m; ++n) {
+        store(weightedSum(filter, series + n - m + 1, 2 * m - 1) * all<Real>(1.0 / m),
+              batch.smooth[n]);
+    }
+    for (int n = 0, left = m - 1; left > 0; ++n, --left) {
+        Lanes<Real>* const lost = filter + m - 1 - n;
+        for (int w = 0; w < m; ++w) store(load(lost[w]) - load(row[n * m + w]), lost[w]);
+        store(weightedSum(filter, tail + n, m - 1 + left) * all<Real>(1.0 / left),
+              batch.smooth_tail[n]);
+    }
+}
+
+/// To their residuals, where what was to be taken away is what was computed.
+template <class Real>
+void takeAway(RunBatch<Real>& batch) {
+    const int m = batch.m;
+    for (int n = 0; n <= batch.values - m; ++n) {
+        store(load(batch.series[n]) - load(batch.smooth[n]), batch.smooth[n]);
+    }
+    for (int n = 0; n + 1 < m; ++n) {
+        store(load(batch.tail[n + m - 1]) - load(batch.smooth_tail[n]), batch.smooth_tail[n]);
+    }
+}
+
+/// Rounding turns the cut between the components by a rounding error of the matrix over the gap
+/// between the eigenvalues there. So much of the last component that is kept may be lost, no entry
+/// of which is greater than its singular value.
+void judgeRounding(RunBatch<float>& batch) {
+    constexpr double rounding = 0x1p-24, of_eigenvalue = 16 * rounding;
+    const Pack<float> last = load(batch.eigen.last), next = load(batch.eigen.next);
+    const Pack<float> gap = absolute(last - next) - all<float>(of_eigenvalue);
+    const Pack<float> kept = max(max(last, next), all<float>(of_eigenvalue));
+    const Pack<float> singular_value = squareRoot(kept * load(batch.trace));
+    store(singular_value * all<float>(rounding) / max(gap, all<float>(kTiny<float>)), batch.error);
+}
+
+/// Requires more rows and columns of the trajectory matrix than components.
+template <class Real>
+void smoothBatch(int principal_components, RunBatch<Real>& batch) {
+    const int removed = batch.m - principal_components;
+    const bool removes = removed <= principal_components;
+    const int vectors = removes ? removed : principal_components;
+    rowProducts(batch);
+    eigenvectors(batch.m, vectors, removes, batch.eigen);
+    projection(batch.m, vectors, batch.eigen);
+    antidiagonalMeans(batch);
+    if (removes) takeAway(batch);
 }
 
 }  // namespace
 
-/// The series becomes smooth. Requires more rows and columns of the trajectory matrix than
-/// components.
-void smoothBatch(int window_size, int principal_components, RunBatch& batch) {
-    const int m = std::min(window_size, batch.values - window_size + 1);
-    const int removed = m - principal_components;
-    const bool removes = removed <= principal_components;
-    const int vectors = removes ? removed : principal_components;
-    rowProducts(m, batch);
-    eigenvectors(m, vectors, removes, batch.eigen);
-    antidiagonalSums(m, vectors, batch);
-    for (int n = 0; n < batch.values; ++n) {
-        const int count = std::min(std::min(n + 1, batch.values - n), m);
-        const Pack mean = load(batch.sums[n]) / all(count);
-        store(removes ? load(batch.series[n]) - mean : mean, batch.series[n]);
+/// A bit a pixel, set where it has a value.
+void findValues(const float* pixels, std::size_t count, std::uint64_t* words) {
+    const hn::CappedTag<float, 64> d;
+    for (std::size_t first = 0; first < count; first += 64) {
+        std::uint64_t bits = 0;
+        const std::size_t end = std::min(count - first, std::size_t{64});
+        std::size_t n = 0;
+        for (; n + hn::Lanes(d) <= end; n += hn::Lanes(d)) {
+            const auto values = hn::LoadU(d, pixels + first + n);
+            bits |= BitsOf(d, hn::Eq(values, values)) << n;
+        }
+        for (; n < end; ++n) bits |= std::uint64_t{hasValue(pixels[first + n])} << n;
+        words[first / 64] = bits;
     }
+}
+
+void smoothWithFloats(int principal_components, RunBatch<float>& batch) {
+    smoothBatch(principal_components, batch);
+    judgeRounding(batch);
+}
+void smoothWithDoubles(int principal_components, RunBatch<double>& batch) {
+    smoothBatch(principal_components, batch);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -96,7 +206,12 @@ HWY_AFTER_NAMESPACE();
 namespace hagen {
 namespace {
 
-HWY_EXPORT(smoothBatch);
+HWY_EXPORT(findValues);
+HWY_EXPORT(smoothWithFloats);
+HWY_EXPORT(smoothWithDoubles);
+
+/// What rounding may change, in the values' unit. On scans changes were less than a fifth of it.
+constexpr float kTolerance = 2e-4f;
 
 /// A run of `values` pixels with a value.
 struct Run {
@@ -104,55 +219,128 @@ struct Run {
     int values;
 };
 
+/// The first bit of [from, end) that differs from those of `same`, 0 or all; `end` if there is
+/// none.
+std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t end,
+                     std::uint64_t same) {
+    for (; from < end; from = (from / 64 + 1) * 64) {
+        const std::uint64_t others = (words[from / 64] ^ same) >> from % 64;
+        if (others != 0) {
+            return std::min(end, from + hwy::Num0BitsBelowLS1Bit_Nonzero64(others));
+        }
+    }
+    return end;
+}
+
 /// Those of at least `fewest` values, in order of their length.
 void findRuns(Image<float>& image, int fewest, std::vector<Run>& runs) {
     // Kept from scan to scan, so that none is allocated; hold nothing between them.
+    thread_local std::vector<std::uint64_t> kept_words;
     thread_local std::vector<Run> kept_found;
     thread_local std::vector<int> kept_start_of;
+    std::vector<std::uint64_t>& words = kept_words;
     std::vector<Run>& found = kept_found;
     std::vector<int>& start_of = kept_start_of;  // the place of the next run of this length
 
-    const int rows = static_cast<int>(image.rows());
+    const auto rows = static_cast<std::size_t>(image.rows());
+    const auto pixels = static_cast<std::size_t>(image.size());
+    words.resize((pixels + 63) / 64);
+    HWY_DYNAMIC_DISPATCH(findValues)(image.data(), pixels, words.data());
     found.clear();
+    found.reserve(pixels / fewest);
+    runs.reserve(pixels / fewest);
     start_of.assign(rows + 2, 0);
-    for (int column = 0; column < image.cols(); ++column) {
-        const auto pixels = image.data() + column * image.rows();
-        for (int row = 0; row + fewest <= rows;) {
-            // Backwards, so that a gap rules out all that begins before it.
-            int end = row + fewest;
-            while (end > row && hasValue(pixels[end - 1])) --end;
-            if (end > row) {
-                row = end;
-                continue;
-            }
-            end = row + fewest;
-            while (end < rows && hasValue(pixels[end])) ++end;
-            found.push_back({pixels + row, end - row});
-            ++start_of[end - row + 1];
-            row = end + 1;
+    for (std::size_t column = 0; column < pixels; column += rows) {
+        const std::size_t end = column + rows;
+        for (std::size_t pixel = column; pixel + fewest <= end;) {
+            const std::size_t begin = otherBit(words.data(), pixel, end, 0);
+            pixel = otherBit(words.data(), begin, end, ~std::uint64_t{0});
+            const int values = static_cast<int>(pixel - begin);
+            if (values < fewest) continue;
+            found.push_back({image.data() + begin, values});
+            ++start_of[values + 1];
         }
     }
-    for (int length = 1; length <= rows; ++length) start_of[length + 1] += start_of[length];
+    for (std::size_t length = 1; length <= rows; ++length) start_of[length + 1] += start_of[length];
     runs.resize(found.size());
     for (const Run& run : found) runs[start_of[run.values]++] = run;
 }
 
-void smoothRuns(const Run* runs, int count, int window_size, int principal_components,
-                RunBatch& batch) {
-    batch.values = runs->values;
+void smooth(int principal_components, RunBatch<float>& batch) {
+    HWY_DYNAMIC_DISPATCH(smoothWithFloats)(principal_components, batch);
+}
+void smooth(int principal_components, RunBatch<double>& batch) {
+    HWY_DYNAMIC_DISPATCH(smoothWithDoubles)(principal_components, batch);
+}
+
+/// Memory for whatever runs come, so that none is allocated in a later scan.
+template <class Real>
+void reserve(int window_size, int rows, RunBatch<Real>& batch) {
+    const int m = std::min(window_size, (rows + 1) / 2);
+    EigenBatch<Real>& eigen = batch.eigen;
+    for (auto* values :
+         {&batch.series, &batch.tail, &batch.smooth, &batch.smooth_tail, &batch.head, &batch.filter,
+          &eigen.scale, &eigen.diagonal, &eigen.beside, &eigen.product}) {
+        values->reserve(rows);
+    }
+    eigen.matrix.reserve(m * m);
+    eigen.vectors.reserve(m * m);
+    eigen.rotations.reserve(4 * m * m);  // two sweeps an eigenvalue are usual
+}
+
+/// Lanes without a run of their own repeat the last one.
+template <class Real>
+void fillLanes(const Run* runs, int count, RunBatch<Real>& batch) {
+    const int tail_values = 2 * (batch.m - 1);
+    batch.values = runs[count - 1].values;
     batch.series.resize(batch.values);
-    for (int lane = 0; lane < kLanes; ++lane) {
-        const float* const from = runs[std::min(lane, count - 1)].begin;
-        for (int n = 0; n < batch.values; ++n) {
-            batch.series[n].of[lane] = static_cast<double>(from[n]);
+    batch.tail.resize(tail_values);
+    for (int lane = 0; lane < kLanes<Real>; ++lane) {
+        const Run& run = runs[std::min(lane, count - 1)];
+        const float* const tail = run.begin + run.values - tail_values;
+        for (int n = 0; n < run.values; ++n) {
+            batch.series[n].of[lane] = static_cast<Real>(run.begin[n]);
+        }
+        for (int n = run.values; n < batch.values; ++n) batch.series[n].of[lane] = 0;
+        for (int n = 0; n < tail_values; ++n) batch.tail[n].of[lane] = static_cast<Real>(tail[n]);
+        batch.columns.of[lane] = static_cast<Real>(run.values - batch.m + 1);
+    }
+}
+
+template <class Real>
+void takeLane(const RunBatch<Real>& batch, int lane, const Run& run) {
+    const int tail = run.values - batch.m + 1;
+    for (int n = 0; n < tail; ++n) run.begin[n] = static_cast<float>(batch.smooth[n].of[lane]);
+    for (int n = tail; n < run.values; ++n) {
+        run.begin[n] = static_cast<float>(batch.smooth_tail[n - tail].of[lane]);
+    }
+}
+
+/// Of runs in order of their length. What rounding may have moved too far stays as it is, and in
+/// `runs`.
+template <class Real>
+void smoothRuns(int window_size, int principal_components, RunBatch<Real>& batch,
+                std::vector<Run>& runs) {
+    const auto shorterSide = [&](const Run& run) {
+        return std::min(window_size, run.values - window_size + 1);
+    };
+    std::size_t left = 0;
+    for (std::size_t first = 0, end; first < runs.size(); first = end) {
+        batch.m = shorterSide(runs[first]);
+        end = std::min(first + kLanes<Real>, runs.size());
+        while (shorterSide(runs[end - 1]) != batch.m) --end;
+        fillLanes(&runs[first], static_cast<int>(end - first), batch);
+        smooth(principal_components, batch);
+        for (std::size_t i = first; i < end; ++i) {
+            const int lane = static_cast<int>(i - first);
+            if (batch.error.of[lane] < kTolerance) {
+                takeLane(batch, lane, runs[i]);
+            } else {
+                runs[left++] = runs[i];
+            }
         }
     }
-    HWY_DYNAMIC_DISPATCH(smoothBatch)(window_size, principal_components, batch);
-    for (int lane = 0; lane < count; ++lane) {
-        for (int n = 0; n < batch.values; ++n) {
-            runs[lane].begin[n] = static_cast<float>(batch.series[n].of[lane]);
-        }
-    }
+    runs.resize(left);
 }
 
 }  // namespace
@@ -161,21 +349,18 @@ void smoothColumns(const Image<float>& values, int window_size, int principal_co
                    Image<float>& smoothed) {
     // Kept from scan to scan, so that none is allocated; hold nothing between them.
     thread_local std::vector<Run> kept_runs;
-    thread_local RunBatch kept_batch;
+    thread_local RunBatch<float> floats;
+    thread_local RunBatch<double> doubles;
     std::vector<Run>& runs = kept_runs;
-    RunBatch& batch = kept_batch;
 
     smoothed = values;
     if (principal_components == window_size) return;
     // A shorter run's trajectory matrix has no more rows or columns than components are kept.
     findRuns(smoothed, window_size + principal_components, runs);
-    for (std::size_t first = 0, end; first < runs.size(); first = end) {
-        end = first;
-        while (end < runs.size() && end < first + kLanes && runs[end].values == runs[first].values)
-            ++end;
-        smoothRuns(&runs[first], static_cast<int>(end - first), window_size, principal_components,
-                   batch);
-    }
+    reserve(window_size, static_cast<int>(values.rows()), floats);
+    reserve(window_size, static_cast<int>(values.rows()), doubles);
+    smoothRuns(window_size, principal_components, floats, runs);
+    smoothRuns(window_size, principal_components, doubles, runs);
 }
 
 }  // namespace hagen

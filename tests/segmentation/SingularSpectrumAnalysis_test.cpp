@@ -58,17 +58,23 @@ bool isDefined(const Eigen::VectorXd& series, int window_size, int principal_com
     return values(principal_components - 1) - values(principal_components) > 1e-3 * values(0);
 }
 
-/// One run at a time, by the eigenvectors of X X^T: the definition as the header has it.
+/// How far a result may be off, and how far it is where the eigenvalues on both sides of the cut
+/// differ by 1e-3 of the greatest one or more.
+constexpr double kTolerance = 2e-4, kAccuracy = 1e-4 / 3;
+
+/// One run at a time, by the eigenvectors of X X^T: the definition as the header has it. `gap` is
+/// how much the eigenvalues on both sides of the cut differ, over the greatest one.
 Eigen::ArrayXd plainSmoothed(const Eigen::ArrayXd& series, int window_size,
-                             int principal_components, bool& is_defined) {
+                             int principal_components, double& gap) {
     const Eigen::Index columns = series.size() - window_size + 1;
     Eigen::MatrixXd trajectory(window_size, columns);
     for (Eigen::Index k = 0; k < columns; ++k) trajectory.col(k) = series.segment(k, window_size);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(trajectory *
                                                                 trajectory.transpose());
     const Eigen::VectorXd values = solver.eigenvalues().reverse();
-    is_defined = principal_components >= std::min<Eigen::Index>(window_size, columns) ||
-                 values(principal_components - 1) - values(principal_components) > 1e-3 * values(0);
+    gap = principal_components >= std::min<Eigen::Index>(window_size, columns)
+              ? 1.0
+              : (values(principal_components - 1) - values(principal_components)) / values(0);
     const auto kept = solver.eigenvectors().rightCols(principal_components);
     const Eigen::MatrixXd projection = kept * (kept.transpose() * trajectory);
     Eigen::ArrayXd smooth(series.size());
@@ -116,7 +122,7 @@ void forEachRun(const Column& column, Visit visit) {
 
 TEST(Ssa, ManyRunsAtOnceAreSmoothedAsEachByItself) {
     test::Random random(18);
-    int compared = 0;
+    int clear = 0, unclear = 0;
     for (const int rows : {2, 7, 8, 13, 15, 16, 31, 63, 127}) {
         for (const int window_size : {2, 3, 5, 8, 12, 16}) {
             if (window_size > rows) continue;
@@ -134,19 +140,22 @@ TEST(Ssa, ManyRunsAtOnceAreSmoothedAsEachByItself) {
                             EXPECT_TRUE((run == was).all());
                             return;
                         }
-                        bool is_defined = false;
+                        double gap = 0;
                         const Eigen::ArrayXd expected =
-                            plainSmoothed(was.cast<double>(), window_size, components, is_defined);
-                        if (!is_defined) return;
-                        ++compared;
-                        EXPECT_LT((run.cast<double>() - expected).abs().maxCoeff(), 1e-6)
-                            << count << " values, W " << window_size << ", PC " << components;
+                            plainSmoothed(was.cast<double>(), window_size, components, gap);
+                        if (!(gap > 1e-9)) return;
+                        ++(gap > 1e-3 ? clear : unclear);
+                        EXPECT_LT((run.cast<double>() - expected).abs().maxCoeff(),
+                                  gap > 1e-3 ? kAccuracy : kTolerance)
+                            << count << " values, W " << window_size << ", PC " << components
+                            << ", gap " << gap;
                     });
                 }
             }
         }
     }
-    EXPECT_GT(compared, 4000);
+    EXPECT_GT(clear, 4000);
+    EXPECT_GT(unclear, 500);
 }
 
 TEST(Ssa, ARunDoesNotFeelItsNeighbours) {
@@ -196,11 +205,11 @@ TEST(Ssa, WindowsAsLongAsTheColumnAllows) {
     test::Random random(23);
     const Image<float> values = random.image(127, 9, 0, 1.57f, 0.0);
     for (const int window_size : {64, 126}) {
-        bool is_defined = false;
+        double gap = 0;
         const Image<float> found = smoothed(values, window_size, 1);
         const Eigen::ArrayXd expected =
-            plainSmoothed(values.col(3).cast<double>(), window_size, 1, is_defined);
-        EXPECT_TRUE(is_defined);
+            plainSmoothed(values.col(3).cast<double>(), window_size, 1, gap);
+        EXPECT_GT(gap, 1e-3);
         EXPECT_LT((found.col(3).cast<double>() - expected).abs().maxCoeff(), 1e-6);
     }
 }
@@ -217,7 +226,7 @@ TEST(Ssa, AgreesWithADenseSingularValueDecomposition) {
                 if (!isDefined(series, window_size, components)) continue;
                 const Eigen::VectorXd expected = oracle(series, window_size, components);
                 for (int row = 0; row < rows; ++row) {
-                    ASSERT_NEAR(found(row, column), expected(row), 1e-5);
+                    ASSERT_NEAR(found(row, column), expected(row), kAccuracy);
                 }
                 ++compared;
             }
@@ -288,7 +297,7 @@ TEST(Ssa, TheLeadingElementarySeriesAddUpToWhatSmoothingGives) {
                 const Eigen::VectorXd sum = found.elementary.leftCols(components).rowwise().sum();
                 const Image<float> expected = smoothed(values, window_size, components);
                 EXPECT_LT((sum.array() - expected.col(column).cast<double>()).abs().maxCoeff(),
-                          1e-6);
+                          kTolerance);
             }
             for (int c = 1; c < window_size; ++c) {
                 EXPECT_GE(found.eigenvalues(c - 1), found.eigenvalues(c));

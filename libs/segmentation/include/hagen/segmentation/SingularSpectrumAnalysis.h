@@ -11,8 +11,8 @@ namespace hagen {
 /// and one shorter than W + PC, whose matrix has no more than PC components. PC = W gives the input
 /// back.
 /// Requires 1 <= PC <= W. Where the eigenvalues PC and PC + 1 coincide, the leading components, and
-/// so the result, are not unique. `smoothed` has the size and the gaps (NaN) of `values`, and must
-/// not be it.
+/// so the result, are not unique; where they do not, it is that of the definition to 2e-4.
+/// `smoothed` has the size and the gaps (NaN) of `values`, and must not be it.
 void smoothColumns(const Image<float>& values, int window_size, int principal_components,
                    Image<float>& smoothed);
 
