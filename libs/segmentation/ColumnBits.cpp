@@ -23,12 +23,14 @@ void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max
                std::uint64_t* HWY_RESTRICT present, std::uint64_t* HWY_RESTRICT above,
                std::uint64_t* HWY_RESTRICT right) {
     const hn::ScalableTag<float> d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
+    const int lanes = static_cast<int>(hn::Lanes(d)), words = wordsOf(rows);
     const auto step = hn::Set(d, max_step);
-    for (int column = 0; column < columns; ++column) {
-        for (int row = 0; row < rows; row += kWordRows) {
-            const float* HWY_RESTRICT first = image + column * rows + row;
-            const int inside = std::min(rows - row, kWordRows);
+    for (int first_row = 0; first_row < rows; first_row += kWordRows) {
+        const int inside = std::min(rows - first_row, kWordRows);
+        const std::uint64_t mask = Lowest(inside);
+        const std::uint64_t below_top = first_row + inside < rows ? mask : mask >> 1;
+        const float* HWY_RESTRICT first = image + first_row;
+        for (int word = first_row / kWordRows; word < columns * words; word += words) {
             std::uint64_t is_present = 0, is_above = 0, is_right = 0;
             for (int n = 0; n < inside; n += lanes) {
                 const auto own = hn::LoadU(d, first + n);
@@ -40,11 +42,10 @@ void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max
                 is_above |= isLinked(1);
                 is_right |= isLinked(rows);
             }
-            const std::uint64_t mask = Lowest(inside);
-            const std::uint64_t below_top = row + inside < rows ? mask : mask >> 1;
-            *present++ = is_present & mask;
-            *above++ = is_above & below_top;
-            *right++ = is_right & mask;
+            present[word] = is_present & mask;
+            above[word] = is_above & below_top;
+            right[word] = is_right & mask;
+            first += rows;
         }
     }
 }
@@ -53,16 +54,17 @@ void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max
 template <class D, class IsSet>
 HWY_INLINE void FindPixels(D d, const hn::TFromD<D>* HWY_RESTRICT image, int rows, int columns,
                            IsSet isSet, std::uint64_t* HWY_RESTRICT bits) {
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int column = 0; column < columns; ++column) {
-        for (int row = 0; row < rows; row += kWordRows) {
-            const hn::TFromD<D>* HWY_RESTRICT first = image + column * rows + row;
-            const int inside = std::min(rows - row, kWordRows);
-            std::uint64_t word = 0;
+    const int lanes = static_cast<int>(hn::Lanes(d)), words = wordsOf(rows);
+    for (int first_row = 0; first_row < rows; first_row += kWordRows) {
+        const int inside = std::min(rows - first_row, kWordRows);
+        const hn::TFromD<D>* HWY_RESTRICT first = image + first_row;
+        for (int word = first_row / kWordRows; word < columns * words; word += words) {
+            std::uint64_t set = 0;
             for (int n = 0; n < inside; n += lanes) {
-                word |= BitsOf(d, isSet(hn::LoadU(d, first + n))) << n;
+                set |= BitsOf(d, isSet(hn::LoadU(d, first + n))) << n;
             }
-            *bits++ = word & Lowest(inside);
+            bits[word] = set & Lowest(inside);
+            first += rows;
         }
     }
 }
@@ -146,26 +148,6 @@ void findLabelled(const Image<Label>& labels, Label label, ColumnBits& labelled)
         HWY_DYNAMIC_DISPATCH(FindLabelled)
         (first, rows, part, static_cast<std::uint8_t>(label), labelled.data() + word);
     });
-}
-
-void putInPixelOrder(const ColumnBits& bits, int rows, std::vector<std::uint64_t>& in_order) {
-    in_order.resize(bits.size());
-    std::uint64_t* target = in_order.data();
-    std::uint64_t filling = 0;
-    int filled = 0;
-    for (std::size_t word = 0; word < bits.size();) {
-        for (int row = 0; row < rows; row += kWordRows, ++word) {
-            const int inside = std::min(rows - row, kWordRows);
-            filling |= bits[word] << filled;
-            filled += inside;
-            if (filled < kWordRows) continue;
-            *target++ = filling;
-            filled -= kWordRows;
-            // a shift by a whole word is not defined
-            filling = filled > 0 ? bits[word] >> (inside - filled) : 0;
-        }
-    }
-    if (filled > 0) *target = filling;
 }
 
 }  // namespace hagen

@@ -27,9 +27,6 @@ void findLinks(const Image<float>& image, float max_step, ColumnLinks& links);
 void findPresent(const Image<float>& image, ColumnBits& present);
 void findLabelled(const Image<Label>& labels, Label label, ColumnBits& labelled);
 
-/// The same bits without gaps, in the order of the image's pixels; the list may be longer.
-void putInPixelOrder(const ColumnBits& bits, int rows, std::vector<std::uint64_t>& in_order);
-
 /// Calls visit(n) for each bit n that is set, from the lowest on.
 template <class Visit>
 void forEachBit(std::uint64_t bits, Visit visit) {

@@ -20,9 +20,8 @@ struct Workspace {
     ColumnLinks angles;  ///< those with an angle, and the steps between them that are small
     std::vector<int> seeds;
     ColumnBits reached;
-    std::vector<int> waiting;              ///< columns that have more to give to those beside them
-    std::vector<std::uint8_t> is_waiting;  ///< of each column
-    std::vector<std::uint64_t> is_there, is_rou;  ///< in the order of pixels
+    std::vector<int> waiting;     ///< columns that have more to give to those beside them
+    std::vector<int> is_waiting;  ///< of each column
 };
 
 void setPixel(int column, int row, int rows, ColumnBits& bits) {
@@ -108,7 +107,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, Workspace* 
     w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // each once, and one to overwrite
     w->is_waiting.assign(static_cast<std::size_t>(columns), false);
     int* const waiting = w->waiting.data();
-    std::uint8_t* const is_waiting = w->is_waiting.data();
+    int* const is_waiting = w->is_waiting.data();
     std::uint64_t* const reached = w->reached.data();
     const std::uint64_t *const above = links.above.data(), *const right = links.right.data();
     int count = 0;
@@ -127,8 +126,14 @@ void growRegions(Words words, int columns, const ColumnLinks& links, Workspace* 
         is_waiting[to] |= more != 0;
     };
     for (int column = 0; column < columns; ++column) spread(column);
-    for (int column = 0; column < columns; ++column) {
+    for (int column = 0; column < columns; ++column) {  // most have nothing to give then
         const int on_right = column + 1 < columns ? column + 1 : 0;
+        std::uint64_t differ = 0;
+        for (int word = 0; word < words; ++word) {
+            const int n = column * words + word;
+            differ |= (reached[n] ^ reached[on_right * words + word]) & right[n];
+        }
+        if (differ == 0) continue;
         give(column, on_right, right + column * words);
         give(on_right, column, right + column * words);
     }
@@ -156,23 +161,38 @@ constexpr std::array<Bytes, 256> makeBytesOfBits() {
 }
 constexpr std::array<Bytes, 256> kBytesOfBits = makeBytesOfBits();
 
-/// Writes eight labels at a time.
-void writeLabels(const std::vector<std::uint64_t>& is_there,
-                 const std::vector<std::uint64_t>& is_rou, Image<Label>& labels) {
+/// Writes the labels of a word of pixels, eight at a time.
+void writeLabels(std::uint64_t present, std::uint64_t rou, int pixels, Label* labels) {
     static_assert(static_cast<int>(Label::Unclassified) == 0 && static_cast<int>(Label::Rou) == 1 &&
                   static_cast<int>(Label::Roi) == 2);
-    const auto writeFrom = [&](Eigen::Index pixel, std::size_t count) {
-        const std::size_t word = static_cast<std::size_t>(pixel) / 64, bit = pixel % 64;
-        const std::uint64_t rou = is_rou[word] >> bit & 255, there = is_there[word] >> bit & 255;
+    const std::uint64_t roi = present & ~rou;
+    for (int n = 0; n < pixels; n += 8) {
         std::uint64_t ones, twos;
-        std::memcpy(&ones, kBytesOfBits[rou].data(), sizeof ones);
-        std::memcpy(&twos, kBytesOfBits[there & ~rou].data(), sizeof twos);
+        std::memcpy(&ones, kBytesOfBits[rou >> n & 255].data(), sizeof ones);
+        std::memcpy(&twos, kBytesOfBits[roi >> n & 255].data(), sizeof twos);
         const std::uint64_t eight = ones + 2 * twos;
-        std::memcpy(labels.data() + pixel, &eight, count);
-    };
-    const Eigen::Index whole = labels.size() - labels.size() % 8;
-    for (Eigen::Index pixel = 0; pixel < whole; pixel += 8) writeFrom(pixel, 8);
-    if (whole < labels.size()) writeFrom(whole, static_cast<std::size_t>(labels.size() - whole));
+        if (n + 8 <= pixels) {
+            std::memcpy(labels + n, &eight, 8);
+        } else {
+            std::memcpy(labels + n, &eight, static_cast<std::size_t>(pixels - n));
+        }
+    }
+}
+
+/// ROU is what is reached from the ground, or what is not from RoI; without an angle it is RoI.
+void writeLabels(const Workspace& w, bool from_ground, Image<Label>* labels) {
+    const int rows = static_cast<int>(labels->rows()), columns = static_cast<int>(labels->cols());
+    const std::uint64_t turned = from_ground ? 0 : ~std::uint64_t{0};
+    std::size_t word = 0;
+    for (int column = 0; column < columns; ++column) {
+        for (int row = 0; row < rows; row += kWordRows, ++word) {
+            const std::uint64_t is_there = w.present[word];
+            const std::uint64_t rou =
+                is_there & w.angles.present[word] & (w.reached[word] ^ turned);
+            writeLabels(is_there, rou, std::min(rows - row, kWordRows),
+                        labels->data() + column * rows + row);
+        }
+    }
 }
 
 }  // namespace
@@ -195,16 +215,8 @@ void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_r
         topAndNearestPixels(depth_m, pixel_angle_rad, w.reached);
     }
     withWordsOf(rows, [&](auto words) { growRegions(words, columns, w.angles, &w); });
-
-    // ROU is what is reached from the ground, or what is not from RoI; without an angle it is RoI
-    for (std::size_t word = 0; word < w.reached.size(); ++word) {
-        const std::uint64_t is_rou = from_ground ? w.reached[word] : ~w.reached[word];
-        w.reached[word] = w.present[word] & w.angles.present[word] & is_rou;
-    }
-    putInPixelOrder(w.present, rows, w.is_there);
-    putInPixelOrder(w.reached, rows, w.is_rou);
     labels.resize(rows, columns);
-    writeLabels(w.is_there, w.is_rou, labels);
+    writeLabels(w, from_ground, &labels);
 }
 
 void limitToZone(const Image<float>& depth_m, float zone_m, Image<Label>& labels) {

@@ -15,9 +15,8 @@ namespace {
 struct Workspace {
     ColumnBits roi, lowest;  ///< RoI pixels with a depth, and those that are their run's lowest
     ColumnLinks links;       ///< of RoI with RoI; on the right only the lowest that says the same
-    std::size_t pixels = 0, runs = 0;
-    std::vector<std::int32_t> pixel;     ///< the RoI pixels, ascending
-    std::vector<std::int32_t> run;       ///< of each pixel of the image, if it is RoI
+    std::size_t runs = 0;
+    std::vector<std::int32_t> run;       ///< of each pixel of the image
     std::vector<std::uint32_t> nearest;  ///< of each run: its least depth, as bits, which order so
     std::vector<std::int32_t> first;     ///< of each run: an earlier one linked with it, or itself
     std::vector<std::uint64_t> closest;  ///< of a component's first run: its nearest run
@@ -25,64 +24,67 @@ struct Workspace {
     std::vector<std::uint64_t> order, swap;
 };
 
-void keepRoiLinks(int words, int columns, Workspace* w) {
+/// Leaves the links of RoI with RoI.
+template <class Words>
+void keepRoiLinks(Words words, int columns, Workspace* w) {
     std::uint64_t *const roi = w->roi.data(), *const lowest = w->lowest.data();
     std::uint64_t *const above = w->links.above.data(), *const right = w->links.right.data();
     const std::uint64_t* const present = w->links.present.data();
     const int all = columns * words;
     for (int n = 0; n < all; ++n) roi[n] &= present[n];
     for (int column = 0; column < columns; ++column) {
+        const int first = column * words;
         std::uint64_t linked_below = 0;
-        for (int n = column * words; n < (column + 1) * words; ++n) {
-            const std::uint64_t next = n + 1 < (column + 1) * words ? roi[n + 1] : 0;
-            above[n] &= roi[n] & (roi[n] >> 1 | next << (kWordRows - 1));
+        for (int word = 0; word < words; ++word) {
+            const int n = first + word;
+            const std::uint64_t next = word + 1 < words ? roi[n + 1] << (kWordRows - 1) : 0;
+            above[n] &= roi[n] & (roi[n] >> 1 | next);
             lowest[n] = roi[n] & ~(above[n] << 1 | linked_below);
             linked_below = above[n] >> (kWordRows - 1);
         }
     }
     for (int column = 0; column < columns; ++column) {
-        const int to_next = column + 1 < columns ? words : words - all;
+        const int first = column * words, first_on_right = column + 1 < columns ? first + words : 0;
         std::uint64_t same_below = 0;
-        for (int n = column * words; n < (column + 1) * words; ++n) {
-            right[n] &= roi[n] & roi[n + to_next];
-            const std::uint64_t same = right[n] & above[n] & above[n + to_next];
-            right[n] &= ~(same << 1 | same_below);
+        for (int word = 0; word < words; ++word) {
+            const int n = first + word, next = first_on_right + word;
+            const std::uint64_t linked = right[n] & roi[n] & roi[next];
+            const std::uint64_t same = linked & above[n] & above[next];
+            right[n] = linked & ~(same << 1 | same_below);
             same_below = same >> (kWordRows - 1);
         }
     }
 }
 
-/// Calls visit(pixel, word, bit) for each pixel in these bits of an image, in its order.
+/// Calls visit(first, word) for each word of an image's columns, in the order of pixels.
 template <class Visit>
-void forEachPixel(const ColumnBits& bits, int rows, int columns, Visit visit) {
+void forEachWord(int rows, int columns, Visit visit) {
     int word = 0;
     for (int column = 0; column < columns; ++column) {
-        for (int row = 0; row < rows; row += kWordRows, ++word) {
-            const int first = column * rows + row;
-            forEachBit(bits[word], [&](int bit) { visit(first + bit, word, bit); });
-        }
+        for (int row = 0; row < rows; row += kWordRows) visit(column * rows + row, word++);
     }
 }
 
 /// Runs, in the order of pixels, and how near they come.
 void findRuns(const float* depth_m, int rows, int columns, Workspace* w) {
-    const std::uint64_t* const lowest = w->lowest.data();
-    std::int32_t *const run_of = w->run.data(), *pixel_end = w->pixel.data();
     std::uint32_t* const nearest = w->nearest.data();
-    std::int32_t run = -1;
+    std::ptrdiff_t run = -1;
     std::uint32_t least = 0;
-    forEachPixel(w->roi, rows, columns, [&](int pixel, int word, int bit) {
-        const auto is_lowest = static_cast<std::uint32_t>(lowest[word] >> bit & 1);
-        std::uint32_t depth;
-        std::memcpy(&depth, depth_m + pixel, sizeof depth);
-        run += static_cast<std::int32_t>(is_lowest);
-        least = std::min(least | (0 - is_lowest), depth);  // from the lowest on
-        nearest[run] = least;
-        run_of[pixel] = run;
-        *pixel_end++ = pixel;
+    forEachWord(rows, columns, [&](int first, int word) {
+        const float* const depths_m = depth_m + first;
+        std::int32_t* const runs = w->run.data() + first;
+        const std::uint64_t lowest = w->lowest[word];
+        forEachBit(w->roi[word], [&](int bit) {
+            const auto is_lowest = static_cast<std::ptrdiff_t>(lowest >> bit & 1);
+            std::uint32_t depth;
+            std::memcpy(&depth, depths_m + bit, sizeof depth);
+            run += is_lowest;
+            least = std::min(least | static_cast<std::uint32_t>(-is_lowest), depth);
+            nearest[run] = least;  // from the lowest on
+            runs[bit] = static_cast<std::int32_t>(run);
+        });
     });
     w->runs = static_cast<std::size_t>(run + 1);
-    w->pixels = static_cast<std::size_t>(pixel_end - w->pixel.data());
 }
 
 /// The first of the runs that this one is joined with so far.
@@ -100,15 +102,19 @@ void joinRuns(int rows, int columns, Workspace* w) {
     const std::int32_t* const run_of = w->run.data();
     std::int32_t* const first = w->first.data();
     for (std::size_t run = 0; run < w->runs; ++run) first[run] = static_cast<std::int32_t>(run);
-    forEachPixel(w->links.right, rows, columns, [&](int pixel, int, int) {
-        const std::int32_t a = run_of[pixel];
-        const std::int32_t b = run_of[pixel + (pixel < last_column ? rows : to_first_column)];
-        if (first[b] == b && a < b) {  // the first link of b, as most are
-            first[b] = first[a];
-        } else {
-            const std::int32_t first_a = firstOf(a, first), first_b = firstOf(b, first);
-            first[std::max(first_a, first_b)] = std::min(first_a, first_b);
-        }
+    forEachWord(rows, columns, [&](int first_pixel, int word) {
+        const std::int32_t* const runs = run_of + first_pixel;
+        const std::int32_t* const on_right =
+            runs + (first_pixel < last_column ? rows : to_first_column);
+        forEachBit(w->links.right[word], [&](int bit) {
+            const std::int32_t a = runs[bit], b = on_right[bit];
+            if (first[b] == b && a < b) {  // the first link of b, as most are
+                first[b] = first[a];
+            } else {
+                const std::int32_t first_a = firstOf(a, first), first_b = firstOf(b, first);
+                first[std::max(first_a, first_b)] = std::min(first_a, first_b);
+            }
+        });
     });
 }
 
@@ -117,24 +123,27 @@ void joinRuns(int rows, int columns, Workspace* w) {
 void numberRuns(Workspace* w) {
     std::int32_t *const first = w->first.data(), *const number = w->number.data();
     std::uint64_t* const closest = w->closest.data();
-    std::fill_n(closest, w->runs, ~std::uint64_t{0});
-    for (std::size_t run = 0; run < w->runs; ++run) {
+    const std::uint32_t* const nearest = w->nearest.data();
+    const std::size_t runs = w->runs;
+    std::fill_n(closest, runs, ~std::uint64_t{0});
+    for (std::size_t run = 0; run < runs; ++run) {
         first[run] = first[first[run]];  // that of an earlier run is found already
-        std::uint64_t& key = closest[first[run]];
-        key = std::min(key, std::uint64_t{w->nearest[run]} << 32 | run);
+        const std::uint64_t key = std::uint64_t{nearest[run]} << 32 | run;
+        if (key < closest[first[run]]) closest[first[run]] = key;
     }
     w->order.resize(w->runs + 1);
+    std::uint64_t* const order = w->order.data();
     std::size_t components = 0;
-    for (std::size_t run = 0; run < w->runs; ++run) {
+    for (std::size_t run = 0; run < runs; ++run) {
         const std::uint64_t key = closest[first[run]];
-        w->order[components] = key;
+        order[components] = key;
         components += itemOf(key) == run;
     }
     w->order.resize(components);
     radixSort(w->order, w->swap);
     std::int32_t last = 0;
     for (const std::uint64_t key : w->order) number[first[itemOf(key)]] = ++last;
-    for (std::size_t run = 0; run < w->runs; ++run) number[run] = number[first[run]];
+    for (std::size_t run = 0; run < runs; ++run) number[run] = number[first[run]];
 }
 
 }  // namespace
@@ -150,18 +159,20 @@ void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels
     findLinks(depth_m, max_gap_m, w.links);
     findLabelled(labels, Label::Roi, w.roi);
     w.lowest.resize(w.roi.size());
-    for (auto* list : {&w.pixel, &w.run, &w.first, &w.number}) list->resize(pixels);
+    for (auto* list : {&w.run, &w.first, &w.number}) list->resize(pixels);
     w.nearest.resize(pixels);
     w.closest.resize(pixels);
-    keepRoiLinks(wordsOf(rows), columns, &w);
+    withWordsOf(rows, [&](auto words) { keepRoiLinks(words, columns, &w); });
     findRuns(depth_m.data(), rows, columns, &w);
     joinRuns(rows, columns, &w);
     numberRuns(&w);
     components.setZero(rows, columns);
-    for (std::size_t n = 0; n < w.pixels; ++n) {
-        const std::int32_t pixel = w.pixel[n];
-        components.data()[pixel] = w.number[w.run[pixel]];
-    }
+    const std::int32_t* const number = w.number.data();
+    forEachWord(rows, columns, [&](int first, int word) {
+        const std::int32_t* const runs = w.run.data() + first;
+        std::int32_t* const numbers = components.data() + first;
+        forEachBit(w.roi[word], [&](int bit) { numbers[bit] = number[runs[bit]]; });
+    });
 }
 
 }  // namespace hagen
