@@ -89,12 +89,15 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
     std::uint64_t from_above = 0;
     for (int word = words - 1; word >= 0; --word) {
         std::uint64_t links = above[word], down = reached[word];
-        down |= from_above & links;
-        for (int way = 1; way < kWordRows; way *= 2) {
-            down |= links & down >> way;
-            links &= links >> way;
+        const std::uint64_t next = links & (down >> 1 | from_above) & ~down;
+        if (next != 0) {  // seldom, for the seeds of ground are lowest
+            down |= next;
+            for (int way = 1; way < kWordRows; way *= 2) {
+                down |= links & down >> way;
+                links &= links >> way;
+            }
+            reached[word] = down;
         }
-        reached[word] = down;
         from_above = down << (kWordRows - 1);
     }
 }
