@@ -2,9 +2,9 @@
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/Label.h>
 #include <hwy/base.h>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace hagen {

@@ -1,6 +1,7 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/Labelling.h>
 #include <hagen/segmentation/SeedGate.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,7 @@
 #include <hagen/segmentation/RoiComponents.h>
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
