@@ -16,10 +16,29 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Appends `first` + n for each bit n that is set. Eight bits at a time come from a table, all of
+/// them: what is too much is written over, or lies behind the end.
+HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
+                                     std::uint32_t* HWY_RESTRICT list) {
+    const hn::CappedTag<std::uint32_t, 8> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    for (std::uint32_t n = 0; n < kReturnsPerWord; n += 8) {
+        const std::size_t byte = bits >> n & 255;
+        for (std::size_t k = 0; k < 8; k += hn::Lanes(d)) {
+            const auto place = hn::PromoteTo(d, hn::LoadU(d8, kSetBits.place[byte].data() + k));
+            hn::StoreU(hn::Add(place, hn::Set(d, first + n)), d, list + k);
+        }
+        list += kSetBits.count[byte];
+    }
+    return list;
+}
+
 /// Labels whole words of returns, the first of which is return `first`. A scan's returns change
 /// label at every turn, so nothing branches on one.
-void LabelWords(const ExtractionRules& rules, const ExtractionInput& in, std::uint32_t first,
-                std::size_t words, std::uint64_t last_word_mask, ExtractionOutput& out) {
+template <bool kHasOwnLabel>
+HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput& in,
+                             std::uint32_t first, std::size_t words, std::uint64_t last_word_mask,
+                             ExtractionOutput& out) {
     const hn::ScalableTag<float> df;
     const hn::RebindToSigned<decltype(df)> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
@@ -27,22 +46,30 @@ void LabelWords(const ExtractionRules& rules, const ExtractionInput& in, std::ui
     const auto zero = hn::Zero(d), one = hn::Set(d, 1), two = hn::Set(d, 2);
     const auto min_range = hn::Set(df, rules.min_range_m),
                max_range = hn::Set(df, rules.max_range_m);
-    auto most = zero;
     const auto zone = hn::Set(df, rules.zone_m), gap = hn::Set(df, rules.component_gap_m);
+    const float* HWY_RESTRICT range_m = in.range_m;
+    const std::int32_t* HWY_RESTRICT pixels = in.pixel;
+    const std::uint8_t* HWY_RESTRICT own_label = in.own_label;
+    const std::int32_t* HWY_RESTRICT verdict_of_pixel = in.verdict_of_pixel;
+    const float* HWY_RESTRICT depth_of_pixel_m = in.depth_of_pixel_m;
+    std::uint8_t* HWY_RESTRICT labels = out.label;
+    std::int32_t* HWY_RESTRICT components = out.component;
+    std::uint32_t *roi = out.roi, *rou = out.rou, *unclassified = out.unclassified;
+    auto most = zero;
 
     for (std::size_t word = 0; word < words; ++word) {
         std::uint64_t seen_bits = 0, roi_bits = 0;
         for (std::size_t n = 0; n < kReturnsPerWord; n += lanes) {
             const std::size_t i = word * kReturnsPerWord + n;
-            const auto range = hn::LoadU(df, in.range_m + i);
-            const auto pixel = hn::LoadU(d, in.pixel + i);
-            const auto verdict = hn::GatherIndex(d, in.verdict_of_pixel, pixel);
+            const auto range = hn::LoadU(df, range_m + i);
+            const auto pixel = hn::LoadU(d, pixels + i);
+            const auto verdict = hn::GatherIndex(d, verdict_of_pixel, pixel);
             const auto is_seen = hn::And(hn::Ge(range, min_range), hn::Le(range, max_range));
             auto is_rou = hn::Eq(hn::And(verdict, one), one);
             auto component = hn::ShiftRight<1>(verdict);
-            if (in.own_label != nullptr) {
-                const auto own = hn::PromoteTo(d, hn::LoadU(d8, in.own_label + i));
-                const auto depth = hn::GatherIndex(df, in.depth_of_pixel_m, hn::Max(pixel, zero));
+            if (kHasOwnLabel) {
+                const auto own = hn::PromoteTo(d, hn::LoadU(d8, own_label + i));
+                const auto depth = hn::GatherIndex(df, depth_of_pixel_m, hn::Max(pixel, zero));
                 const auto has_none = hn::Eq(own, zero);
                 is_rou = hn::Or(hn::Eq(own, one), hn::And(has_none, is_rou));
                 const auto is_near = hn::RebindMask(d, hn::Lt(hn::Sub(range, depth), gap));
@@ -52,20 +79,32 @@ void LabelWords(const ExtractionRules& rules, const ExtractionInput& in, std::ui
             const auto seen = hn::RebindMask(d, is_seen);
             const auto is_roi = hn::AndNot(hn::Or(is_far, is_rou), seen);
             const auto label = hn::IfThenElseZero(seen, hn::IfThenElse(is_roi, two, one));
-            hn::StoreU(hn::DemoteTo(d8, label), d8, out.label + i);
+            hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
             component = hn::IfThenElseZero(is_roi, component);
             most = hn::Max(most, component);
-            hn::StoreU(component, d, out.component + i);
+            hn::StoreU(component, d, components + i);
             seen_bits |= BitsOf(d, seen) << n;
             roi_bits |= BitsOf(d, is_roi) << n;
         }
         const std::uint64_t mask = word + 1 < words ? ~std::uint64_t{0} : last_word_mask;
         const auto index = static_cast<std::uint32_t>(first + word * kReturnsPerWord);
-        out.roi = AppendBits(roi_bits & mask, index, out.roi);
-        out.rou = AppendBits(seen_bits & ~roi_bits & mask, index, out.rou);
-        out.unclassified = AppendBits(~seen_bits & mask, index, out.unclassified);
+        roi = AppendWord(roi_bits & mask, index, roi);
+        rou = AppendWord(seen_bits & ~roi_bits & mask, index, rou);
+        unclassified = AppendWord(~seen_bits & mask, index, unclassified);
     }
+    out.roi = roi;
+    out.rou = rou;
+    out.unclassified = unclassified;
     out.most_components = std::max(out.most_components, hn::GetLane(hn::MaxOfLanes(d, most)));
+}
+
+void LabelWords(const ExtractionRules& rules, const ExtractionInput& in, std::uint32_t first,
+                std::size_t words, std::uint64_t last_word_mask, ExtractionOutput& out) {
+    if (in.own_label != nullptr) {
+        LabelWordsOf<true>(rules, in, first, words, last_word_mask, out);
+    } else {
+        LabelWordsOf<false>(rules, in, first, words, last_word_mask, out);
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -106,7 +145,7 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
 void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
     number.assign(static_cast<std::size_t>(most) + 1, 0);
-    for (const std::int32_t c : component) number[c] = 1;
+    for (const std::uint32_t i : returns.roi) number[component[i]] = 1;
     number[0] = 0;
     for (std::size_t c = 1; c < number.size(); ++c) number[c] += number[c - 1];
     if (number.back() == most) return;  // none is missing
@@ -125,7 +164,7 @@ void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImag
     Workspace& w = workspace;
     const std::size_t size = scan.size();
     for (auto* list : {&w.roi, &w.rou, &w.unclassified}) {
-        if (list->size() < size) list->resize(size);
+        if (list->size() < size + kReturnsPerWord) list->resize(size + kReturnsPerWord);
     }
     returns.label.resize(size);
     returns.component.resize(size);

@@ -1,46 +1,68 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/Labelling.h>
 #include <hagen/segmentation/SeedGate.h>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
+
+#include "ColumnBits.h"
 
 namespace hagen {
 namespace {
-
-/// A pixel in the queue; its row goes along, for it takes a division to find it again.
-struct Pixel {
-    int index, row;
-};
 
 constexpr float kNoGate_rad = static_cast<float>(radians(90));
 
 /// What is made of one image. Kept from scan to scan, so that none is allocated; holds nothing
 /// between them.
 struct Workspace {
+    ColumnBits present;  ///< the pixels with a depth
+    ColumnLinks angles;  ///< those with an angle, and the steps between them that are small
     std::vector<int> seeds;
-    std::vector<Pixel> queue;
+    ColumnBits reached;
+    std::vector<int> waiting;     ///< columns that have more to give to those beside them
+    std::vector<int> is_waiting;  ///< of each column
 };
 
+void setPixel(int column, int row, int rows, ColumnBits& bits) {
+    bits[column * wordsOf(rows) + row / kWordRows] |= std::uint64_t{1} << row % kWordRows;
+}
+
 /// The lowest pixel of each column, where it carries an angle.
-void lowestPixels(const Image<float>& depth_m, const Image<float>& angle_rad,
-                  std::vector<int>& pixels) {
-    pixels.clear();
-    const int rows = static_cast<int>(depth_m.rows());
-    for (int column = 0; column < depth_m.cols(); ++column) {
-        for (int row = 0; row < rows; ++row) {
-            if (!hasValue(depth_m(row, column))) continue;
-            if (hasValue(angle_rad(row, column))) pixels.push_back(column * rows + row);
-            break;
+void lowestPixels(const ColumnBits& present, const ColumnBits& has_angle, int words,
+                  ColumnBits& lowest) {
+    lowest.resize(present.size());
+    for (std::size_t first = 0; first < present.size(); first += words) {
+        bool is_below = false;
+        for (std::size_t word = first; word < first + words; ++word) {
+            const std::uint64_t one = present[word] & (0 - present[word]);
+            lowest[word] = is_below ? 0 : one & has_angle[word];
+            is_below |= present[word] != 0;
         }
     }
 }
 
+/// Those of the lowest pixels that can be ground.
+void gateLowest(const Image<float>& depth_m, const Image<float>& angle_rad, float gate_rad,
+                std::vector<int>& seeds, ColumnBits& lowest) {
+    const int rows = static_cast<int>(depth_m.rows()), words = wordsOf(rows);
+    seeds.clear();
+    for (int word = 0; word < static_cast<int>(lowest.size()); ++word) {
+        const int first = word / words * rows + word % words * kWordRows;
+        forEachBit(lowest[word], [&](int bit) { seeds.push_back(first + bit); });
+        lowest[word] = 0;
+    }
+    gateSeeds(depth_m, angle_rad, gate_rad, seeds);
+    for (const int seed : seeds) setPixel(seed / rows, seed % rows, rows, lowest);
+}
+
 /// The highest and the nearest pixel of each column, of those that carry an angle.
 void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_rad,
-                         std::vector<int>& pixels) {
-    pixels.clear();
+                         ColumnBits& seeds) {
     const int rows = static_cast<int>(angle_rad.rows());
-    for (int column = 0; column < angle_rad.cols(); ++column) {
+    std::fill(seeds.begin(), seeds.end(), 0);
+    for (int column = 0; column < static_cast<int>(angle_rad.cols()); ++column) {
         int highest = -1, nearest = -1;
         for (int row = 0; row < rows; ++row) {
             if (!hasValue(angle_rad(row, column))) continue;
@@ -48,73 +70,157 @@ void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_
             if (nearest < 0 || depth_m(row, column) < depth_m(nearest, column)) nearest = row;
         }
         if (highest < 0) continue;
-        pixels.push_back(column * rows + highest);
-        if (nearest != highest) pixels.push_back(column * rows + nearest);
+        setPixel(column, highest, rows, seeds);
+        setPixel(column, nearest, rows, seeds);
     }
 }
 
-/// Gives `label` to the seeds and to all that can be reached from them.
-void growRegions(const Image<float>& angle_rad, float beta_rad, Label label,
-                 const std::vector<int>& seeds, std::vector<Pixel>& queue, Image<Label>& labels) {
-    const int rows = static_cast<int>(angle_rad.rows()), pixels = static_cast<int>(labels.size());
-    const float* const angle = angle_rad.data();
-    Label* const label_of = labels.data();
-    queue.resize(static_cast<std::size_t>(pixels));  // each comes once
-    Pixel* const first = queue.data();
-    Pixel* end = first;
-    for (const int seed : seeds) {
-        label_of[seed] = label;
-        *end++ = {seed, seed % rows};
+/// The pixels of a column that are reached from those that are, up and down along its links.
+template <class Words>
+void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reached) {
+    // A carry runs up along the links that follow each other.
+    std::uint64_t from_below = 0;
+    for (int word = 0; word < words; ++word) {
+        const std::uint64_t links = above[word], from = reached[word];
+        const std::uint64_t leaving = links + (from & links), sum = leaving + from_below;
+        reached[word] = from | (sum ^ links);
+        from_below = leaving < links || sum < leaving;
     }
-    for (const Pixel* next = first; next != end; ++next) {
-        const auto [from, row] = *next;
-        const float from_rad = angle[from];
-        const auto growTo = [&](int to, int to_row) {
-            const float difference_rad = std::abs(angle[to] - from_rad);
-            // too far apart, or no angle, or there already
-            if (!(difference_rad < beta_rad) || label_of[to] == label) return;
-            label_of[to] = label;
-            *end++ = {to, to_row};
-        };
-        if (row > 0) growTo(from - 1, row - 1);
-        if (row + 1 < rows) growTo(from + 1, row + 1);
-        growTo(from >= rows ? from - rows : from - rows + pixels, row);
-        growTo(from + rows < pixels ? from + rows : from + rows - pixels, row);
+    // Nothing carries down: there, links are joined to ways twice as long at every turn.
+    std::uint64_t from_above = 0;
+    for (int word = words - 1; word >= 0; --word) {
+        std::uint64_t links = above[word], down = reached[word];
+        const std::uint64_t next = links & (down >> 1 | from_above) & ~down;
+        if (next != 0) {  // seldom, for the seeds of ground are lowest
+            down |= next;
+            for (int way = 1; way < kWordRows; way *= 2) {
+                down |= links & down >> way;
+                links &= links >> way;
+            }
+            reached[word] = down;
+        }
+        from_above = down << (kWordRows - 1);
     }
 }
 
-/// Labels as they are before regions grow.
-void labelUngrown(const Image<float>& depth_m, const Image<float>& angle_rad, Label rest,
-                  Image<Label>& labels) {
-    labels.resize(depth_m.rows(), depth_m.cols());
-    const float *const depth = depth_m.data(), *const angle = angle_rad.data();
-    Label* const label = labels.data();
-    for (Eigen::Index pixel = 0; pixel < depth_m.size(); ++pixel) {
-        const bool is_there = depth[pixel] == depth[pixel];
-        const bool has_angle = angle[pixel] == angle[pixel];
-        const Label present = has_angle ? rest : Label::Roi;
-        label[pixel] = is_there ? present : Label::Unclassified;
+/// Lets regions grow from the pixels that are reached. It ends with the same ones, in whatever
+/// order they are come to: so columns give all they have to those beside them, and the ones that
+/// get more by that wait to do so in turn.
+template <class Words>
+void growRegions(Words words, int columns, const ColumnLinks& links, Workspace* w) {
+    w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // each once, and one to overwrite
+    w->is_waiting.assign(static_cast<std::size_t>(columns), false);
+    int* const waiting = w->waiting.data();
+    int* const is_waiting = w->is_waiting.data();
+    std::uint64_t* const reached = w->reached.data();
+    const std::uint64_t *const above = links.above.data(), *const right = links.right.data();
+    int count = 0;
+    const auto spread = [&](int column) {
+        spreadInColumn(words, above + column * words, reached + column * words);
+    };
+    const auto give = [&](int from, int to, const std::uint64_t* link) {
+        std::uint64_t more = 0;
+        for (int word = 0; word < words; ++word) {
+            const std::uint64_t given = reached[from * words + word] & link[word];
+            more |= given & ~reached[to * words + word];
+            reached[to * words + word] |= given;
+        }
+        waiting[count] = to;
+        count += more != 0 && is_waiting[to] == 0;
+        is_waiting[to] |= more != 0;
+    };
+    for (int column = 0; column < columns; ++column) spread(column);
+    for (int column = 0; column < columns; ++column) {  // most have nothing to give then
+        const int on_right = column + 1 < columns ? column + 1 : 0;
+        std::uint64_t differ = 0;
+        for (int word = 0; word < words; ++word) {
+            const int n = column * words + word;
+            differ |= (reached[n] ^ reached[on_right * words + word]) & right[n];
+        }
+        if (differ == 0) continue;
+        give(column, on_right, right + column * words);
+        give(on_right, column, right + column * words);
+    }
+    while (count > 0) {
+        const int column = waiting[--count];
+        is_waiting[column] = false;
+        spread(column);
+        const int on_left = column > 0 ? column - 1 : columns - 1;
+        const int on_right = column + 1 < columns ? column + 1 : 0;
+        give(column, on_left, right + on_left * words);
+        give(column, on_right, right + column * words);
+    }
+}
+
+/// Of each byte of bits eight numbers, 1 where there is one.
+using Bytes = std::array<std::uint8_t, 8>;
+constexpr std::array<Bytes, 256> makeBytesOfBits() {
+    std::array<Bytes, 256> table{};
+    for (unsigned bits = 0; bits < table.size(); ++bits) {
+        for (unsigned n = 0; n < 8; ++n) {
+            table[bits][n] = static_cast<std::uint8_t>(bits >> n & 1);
+        }
+    }
+    return table;
+}
+constexpr std::array<Bytes, 256> kBytesOfBits = makeBytesOfBits();
+
+/// Writes the labels of a word of pixels, eight at a time.
+void writeLabels(std::uint64_t present, std::uint64_t rou, int pixels, Label* labels) {
+    static_assert(static_cast<int>(Label::Unclassified) == 0 && static_cast<int>(Label::Rou) == 1 &&
+                  static_cast<int>(Label::Roi) == 2);
+    const std::uint64_t roi = present & ~rou;
+    for (int n = 0; n < pixels; n += 8) {
+        std::uint64_t ones, twos;
+        std::memcpy(&ones, kBytesOfBits[rou >> n & 255].data(), sizeof ones);
+        std::memcpy(&twos, kBytesOfBits[roi >> n & 255].data(), sizeof twos);
+        const std::uint64_t eight = ones + 2 * twos;
+        if (n + 8 <= pixels) {
+            std::memcpy(labels + n, &eight, 8);
+        } else {
+            std::memcpy(labels + n, &eight, static_cast<std::size_t>(pixels - n));
+        }
+    }
+}
+
+/// ROU is what is reached from the ground, or what is not from RoI; without an angle it is RoI.
+void writeLabels(const Workspace& w, bool from_ground, Image<Label>* labels) {
+    const int rows = static_cast<int>(labels->rows()), columns = static_cast<int>(labels->cols());
+    const std::uint64_t turned = from_ground ? 0 : ~std::uint64_t{0};
+    std::size_t word = 0;
+    for (int column = 0; column < columns; ++column) {
+        for (int row = 0; row < rows; row += kWordRows, ++word) {
+            const std::uint64_t is_there = w.present[word];
+            const std::uint64_t rou =
+                is_there & w.angles.present[word] & (w.reached[word] ^ turned);
+            writeLabels(is_there, rou, std::min(rows - row, kWordRows),
+                        labels->data() + column * rows + row);
+        }
     }
 }
 
 }  // namespace
 
+// What is linked with what is found for many pixels at once, and regions grow by whole columns.
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
                   Seeds seeds, float seed_gate_rad, Image<Label>& labels) {
+    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
     const bool from_ground = seeds == Seeds::Lowest;
-    const Label grown = from_ground ? Label::Rou : Label::Roi;
-    const Label rest = from_ground ? Label::Roi : Label::Rou;
     thread_local Workspace workspace;
     Workspace& w = workspace;
-    labelUngrown(depth_m, pixel_angle_rad, rest, labels);
+    findPresent(depth_m, w.present);
+    findLinks(pixel_angle_rad, beta_rad, w.angles);
+    w.reached.resize(w.present.size());
     if (from_ground) {
-        lowestPixels(depth_m, pixel_angle_rad, w.seeds);
+        lowestPixels(w.present, w.angles.present, wordsOf(rows), w.reached);
         if (seed_gate_rad < kNoGate_rad)
-            gateSeeds(depth_m, pixel_angle_rad, seed_gate_rad, w.seeds);
+            gateLowest(depth_m, pixel_angle_rad, seed_gate_rad, w.seeds, w.reached);
     } else {
-        topAndNearestPixels(depth_m, pixel_angle_rad, w.seeds);
+        topAndNearestPixels(depth_m, pixel_angle_rad, w.reached);
     }
-    growRegions(pixel_angle_rad, beta_rad, grown, w.seeds, w.queue, labels);
+    withWordsOf(rows, [&](auto words) { growRegions(words, columns, w.angles, &w); });
+    labels.resize(rows, columns);
+    writeLabels(w, from_ground, &labels);
 }
 
 void limitToZone(const Image<float>& depth_m, float zone_m, Image<Label>& labels) {

@@ -1,108 +1,151 @@
 #include <hagen/segmentation/RoiComponents.h>
-#include <hwy/base.h>
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
-#include "PixelLinks.h"
+#include "ColumnBits.h"
 #include "RadixSort.h"
 
 namespace hagen {
 namespace {
 
-constexpr std::int32_t kNoRun = 0;
-constexpr std::uint64_t kFarthest = ~std::uint64_t{0};
-
 /// All that is made of one image. Kept from scan to scan, so that none is allocated; holds nothing
-/// between them. A run is a stretch of pixels linked one above the other.
+/// between them. A run is a stretch of RoI pixels of a column, linked one above the other. The
+/// lists may be longer than what is in them.
 struct Workspace {
-    PixelLinks links;
-    std::size_t runs = 0;                ///< how many, kNoRun included; the lists may be longer
-    std::vector<std::int32_t> run;       ///< of each pixel that has one, framed
-    std::vector<std::uint64_t> nearest;  ///< of each run: its closest pixel, depth before index
-    std::vector<std::int32_t> nearer;    ///< of each run: a nearer one linked with it; or itself
-    std::vector<std::int32_t> number;    ///< of each run's component
+    ColumnBits roi, lowest;  ///< RoI pixels with a depth, and those that are their run's lowest
+    ColumnLinks links;       ///< of RoI with RoI; on the right only the lowest that says the same
+    std::size_t runs = 0;
+    std::vector<std::int32_t> run;       ///< of each pixel of the image
+    std::vector<std::uint32_t> nearest;  ///< of each run: its least depth, as bits, which order so
+    std::vector<std::int32_t> first;     ///< of each run: an earlier one linked with it, or itself
+    std::vector<std::uint64_t> closest;  ///< of a component's first run: its nearest run
+    std::vector<std::int32_t> number;    ///< of each run: its component
     std::vector<std::uint64_t> order, swap;
 };
 
+/// Leaves the links of RoI with RoI.
+template <class Words>
+void keepRoiLinks(Words words, int columns, Workspace* w) {
+    std::uint64_t *const roi = w->roi.data(), *const lowest = w->lowest.data();
+    std::uint64_t *const above = w->links.above.data(), *const right = w->links.right.data();
+    const std::uint64_t* const present = w->links.present.data();
+    const int all = columns * words;
+    for (int n = 0; n < all; ++n) roi[n] &= present[n];
+    for (int column = 0; column < columns; ++column) {
+        const int first = column * words;
+        std::uint64_t linked_below = 0;
+        for (int word = 0; word < words; ++word) {
+            const int n = first + word;
+            const std::uint64_t next = word + 1 < words ? roi[n + 1] << (kWordRows - 1) : 0;
+            above[n] &= roi[n] & (roi[n] >> 1 | next);
+            lowest[n] = roi[n] & ~(above[n] << 1 | linked_below);
+            linked_below = above[n] >> (kWordRows - 1);
+        }
+    }
+    for (int column = 0; column < columns; ++column) {
+        const int first = column * words, first_on_right = column + 1 < columns ? first + words : 0;
+        std::uint64_t same_below = 0;
+        for (int word = 0; word < words; ++word) {
+            const int n = first + word, next = first_on_right + word;
+            const std::uint64_t linked = right[n] & roi[n] & roi[next];
+            const std::uint64_t same = linked & above[n] & above[next];
+            right[n] = linked & ~(same << 1 | same_below);
+            same_below = same >> (kWordRows - 1);
+        }
+    }
+}
+
+/// Calls visit(first, word) for each word of an image's columns, in the order of pixels.
 template <class Visit>
-void forEachBit(std::uint64_t bits, int first, Visit visit) {
-    for (; bits != 0; bits &= bits - 1) {
-        visit(first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)));
+void forEachWord(int rows, int columns, Visit visit) {
+    int word = 0;
+    for (int column = 0; column < columns; ++column) {
+        for (int row = 0; row < rows; row += kWordRows) visit(column * rows + row, word++);
     }
 }
 
-/// Runs, numbered in the order of pixels, and their closest pixels.
-void findRuns(Workspace& w) {
-    const PixelLinks& links = w.links;
-    w.run.assign(links.value.size(), kNoRun);
-    if (w.nearest.size() < links.value.size()) w.nearest.resize(links.value.size());
-    std::int32_t run = kNoRun;
-    std::uint64_t nearest = kFarthest;
-    w.nearest[run] = nearest;
-    std::uint64_t above_last = 0;
-    for (int word = 0; word < links.words(); ++word) {
-        const int first = word * PixelLinks::kWord;
-        const std::uint64_t begins = ~(links.above[word] << 1 | above_last);
-        above_last = links.above[word] >> 63;
-        forEachBit(links.present[word], first, [&](int pixel) {
-            const std::uint64_t is_first = begins >> (pixel - first) & 1;
-            run += static_cast<std::int32_t>(is_first);
-            const std::uint64_t nearest_below = nearest | (0 - is_first);  // kFarthest at first
-            nearest = std::min(nearest_below, sortingKey(links.value[pixel], pixel));
-            w.run[pixel] = run;
-            w.nearest[run] = nearest;
+/// Runs, in the order of pixels, and how near they come.
+void findRuns(const float* depth_m, int rows, int columns, Workspace* w) {
+    std::uint32_t* const nearest = w->nearest.data();
+    std::ptrdiff_t run = -1;
+    std::uint32_t least = 0;
+    forEachWord(rows, columns, [&](int first, int word) {
+        const float* const depths_m = depth_m + first;
+        std::int32_t* const runs = w->run.data() + first;
+        const std::uint64_t lowest = w->lowest[word];
+        forEachBit(w->roi[word], [&](int bit) {
+            const auto is_lowest = static_cast<std::ptrdiff_t>(lowest >> bit & 1);
+            std::uint32_t depth;
+            std::memcpy(&depth, depths_m + bit, sizeof depth);
+            run += is_lowest;
+            least = std::min(least | static_cast<std::uint32_t>(-is_lowest), depth);
+            nearest[run] = least;  // from the lowest on
+            runs[bit] = static_cast<std::int32_t>(run);
         });
-    }
-    w.runs = static_cast<std::size_t>(run) + 1;
+    });
+    w->runs = static_cast<std::size_t>(run + 1);
 }
 
-/// The nearest of the runs that this one is joined with so far.
-std::int32_t nearestOf(std::int32_t run, std::vector<std::int32_t>& nearer) {
-    while (nearer[run] != run) {
-        nearer[run] = nearer[nearer[run]];
-        run = nearer[run];
+/// The first of the runs that this one is joined with so far.
+std::int32_t firstOf(std::int32_t run, std::int32_t* first) {
+    while (first[run] != run) {
+        first[run] = first[first[run]];
+        run = first[run];
     }
     return run;
 }
 
-/// Joins the runs of columns side by side, by one link each where many say the same.
-void joinRuns(Workspace& w) {
-    const PixelLinks& links = w.links;
-    w.nearer.resize(w.runs);
-    for (std::size_t run = 0; run < w.runs; ++run) {
-        w.nearer[run] = static_cast<std::int32_t>(run);
-    }
-    const int last_column = links.pixels() - links.stride();
-    for (int word = 0; word < links.words(); ++word) {
-        forEachBit(links.first_right[word], word * PixelLinks::kWord, [&](int pixel) {
-            const int right = pixel < last_column ? pixel + links.stride() : pixel - last_column;
-            const std::int32_t a = nearestOf(w.run[pixel], w.nearer);
-            const std::int32_t b = nearestOf(w.run[right], w.nearer);
-            if (w.nearest[a] < w.nearest[b]) {
-                w.nearer[b] = a;
+/// Joins the runs of columns side by side.
+void joinRuns(int rows, int columns, Workspace* w) {
+    const int to_first_column = rows - rows * columns, last_column = rows * (columns - 1);
+    const std::int32_t* const run_of = w->run.data();
+    std::int32_t* const first = w->first.data();
+    for (std::size_t run = 0; run < w->runs; ++run) first[run] = static_cast<std::int32_t>(run);
+    forEachWord(rows, columns, [&](int first_pixel, int word) {
+        const std::int32_t* const runs = run_of + first_pixel;
+        const std::int32_t* const on_right =
+            runs + (first_pixel < last_column ? rows : to_first_column);
+        forEachBit(w->links.right[word], [&](int bit) {
+            const std::int32_t a = runs[bit], b = on_right[bit];
+            if (first[b] == b && a < b) {  // the first link of b, as most are
+                first[b] = first[a];
             } else {
-                w.nearer[a] = b;
+                const std::int32_t first_a = firstOf(a, first), first_b = firstOf(b, first);
+                first[std::max(first_a, first_b)] = std::min(first_a, first_b);
             }
         });
-    }
+    });
 }
 
-/// Components from the nearest on; each goes by its nearest run.
-void numberRuns(Workspace& w) {
-    w.order.clear();
-    for (std::size_t run = 1; run < w.runs; ++run) {
-        if (w.nearer[run] == static_cast<std::int32_t>(run)) {
-            w.order.push_back((w.nearest[run] & ~std::uint64_t{0xffffffff}) | run);
-        }
+/// Components, from the nearest on. Runs are in the order of pixels: so of two equally near ones
+/// the earlier has the first pixel.
+void numberRuns(Workspace* w) {
+    std::int32_t *const first = w->first.data(), *const number = w->number.data();
+    std::uint64_t* const closest = w->closest.data();
+    const std::uint32_t* const nearest = w->nearest.data();
+    const std::size_t runs = w->runs;
+    std::fill_n(closest, runs, ~std::uint64_t{0});
+    for (std::size_t run = 0; run < runs; ++run) {
+        first[run] = first[first[run]];  // that of an earlier run is found already
+        const std::uint64_t key = std::uint64_t{nearest[run]} << 32 | run;
+        if (key < closest[first[run]]) closest[first[run]] = key;
     }
-    radixSort(w.order, w.swap);
-    w.number.resize(w.nearer.size());
-    std::int32_t number = 0;
-    w.number[kNoRun] = number;
-    for (const std::uint64_t key : w.order) w.number[itemOf(key)] = ++number;
-    for (std::size_t run = 1; run < w.runs; ++run) {
-        w.number[run] = w.number[nearestOf(static_cast<std::int32_t>(run), w.nearer)];
+    w->order.resize(w->runs + 1);
+    std::uint64_t* const order = w->order.data();
+    std::size_t components = 0;
+    for (std::size_t run = 0; run < runs; ++run) {
+        const std::uint64_t key = closest[first[run]];
+        order[components] = key;
+        components += itemOf(key) == run;
     }
+    w->order.resize(components);
+    radixSort(w->order, w->swap);
+    std::int32_t last = 0;
+    for (const std::uint64_t key : w->order) number[first[itemOf(key)]] = ++last;
+    for (std::size_t run = 0; run < runs; ++run) number[run] = number[first[run]];
 }
 
 }  // namespace
@@ -113,24 +156,25 @@ void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels
                          Image<std::int32_t>& components) {
     thread_local Workspace workspace;
     Workspace& w = workspace;
-    const int rows = static_cast<int>(depth_m.rows());
-    const int columns = static_cast<int>(depth_m.cols());
-    const float* const depth = depth_m.data();
-    const Label* const label = labels.data();
-    linkPixels(
-        rows, columns,
-        [&](int pixel) { return label[pixel] == Label::Roi ? depth[pixel] : kNoValue; }, max_gap_m,
-        w.links);
-    findRuns(w);
-    joinRuns(w);
-    numberRuns(w);
-    components.resize(rows, columns);
+    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
+    const auto pixels = static_cast<std::size_t>(depth_m.size());
+    findLinks(depth_m, max_gap_m, w.links);
+    findLabelled(labels, Label::Roi, w.roi);
+    w.lowest.resize(w.roi.size());
+    for (auto* list : {&w.run, &w.first, &w.number}) list->resize(pixels);
+    w.nearest.resize(pixels);
+    w.closest.resize(pixels);
+    withWordsOf(rows, [&](auto words) { keepRoiLinks(words, columns, &w); });
+    findRuns(depth_m.data(), rows, columns, &w);
+    joinRuns(rows, columns, &w);
+    numberRuns(&w);
+    components.setZero(rows, columns);
     const std::int32_t* const number = w.number.data();
-    for (int column = 0; column < columns; ++column) {
-        const std::int32_t* const run = w.run.data() + column * w.links.stride();
-        std::int32_t* const component = components.data() + column * rows;
-        for (int row = 0; row < rows; ++row) component[row] = number[run[row]];
-    }
+    forEachWord(rows, columns, [&](int first, int word) {
+        const std::int32_t* const runs = w.run.data() + first;
+        std::int32_t* const numbers = components.data() + first;
+        forEachBit(w.roi[word], [&](int bit) { numbers[bit] = number[runs[bit]]; });
+    });
 }
 
 }  // namespace hagen

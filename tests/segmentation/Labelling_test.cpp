@@ -3,7 +3,9 @@
 #include <hagen/segmentation/Labelling.h>
 
 #include <cmath>
+#include <string>
 
+#include "support/InstructionSets.h"
 #include "support/Random.h"
 
 namespace hagen {
@@ -81,6 +83,51 @@ TEST(Labelling, AgreesWithASlowerLabeller) {
                          slowLabels(depth_m, angle_rad, beta_rad, seeds))
                             .all());
         }
+    }
+}
+
+TEST(Labelling, IsThatOfTheSlowerLabellerOnEveryInstructionSetAndWithManyBeams) {
+    test::Random random(24);
+    for (int round = 0; round < 80; ++round) {
+        const int rows = random.chance(0.5) ? random.whole(1, 70) : random.whole(71, 256);
+        const int columns = random.chance(0.3) ? random.whole(1, 3) : random.whole(4, 40);
+        const Image<float> depth_m = random.image(rows, columns, 1.0f, 30.0f, 0.1);
+        // a few angles only, so that many differ by just beta
+        Image<float> angle_rad = random.image(rows, columns, 0.0f, 4.0f, 0.05).round() * 0.25f;
+        angle_rad = depth_m.isNaN().select(kNoValue, angle_rad);
+        const float beta_rad = 0.25f * static_cast<float>(random.whole(1, 4));
+        for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
+            const Image<Label> expected = slowLabels(depth_m, angle_rad, beta_rad, seeds);
+            forEachInstructionSet([&](const std::string& name) {
+                const Image<Label> found = labelled(depth_m, angle_rad, beta_rad, seeds);
+                ASSERT_TRUE((found == expected).all()) << name << " " << rows << " x " << columns;
+            });
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
+TEST(Labelling, FollowsAWindingWay) {
+    // Up one column, over the top, down the next, and so on: 0 is the way, 1 what lies between.
+    for (const int rows : {5, 64, 65, 130}) {
+        const int columns = 40;
+        Image<float> angle_rad = Image<float>::Constant(rows, columns, 1.0f);
+        for (int column = 0; column < columns - 1; column += 2) {
+            angle_rad.col(column).setZero();
+            angle_rad(column % 4 == 0 ? rows - 1 : 0, column + 1) = 0.0f;
+        }
+        angle_rad.col(columns - 1).setConstant(2.0f);
+        Image<float> depth_m = Image<float>::Constant(rows, columns, 10.0f);
+        // the only seed: all other columns have a pixel without an angle below
+        for (int column = 1; column < columns; ++column) angle_rad(0, column) = kNoValue;
+        for (int column = 3; column < columns - 1; column += 4) angle_rad(1, column) = 0.0f;
+        for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
+            ASSERT_TRUE((labelled(depth_m, angle_rad, 0.1f, seeds) ==
+                         slowLabels(depth_m, angle_rad, 0.1f, seeds))
+                            .all());
+        }
+        const Image<Label> labels = labelled(depth_m, angle_rad, 0.1f);
+        EXPECT_EQ(labels(rows / 2, columns - 2), Label::Rou);
     }
 }
 

@@ -54,7 +54,7 @@ Image<std::int32_t> floodedNumbers(const Image<float>& depth_m, const Image<Labe
 TEST(RoiComponents, AreThoseOfAPlainFloodOnEveryInstructionSet) {
     test::Random random(20);
     for (int round = 0; round < 150; ++round) {
-        const int rows = random.chance(0.5) ? random.whole(2, 16) : random.whole(17, 128);
+        const int rows = random.chance(0.5) ? random.whole(2, 16) : random.whole(17, 200);
         const int columns = random.chance(0.3) ? random.whole(1, 3) : random.whole(4, 90);
         Image<float> depth_m = random.image(rows, columns, 1.0f, 5.0f, 0.1);
         if (random.chance(0.4)) depth_m = depth_m.round();  // equally near ones
