@@ -27,6 +27,20 @@ constexpr int gridColumn(int j) {
     return (j + 1) * kStride<kSide> + 1;
 }
 
+/// Calls visit(k) for each k below `size`, in four places by turns: what follows in an image often
+/// lies in the same cell, and would have to wait for it.
+template <class Visit>
+__attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit visit) {
+    const std::size_t quarter = size / 4;
+    for (std::size_t k = 0; k < quarter; ++k) {
+        visit(k);
+        visit(k + quarter);
+        visit(k + 2 * quarter);
+        visit(k + 3 * quarter);
+    }
+    for (std::size_t k = 4 * quarter; k < size; ++k) visit(k);
+}
+
 /// For each choice among 8 lanes, a bit a lane: the lanes chosen, from the first on.
 struct ChosenLanes {
     std::uint8_t of[256][8] = {};

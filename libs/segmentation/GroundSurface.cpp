@@ -65,7 +65,6 @@ struct Workspace {
     std::vector<std::int32_t> cell;  ///< of the candidates
     Heights z_m;
     std::size_t candidates = 0;
-    Heights surface_m;  ///< kSide x kSide
 
     Heights lowest_m, cleaned_m, envelope_m, ramp_m;
     Heights sum_m, number;  ///< of the candidates that a cell's mean is taken of
@@ -80,7 +79,6 @@ struct Workspace {
             const Heights zero((cells + 2) * (cells + 2), 0.0f);
             levels.push_back({cells, zero, zero, zero});
         }
-        surface_m.resize(kSide * kSide);
     }
     /// Begins a list of the candidates among so many pixels; room is for whole vectors.
     void beginList(std::size_t pixels) {
@@ -102,6 +100,38 @@ struct PixelSpan {
     }
 };
 
+/// The lowest candidate of each cell.
+template <int kSide>
+void findLowest(Workspace<kSide>& work) {
+    std::fill(work.lowest_m.begin(), work.lowest_m.end(), kNone);
+    float* const lowest_m = work.lowest_m.data();
+    const std::int32_t* const cell = work.cell.data();
+    const float* const z_m = work.z_m.data();
+    visitByTurns(
+        work.candidates, [=](std::size_t k) __attribute__((always_inline)) {
+            lowest_m[cell[k]] = std::min(lowest_m[cell[k]], z_m[k]);
+        });
+}
+
+/// Step 3, first half: a cell's mean is of its candidates close to the lowest, `ground_m`; of none
+/// where that is no ground.
+template <int kSide>
+void sumUpClose(Workspace<kSide>& work, const float* ground_m) {
+    for (auto* sums : {&work.sum_m, &work.number}) std::fill(sums->begin(), sums->end(), 0.0f);
+    float *const sum_m = work.sum_m.data(), *const number = work.number.data();
+    const std::int32_t* const cell = work.cell.data();
+    const float* const z_m = work.z_m.data();
+    visitByTurns(
+        work.candidates, [=](std::size_t k) __attribute__((always_inline)) {
+            const float above_m = z_m[k] - ground_m[cell[k]];
+            // 1 where it is ground, 0 where it is not; a comparison alone would become a branch.
+            const float is_ground =
+                static_cast<float>((above_m >= -kBelowLowest_m) & (above_m <= kAboveLowest_m));
+            sum_m[cell[k]] += is_ground * z_m[k];
+            number[cell[k]] += is_ground;
+        });
+}
+
 }  // namespace
 }  // namespace hagen
 #endif
@@ -114,7 +144,7 @@ namespace {
 using F = hn::ScalableTag<float>;
 using V = hn::Vec<F>;
 
-/// Appends the pixels on the grid that isCandidate(d, pixel, x_m, y_m) to the list.
+/// Appends the pixels on the grid that isCandidate(d, pixel, x_m, y_m, cell) to the list.
 template <int kSide, class IsCandidate>
 HWY_INLINE void listCandidates(const PixelSpan& pixels, Workspace<kSide>& work,
                                IsCandidate isCandidate) {
@@ -125,7 +155,8 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, Workspace<kSide>& work,
         const hn::RebindToSigned<decltype(d)> di;
         const auto x = hn::LoadU(d, pixels.x_m + pixel), y = hn::LoadU(d, pixels.y_m + pixel);
         const auto cells = gridCells<kSide>(d, x, y);
-        const auto is_candidate = hn::And(cells.is_on_grid, isCandidate(d, pixel, x, y));
+        const auto is_candidate =
+            hn::And(cells.is_on_grid, isCandidate(d, pixel, x, y, cells.cell));
         // Whole vectors are written, what is too much is written over by the next: masked stores
         // are slow on some machines.
         auto heights_m = hn::LoadU(d, pixels.z_m + pixel);
@@ -146,7 +177,7 @@ HWY_INLINE void listMarked(const PixelSpan& image, std::size_t rows, std::size_t
     const std::size_t at_once = step == 1 ? image.size : rows;
     for (std::size_t first = 0; first < image.size; first += step * at_once) {
         listCandidates(image.part(first, at_once), work,
-                       [&](auto d, std::size_t pixel, auto, auto) HAGEN_INLINE {
+                       [&](auto d, std::size_t pixel, auto, auto, auto) HAGEN_INLINE {
                            const hn::RebindToSigned<decltype(d)> di;
                            const hn::Rebind<std::uint8_t, decltype(d)> d8;
                            const auto marks =
@@ -226,21 +257,19 @@ void HeightsAboveIn(const PixelSpan& pixels, const float* surface_m, float* heig
     findHeightsAbove<kCells>(pixels, surface_m, height_m);
 }
 
-/// What is close to the coarse surface can be ground: the farther away, the less is known.
-void ListCloseIn(const PixelSpan& pixels, const float* coarse_m, Workspace<kCells>& work) {
-    constexpr std::size_t kAtOnce = Corners::kPixels;
-    HWY_ALIGN float height_m[kAtOnce];
-    for (std::size_t first = 0; first < pixels.size; first += kAtOnce) {
-        const PixelSpan part = pixels.part(first, std::min(kAtOnce, pixels.size - first));
-        findHeightsAbove<kCoarseCells>(part, coarse_m, height_m);
-        listCandidates(part, work, [&](auto d, std::size_t pixel, auto x, auto y) HAGEN_INLINE {
-            const auto h_m = hn::LoadU(d, height_m + pixel);
+/// What is close to the coarse surface, refined to one height a cell, can be ground: the farther
+/// away, the less is known. One height is gathered a pixel, where the way between cells takes four.
+void ListCloseIn(const PixelSpan& pixels, const float* HWY_RESTRICT coarse_m,
+                 Workspace<kCells>& work) {
+    listCandidates(
+        pixels, work, [&](auto d, std::size_t pixel, auto x, auto y, auto cell) HAGEN_INLINE {
+            const auto z = hn::LoadU(d, pixels.z_m + pixel);
+            const auto h_m = hn::Sub(z, hn::GatherIndex(d, coarse_m, cell));
             const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
             const auto least_m = hn::Sub(hn::Set(d, -0.2f), hn::Mul(hn::Set(d, 0.01f), distance_m));
             const auto most_m = hn::Add(hn::Set(d, 0.2f), hn::Mul(hn::Set(d, 0.005f), distance_m));
             return hn::And(hn::Gt(h_m, least_m), hn::Lt(h_m, most_m));
         });
-    }
 }
 
 /// Step 1: returns below the ground do not count.
@@ -485,34 +514,42 @@ HWY_INLINE void pull(D d, const Level& fine, Level& coarse) {
     }
 }
 
-/// What a fine cell lacks in weight it takes from the coarse grid, bilinear between the middles of
-/// its cells: those of a fine cell's own and the next one have 3/4 and 1/4. Column j of the result
-/// goes to filled_m + j * stride.
+/// Column j of a grid twice as fine, bilinear between the middles of the coarse cells: those of a
+/// fine cell's own and the next one have 3/4 and 1/4.
+template <class D>
+HWY_INLINE void refineColumn(D d, const Level& coarse, int j, float* HWY_RESTRICT fine_m) {
+    using VD = hn::Vec<D>;
+    const int lanes = static_cast<int>(hn::Lanes(d)), last = coarse.cells - 1;
+    const VD near = hn::Set(d, 0.75f), far = hn::Set(d, 0.25f);
+    const int own = j / 2, next = std::clamp(j % 2 == 0 ? own - 1 : own + 1, 0, last);
+    const float* HWY_RESTRICT own_m = coarse.height_m.data() + coarse.column(own);
+    const float* HWY_RESTRICT next_m = coarse.height_m.data() + coarse.column(next);
+    for (int i = 0; i < coarse.cells; i += lanes) {
+        const auto betweenColumns = [&](int cell) HAGEN_INLINE {
+            return hn::Add(hn::Mul(near, hn::LoadU(d, own_m + cell)),
+                           hn::Mul(far, hn::LoadU(d, next_m + cell)));
+        };
+        const VD mostly = hn::Mul(near, betweenColumns(i));
+        const VD even_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i - 1)));
+        const VD odd_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i + 1)));
+        hn::StoreInterleaved2(even_m, odd_m, d, fine_m + 2 * i);
+    }
+}
+
+/// What a fine cell lacks in weight it takes from the coarse grid. Column j of the result goes to
+/// filled_m + j * stride.
 template <class D>
 HWY_INLINE void push(D d, const Level& coarse, const Level& fine, float* HWY_RESTRICT filled_m,
                      int stride) {
     using VD = hn::Vec<D>;
-    const int lanes = static_cast<int>(hn::Lanes(d)), last = coarse.cells - 1;
-    const VD near = hn::Set(d, 0.75f), far = hn::Set(d, 0.25f), one = hn::Set(d, 1.0f);
+    const int lanes = static_cast<int>(hn::Lanes(d));
     HWY_ALIGN float below_m[kStride<kCells> + 64];  // of the fine grid's cells
     for (int j = 0; j < fine.cells; ++j) {
-        const int own = j / 2, next = std::clamp(j % 2 == 0 ? own - 1 : own + 1, 0, last);
-        const float* HWY_RESTRICT own_m = coarse.height_m.data() + coarse.column(own);
-        const float* HWY_RESTRICT next_m = coarse.height_m.data() + coarse.column(next);
-        for (int i = 0; i < coarse.cells; i += lanes) {
-            const auto betweenColumns = [&](int cell) HAGEN_INLINE {
-                return hn::Add(hn::Mul(near, hn::LoadU(d, own_m + cell)),
-                               hn::Mul(far, hn::LoadU(d, next_m + cell)));
-            };
-            const VD mostly = hn::Mul(near, betweenColumns(i));
-            const VD even_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i - 1)));
-            const VD odd_m = hn::Add(mostly, hn::Mul(far, betweenColumns(i + 1)));
-            hn::StoreInterleaved2(even_m, odd_m, d, below_m + 2 * i);
-        }
+        refineColumn(d, coarse, j, below_m);
         const float* HWY_RESTRICT weight = fine.weight.data() + fine.column(j);
         const float* HWY_RESTRICT weighted_m = fine.weighted_m.data() + fine.column(j);
         for (int i = 0; i < fine.cells; i += lanes) {
-            const VD lacking = hn::Sub(one, hn::LoadU(d, weight + i));
+            const VD lacking = hn::Sub(hn::Set(d, 1.0f), hn::LoadU(d, weight + i));
             hn::StoreU(
                 hn::Add(hn::LoadU(d, weighted_m + i), hn::Mul(lacking, hn::LoadU(d, below_m + i))),
                 d, filled_m + j * stride + i);
@@ -529,7 +566,7 @@ HWY_INLINE void withVectorsFor(int cells, Visit visit) {
 }
 
 /// Step 4, second half.
-void fill(std::vector<Level>& levels, float* HWY_RESTRICT surface_m) {
+void fill(std::vector<Level>& levels, float* HWY_RESTRICT surface_m, int surface_stride) {
     for (std::size_t k = 1; k < levels.size(); ++k) {
         withVectorsFor(levels[k].cells,
                        [&](auto d) HAGEN_INLINE { pull(d, levels[k - 1], levels[k]); });
@@ -542,7 +579,7 @@ void fill(std::vector<Level>& levels, float* HWY_RESTRICT surface_m) {
         Level& fine = levels[k - 1];
         levels[k].extendColumns();
         float* const filled_m = k > 1 ? fine.height_m.data() + fine.column(0) : surface_m;
-        const int stride = k > 1 ? fine.cells + 2 : fine.cells;
+        const int stride = k > 1 ? fine.cells + 2 : surface_stride;
         withVectorsFor(levels[k].cells,
                        [&](auto d) HAGEN_INLINE { push(d, levels[k], fine, filled_m, stride); });
     }
@@ -550,44 +587,36 @@ void fill(std::vector<Level>& levels, float* HWY_RESTRICT surface_m) {
 
 /// All steps, for the candidates listed.
 template <int kSide, bool kCleans>
-HWY_INLINE void fit(Workspace<kSide>& work, float* HWY_RESTRICT surface_m) {
-    const std::int32_t* HWY_RESTRICT cell = work.cell.data();
-    const float* HWY_RESTRICT z_m = work.z_m.data();
-
-    std::fill(work.lowest_m.begin(), work.lowest_m.end(), kNone);
-    float* HWY_RESTRICT lowest_m = work.lowest_m.data();
-    for (std::size_t k = 0; k < work.candidates; ++k) {
-        lowest_m[cell[k]] = std::min(lowest_m[cell[k]], z_m[k]);
-    }
+HWY_INLINE void fit(Workspace<kSide>& work, float* HWY_RESTRICT surface_m, int stride) {
+    findLowest(work);
     if constexpr (kCleans) {
         removeStrays<kSide>(work.lowest_m, work.cleaned_m);
         removeObstacles<kSide>(work.cleaned_m, work.ramp_m, work.envelope_m);
     }
-
-    // Step 3: a cell's mean is of its candidates close to the lowest; none where it is no ground.
-    for (auto* sums : {&work.sum_m, &work.number}) std::fill(sums->begin(), sums->end(), 0.0f);
-    const float* HWY_RESTRICT ground_m = (kCleans ? work.cleaned_m : work.lowest_m).data();
-    float* HWY_RESTRICT sum_m = work.sum_m.data();
-    float* HWY_RESTRICT number = work.number.data();
-    for (std::size_t k = 0; k < work.candidates; ++k) {
-        const float above_m = z_m[k] - ground_m[cell[k]];
-        // 1 where it is ground, 0 where it is not; a comparison alone would become a branch.
-        const float is_ground =
-            static_cast<float>((above_m >= -kBelowLowest_m) & (above_m <= kAboveLowest_m));
-        sum_m[cell[k]] += is_ground * z_m[k];
-        number[cell[k]] += is_ground;
-    }
+    sumUpClose(work, (kCleans ? work.cleaned_m : work.lowest_m).data());
     weigh<kSide>(work.sum_m, work.number);
     smoothHeights<kSide>(work.sum_m, work.number, work.levels.front());
-    fill(work.levels, surface_m);
+    fill(work.levels, surface_m, stride);
 }
 
-void FitIn(Workspace<kCells>& work, float* surface_m) { fit<kCells, true>(work, surface_m); }
-void FitCoarseIn(Workspace<kCoarseCells>& work, float* surface_m) {
-    fit<kCoarseCells, true>(work, surface_m);
+void FitIn(Workspace<kCells>& work, float* surface_m) {
+    fit<kCells, true>(work, surface_m, kCells);
 }
-/// Without steps 1 and 2.
-void FitCloseIn(Workspace<kCells>& work, float* surface_m) { fit<kCells, false>(work, surface_m); }
+
+/// Steps 3 and 4.
+void FitCloseIn(Workspace<kCells>& work, float* surface_m) {
+    fit<kCells, false>(work, surface_m, kCells);
+}
+
+/// The heights go to the middles of the fine grid's cells, which has a border.
+void FitCoarseIn(Workspace<kCoarseCells>& work, float* HWY_RESTRICT fine_m) {
+    Level& coarse = work.levels.front();
+    fit<kCoarseCells, true>(work, coarse.height_m.data() + coarse.column(0), kStride<kCoarseCells>);
+    coarse.extendColumns();
+    for (int j = 0; j < kCells; ++j) {
+        refineColumn(hn::CappedTag<float, 16>(), coarse, j, fine_m + gridColumn(j));
+    }
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -619,7 +648,7 @@ PixelSpan spanOf(const PixelPoints& pixels) {
 }
 
 /// A rough surface under the ROU, from so few columns as it takes.
-const float* fitCoarse(const PixelPoints& pixels, const Image<Label>& labels) {
+void fitCoarse(const PixelPoints& pixels, const Image<Label>& labels, float* fine_m) {
     Workspace<kCoarseCells>& work = workspace<kCoarseCells>();
     const PixelSpan image = spanOf(pixels);
     const Eigen::Index step = std::max<Eigen::Index>(1, labels.cols() / kCoarseColumns);
@@ -628,8 +657,7 @@ const float* fitCoarse(const PixelPoints& pixels, const Image<Label>& labels) {
     (image, static_cast<std::size_t>(labels.rows()), static_cast<std::size_t>(step),
      reinterpret_cast<const std::uint8_t*>(labels.data()), static_cast<std::uint8_t>(Label::Rou),
      work);
-    HWY_DYNAMIC_DISPATCH(FitCoarseIn)(work, work.surface_m.data());
-    return work.surface_m.data();
+    HWY_DYNAMIC_DISPATCH(FitCoarseIn)(work, fine_m);
 }
 
 }  // namespace
@@ -663,12 +691,14 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate
 
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       GroundSurface& surface) {
-    const float* const coarse_m = fitCoarse(pixels, labels);
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local Heights coarse_m(kGridSize);
+    fitCoarse(pixels, labels, coarse_m.data());
     Workspace<kCells>& work = workspace<kCells>();
     const PixelSpan image = spanOf(pixels);
     work.beginList(image.size);
     surface.height_m.resize(kCells, kCells);
-    HWY_DYNAMIC_DISPATCH(ListCloseIn)(image, coarse_m, work);
+    HWY_DYNAMIC_DISPATCH(ListCloseIn)(image, coarse_m.data(), work);
     HWY_DYNAMIC_DISPATCH(FitCloseIn)(work, surface.height_m.data());
 }
 

@@ -206,6 +206,11 @@ float surfaceAt(const Grid& surface_m, float x_m, float y_m) {
                     (y_m + kReach_m) / width_m - 0.5f);
 }
 
+/// Of a cell of the surface.
+float middleOf(int cell) {
+    return (static_cast<float>(cell) + 0.5f) * GroundSurface::kCell_m - kReach_m;
+}
+
 /// Steps 3 and 4; `lowest_m` of what is ground, kNone elsewhere.
 Grid surfaceAbout(const Grid& lowest_m, const PixelPoints& pixels,
                   const Image<bool>& is_candidate) {
@@ -252,9 +257,11 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
     const Grid coarse_m = wholeFit(pixels, is_candidate, kCoarseCells);
     for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
         const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
-        const bool is_close = hasValue(x_m) && isCloseToGround(pixels.z_m.data()[pixel] -
-                                                                   surfaceAt(coarse_m, x_m, y_m),
-                                                               std::hypot(x_m, y_m));
+        const int i = cellOf(x_m, GroundSurface::kCells), j = cellOf(y_m, GroundSurface::kCells);
+        const bool is_close = i >= 0 && j >= 0 &&
+                              isCloseToGround(pixels.z_m.data()[pixel] -
+                                                  surfaceAt(coarse_m, middleOf(i), middleOf(j)),
+                                              std::hypot(x_m, y_m));
         is_candidate.data()[pixel] = is_close;
     }
     surface.height_m = surfaceAbout(lowestOfCells(pixels, is_candidate, GroundSurface::kCells),
@@ -460,6 +467,7 @@ constexpr float kCell_m = 0.75f;
 constexpr float kReach_m = 40.0f;
 constexpr int kCells = 107;  // 2 kReach_m / kCell_m, rounded up
 
+constexpr Eigen::Index kColumns = 200;  // of an image; of so many or more, its points do
 constexpr int kRounds = 6;
 constexpr double kFirstScale_m = 1.0;  // of residuals, in the first round
 constexpr double kScaleStep = 0.8;
@@ -471,8 +479,9 @@ constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
 std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels,
                                            const Eigen::Matrix3f& rotation) {
     std::vector<Eigen::Vector3f> lowest(kCells * kCells, Eigen::Vector3f::Constant(kNoValue));
+    const Eigen::Index step = std::max<Eigen::Index>(1, pixels.x_m.cols() / kColumns);
     for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
-        if (!hasValue(pixels.x_m.data()[pixel])) continue;
+        if (pixel / pixels.x_m.rows() % step != 0 || !hasValue(pixels.x_m.data()[pixel])) continue;
         const Eigen::Vector3f point = rotation * pixels.at(pixel);
         const float u = (point.x() + kReach_m) / kCell_m, v = (point.y() + kReach_m) / kCell_m;
         if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;
