@@ -344,8 +344,9 @@ void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
                   const Image<float>& tolerance_m, Image<Label>& labels) {
     const int rows = static_cast<int>(labels.rows()), columns = static_cast<int>(labels.cols());
     const Image<Label> before = labels;
-    const auto distance = [&](int row, int column) {
-        return std::hypot(pixels.x_m(row, column), pixels.y_m(row, column));
+    const auto distance = [&](int row, int column) {  // in steps of 1/64 m
+        const float x_m = pixels.x_m(row, column), y_m = pixels.y_m(row, column);
+        return std::floor(std::min(std::sqrt(x_m * x_m + y_m * y_m), 511.0f) * 64 + 0.5f) / 64;
     };
     for (int column = 0; column < columns; ++column) {
         for (int row = 0; row < rows; ++row) {
