@@ -11,9 +11,9 @@
 #include <hwy/foreach_target.h>
 #include "GroundGrid-inl.h"
 
-// Why it is fast: a pixel is touched by two short loops a fit, the lowest of its cell and the mean,
-// whose lists of cells and heights are written by compressing stores; all else is whole vectors
-// of cells.
+// Why it is fast: the first fit, which only tells what is close, is coarse; in the second a pixel
+// is touched by two short loops, the lowest of its cell and the mean, whose lists of cells and
+// heights are written by compressing stores; all else is whole vectors of cells.
 
 #ifndef HAGEN_GROUND_SURFACE
 #define HAGEN_GROUND_SURFACE
@@ -208,32 +208,31 @@ struct Corners {
 
 /// Bilinear. Heights are fetched pair by pair, for gathering instructions are slower; and for some
 /// hundred pixels before any is used, since what was just written in halves is read late.
-template <int kSide>
-HWY_INLINE void findHeightsAbove(const PixelSpan& pixels, const float* HWY_RESTRICT surface_m,
-                                 float* HWY_RESTRICT height_m) {
+void HeightsAboveIn(const PixelSpan& pixels, const float* HWY_RESTRICT surface_m,
+                    float* HWY_RESTRICT height_m) {
     Corners at;
     for (std::size_t first = 0; first < pixels.size; first += Corners::kPixels) {
         const std::size_t size = std::min(Corners::kPixels, pixels.size - first);
         forEachVector(size, [&](auto d, std::size_t k) HAGEN_INLINE {
             const hn::RebindToSigned<decltype(d)> di;
             const auto cells = [&](auto coordinate_m) HAGEN_INLINE {
-                const auto c = hn::Add(hn::Mul(coordinate_m, hn::Set(d, 1 / kWidth_m<kSide>)),
-                                       hn::Set(d, 0.5f * kSide - 0.5f));
+                const auto c = hn::Add(hn::Mul(coordinate_m, hn::Set(d, 1 / kWidth_m<kCells>)),
+                                       hn::Set(d, 0.5f * kCells - 0.5f));
                 const auto positive = hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c);  // not NaN
-                return hn::Min(positive, hn::Set(d, kSide - 1));
+                return hn::Min(positive, hn::Set(d, kCells - 1));
             };
             const auto u = cells(hn::LoadU(d, pixels.x_m + first + k));
             const auto v = cells(hn::LoadU(d, pixels.y_m + first + k));
-            const auto i = hn::Min(hn::ConvertTo(di, u), hn::Set(di, kSide - 2));
-            const auto j = hn::Min(hn::ConvertTo(di, v), hn::Set(di, kSide - 2));
-            hn::StoreU(hn::Add(hn::ShiftLeft<kLog2<kSide>>(j), i), di, at.cell + k);
+            const auto i = hn::Min(hn::ConvertTo(di, u), hn::Set(di, kCells - 2));
+            const auto j = hn::Min(hn::ConvertTo(di, v), hn::Set(di, kCells - 2));
+            hn::StoreU(hn::Add(hn::ShiftLeft<kLog2<kCells>>(j), i), di, at.cell + k);
             hn::StoreU(hn::Sub(u, hn::ConvertTo(d, i)), d, at.to_next_i + k);
             hn::StoreU(hn::Sub(v, hn::ConvertTo(d, j)), d, at.to_next_j + k);
         });
         for (std::size_t k = 0; k < size; ++k) {
             const float* HWY_RESTRICT corner_m = surface_m + at.cell[k];
             std::memcpy(at.here_m + 2 * k, corner_m, 2 * sizeof(float));
-            std::memcpy(at.next_m + 2 * k, corner_m + kSide, 2 * sizeof(float));
+            std::memcpy(at.next_m + 2 * k, corner_m + kCells, 2 * sizeof(float));
         }
         forEachVector(size, [&](auto d, std::size_t k) HAGEN_INLINE {
             using VD = hn::Vec<decltype(d)>;
@@ -251,10 +250,6 @@ HWY_INLINE void findHeightsAbove(const PixelSpan& pixels, const float* HWY_RESTR
                        height_m + first + k);
         });
     }
-}
-
-void HeightsAboveIn(const PixelSpan& pixels, const float* surface_m, float* height_m) {
-    findHeightsAbove<kCells>(pixels, surface_m, height_m);
 }
 
 /// What is close to the coarse surface, refined to one height a cell, can be ground: the farther
