@@ -35,11 +35,14 @@ void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellT
 
     tops.top_m.setConstant(kGridStride, kGridStride, CellTops::kNone_m);
     float* const top_m = tops.top_m.data();
-    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
-        const float h_m = height_m.data()[pixel];
-        float& highest_m = top_m[tops.cell.data()[pixel]];
-        highest_m = h_m > highest_m ? h_m : highest_m;  // not where it is NaN
-    }
+    const float* const h_m = height_m.data();
+    const std::int32_t* const cell = tops.cell.data();
+    visitByTurns(
+        static_cast<std::size_t>(height_m.size()), [=
+    ](std::size_t pixel) __attribute__((always_inline)) {
+            float& highest_m = top_m[cell[pixel]];
+            highest_m = h_m[pixel] > highest_m ? h_m[pixel] : highest_m;  // not where it is NaN
+        });
 }
 
 }  // namespace hagen

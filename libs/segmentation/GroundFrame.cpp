@@ -20,6 +20,8 @@ constexpr float kCell_m = 0.75f;
 constexpr float kReach_m = 40.0f;
 constexpr int kCells = 107;  // 2 kReach_m / kCell_m, rounded up
 
+constexpr Eigen::Index kColumns = 200;  // of an image; of so many or more, its points do
+
 constexpr int kRounds = 6;
 constexpr double kFirstScale_m = 1.0;  // of residuals, in the first round
 constexpr double kScaleStep = 0.8;
@@ -164,34 +166,40 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level, 
     // Kept from scan to scan, so that none is allocated; holds nothing between them.
     thread_local std::vector<std::int32_t> kept_cell, kept_height;
     thread_local std::vector<std::int64_t> kept_lowest;
-    std::vector<std::int32_t>&cell = kept_cell, &height = kept_height;
-    const std::size_t size = pixels.x_m.size();
-    cell.resize(size);
-    height.resize(size);
-    HWY_DYNAMIC_DISPATCH(LevelPixelsIn)
-    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), level, cell.data(),
-     height.data());
+    const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
+    const Eigen::Index step = std::max<Eigen::Index>(1, columns / kColumns);
+    const std::size_t size = static_cast<std::size_t>((columns + step - 1) / step * rows);
+    kept_cell.resize(std::max(kept_cell.size(), size));
+    kept_height.resize(std::max(kept_height.size(), size));
+    std::int32_t *const cell = kept_cell.data(), *const height = kept_height.data();
+    Eigen::Index n_level = 0;
+    for (Eigen::Index column = 0; column < columns; column += step, n_level += rows) {
+        const Eigen::Index first = column * rows;
+        HWY_DYNAMIC_DISPATCH(LevelPixelsIn)
+        (static_cast<std::size_t>(rows), pixels.x_m.data() + first, pixels.y_m.data() + first,
+         pixels.z_m.data() + first, level, cell + n_level, height + n_level);
+    }
 
     // A height with the pixel's number after it: the least of them is the first of the lowest.
     constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
     kept_lowest.assign(kCells * kCells + 1, kNone);
     std::int64_t* const lowest = kept_lowest.data();
-    for (std::size_t pixel = 0; pixel < size; ++pixel) {
-        const std::int64_t own = std::int64_t{height[pixel]} * (std::int64_t{1} << 32) +
-                                 static_cast<std::int64_t>(pixel);
-        std::int64_t& low = lowest[cell[pixel]];
-        low = std::min(low, own);
-    }
     thread_local std::vector<std::int32_t> kept_occupied(kCells * kCells + 1);
     std::int32_t* const occupied = kept_occupied.data();
     std::size_t n = 0;
-    for (std::int32_t k = 0; k < kCells * kCells; ++k) {
-        occupied[n] = k;
-        n += lowest[k] != kNone;
-    }
+    visitByTurns(
+        size, [&, cell, height, lowest, occupied ](std::size_t k) __attribute__((always_inline)) {
+            const std::int64_t own =
+                std::int64_t{height[k]} * (std::int64_t{1} << 32) + static_cast<std::int64_t>(k);
+            std::int64_t& low = lowest[cell[k]];
+            occupied[n] = cell[k];
+            n += (low == kNone) & (cell[k] != kCells * kCells);
+            low = std::min(low, own);
+        });
     points.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
-        const Eigen::Index pixel = lowest[occupied[k]] & 0xffffffff;
+        const Eigen::Index listed = lowest[occupied[k]] & 0xffffffff;
+        const Eigen::Index pixel = listed / rows * step * rows + listed % rows;
         points.set(k, (level * pixels.at(pixel)).cast<double>());
     }
     points.weigh();

@@ -10,11 +10,36 @@ namespace hagen {
 
 /// The grid has a border of one cell all around, so that every cell has eight neighbours; cells lie
 /// column by column.
-constexpr int kGridStride = GroundSurface::kCells + 2;
+template <int kSide>
+constexpr int kStride = kSide + 2;
+constexpr int kGridStride = kStride<GroundSurface::kCells>;
 constexpr int kGridSize = kGridStride * kGridStride;
 
+/// The square has kSide cells along each side, a power of 2.
+template <int kSide>
+constexpr int kLog2 = kLog2<kSide / 2> + 1;
+template <>
+constexpr int kLog2<1> = 0;
+
 /// Where column j of the grid begins, the border left out: -1 and kCells are the border's.
-constexpr int gridColumn(int j) { return (j + 1) * kGridStride + 1; }
+template <int kSide = GroundSurface::kCells>
+constexpr int gridColumn(int j) {
+    return (j + 1) * kStride<kSide> + 1;
+}
+
+/// Calls visit(k) for each k below `size`, in four places by turns: what follows in an image often
+/// lies in the same cell, and would have to wait for it.
+template <class Visit>
+__attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit visit) {
+    const std::size_t quarter = size / 4;
+    for (std::size_t k = 0; k < quarter; ++k) {
+        visit(k);
+        visit(k + quarter);
+        visit(k + 2 * quarter);
+        visit(k + 3 * quarter);
+    }
+    for (std::size_t k = 4 * quarter; k < size; ++k) visit(k);
+}
 
 /// For each choice among 8 lanes, a bit a lane: the lanes chosen, from the first on.
 struct ChosenLanes {
@@ -89,11 +114,11 @@ struct GridCells {
     hn::Mask<D> is_on_grid;
 };
 
-template <class D, class V = hn::Vec<D>>
+template <int kSide = GroundSurface::kCells, class D, class V = hn::Vec<D>>
 HWY_INLINE GridCells<D> gridCells(D d, V x_m, V y_m) {
     const hn::RebindToSigned<D> di;
-    const V cells_per_m = hn::Set(d, 1 / GroundSurface::kCell_m);
-    const V middle = hn::Set(d, GroundSurface::kCells / 2 + 1), last = hn::Set(d, kGridStride - 1);
+    const V cells_per_m = hn::Set(d, kSide / (GroundSurface::kCells * GroundSurface::kCell_m));
+    const V middle = hn::Set(d, kSide / 2 + 1), last = hn::Set(d, kStride<kSide> - 1);
     const V u = hn::Add(hn::Mul(x_m, cells_per_m), middle);
     const V v = hn::Add(hn::Mul(y_m, cells_per_m), middle);
     const auto whole = [&](V cell) HWY_ATTR {  // 0 for NaN
@@ -104,8 +129,7 @@ HWY_INLINE GridCells<D> gridCells(D d, V x_m, V y_m) {
         return hn::And(hn::Ge(cell, hn::Set(d, 1.0f)), hn::Lt(cell, last));
     };
     const auto j = whole(v);
-    static_assert(kGridStride == 128 + 2);
-    const auto column = hn::Add(hn::ShiftLeft<7>(j), hn::ShiftLeft<1>(j));
+    const auto column = hn::Add(hn::ShiftLeft<kLog2<kSide>>(j), hn::ShiftLeft<1>(j));
     return {hn::Add(column, whole(u)), hn::And(isInside(u), isInside(v))};
 }
 

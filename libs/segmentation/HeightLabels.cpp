@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "HeightLabels.cpp"
 #include <hwy/foreach_target.h>
 #include "GroundGrid-inl.h"
+#include "MaskBits.h"
 
 #ifndef HAGEN_HEIGHT_LABELS
 #define HAGEN_HEIGHT_LABELS
@@ -20,9 +21,11 @@ constexpr float kTallest_m = 1.1f;       // more than this is no reason to toler
 constexpr float kFootHeight_m = 0.015f;  // a foot is no lower than this
 constexpr int kFootRows = 4;             // a pixel's angle is with the next of so many rows above
 constexpr float kDoubt_m = 0.2f;         // a height so close to its tolerance is put to the vote
-constexpr float kVoteReach_m = 1.0f;     // in distance from the sensor
+constexpr float kVoteSteps_per_m = 64;   // whole numbers are twice as many a vector
+constexpr float kFarthest_m = 511.0f;    // in these
+constexpr int kVoteReach = 64;           // 1 m, in distance from the sensor
 constexpr int kLeastVotes = 3;
-constexpr float kVote = 1, kVoteForRoi = 17;  // sums of 9 tell both numbers, the latter's in 16s
+constexpr int kVote = 1, kVoteForRoi = 17;  // sums of 9 tell both numbers, the latter's in 16s
 
 }  // namespace
 }  // namespace hagen
@@ -93,60 +96,95 @@ void LabelByHeightIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
     });
 }
 
+/// Lists, in order, the pixels that may be a foot: ROU above kFootHeight_m with a RoI among the
+/// next kFootRows, be it in the next column; and the last ones.
+std::size_t ListFeetIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
+                       const std::uint8_t* HWY_RESTRICT label, std::int32_t* HWY_RESTRICT list) {
+    std::int32_t* end = list;
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t pixel = 0;
+    for (; pixel + lanes + kFootRows <= pixels; pixel += lanes) {
+        const auto labelsFrom = [&](std::size_t first) HAGEN_INLINE {
+            return hn::PromoteTo(di, hn::LoadU(d8, label + first));
+        };
+        auto above = labelsFrom(pixel + 1);  // a bit for each label there is
+        for (int rows = 2; rows <= kFootRows; ++rows)
+            above = hn::Or(above, labelsFrom(pixel + rows));
+        static_assert(static_cast<int>(Label::Rou) == 1 && static_cast<int>(Label::Roi) == 2);
+        const auto is_below_roi = hn::Gt(above, hn::Set(di, 1));
+        const auto is_rou = hn::Eq(labelsFrom(pixel), hn::Set(di, 1));
+        const auto is_high = hn::Gt(hn::LoadU(d, height_m + pixel), hn::Set(d, kFootHeight_m));
+        const auto may_be = hn::And(hn::RebindMask(d, hn::And(is_below_roi, is_rou)), is_high);
+        end = AppendBits(BitsOf(d, may_be), static_cast<std::int32_t>(pixel), end);
+    }
+    for (; pixel < pixels; ++pixel) *end++ = static_cast<std::int32_t>(pixel);
+    return static_cast<std::size_t>(end - list);
+}
+
 /// A column of the images of the vote; see Ballot.
 void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                    const float* HWY_RESTRICT height_m, const float* HWY_RESTRICT tolerance_m,
-                   const std::uint8_t* HWY_RESTRICT label, float* HWY_RESTRICT distance_m,
-                   float* HWY_RESTRICT beyond_m, float* HWY_RESTRICT vote) {
+                   const std::uint8_t* HWY_RESTRICT label, std::int16_t* HWY_RESTRICT distance,
+                   std::int16_t* HWY_RESTRICT doubt, std::int16_t* HWY_RESTRICT vote) {
     forEachVector(rows, [&](auto d, std::size_t row) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
+        const hn::Rebind<std::int16_t, decltype(d)> d16;
         const hn::Rebind<std::uint8_t, decltype(d)> d8;
         const auto x = hn::LoadU(d, x_m + row), y = hn::LoadU(d, y_m + row);
-        const auto h_m = hn::LoadU(d, height_m + row);
-        const auto horizontal_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-        hn::StoreU(hn::IfThenElse(hn::Eq(h_m, h_m), horizontal_m, h_m), d, distance_m + row);
-        hn::StoreU(hn::Sub(h_m, hn::LoadU(d, tolerance_m + row)), d, beyond_m + row);
+        const auto h_m = hn::LoadU(d, height_m + row), farthest_m = hn::Set(d, kFarthest_m);
+        const auto has_value = hn::Eq(h_m, h_m);
+        const auto horizontal_m = hn::IfThenElse(
+            has_value, hn::Min(hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))), farthest_m),
+            farthest_m);
+        const auto steps =
+            hn::Add(hn::Mul(horizontal_m, hn::Set(d, kVoteSteps_per_m)), hn::Set(d, 0.5f));
+        hn::StoreU(hn::DemoteTo(d16, hn::ConvertTo(di, steps)), d16, distance + row);
+
+        const auto beyond_m = hn::Sub(h_m, hn::LoadU(d, tolerance_m + row));
+        const auto is_doubtful = hn::Lt(hn::Abs(beyond_m), hn::Set(d, kDoubt_m));
+        hn::StoreU(hn::DemoteTo(d16, hn::VecFromMask(di, hn::RebindMask(di, is_doubtful))), d16,
+                   doubt + row);
+
         const auto labels = hn::PromoteTo(di, hn::LoadU(d8, label + row));
         const auto is_roi = hn::Eq(labels, hn::Set(di, static_cast<std::int32_t>(Label::Roi)));
-        hn::StoreU(
-            hn::IfThenElse(hn::RebindMask(d, is_roi), hn::Set(d, kVoteForRoi), hn::Set(d, kVote)),
-            d, vote + row);
+        const auto own = hn::IfThenElse(is_roi, hn::Set(di, kVoteForRoi), hn::Set(di, kVote));
+        hn::StoreU(hn::DemoteTo(d16, hn::IfThenElseZero(hn::RebindMask(di, has_value), own)), d16,
+                   vote + row);
     });
 }
 
-/// What the vote makes of each pixel: a label, or 0 where it stays as it is.
-void CountVotesIn(std::size_t first, std::size_t end, int stride,
-                  const float* HWY_RESTRICT distance_m, const float* HWY_RESTRICT beyond_m,
-                  const float* HWY_RESTRICT vote, std::uint8_t* HWY_RESTRICT elected) {
-    forEachVector(end - first, [&](auto d, std::size_t i) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const hn::Rebind<std::uint8_t, decltype(d)> d8;
-        const std::size_t pixel = first + i;
-        const auto own_m = hn::LoadU(d, distance_m + pixel);
-        const auto reach_m = hn::Set(d, kVoteReach_m);
+/// What the vote makes of each pixel: a label, or 0 where it stays as it is. Whole vectors, which
+/// may go beyond `end`.
+void CountVotesIn(std::size_t first, std::size_t end, std::size_t stride,
+                  const std::int16_t* HWY_RESTRICT distance, const std::int16_t* HWY_RESTRICT doubt,
+                  const std::int16_t* HWY_RESTRICT vote, std::uint8_t* HWY_RESTRICT elected) {
+    const hn::ScalableTag<std::int16_t> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    const auto is = [&](Label what)
+                        HAGEN_INLINE { return hn::Set(d, static_cast<std::int16_t>(what)); };
+    for (std::size_t pixel = first; pixel < end; pixel += hn::Lanes(d)) {
+        const auto own = hn::LoadU(d, distance + pixel);
         auto sum = hn::Zero(d);
-        for (int column = -1; column <= 1; ++column) {
-            for (int row = -1; row <= 1; ++row) {
-                const std::size_t voter = pixel + column * stride + row;
-                const auto apart_m = hn::Abs(hn::Sub(hn::LoadU(d, distance_m + voter), own_m));
-                const auto has_vote = hn::Le(apart_m, reach_m);  // not where it is NaN
+        for (const std::size_t column : {pixel - stride, pixel, pixel + stride}) {
+            for (const std::size_t voter : {column - 1, column, column + 1}) {
+                const auto apart = hn::Abs(hn::Sub(hn::LoadU(d, distance + voter), own));
+                const auto has_vote = hn::Lt(apart, hn::Set(d, kVoteReach + 1));
                 sum = hn::Add(sum, hn::IfThenElseZero(has_vote, hn::LoadU(d, vote + voter)));
             }
         }
-        const auto counted = hn::ConvertTo(di, sum);
-        const auto votes = hn::And(counted, hn::Set(di, 15));
-        const auto twice_for_roi = hn::ShiftLeft<1>(hn::ShiftRight<4>(counted));
-        const auto is_doubtful = hn::RebindMask(
-            di, hn::Lt(hn::Abs(hn::LoadU(d, beyond_m + pixel)), hn::Set(d, kDoubt_m)));
+        const auto votes = hn::And(sum, hn::Set(d, 15));
+        const auto for_roi = hn::ShiftRight<4>(sum), twice_for_roi = hn::Add(for_roi, for_roi);
         const auto is_decided =
-            hn::And(hn::Gt(votes, hn::Set(di, kLeastVotes - 1)), hn::Ne(twice_for_roi, votes));
-        const auto is = [&](Label what)
-                            HAGEN_INLINE { return hn::Set(di, static_cast<std::int32_t>(what)); };
+            hn::And(hn::Gt(votes, hn::Set(d, kLeastVotes - 1)), hn::Ne(twice_for_roi, votes));
         const auto winner =
             hn::IfThenElse(hn::Gt(twice_for_roi, votes), is(Label::Roi), is(Label::Rou));
-        const auto changes = hn::And(is_doubtful, is_decided);
-        hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(changes, winner)), d8, elected + pixel);
-    });
+        const auto change =
+            hn::And(hn::LoadU(d, doubt + pixel), hn::IfThenElseZero(is_decided, winner));
+        hn::StoreU(hn::DemoteTo(d8, change), d8, elected + pixel);
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -160,26 +198,56 @@ namespace {
 HWY_EXPORT(TallestAroundIn);
 HWY_EXPORT(ToleratedHeightsIn);
 HWY_EXPORT(LabelByHeightIn);
+HWY_EXPORT(ListFeetIn);
 HWY_EXPORT(EnterColumnIn);
 HWY_EXPORT(CountVotesIn);
 
 /// The images of the vote, column by column with a border: empty pixels above and below, and beside
 /// the first and the last column each other. So every pixel has its neighbours at the same steps.
 struct Ballot {
-    std::vector<float> distance_m;  ///< from the sensor, along the ground; NaN: empty
-    std::vector<float> beyond_m;    ///< the tolerance
-    std::vector<float> vote;        ///< kVoteForRoi or kVote
+    std::vector<std::int16_t> distance;  ///< from the sensor, along the ground, in steps
+    std::vector<std::int16_t> doubt;     ///< all bits where it can change, none elsewhere
+    std::vector<std::int16_t> vote;      ///< kVoteForRoi or kVote, 0 where it is empty
     std::vector<std::uint8_t> elected;
 
+    /// Room for whole vectors, too.
     void resize(std::size_t size) {
-        for (auto* image : {&distance_m, &beyond_m, &vote}) image->resize(size);
-        elected.resize(size);
+        constexpr std::size_t kWidest = 64;
+        for (auto* image : {&distance, &doubt, &vote}) image->resize(size + kWidest);
+        elected.resize(size + kWidest);
     }
 };
 
 std::uint8_t* bytesOf(Image<Label>& labels) {
     static_assert(sizeof(Label) == 1);
     return reinterpret_cast<std::uint8_t*>(labels.data());
+}
+
+/// Whether a ROU pixel is the foot of the RoI pixel above it.
+bool isFoot(const PixelPoints& pixels, const Image<float>& height_m, Eigen::Index pixel,
+            Eigen::Index above) {
+    const Eigen::Vector3f up_m = pixels.at(above) - pixels.at(pixel);
+    const bool is_steep =
+        up_m.z() * up_m.z() > up_m.x() * up_m.x() + up_m.y() * up_m.y();  // > 45 deg
+    return is_steep && above - pixel <= kFootRows && height_m.data()[pixel] > kFootHeight_m;
+}
+
+/// From `pixel`, if it is a foot, down its column as far as there are feet.
+void growDown(const PixelPoints& pixels, const Image<float>& height_m, Eigen::Index pixel,
+              Image<Label>& labels) {
+    const Eigen::Index rows = labels.rows(), first = pixel / rows * rows, end = first + rows;
+    Label* const label = labels.data();
+    Eigen::Index above = pixel + 1;
+    while (above < end && label[above] == Label::Unclassified) ++above;
+    if (above == end || label[above] != Label::Roi) return;
+    while (label[pixel] == Label::Rou && isFoot(pixels, height_m, pixel, above)) {
+        label[pixel] = Label::Roi;
+        above = pixel;
+        do {
+            if (pixel == first) return;
+            --pixel;
+        } while (label[pixel] == Label::Unclassified);
+    }
 }
 
 }  // namespace
@@ -203,26 +271,14 @@ void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m
 }
 
 void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels) {
-    const int rows = static_cast<int>(labels.rows());
-    for (int column = 0; column < labels.cols(); ++column) {
-        Label* const label = labels.col(column).data();
-        int above = rows + kFootRows;  // out of reach
-        Label label_above = Label::Unclassified;
-        for (int row = rows - 1; row >= 0; --row) {
-            if ((label[row] == Label::Rou) & (label_above == Label::Roi)) {  // few are
-                const float dx_m = pixels.x_m(above, column) - pixels.x_m(row, column);
-                const float dy_m = pixels.y_m(above, column) - pixels.y_m(row, column);
-                const float dz_m = pixels.z_m(above, column) - pixels.z_m(row, column);
-                const bool is_steep = dz_m * dz_m > dx_m * dx_m + dy_m * dy_m;  // than 45 degrees
-                const bool is_foot =
-                    is_steep && above - row <= kFootRows && height_m(row, column) > kFootHeight_m;
-                if (is_foot) label[row] = Label::Roi;
-            }
-            const bool is_empty = label[row] == Label::Unclassified;
-            above = is_empty ? above : row;
-            label_above = is_empty ? label_above : label[row];
-        }
-    }
+    // Kept from scan to scan, so that none is allocated; holds nothing between them.
+    thread_local std::vector<std::int32_t> kept_list;
+    const std::size_t size = static_cast<std::size_t>(labels.size());
+    kept_list.resize(std::max(kept_list.size(), size));
+    const std::int32_t* const list = kept_list.data();
+    std::size_t n =
+        HWY_DYNAMIC_DISPATCH(ListFeetIn)(size, height_m.data(), bytesOf(labels), kept_list.data());
+    while (n > 0) growDown(pixels, height_m, list[--n], labels);  // from above
 }
 
 void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
@@ -239,16 +295,15 @@ void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
         const int to = placeOf(column);
         HWY_DYNAMIC_DISPATCH(EnterColumnIn)
         (rows, pixels.x_m.data() + from, pixels.y_m.data() + from, height_m.data() + from,
-         tolerance_m.data() + from, bytesOf(labels) + from, ballot.distance_m.data() + to,
-         ballot.beyond_m.data() + to, ballot.vote.data() + to);
+         tolerance_m.data() + from, bytesOf(labels) + from, ballot.distance.data() + to,
+         ballot.doubt.data() + to, ballot.vote.data() + to);
         for (const int border : {to - 1, to + rows}) {
-            ballot.distance_m[border] = ballot.beyond_m[border] = kNoValue;
-            ballot.vote[border] = 0;
+            ballot.distance[border] = ballot.doubt[border] = ballot.vote[border] = 0;
         }
     }
     HWY_DYNAMIC_DISPATCH(CountVotesIn)
-    (placeOf(0), placeOf(columns - 1) + rows, stride, ballot.distance_m.data(),
-     ballot.beyond_m.data(), ballot.vote.data(), ballot.elected.data());
+    (placeOf(0), placeOf(columns - 1) + rows, stride, ballot.distance.data(), ballot.doubt.data(),
+     ballot.vote.data(), ballot.elected.data());
     for (int column = 0; column < columns; ++column) {
         std::uint8_t* const label = bytesOf(labels) + static_cast<Eigen::Index>(rows) * column;
         const std::uint8_t* const elected = ballot.elected.data() + placeOf(column);

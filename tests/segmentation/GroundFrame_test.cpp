@@ -119,7 +119,8 @@ TEST(GroundFrame, WhatIsAboveThePlaneMovesItLessThanWhatIsBelow) {
     const auto movedBy = [](float off_m) {  // every fourth point, one a cell
         auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });
         for (std::size_t i = 0; i < points.size(); i += 4) points[i].z() += off_m;
-        return std::abs(fitGroundFrame(pixelsAt(points), Attitude{}).translation().z() - 2);
+        const PixelPoints pixels = pixelsAt(points, 49);  // of each side of the square
+        return std::abs(fitGroundFrame(pixels, Attitude{}).translation().z() - 2);
     };
     EXPECT_GT(movedBy(0.5f), 0.001f);
     EXPECT_LT(movedBy(0.5f), 0.8f * movedBy(-0.5f));

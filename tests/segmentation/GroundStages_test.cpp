@@ -65,7 +65,7 @@ template <class Visit>
 void forManySights(Visit visit) {
     test::Random random(110);
     for (const int rows : {1, 2, 15, 16, 33, 64, 128}) {
-        for (const int columns : {1, 5, 37, 200}) {
+        for (const int columns : {1, 5, 37, 401}) {
             for (const float step_m : {0.0f, 0.25f}) {
                 for (const double missing : {0.0, 0.3, 1.0}) {
                     SCOPED_TRACE(testing::Message() << rows << " x " << columns << ", step "
@@ -132,7 +132,7 @@ TEST(GroundStages, TheSurfaceIsThatOfAPlainFit) {
         GroundSurface fast, plain;
         fitGroundSurface(in_ground.pixels, in_ground.labels, fast);
         test::plain::fitGroundSurface(in_ground.pixels, in_ground.labels, plain);
-        expectNear(fast.height_m, plain.height_m, 1e-4f);
+        expectNear(fast.height_m, plain.height_m, 1e-3f);  // a pixel may be just close, or just not
 
         Image<float> fast_m, plain_m;
         heightsAbove(plain, in_ground.pixels, fast_m);

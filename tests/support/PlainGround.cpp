@@ -12,9 +12,10 @@ namespace {
 
 /// The cell of a coordinate along one side, counted from the grid's first. Rounded as the fast
 /// stages round: what lies within some micrometres of a cell's border is in one cell or the other.
-float wholeCells(float coordinate_m) {
-    constexpr int kCells = GroundSurface::kCells;
-    return std::floor(coordinate_m * (1 / GroundSurface::kCell_m) + (kCells / 2 + 1)) - 1;
+float wholeCells(float coordinate_m, int cells = GroundSurface::kCells) {
+    const float width_m =
+        GroundSurface::kCell_m * GroundSurface::kCells / static_cast<float>(cells);
+    return std::floor(coordinate_m * (1 / width_m) + static_cast<float>(cells / 2 + 1)) - 1;
 }
 
 }  // namespace
@@ -22,11 +23,13 @@ float wholeCells(float coordinate_m) {
 namespace surface_stage {
 namespace {
 
-using Grid = Eigen::ArrayXXf;
+using Grid = Eigen::ArrayXXf;  // over the square, of any number of cells along each side
 
-constexpr int kCells = GroundSurface::kCells;
-constexpr float kCell_m = GroundSurface::kCell_m;
-constexpr float kReach_m = 0.5f * kCells * kCell_m;
+constexpr float kReach_m = 0.5f * GroundSurface::kCells * GroundSurface::kCell_m;
+constexpr int kCoarseCells = 64;              // of the first fit to labels
+constexpr Eigen::Index kCoarseColumns = 200;  // of an image; of so many or more, its points do
+
+float widthOfCell_m(const Grid& grid) { return 2 * kReach_m / static_cast<float>(grid.rows()); }
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr float kStray_m = 0.4f;  // so far below its neighbours nothing is ground
@@ -37,23 +40,25 @@ constexpr float kEnvelope_m = 0.15f;      // a cell may stand out of the steepes
 constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // what a cell's mean is taken of
 constexpr float kSureReturns = 5;  // a mean of so many has its full weight
 
-int cellOf(float coordinate_m) {
-    const float cell = wholeCells(coordinate_m);
-    return cell >= 0 && cell < kCells ? static_cast<int>(cell) : -1;
+int cellOf(float coordinate_m, int cells) {
+    const float cell = wholeCells(coordinate_m, cells);
+    return cell >= 0 && cell < static_cast<float>(cells) ? static_cast<int>(cell) : -1;
 }
 
 template <class Visit>
-void forEachCandidate(const PixelPoints& pixels, const Image<bool>& is_candidate, Visit visit) {
+void forEachCandidate(const PixelPoints& pixels, const Image<bool>& is_candidate, int cells,
+                      Visit visit) {
     for (Eigen::Index pixel = 0; pixel < is_candidate.size(); ++pixel) {
         if (!is_candidate.data()[pixel]) continue;
-        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
+        const int i = cellOf(pixels.x_m.data()[pixel], cells);
+        const int j = cellOf(pixels.y_m.data()[pixel], cells);
         if (i >= 0 && j >= 0) visit(i, j, pixels.z_m.data()[pixel]);
     }
 }
 
-Grid lowestOfCells(const PixelPoints& pixels, const Image<bool>& is_candidate) {
-    Grid lowest_m = Grid::Constant(kCells, kCells, kNone);
-    forEachCandidate(pixels, is_candidate, [&](int i, int j, float z_m) {
+Grid lowestOfCells(const PixelPoints& pixels, const Image<bool>& is_candidate, int cells) {
+    Grid lowest_m = Grid::Constant(cells, cells, kNone);
+    forEachCandidate(pixels, is_candidate, cells, [&](int i, int j, float z_m) {
         lowest_m(i, j) = std::min(lowest_m(i, j), z_m);
     });
     return lowest_m;
@@ -61,14 +66,15 @@ Grid lowestOfCells(const PixelPoints& pixels, const Image<bool>& is_candidate) {
 
 /// Step 1: returns below the ground do not count.
 Grid withoutStrays(const Grid& lowest_m) {
+    const int cells = static_cast<int>(lowest_m.rows());
     Grid cleaned_m = lowest_m;
-    for (int j = 0; j < kCells; ++j) {
-        for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+        for (int i = 0; i < cells; ++i) {
             if (lowest_m(i, j) == kNone) continue;
             int higher = 0;
             float lowest_around_m = kNone;
-            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, kCells - 1); ++y) {
-                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, kCells - 1); ++x) {
+            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, cells - 1); ++y) {
+                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, cells - 1); ++x) {
                     if ((x == i && y == j) || lowest_m(x, y) == kNone) continue;
                     higher += lowest_m(x, y) - lowest_m(i, j) > kStray_m;
                     lowest_around_m = std::min(lowest_around_m, lowest_m(x, y));
@@ -86,30 +92,31 @@ Grid withoutStrays(const Grid& lowest_m) {
 /// height, kSteepestUnseen in one that has none. Distances are those of a chamfer in two passes
 /// (Borgefors 1986).
 Grid lowerEnvelope(const Grid& height_m) {
-    Grid e = Grid::Constant(kCells + 2, kCells + 2, kNone);  // with a border all around
-    e.block(1, 1, kCells, kCells) = height_m;
+    const int cells = static_cast<int>(height_m.rows());
+    Grid e = Grid::Constant(cells + 2, cells + 2, kNone);  // with a border all around
+    e.block(1, 1, cells, cells) = height_m;
     const Grid side_m =
-        kCell_m * (e == kNone)
-                      .select(Grid::Constant(kCells + 2, kCells + 2, kSteepestUnseen),
-                              Grid::Constant(kCells + 2, kCells + 2, kSteepest));
+        widthOfCell_m(height_m) * (e == kNone)
+                                      .select(Grid::Constant(cells + 2, cells + 2, kSteepestUnseen),
+                                              Grid::Constant(cells + 2, cells + 2, kSteepest));
     const float corner = std::sqrt(2.0f);
-    for (int j = 1; j <= kCells; ++j) {
-        for (int i = 1; i <= kCells; ++i) {
+    for (int j = 1; j <= cells; ++j) {
+        for (int i = 1; i <= cells; ++i) {
             const float sides_m = std::min(e(i - 1, j), e(i, j - 1));
             const float corners_m = std::min(e(i - 1, j - 1), e(i + 1, j - 1));
             e(i, j) =
                 std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
         }
     }
-    for (int j = kCells; j >= 1; --j) {
-        for (int i = kCells; i >= 1; --i) {
+    for (int j = cells; j >= 1; --j) {
+        for (int i = cells; i >= 1; --i) {
             const float sides_m = std::min(e(i + 1, j), e(i, j + 1));
             const float corners_m = std::min(e(i + 1, j + 1), e(i - 1, j + 1));
             e(i, j) =
                 std::min({e(i, j), sides_m + side_m(i, j), corners_m + corner * side_m(i, j)});
         }
     }
-    return e.block(1, 1, kCells, kCells);
+    return e.block(1, 1, cells, cells);
 }
 
 /// Heights and how much each is to be trusted, 0 to 1.
@@ -119,12 +126,13 @@ struct WeightedGrid {
 
 WeightedGrid binomial(const WeightedGrid& grid) {
     static constexpr float kKernel[3] = {0.25f, 0.5f, 0.25f};
-    WeightedGrid smooth{Grid::Zero(kCells, kCells), Grid::Zero(kCells, kCells)};
-    for (int j = 0; j < kCells; ++j) {
-        for (int i = 0; i < kCells; ++i) {
+    const int cells = static_cast<int>(grid.weight.rows());
+    WeightedGrid smooth{Grid::Zero(cells, cells), Grid::Zero(cells, cells)};
+    for (int j = 0; j < cells; ++j) {
+        for (int i = 0; i < cells; ++i) {
             float sum_m = 0, weights = 0;
-            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, kCells - 1); ++y) {
-                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, kCells - 1); ++x) {
+            for (int y = std::max(j - 1, 0); y <= std::min(j + 1, cells - 1); ++y) {
+                for (int x = std::max(i - 1, 0); x <= std::min(i + 1, cells - 1); ++x) {
                     const float w = kKernel[x - i + 1] * kKernel[y - j + 1] * grid.weight(x, y);
                     sum_m += w * grid.height_m(x, y);
                     weights += w;
@@ -192,52 +200,72 @@ bool isCloseToGround(float height_m, float distance_m) {
     return height_m > -0.2f - 0.01f * distance_m && height_m < 0.2f + 0.005f * distance_m;
 }
 
-}  // namespace
-
-float surfaceAt(const GroundSurface& surface, float x_m, float y_m) {
-    return bilinear(surface.height_m, (x_m + kReach_m) / kCell_m - 0.5f,
-                    (y_m + kReach_m) / kCell_m - 0.5f);
+float surfaceAt(const Grid& surface_m, float x_m, float y_m) {
+    const float width_m = widthOfCell_m(surface_m);
+    return bilinear(surface_m, (x_m + kReach_m) / width_m - 0.5f,
+                    (y_m + kReach_m) / width_m - 0.5f);
 }
+
+/// Of a cell of the surface.
+float middleOf(int cell) {
+    return (static_cast<float>(cell) + 0.5f) * GroundSurface::kCell_m - kReach_m;
+}
+
+/// Steps 3 and 4; `lowest_m` of what is ground, kNone elsewhere.
+Grid surfaceAbout(const Grid& lowest_m, const PixelPoints& pixels,
+                  const Image<bool>& is_candidate) {
+    const int cells = static_cast<int>(lowest_m.rows());
+    WeightedGrid grid{Grid::Zero(cells, cells), Grid::Zero(cells, cells)};
+    forEachCandidate(pixels, is_candidate, cells, [&](int i, int j, float z_m) {
+        const float above_m = z_m - lowest_m(i, j);
+        if (!(above_m >= -kBelowLowest_m && above_m <= kAboveLowest_m)) return;
+        grid.height_m(i, j) += z_m;
+        grid.weight(i, j) += 1;
+    });
+    grid.height_m = (grid.weight > 0).select(grid.height_m / grid.weight, 0.0f);
+    grid.weight = (grid.weight / kSureReturns).min(1.0f);
+    return filled(binomial(grid));
+}
+
+/// All four steps.
+Grid wholeFit(const PixelPoints& pixels, const Image<bool>& is_candidate, int cells) {
+    const Grid lowest_m = withoutStrays(lowestOfCells(pixels, is_candidate, cells));
+    const Grid envelope_m = lowerEnvelope(lowest_m);
+    return surfaceAbout((lowest_m <= envelope_m + kEnvelope_m).select(lowest_m, kNone), pixels,
+                        is_candidate);
+}
+
+}  // namespace
 
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {
     height_m.resize(pixels.z_m.rows(), pixels.z_m.cols());
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
         height_m.data()[pixel] =
-            hasValue(x_m) ? pixels.z_m.data()[pixel] - surfaceAt(surface, x_m, y_m) : kNoValue;
+            hasValue(x_m) ? pixels.z_m.data()[pixel] - surfaceAt(surface.height_m, x_m, y_m)
+                          : kNoValue;
     }
-}
-
-void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
-                      GroundSurface& surface) {
-    const Grid lowest_m = withoutStrays(lowestOfCells(pixels, is_candidate));
-    const Grid envelope_m = lowerEnvelope(lowest_m);
-
-    WeightedGrid grid{Grid::Zero(kCells, kCells), Grid::Zero(kCells, kCells)};
-    forEachCandidate(pixels, is_candidate, [&](int i, int j, float z_m) {
-        const bool is_ground = lowest_m(i, j) <= envelope_m(i, j) + kEnvelope_m;
-        const float above_m = z_m - lowest_m(i, j);
-        if (!is_ground || above_m < -kBelowLowest_m || above_m > kAboveLowest_m) return;
-        grid.height_m(i, j) += z_m;
-        grid.weight(i, j) += 1;
-    });
-    grid.height_m = (grid.weight > 0).select(grid.height_m / grid.weight, 0.0f);
-    grid.weight = (grid.weight / kSureReturns).min(1.0f);
-    surface.height_m = filled(binomial(grid));
 }
 
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       GroundSurface& surface) {
+    const Eigen::Index step = std::max<Eigen::Index>(1, labels.cols() / kCoarseColumns);
     Image<bool> is_candidate = labels == Label::Rou;
-    surface_stage::fitGroundSurface(pixels, is_candidate, surface);
-
-    Image<float> height_m;
-    surface_stage::heightsAbove(surface, pixels, height_m);
-    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
-        const float distance_m = std::hypot(pixels.x_m.data()[pixel], pixels.y_m.data()[pixel]);
-        is_candidate.data()[pixel] = isCloseToGround(height_m.data()[pixel], distance_m);
+    for (Eigen::Index column = 0; column < labels.cols(); ++column) {
+        if (column % step != 0) is_candidate.col(column) = false;
     }
-    surface_stage::fitGroundSurface(pixels, is_candidate, surface);
+    const Grid coarse_m = wholeFit(pixels, is_candidate, kCoarseCells);
+    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
+        const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
+        const int i = cellOf(x_m, GroundSurface::kCells), j = cellOf(y_m, GroundSurface::kCells);
+        const bool is_close = i >= 0 && j >= 0 &&
+                              isCloseToGround(pixels.z_m.data()[pixel] -
+                                                  surfaceAt(coarse_m, middleOf(i), middleOf(j)),
+                                              std::hypot(x_m, y_m));
+        is_candidate.data()[pixel] = is_close;
+    }
+    surface.height_m = surfaceAbout(lowestOfCells(pixels, is_candidate, GroundSurface::kCells),
+                                    pixels, is_candidate);
 }
 
 }  // namespace surface_stage
@@ -316,8 +344,9 @@ void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
                   const Image<float>& tolerance_m, Image<Label>& labels) {
     const int rows = static_cast<int>(labels.rows()), columns = static_cast<int>(labels.cols());
     const Image<Label> before = labels;
-    const auto distance = [&](int row, int column) {
-        return std::hypot(pixels.x_m(row, column), pixels.y_m(row, column));
+    const auto distance = [&](int row, int column) {  // in steps of 1/64 m
+        const float x_m = pixels.x_m(row, column), y_m = pixels.y_m(row, column);
+        return std::floor(std::min(std::sqrt(x_m * x_m + y_m * y_m), 511.0f) * 64 + 0.5f) / 64;
     };
     for (int column = 0; column < columns; ++column) {
         for (int row = 0; row < rows; ++row) {
@@ -439,6 +468,7 @@ constexpr float kCell_m = 0.75f;
 constexpr float kReach_m = 40.0f;
 constexpr int kCells = 107;  // 2 kReach_m / kCell_m, rounded up
 
+constexpr Eigen::Index kColumns = 200;  // of an image; of so many or more, its points do
 constexpr int kRounds = 6;
 constexpr double kFirstScale_m = 1.0;  // of residuals, in the first round
 constexpr double kScaleStep = 0.8;
@@ -450,8 +480,9 @@ constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
 std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels,
                                            const Eigen::Matrix3f& rotation) {
     std::vector<Eigen::Vector3f> lowest(kCells * kCells, Eigen::Vector3f::Constant(kNoValue));
+    const Eigen::Index step = std::max<Eigen::Index>(1, pixels.x_m.cols() / kColumns);
     for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
-        if (!hasValue(pixels.x_m.data()[pixel])) continue;
+        if (pixel / pixels.x_m.rows() % step != 0 || !hasValue(pixels.x_m.data()[pixel])) continue;
         const Eigen::Vector3f point = rotation * pixels.at(pixel);
         const float u = (point.x() + kReach_m) / kCell_m, v = (point.y() + kReach_m) / kCell_m;
         if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;

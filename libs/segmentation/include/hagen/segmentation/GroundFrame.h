@@ -12,9 +12,10 @@ namespace hagen {
 ///
 /// The plane is fitted to the lowest point of each cell of a grid (0.75 m, 40 m around) by
 /// iteratively reweighted least squares; a cell weighs less the farther it is off the plane, above
-/// it sooner than below, and the farther it is away. No height of the sensor is assumed. `attitude`
-/// is where the search starts: level ground seen so; a sensor that does not know its own finds
-/// tilts of 15 degrees from zero.
+/// it sooner than below, and the farther it is away. Of an image of 400 columns or more, so many
+/// are left out evenly that 200 to 400 remain. No height of the sensor is assumed. `attitude` is
+/// where the search starts: level ground seen so; a sensor that does not know its own finds tilts
+/// of 15 degrees from zero.
 /// Fewer than three cells with points: the frame of a level plane (by `attitude`) through the
 /// lowest of them, or through the sensor where there is none.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);

@@ -34,8 +34,10 @@ struct GroundSurface {
 void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
                       GroundSurface& surface);
 
-/// The surface under a labelled image: fitted to the pixels that are ROU and then, so that what the
-/// labels cut off comes back, to all that lie close to the first fit.
+/// The surface under a labelled image, in two fits. A coarse one, in cells twice as wide, to the ROU
+/// of 200 to 400 columns, tells what can be ground: all pixels, whatever their labels, that lie
+/// close to its height at the middle of their cell, so that what the labels cut off comes back. The
+/// surface is then fitted to these by steps 3 and 4; strays and obstacles are not close.
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       GroundSurface& surface);
 

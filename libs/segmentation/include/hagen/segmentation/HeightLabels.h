@@ -31,7 +31,8 @@ void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Lab
 
 /// One vote of each pixel's 8 neighbours, and the pixel itself, where its height is within 0.2 m of
 /// the tolerance: a lone speck follows the majority. Neighbours whose distance along the ground
-/// differs by more than 1 m have no vote. What is clearly higher stays: a wire is a speck too.
+/// differs by more than 1 m (both to the nearest 1/64 m, and 511 m at most) have no vote. What is
+/// clearly higher stays: a wire is a speck too.
 /// Fewer than 3 votes, or a draw: nothing changes. Votes are the labels as they were handed in.
 void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
                   const Image<float>& tolerance_m, Image<Label>& labels);
