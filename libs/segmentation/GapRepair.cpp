@@ -8,6 +8,10 @@ namespace hagen {
 // ends, the pixel is put back.
 void repairGaps(const Image<float>& depth_m, float max_step_m, Image<float>& repaired_m) {
     const Eigen::Index rows = depth_m.rows(), pixels = depth_m.size();
+    if (!(max_step_m > 0)) {
+        repaired_m = depth_m;
+        return;
+    }
     repaired_m.resize(rows, depth_m.cols());
     const float* const depth = depth_m.data();
     float* const repaired = repaired_m.data();

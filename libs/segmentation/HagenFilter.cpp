@@ -60,7 +60,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
         alarmLowGround(r.ground, up, o.ground_is_roi_below_m, r.labels);
         alarmLowGround(scan, r.ground, up, o.ground_is_roi_below_m, r.own_label);
     }
-    limitToZone(depth_m, o.zone_m, r.labels);
+    if (o.context_m > o.zone_m) limitToZone(depth_m, o.zone_m, r.labels);
     numberRoiComponents(depth_m, r.labels, o.component_gap_m, r.components);
     extractReturns(scan, sensor_, r.range_image, r.labels, r.components, r.own_label, o.zone_m,
                    o.component_gap_m, r.returns);
