@@ -110,8 +110,7 @@ std::vector<Label> bogoslavskyiLabels(const Scan& scan, const SensorModel& senso
     projectScan(scan, sensor, options.columns, sensor.max_range_m, image);
     Image<float> depth_m, between_beams_rad, angle_rad;
     repairGaps(image.depth_m, options.repair_step_m, depth_m);
-    rangeAngles(depth_m, pixelDirections(sensor, static_cast<int>(depth_m.cols())),
-                between_beams_rad);
+    rangeAngles(depth_m, pixelDirections(sensor, 0), between_beams_rad);
     carryAngles(savitzkyGolay(between_beams_rad, options.smoothing_window), angle_rad);
     const Image<bool> ground = growGround(depth_m, angle_rad, options);
 

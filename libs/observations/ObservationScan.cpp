@@ -65,6 +65,10 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
                       ObservedScan& observed) {
     if (observation.scan_packets.empty()) {
         const auto& cloud = observation.point_cloud;
+        for (const std::size_t size : {cloud.y.size(), cloud.z.size(), cloud.intensity.size()}) {
+            if (size == cloud.x.size()) continue;
+            throw std::runtime_error("the arrays of its point cloud differ in size");
+        }
         sensorOf(settings, observed);
         assignPoints(cloud.x, cloud.y, cloud.z, observed.scan);
         std::transform(

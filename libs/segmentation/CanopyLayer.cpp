@@ -20,7 +20,7 @@ constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
 
 /// What stands in the cells of a block, or of many. Sums are double, so that what is taken away
-/// again leaves nothing behind.
+/// again leaves next to nothing behind.
 struct Stand {
     float seen = 0;     ///< cells with returns
     float plants = 0;   ///< of those, cells whose highest return is that of a low plant

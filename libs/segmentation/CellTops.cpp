@@ -37,12 +37,11 @@ void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellT
     float* const top_m = tops.top_m.data();
     const float* const h_m = height_m.data();
     const std::int32_t* const cell = tops.cell.data();
-    visitByTurns(
-        static_cast<std::size_t>(height_m.size()), [=
-    ](std::size_t pixel) __attribute__((always_inline)) {
-            float& highest_m = top_m[cell[pixel]];
-            highest_m = h_m[pixel] > highest_m ? h_m[pixel] : highest_m;  // not where it is NaN
-        });
+    const auto raise = [=](std::size_t pixel) __attribute__((always_inline)) {
+        float& highest_m = top_m[cell[pixel]];
+        highest_m = h_m[pixel] > highest_m ? h_m[pixel] : highest_m;  // not where it is NaN
+    };
+    visitByTurns(static_cast<std::size_t>(height_m.size()), raise);
 }
 
 }  // namespace hagen

@@ -326,7 +326,8 @@ void pickEigenvectors(int m, int count, bool smallest, EigenBatch<Real>& batch) 
 template <class Real>
 void undoRotations(int m, int count, std::size_t rotations, EigenBatch<Real>& batch) {
     const Rotation<Real>* const first = batch.rotations.data();
-    for (const Rotation<Real>* rotation = first + rotations; rotation-- != first;) {
+    for (const Rotation<Real>* rotation = first + rotations; rotation != first;) {
+        --rotation;
         const Pack<Real> c = load(rotation->cosine), s = load(rotation->sine);
         for (int v = 0; v < count; ++v) {
             Lanes<Real>* const at = batch.vectors.data() + v * m + rotation->i;

@@ -182,12 +182,28 @@ TEST(Rawlog, ALogCutOffWithinALaterMemberSaysSo) {
     const test::TemporaryFolder folder;
     const auto ends = writeLargeEntries(folder / "whole.rawlog", 3);
     const std::string bytes = test::readFile(folder / "whole.rawlog");
-    // Between two members (and a byte behind) nothing tells that there were more.
-    for (std::size_t length = ends[0] + 2; length < ends[1]; ++length) {
+    // Between two members nothing tells that there were more.
+    for (std::size_t length = ends[0] + 1; length < ends[1]; ++length) {
         const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
         ASSERT_GE(read, 1u);  // the second, too, where only its check sum is missing
         ASSERT_NE(broken, "") << length;
     }
+}
+
+TEST(Rawlog, WhatComesAfterAMemberAndIsNoneIsTold) {
+    const test::TemporaryFolder folder;
+    const auto ends = writeLargeEntries(folder / "whole.rawlog", 3);
+    const std::string bytes = test::readFile(folder / "whole.rawlog");
+    for (const std::size_t at : {ends[0], ends[0] + 1, ends[0] + 2, ends[1]}) {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // of the next member's header
+        const auto [read, broken] = readAll(folder.write("damaged.rawlog", damaged));
+        EXPECT_EQ(read, at < ends[1] ? 1u : 2u);
+        EXPECT_NE(broken.find("packed bytes are damaged"), std::string::npos) << at << broken;
+    }
+    const auto [read, broken] = readAll(folder.write("longer.rawlog", bytes + "garbage"));
+    EXPECT_EQ(read, 3u);
+    EXPECT_NE(broken, "");
 }
 
 TEST(Rawlog, ALogWithoutEntriesIsAGzipFileAllTheSame) {

@@ -160,5 +160,16 @@ TEST(ObservationScan, CloudsHaveTheReturnsAskedForWithOrWithoutIntensities) {
     EXPECT_EQ(cloudOf(scan, CloudClass::Simple)->size(), 3u);
 }
 
+TEST(ObservationScan, RefusesAVelodyneCloudWhoseArraysDifferInSize) {
+    mrpt::obs::CObservationVelodyneScan observation;
+    observation.point_cloud.x = observation.point_cloud.y = observation.point_cloud.z = {1, 2, 3};
+    observation.point_cloud.intensity.assign(5, 7);
+    ObservedScan observed;
+    EXPECT_THROW(readObservation(observation, Settings(), observed), std::runtime_error);
+    observation.point_cloud.intensity.assign(3, 7);
+    readObservation(observation, Settings(), observed);
+    EXPECT_EQ(observed.scan.size(), 3u);
+}
+
 }  // namespace
 }  // namespace hagen

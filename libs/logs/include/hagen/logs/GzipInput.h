@@ -4,16 +4,15 @@
 #include <memory>
 #include <string>
 
-struct gzFile_s;
-
 namespace hagen {
 
-/// Reads a file that is gzipped, or not, and knows whether it ended whole. MRPT's own stream takes
-/// a gzip file that is cut off for one that ends there.
+/// Reads a file that is gzipped, in one member or several, or not at all, and knows whether it
+/// ended whole. MRPT's own stream takes a gzip file that is cut off for one that ends there.
 class GzipInput : public mrpt::io::CStream {
  public:
     /// Throws std::runtime_error, naming the file, where it cannot be opened.
     explicit GzipInput(const std::filesystem::path& file);
+    ~GzipInput() override;
 
     /// Gives what there is, up to `count` bytes.
     std::size_t Read(void* buffer, std::size_t count) override;
@@ -32,10 +31,8 @@ class GzipInput : public mrpt::io::CStream {
     std::uint64_t getTotalBytesCount() const override;
 
  private:
-    struct Close {
-        void operator()(gzFile_s* file) const;
-    };
-    std::unique_ptr<gzFile_s, Close> file_;
+    struct Stream;
+    std::unique_ptr<Stream> stream_;
     std::uint64_t position_ = 0;
 };
 

@@ -5,9 +5,9 @@
 
 namespace hagen {
 
-/// Stage 8, breadth-first labelling (section III-E). Regions grow from seeds over the
-/// 4-neighbourhood (azimuth wrapped) from a pixel to those whose angle differs by less than
-/// `beta_rad`; empty pixels, and pixels without an angle, are not crossed.
+/// Stage 8, labelling (section III-E, breadth-first there; the order changes nothing). Regions grow
+/// from seeds over the 4-neighbourhood (azimuth wrapped) from a pixel to those whose angle differs
+/// by less than `beta_rad`; empty pixels, and pixels without an angle, are not crossed.
 ///
 /// Seeds::Lowest: the lowest pixel of each column is a seed, its region ROU, the rest RoI.
 /// Seeds::TopAndNearest: the highest and the nearest pixel of each column are seeds, their regions
