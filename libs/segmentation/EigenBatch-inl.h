@@ -76,10 +76,12 @@ constexpr int kVectors = kLanes<Real> / kVectorLanes<Real>;
 
 template <class Real>
 struct Pack {
+    HWY_INLINE Pack() {}  // the one that a compiler makes is not for this instruction set
     hn::Vec<D<Real>> part[kVectors<Real>];
 };
 template <class Real>
 struct PackMask {
+    HWY_INLINE PackMask() {}
     hn::Mask<D<Real>> part[kVectors<Real>];
 };
 
