@@ -1,5 +1,7 @@
 #include "VelodyneReturns.h"
 
+#include <hagen/range_image/SetBits.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "VelodyneReturns.cpp"
 #include <hwy/foreach_target.h>
@@ -10,23 +12,6 @@
 #define HAGEN_OBSERVATIONS_VELODYNE_RETURNS_ONCE
 namespace hagen {
 namespace {
-
-/// For each set of up to eight lanes, as bits: which they are, from the lowest to the highest.
-/// (Highway 1.0's own Compress has such a table, too, and GCC 12 copies it to the stack at each
-/// use.)
-struct LanesOfSets {
-    std::uint8_t lanes[256][8] = {};
-
-    constexpr LanesOfSets() {
-        for (int set = 0; set < 256; ++set) {
-            int count = 0;
-            for (int lane = 0; lane < 8; ++lane) {
-                if (set >> lane & 1) lanes[set][count++] = static_cast<std::uint8_t>(lane);
-            }
-        }
-    }
-};
-constexpr LanesOfSets kLanesOfSets;
 
 /// Whether readings of the block may lie beyond the turn's ends, of which both are behind.
 bool passesBehind(const VelodyneBlock& block, const PlacesInBlock& places) {
@@ -123,7 +108,7 @@ HWY_INLINE void wrap(const VelodyneBlock& block, const PlacesInBlock& places, st
 HWY_INLINE hn::Vec<Bytes> lanesOf(hn::Mask<Ints> came_back) {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(Ints(), came_back, bits);
-    return hn::LoadU(Bytes(), kLanesOfSets.lanes[bits[0]]);
+    return hn::LoadU(Bytes(), kSetBits.place[bits[0]].data());
 }
 
 void locate(const VelodyneBlock* blocks, std::size_t block_count, const PlacesInBlock& places,

@@ -1,3 +1,4 @@
+#include <hagen/range_image/SetBits.h>
 #include <hagen/segmentation/Extraction.h>
 #include <algorithm>
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,21 +25,5 @@ struct ExtractionOutput {
     std::uint32_t *roi, *rou, *unclassified;  ///< the lists' ends; a word more is written there
     std::int32_t most_components;             ///< the greatest number met so far
 };
-
-/// Of a byte of bits, where those are that are set, and how many.
-struct SetBits {
-    std::array<std::array<std::uint8_t, 8>, 256> place{};
-    std::array<std::uint8_t, 256> count{};
-};
-constexpr SetBits makeSetBits() {
-    SetBits set;
-    for (unsigned byte = 0; byte < 256; ++byte) {
-        for (std::uint8_t bit = 0; bit < 8; ++bit) {
-            if (byte >> bit & 1) set.place[byte][set.count[byte]++] = bit;
-        }
-    }
-    return set;
-}
-inline constexpr SetBits kSetBits = makeSetBits();
 
 }  // namespace hagen

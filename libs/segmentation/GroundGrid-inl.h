@@ -2,6 +2,7 @@
 // For files that Highway compiles once per instruction set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
+#include <hagen/range_image/SetBits.h>
 #include <hagen/segmentation/GroundSurface.h>
 #include <cstddef>
 #include <cstdint>
@@ -40,20 +41,6 @@ __attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit 
     }
     for (std::size_t k = 4 * quarter; k < size; ++k) visit(k);
 }
-
-/// For each choice among 8 lanes, a bit a lane: the lanes chosen, from the first on.
-struct ChosenLanes {
-    std::uint8_t of[256][8] = {};
-    constexpr ChosenLanes() {
-        for (int choice = 0; choice < 256; ++choice) {
-            int n = 0;
-            for (std::uint8_t lane = 0; lane < 8; ++lane) {
-                if ((choice >> lane & 1) != 0) of[choice][n++] = lane;
-            }
-        }
-    }
-};
-inline constexpr ChosenLanes kChosenLanes;
 
 }  // namespace hagen
 #endif
@@ -97,7 +84,7 @@ HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& inte
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, is_chosen, bits);
     const hn::Rebind<std::uint8_t, D> d8;
-    const auto lanes = hn::PromoteTo(di, hn::LoadU(d8, kChosenLanes.of[bits[0]]));
+    const auto lanes = hn::PromoteTo(di, hn::LoadU(d8, kSetBits.place[bits[0]].data()));
     floats = hn::TableLookupLanes(floats, hn::IndicesFromVec(d, lanes));
     integers = hn::TableLookupLanes(integers, hn::IndicesFromVec(di, lanes));
 #else

@@ -7,16 +7,12 @@
 
 namespace hagen {
 
-/// A number above or equal to 0 and what goes with it, to be sorted by the number.
-inline std::uint64_t sortingKey(float number, std::size_t item) {
+/// A number above or equal to 0 and what goes with it, to be sorted by the number, the greatest
+/// first.
+inline std::uint64_t sinkingKey(float number, std::size_t item) {
     std::uint32_t bits;  // order as the numbers do
     std::memcpy(&bits, &number, sizeof bits);
-    return std::uint64_t{bits} << 32 | item;
-}
-
-/// The same, the greatest number first.
-inline std::uint64_t sinkingKey(float number, std::size_t item) {
-    return sortingKey(number, item) ^ 0xffffffff00000000;
+    return std::uint64_t{~bits} << 32 | item;
 }
 
 inline std::size_t itemOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
