@@ -1,0 +1,36 @@
+#pragma once
+#include <hagen/avoidance/PathSearch.h>
+#include <hagen/avoidance/Planner.h>
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen {
+
+struct GuidanceTask {
+    Eigen::Vector3d position_m;
+    Eigen::Vector3d goal_m;
+    double ground_m = 0, altitude_m = 2, lowest_m = 1.0, highest_m = 4.5;  ///< as in PlanningTask
+    Eigen::AlignedBox3d bounds_m;  ///< where the flight may lead
+    VehicleLimits limits;
+};
+
+struct Carrot {
+    Eigen::Vector3d at_m;                 ///< what the planner shall head for
+    std::vector<Eigen::Vector3d> path_m;  ///< for pictures; empty where there is none
+};
+
+/// Where to head for: no memory from call to call.
+class Guidance {
+ public:
+    virtual ~Guidance() = default;
+    virtual Carrot carrot(const WorldModel& world, const GuidanceTask& task) const = 0;
+};
+
+/// "straight": at the goal. "astar": 4 m ahead on A*'s path over the same model (0.5 m cells);
+/// straight where there is no path. Throws std::invalid_argument for other names.
+const std::vector<std::string>& guidanceNames();
+std::unique_ptr<Guidance> makeGuidance(const std::string& name);
+
+}  // namespace hagen

@@ -1,0 +1,45 @@
+#pragma once
+#include <hagen/mapping/MappedScan.h>
+#include <octomap/OcTree.h>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace hagen {
+
+/// What of a segmented scan goes into an OctoMap.
+enum class MapContent {
+    Full,       ///< every return is a hit, every ray clears (O-Full)
+    Roi,        ///< RoI returns alone, hits and rays (O-RoI)
+    RoiAndRays  ///< RoI returns are hits, the rays of all returns clear (O-RoI+rays)
+};
+
+struct ScanMapOptions {
+    MapContent content = MapContent::RoiAndRays;
+    double resolution_m = 0.2;  ///< edge of a voxel; more than 0
+    double max_range_m = 20;    ///< farther returns clear up to here, and are no hits
+};
+
+/// An OctoMap that segmented scans are put into.
+class ScanMap {
+ public:
+    /// Throws std::invalid_argument for a resolution or a range that is not more than 0.
+    explicit ScanMap(const ScanMapOptions& options);
+
+    void insert(const MappedScan& scan);
+
+    const octomap::OcTree& tree() const { return *tree_; }
+    octomap::OcTree& tree() { return *tree_; }
+    const ScanMapOptions& options() const { return options_; }
+
+ private:
+    ScanMapOptions options_;
+    std::unique_ptr<octomap::OcTree> tree_;
+};
+
+/// Writes the map by the file's ending: .bt (occupied or free), .ot (probabilities), .3Dscene (for
+/// SceneViewer3D). Throws std::runtime_error, naming the file, for any other, and where writing
+/// fails. Writes in place: callers use OutputPath.
+void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file);
+
+}  // namespace hagen

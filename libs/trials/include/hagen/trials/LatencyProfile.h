@@ -1,0 +1,26 @@
+#pragma once
+#include <hagen/simulation/Random.h>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hagen {
+
+/// How long each stage took on some machine: quantiles of what was measured. Trials draw from it,
+/// so that they do not depend on how fast, or how busy, the machine is that they run on.
+struct LatencyProfile {
+    std::string machine, made_by, date;  ///< processor; program and version; ISO date
+    /// Stage names: "filter", "MODEL/update", "MODEL/astar", "MODEL/straight", "MODEL/primitives",
+    /// "MODEL/3dvfh". Of each, quantiles at 0, 1/(n-1), ..., 1 [ms].
+    std::map<std::string, std::vector<double>> quantiles_ms;
+
+    /// Draws a latency [ms]. Throws std::runtime_error, naming the stage, for one it does not have.
+    double draw_ms(const std::string& stage, Random& random) const;
+};
+
+/// JSON. Throw std::runtime_error, naming the file and the key.
+LatencyProfile readLatencyProfile(const std::filesystem::path& file);
+void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file);
+
+}  // namespace hagen
