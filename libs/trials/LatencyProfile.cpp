@@ -14,13 +14,15 @@ namespace {
 
 using nlohmann::json;
 
+double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
+
 std::vector<double> quantilesFrom(const json& value) {
     const std::string rule = "must be numbers of at least 0 [ms] that do not fall, one or more";
     if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
     for (const json& quantile : value) {
         if (!quantile.is_number()) throw std::runtime_error(rule);
-        quantiles.push_back(quantile.get<double>());
+        quantiles.push_back(toMicroseconds(quantile.get<double>()));
     }
     const bool is_finite = std::all_of(quantiles.begin(), quantiles.end(),
                                        [](double q) { return std::isfinite(q) && q >= 0; });
@@ -52,7 +54,8 @@ LatencyProfile profileFrom(const json& root) {
     return profile;
 }
 
-/// A line a stage, microseconds.
+}  // namespace
+
 std::string textOf(const LatencyProfile& profile) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
@@ -63,7 +66,7 @@ std::string textOf(const LatencyProfile& profile) {
     for (const auto& [stage, quantiles] : profile.quantiles_ms) {
         text << before << "    " << json(stage) << ": [";
         for (std::size_t q = 0; q < quantiles.size(); ++q) {
-            text << (q > 0 ? ", " : "") << json(std::round(1e3 * quantiles[q]) / 1e3);
+            text << (q > 0 ? ", " : "") << json(toMicroseconds(quantiles[q]));
         }
         text << "]";
         before = ",\n";
@@ -71,8 +74,6 @@ std::string textOf(const LatencyProfile& profile) {
     text << "\n  }\n}\n";
     return text.str();
 }
-
-}  // namespace
 
 double LatencyProfile::at_ms(const std::string& stage, double share) const {
     const auto found = quantiles_ms.find(stage);

@@ -26,7 +26,10 @@ struct LatencyProfile {
 /// A stage's quantiles, `count` of them, of what was measured. Of nothing, none.
 std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 21);
 
-/// JSON. Throw std::runtime_error, naming the file and the key.
+/// The profile as a file holds it: JSON, latencies to the microsecond.
+std::string textOf(const LatencyProfile& profile);
+
+/// Read to the microsecond. Throw std::runtime_error, naming the file and the key.
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
 void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file);
 
