@@ -33,4 +33,7 @@ std::string textOf(const LatencyProfile& profile);
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
 void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file);
 
+/// Those of config/campaign/profile.json when the program was built.
+LatencyProfile standardLatencyProfile();
+
 }  // namespace hagen
