@@ -51,7 +51,8 @@ std::vector<CourseFlights> flightsFrom(Flags& flags) {
         pairFrom("--shard", flags.shard, "(\\d{1,6})/(\\d{1,6})", "i/n, a part of n");
     plan.brakes_in_known_space = flags.unknown == "brake-known";
     plan.pose_errors.clear();
-    for (const std::string& name : flags.pose_errors) plan.pose_errors.push_back(poseErrorFrom(name));
+    for (const std::string& name : flags.pose_errors)
+        plan.pose_errors.push_back(poseErrorFrom(name));
     expandAll(plan.scenarios, courseNames());
     expandAll(plan.models, worldModelNames());
     expandAll(plan.guidances, guidanceNames());
@@ -119,10 +120,10 @@ void printCells(const std::vector<Run>& runs) {
     for (const Run& run : runs) {
         std::ostringstream name;
         const TrialSetup& setup = run.setup;
-        name << std::left << std::setw(12) << run.scenario << " " << std::setw(4)
-             << setup.speed_m_s << " " << std::setw(9) << setup.guidance << " " << std::setw(11)
-             << setup.planner << " " << std::setw(6) << nameOf(setup.pose_error) << " x"
-             << std::setw(3) << setup.latency_scale << " " << std::setw(15) << setup.model;
+        name << std::left << std::setw(12) << run.scenario << " " << std::setw(4) << setup.speed_m_s
+             << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner
+             << " " << std::setw(6) << nameOf(setup.pose_error) << " x" << std::setw(3)
+             << setup.latency_scale << " " << std::setw(15) << setup.model;
         Cell& cell = cells[name.str()];
         ++cell.runs;
         ++cell.outcomes[static_cast<int>(run.result.outcome)];
@@ -143,8 +144,8 @@ int run(Flags flags) {
     folder.note(flags.plan);
     ProgressLine progress;
     CampaignOptions options;
-    options.jobs = flags.jobs > 0 ? flags.jobs
-                                  : static_cast<int>(std::thread::hardware_concurrency());
+    options.jobs =
+        flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
     options.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
         options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
@@ -168,16 +169,20 @@ void addFlags(CLI::App& app, Flags& flags) {
     list("--models", plan.models, "world models, or all");
     list("--guidance", plan.guidances, "straight, astar, or all");
     list("--planner", plan.planners, "primitives, 3dvfh, or all");
-    list("--pose-error", flags.pose_errors, "of believed poses: none, noise (5 cm, 0.5 deg), drift (1 %)")
+    list("--pose-error", flags.pose_errors,
+         "of believed poses: none, noise (5 cm, 0.5 deg), drift (1 %)")
         ->check(CLI::IsMember({"none", "noise", "drift"}));
     app.add_option("--latency-scale", plan.latency_scales,
                    "times the profile's latencies; 4: an embedded computer")
         ->delimiter(',');
-    app.add_option("--unknown", flags.unknown, "space that was never seen: optimistic: free; brake-known: braking must end in space that was seen")
+    app.add_option("--unknown", flags.unknown,
+                   "space that was never seen: optimistic: free; brake-known: braking must end in "
+                   "space that was seen")
         ->check(CLI::IsMember({"optimistic", "brake-known"}))
         ->capture_default_str();
-    app.add_option("--profile", flags.profile,
-                   "latencies to draw from, made by `calibrate`; without it those that come with the program");
+    app.add_option(
+        "--profile", flags.profile,
+        "latencies to draw from, made by `calibrate`; without it those that come with the program");
     app.add_option("--shard", flags.shard, "fly part i of n, for several machines; then `merge`")
         ->capture_default_str();
     app.add_option("--jobs", flags.jobs, "processes; without it one a core")
@@ -193,7 +198,8 @@ void addFlags(CLI::App& app, Flags& flags) {
 
 void addClosedLoop(CLI::App& app, Command& command) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* sub = app.add_subcommand("closedloop", "fly courses in simulation, model against model");
+    CLI::App* sub =
+        app.add_subcommand("closedloop", "fly courses in simulation, model against model");
     addFlags(*sub, *flags);
     sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
 }

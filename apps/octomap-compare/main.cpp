@@ -28,7 +28,8 @@ int printed(int exit_code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Compares avoidance without a map (RoI points of the filter) with mapped avoidance."};
+    CLI::App app{
+        "Compares avoidance without a map (RoI points of the filter) with mapped avoidance."};
     app.footer(
         "Examples:\n"
         "  octomap-compare closedloop --scenario forest-0.05 --seeds 1000-1019 --models "
