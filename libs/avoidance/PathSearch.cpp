@@ -46,21 +46,12 @@ struct Entry {
     }
 };
 
-double extraCost(double clearance_m, double height_off_m, const PathSearchOptions& options) {
+double extraCost(double clearance_m, double height_m, const PathSearchOptions& options) {
     const double range_m = options.wanted_clearance_m - options.least_clearance_m;
     const double short_m = options.wanted_clearance_m - clearance_m;
     const double share = range_m > 0 ? std::clamp(short_m / range_m, 0.0, 1.0) : 0.0;
-    return kProximityCost * share + options.height_cost_per_m * height_off_m;
-}
-
-/// How far a point is above or below the straight line between two others.
-double heightOff(const Eigen::Vector3d& point_m, const Eigen::Vector3d& start_m,
-                 const Eigen::Vector3d& goal_m) {
-    const Eigen::Vector2d line_m = (goal_m - start_m).head<2>();
-    const double square = line_m.squaredNorm();
-    const double share =
-        square > 0 ? std::clamp((point_m - start_m).head<2>().dot(line_m) / square, 0.0, 1.0) : 1.0;
-    return std::abs(point_m.z() - (start_m.z() + share * (goal_m.z() - start_m.z())));
+    return kProximityCost * share +
+           options.height_cost_per_m * std::abs(height_m - options.wanted_height_m);
 }
 
 class Search {
@@ -194,8 +185,8 @@ void Search::look(int index) {
             }
         }
     }
-    const double off_m = heightOff(pointOf(index, at.place), start_m_, goal_m_);
-    at.extra_permille = std::llround(1000 * extraCost(at.clearance_m, off_m, options_));
+    const double height_m = pointOf(index, at.place).z();
+    at.extra_permille = std::llround(1000 * extraCost(at.clearance_m, height_m, options_));
 }
 
 /// Whether the straight way between two cells that were looked at is clear. From where the start is
