@@ -309,12 +309,16 @@ fs::path CampaignFolder::newJournal() {
     return folder_ / "journal" / (std::to_string(next_journal_++) + ".csv");
 }
 
+std::vector<Run> CampaignFolder::runs() const {
+    std::vector<Run> all;
+    for (const auto& [key, row] : rows_) all.push_back(row.run);
+    sortRuns(all);
+    return all;
+}
+
 void CampaignFolder::finish() {
-    std::vector<Run> runs;
-    for (const auto& [key, row] : rows_) runs.push_back(row.run);
-    sortRuns(runs);
     std::string table = runHeader() + "\n", measured = measuredHeader() + "\n";
-    for (const Run& run : runs) {
+    for (const Run& run : runs()) {
         const Row& row = rows_.at(keyOf(run));
         table += row.text + "\n";
         if (!row.measured.empty()) measured += row.measured + "\n";

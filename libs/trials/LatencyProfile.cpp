@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <locale>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -98,12 +99,17 @@ std::vector<double> quantilesOf(std::vector<double> measured_ms, int count) {
     return quantiles;
 }
 
+LatencyProfile latencyProfileFrom(const std::string& text) {
+    return profileFrom(json::parse(text));
+}
+
 LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw std::runtime_error(file.string() + ": cannot be read");
     try {
-        return profileFrom(json::parse(in));
-    } catch (const std::exception& e) {
+        return latencyProfileFrom(
+            {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    } catch (const std::exception& e) {  // json's own are none of std::runtime_error
         throw std::runtime_error(file.string() + ": " + e.what());
     }
 }

@@ -43,6 +43,8 @@ class CampaignFolder {
     /// Whether a run is there, from this command or one before.
     bool has(const Run& run) const { return rows_.count(keyOf(run)) > 0; }
     std::size_t size() const { return rows_.size(); }
+    /// All runs, sorted.
+    std::vector<Run> runs() const;
 
     /// Notes in campaign.json what is about to be flown.
     void note(const CampaignPlan& plan);
