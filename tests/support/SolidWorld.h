@@ -1,0 +1,75 @@
+#pragma once
+#include <hagen/avoidance/WorldModel.h>
+#include <algorithm>
+#include <vector>
+
+namespace hagen::test {
+
+/// A world of simple solids whose distances are exact: what a model with perfect knowledge tells.
+class SolidWorld : public WorldModel {
+ public:
+    SolidWorld& sphere(const Eigen::Vector3f& middle_m, float radius_m) {
+        spheres_.push_back({middle_m, radius_m});
+        return *this;
+    }
+    /// Upright, without end.
+    SolidWorld& trunk(const Eigen::Vector2f& middle_m, float radius_m) {
+        trunks_.push_back({{middle_m.x(), middle_m.y(), 0}, radius_m});
+        return *this;
+    }
+    SolidWorld& box(const Eigen::Vector3f& least_m, const Eigen::Vector3f& most_m) {
+        boxes_.push_back({least_m, most_m});
+        return *this;
+    }
+    SolidWorld& ground(float height_m) {
+        ground_m_ = height_m;
+        return *this;
+    }
+    /// What lies beyond was not seen.
+    SolidWorld& knownWithin(const Eigen::AlignedBox3f& box_m) {
+        known_m_ = box_m;
+        return *this;
+    }
+
+    void update(const MappedScan&) override {}
+
+    float clearance_m(const Eigen::Vector3f& point_m) const override {
+        ++asked;
+        return std::min(kReach_m, distance_m(point_m));
+    }
+    bool isKnown(const Eigen::Vector3f& point_m) const override {
+        return known_m_.isEmpty() || known_m_.contains(point_m);
+    }
+    std::size_t bytes() const override { return 0; }
+    Obstacles obstacles() const override { return {}; }
+
+    /// To the nearest surface, however far; 0 within.
+    float distance_m(const Eigen::Vector3f& point_m) const {
+        float least_m = point_m.z() - ground_m_;
+        for (const Ball& ball : spheres_) {
+            least_m = std::min(least_m, (point_m - ball.middle_m).norm() - ball.radius_m);
+        }
+        for (const Ball& trunk : trunks_) {
+            least_m =
+                std::min(least_m, (point_m - trunk.middle_m).head<2>().norm() - trunk.radius_m);
+        }
+        for (const Eigen::AlignedBox3f& box_m : boxes_) {
+            least_m = std::min(least_m, box_m.exteriorDistance(point_m));
+        }
+        return std::max(0.0f, least_m);
+    }
+
+    mutable long asked = 0;
+
+ private:
+    struct Ball {
+        Eigen::Vector3f middle_m;
+        float radius_m;
+    };
+    std::vector<Ball> spheres_, trunks_;
+    std::vector<Eigen::AlignedBox3f> boxes_;
+    Eigen::AlignedBox3f known_m_;
+    float ground_m_ = -1000;
+};
+
+}  // namespace hagen::test
