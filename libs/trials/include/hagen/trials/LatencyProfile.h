@@ -17,7 +17,14 @@ struct LatencyProfile {
 
     /// Draws a latency [ms]. Throws std::runtime_error, naming the stage, for one it does not have.
     double draw_ms(const std::string& stage, Random& random) const;
+    double median_ms(const std::string& stage) const;
+
+    /// The latency [ms] below which this share of a stage's lies.
+    double at_ms(const std::string& stage, double share) const;
 };
+
+/// A stage's quantiles, `count` of them, of what was measured. Of nothing, none.
+std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 21);
 
 /// JSON. Throw std::runtime_error, naming the file and the key.
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
