@@ -35,8 +35,8 @@ Eigen::Vector3f positionOf(const CPose3D& pose) {
 }
 
 Eigen::Isometry3d isometryOf(const CPose3D& pose) {
-    return Eigen::Isometry3d(Eigen::Matrix4d(
-        pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen()));
+    return Eigen::Isometry3d(
+        Eigen::Matrix4d(pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen()));
 }
 
 /// The points of a scan in the map, where they have a valid range.
@@ -59,9 +59,8 @@ void place(const ObservationSegmenter::Output& out, const CObservation& observat
     const CPose3D sensor_on_vehicle(observation.sensorPose());
     const auto& times_s = out.scan->time_s;
     const double turn_s =
-        times_s.empty()
-            ? 0.0
-            : static_cast<double>(*std::max_element(times_s.begin(), times_s.end()));
+        times_s.empty() ? 0.0
+                        : static_cast<double>(*std::max_element(times_s.begin(), times_s.end()));
     Scan deskewed = *out.scan;
     const bool is_deskewed = !times_s.empty() && deskew(vehicle, observation.timestamp,
                                                         sensor_on_vehicle, *out.sensor, deskewed);
@@ -123,10 +122,10 @@ void LoggedScans::Log::setPoses(const LogPoses& known, const std::vector<TimePoi
         if (pose) flight_m.extend(positionOf(*pose));
     }
     if (without_pose < scans) return;
-    throw std::runtime_error(poses.source + ": has no pose near any of the " +
-                             std::to_string(scans) + " scans of " + name + ", of which the first was taken at " +
-                             std::to_string(mrpt::Clock::toDouble(times.front())) +
-                             " s; are they of another clock?");
+    throw std::runtime_error(
+        poses.source + ": has no pose near any of the " + std::to_string(scans) + " scans of " +
+        name + ", of which the first was taken at " +
+        std::to_string(mrpt::Clock::toDouble(times.front())) + " s; are they of another clock?");
 }
 
 class LoggedScans::Rawlog : public LoggedScans::Log {
@@ -165,7 +164,8 @@ class LoggedScans::Rawlog : public LoggedScans::Log {
         // A file of poses tells better how the vehicle was tilted.
         if (source.poses.empty()) segmenter.see(*observation);
         const bool is_scan = isLidarScan(*observation);
-        if (is_scan && isWanted(observation->sensorLabel)) waiting_.push_back({number, observation});
+        if (is_scan && isWanted(observation->sensorLabel))
+            waiting_.push_back({number, observation});
     }
 
     RawlogReader reader_;

@@ -18,8 +18,8 @@ namespace {
 constexpr float kMapMargin_m = 20, kMapMarginUp_m = 10;  // around the whole flight
 constexpr float kLargestMap_m3 = 100000;
 constexpr float kHalfBox_m = 30, kHalfBoxUp_m = 10;  // around the vehicle
-constexpr float kBorder_m = 12, kBorderUp_m = 5;  // beyond what queries and clearances reach
-constexpr double kKept_s = 3;                     // of scans, for maps that are begun anew
+constexpr float kBorder_m = 12, kBorderUp_m = 5;     // beyond what queries and clearances reach
+constexpr double kKept_s = 3;                        // of scans, for maps that are begun anew
 
 // A log's obstacles lie on those of its scene, but for ranges' noise and poses between scans.
 constexpr float kMostOffScene_m = 0.3f;
@@ -106,8 +106,7 @@ class Run {
         models_.resize(models);
         heap_bytes_.resize(models);
         if (open_loop.scene) truth_.emplace(*open_loop.scene, scans_.flight_m());
-        const Eigen::AlignedBox3f whole =
-            widened(scans_.flight_m(), kMapMargin_m, kMapMarginUp_m);
+        const Eigen::AlignedBox3f whole = widened(scans_.flight_m(), kMapMargin_m, kMapMarginUp_m);
         is_whole_mapped_ = whole.volume() <= kLargestMap_m3;
         if (is_whole_mapped_) box_m_ = whole;
     }
@@ -131,6 +130,7 @@ class Run {
  private:
     void digest(const LoggedScan& scan);
     void prepareModels(const LoggedScan& scan);
+    Judgement judgementOf(const LoggedScan& scan) const;
     void askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement);
     void judgeOldest();
     void agree(const Judgement& judgement);
@@ -187,8 +187,7 @@ void Run::askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement) 
 
     const double asking_ms = cpuTime_ms();
     judgement.blocked[m] = blockedDirections(
-        [&](const Eigen::Vector3f& point_m) { return model.clearance_m(point_m); },
-        scan.vehicle_m);
+        [&](const Eigen::Vector3f& point_m) { return model.clearance_m(point_m); }, scan.vehicle_m);
     cost.queries_ms = cpuTime_ms() - asking_ms;
 
     row.obstacles = model.obstacles().middle_m.size();
@@ -196,56 +195,58 @@ void Run::askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement) 
     row.blocked = judgement.blocked[m].count();
 }
 
+/// What is asked of a scan, before anybody answers.
+Judgement Run::judgementOf(const LoggedScan& scan) const {
+    const std::size_t models = models_.size();
+    Judgement judgement{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),
+                        std::vector<DirectionSet>(models), scan.mapped.time_s,
+                        LaterScansTruth(scan.vehicle_m),   {}};
+    const auto& labels = scan.mapped.labels;
+    for (std::size_t m = 0; m < models; ++m) {
+        OpenLoopRow& row = judgement.rows[m];
+        row.scan = result_.scans;
+        row.entry = scan.entry;
+        row.time_s = scan.mapped.time_s;
+        row.model = open_loop_.models[m];
+        row.returns = labels.size();
+        row.roi = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), Label::Roi));
+        judgement.costs[m].scan = row.scan;
+        judgement.costs[m].model = row.model;
+        judgement.costs[m].filter_ms = scan.filter_ms;
+    }
+    if (!truth_) return judgement;
+    judgement.truth.emplace();
+    judgement.truth->scored.set();
+    judgement.truth->blocked = blockedDirections(
+        [this](const Eigen::Vector3f& point_m) { return truth_->clearance_m(point_m); },
+        scan.vehicle_m);
+    return judgement;
+}
+
 void Run::digest(const LoggedScan& scan) {
     if (truth_) truth_->see(scan.mapped);
     prepareModels(scan);
-    const auto roi = static_cast<std::size_t>(
-        std::count(scan.mapped.labels.begin(), scan.mapped.labels.end(), Label::Roi));
+    Judgement judgement = judgementOf(scan);
+    for (std::size_t m = 0; m < models_.size(); ++m) askModel(m, scan, judgement);
+    result_.returns.push_back(static_cast<double>(judgement.rows.front().returns));
+    result_.roi.push_back(static_cast<double>(judgement.rows.front().roi));
+    result_.filter_ms.push_back(scan.filter_ms);
+    result_.scans_moved_whole += scan.is_moved_whole;
+    ++result_.scans;
 
-    OpenLoopRow row;
-    row.scan = result_.scans;
-    row.entry = scan.entry;
-    row.time_s = scan.mapped.time_s;
-    row.returns = scan.mapped.points_m.size();
-    row.roi = roi;
-    OpenLoopCost cost;
-    cost.scan = row.scan;
-    cost.filter_ms = scan.filter_ms;
-    const std::size_t models = models_.size();
-    Judgement judgement{std::vector<OpenLoopRow>(models, row),
-                        std::vector<OpenLoopCost>(models, cost),
-                        std::vector<DirectionSet>(models),
-                        row.time_s,
-                        LaterScansTruth(scan.vehicle_m),
-                        {}};
-    for (std::size_t m = 0; m < models; ++m) {
-        judgement.rows[m].model = judgement.costs[m].model = open_loop_.models[m];
-        askModel(m, scan, judgement);
+    const double now_s = scan.mapped.time_s;
+    while (!waiting_.empty() && waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
+        judgeOldest();
     }
-    if (truth_) {
-        judgement.truth.emplace();
-        judgement.truth->scored.set();
-        judgement.truth->blocked = blockedDirections(
-            [&](const Eigen::Vector3f& point_m) { return truth_->clearance_m(point_m); },
-            scan.vehicle_m);
-    } else {
+    if (!waiting_.empty()) {
         const SeenRanges ranges(scan.mapped);
         for (Judgement& earlier : waiting_) earlier.later.see(scan.mapped, ranges);
     }
     waiting_.push_back(std::move(judgement));
-    while (!waiting_.empty() &&
-           (waiting_.front().truth ||
-            waiting_.front().time_s + LaterScansTruth::kDuration_s < row.time_s)) {
-        judgeOldest();
-    }
+    if (truth_) judgeOldest();
 
-    ++result_.scans;
-    result_.scans_moved_whole += scan.is_moved_whole;
-    result_.returns.push_back(static_cast<double>(row.returns));
-    result_.roi.push_back(static_cast<double>(roi));
-    result_.filter_ms.push_back(scan.filter_ms);
     kept_.push_back(scan.mapped);
-    while (kept_.front().time_s + kKept_s < row.time_s) kept_.pop_front();
+    while (kept_.front().time_s + kKept_s < now_s) kept_.pop_front();
 }
 
 /// Counts what the models said of the oldest scan, and tells of it.
@@ -306,7 +307,10 @@ OpenLoopResult Run::finish() {
 void check(const OpenLoop& open_loop) {
     if (open_loop.models.empty()) throw std::invalid_argument("no world model is named");
     for (const std::string& model : open_loop.models) {
-        needsLabels(model);
+        needsLabels(model);  // throws for an unknown one
+        if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
+            throw std::invalid_argument("world model '" + model + "' is named twice");
+        }
         if (model == "oracle" && !open_loop.scene) {
             throw std::invalid_argument(
                 "the oracle knows the scene that a log was simulated in: name it "
@@ -318,8 +322,8 @@ void check(const OpenLoop& open_loop) {
     if (std::find(known.begin(), known.end(), open_loop.scene->scenario) != known.end()) return;
     std::string names;
     for (const std::string& name : known) names += " " + name;
-    throw std::invalid_argument("unknown scenario '" + open_loop.scene->scenario +
-                                "'; known are" + names);
+    throw std::invalid_argument("unknown scenario '" + open_loop.scene->scenario + "'; known are" +
+                                names);
 }
 
 }  // namespace

@@ -64,9 +64,9 @@ TEST(LaterScansTruth, AWallAheadBlocksWhatLeadsToIt) {
     const auto truth = truthOf(everywhere({0, 0, 2}, 20, true));
     for (std::size_t n = 0; n < kDirections; ++n) {
         const float farthest_m = 8 * directionOf(n).x();
-        if (farthest_m > 4.4f) EXPECT_TRUE(truth.blocked[n]) << n;
-        if (farthest_m < 4.3f) EXPECT_FALSE(truth.blocked[n]) << n;
-        if (farthest_m < 4.3f) EXPECT_TRUE(truth.scored[n]) << n;
+        if (farthest_m > 4.3f && farthest_m < 4.4f) continue;
+        EXPECT_EQ(truth.blocked[n], farthest_m > 4.4f) << n;
+        EXPECT_TRUE(truth.scored[n]) << n;
     }
 }
 

@@ -64,10 +64,10 @@ struct OpenLoopModel {
 };
 
 struct OpenLoopResult {
-    std::size_t scans = 0;                                   ///< digested
+    std::size_t scans = 0;                                     ///< digested
     std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< left out
-    std::size_t scans_moved_whole = 0;  ///< placed by one pose each
-    std::size_t maps_begun_anew = 0;    ///< the vehicle came near the border of their box
+    std::size_t scans_moved_whole = 0;                         ///< placed by one pose each
+    std::size_t maps_begun_anew = 0;  ///< the vehicle came near the border of their box
     std::string poses;
     bool poses_have_horizon = true;
     std::vector<double> returns, roi, filter_ms;  ///< an entry a scan
