@@ -53,9 +53,9 @@ const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
 /// Where the sensor is during a turn: straight from one of a few poses to the next.
 class TurnPoses {
  public:
-    TurnPoses(const Flight& flight, double start_s, double duration_s) {
+    TurnPoses(const PoseAt& pose_at, double start_s, double duration_s) {
         for (double s = 0; s < duration_s + 2 * kPoseStep_s; s += kPoseStep_s) {
-            poses_.push_back(flight.at(start_s + s));
+            poses_.push_back(pose_at(start_s + s));
         }
     }
     SensorPose at(double since_start_s) const {
@@ -298,11 +298,11 @@ void append(const Echo& echo, const Beam& beam, int firing, int laser, std::uint
 
 }  // namespace
 
-SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
+SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
                            double time_s, Random& random, const LidarFaults& faults) {
     const FiringPattern pattern = firingPattern(sensor);
     const Scene::Snapshot snapshot = scene.during(time_s, pattern.turnPeriod_s());
-    const TurnPoses poses(flight, time_s, pattern.turnPeriod_s());
+    const TurnPoses poses(pose_at, time_s, pattern.turnPeriod_s());
     const Turn turn = makeTurn(sensor, pattern, poses, faults.footprint_rad, random);
 
     std::vector<RayHit> hits;
@@ -311,7 +311,7 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
 
     SimulatedScan out;
     reserve(turn.beams.size(), out);
-    out.pose = flight.at(time_s);
+    out.pose = pose_at(time_s);
     out.altitude_m = out.pose.position_m.z() -
                      scene.terrain().height_m(out.pose.position_m.x(), out.pose.position_m.y());
     Receiver receiver(scene, faults, sensor, random);
@@ -328,6 +328,12 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
         }
     }
     return out;
+}
+
+SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
+                           double time_s, Random& random, const LidarFaults& faults) {
+    const PoseAt pose_at = [&](double at_s) { return flight.at(at_s); };
+    return simulateScan(scene, sensor, pose_at, time_s, random, faults);
 }
 
 }  // namespace hagen

@@ -1,38 +1,15 @@
-#include <embree3/rtcore.h>
 #include <hagen/simulation/Scene.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
+
+#include "Embree.h"
 
 namespace hagen {
 namespace {
 
 using Eigen::Vector3f;
-
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
-using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
-
-void throwError(void*, RTCError, const char* message) {
-    throw std::runtime_error(std::string("Embree: ") + message);
-}
-
-DevicePtr makeDevice() {
-    // One thread and one instruction set, so that a seed makes the same scan on every machine.
-    DevicePtr device(rtcNewDevice("threads=1,isa=avx2"));
-    if (!device) throw std::runtime_error("Embree does not start");
-    rtcSetDeviceErrorFunction(device.get(), throwError, nullptr);
-    return device;
-}
 
 /// Copies numbers into a buffer of a geometry; T is what Embree reads of each.
 template <class T, class Source, class Write>
@@ -41,12 +18,6 @@ void fillBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
     auto* buffer = static_cast<T*>(
         rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), source.size()));
     for (std::size_t i = 0; i < source.size(); ++i) write(source[i], buffer[i]);
-}
-
-void attach(RTCScene scene, RTCGeometry geometry) {
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
 }
 
 ScenePtr buildShape(RTCDevice device, const Shape& shape) {
@@ -86,16 +57,6 @@ RTCGeometry instanceOf(RTCDevice device, RTCScene shape,
         rtcSetGeometryTransform(instance, step, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, matrix.data());
     }
     return instance;
-}
-
-Eigen::Affine3f poseOf(const SceneMover& mover, const Terrain& terrain, double time_s) {
-    const double angle = mover.phase_rad + time_s * mover.speed_m_s / mover.radius_m;
-    const Eigen::Vector2d at =
-        mover.middle_m + mover.radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    const double heading = angle + (mover.speed_m_s >= 0 ? 1 : -1) * 1.5707963267948966;
-    const double z_m = terrain.height_m(at.x(), at.y()) + mover.above_ground_m;
-    return Eigen::Translation3f(Eigen::Vector3d(at.x(), at.y(), z_m).cast<float>()) *
-           Eigen::AngleAxisf(static_cast<float>(heading), Vector3f::UnitZ());
 }
 
 /// What an instance is, and how normals of its shape turn into the map's.
@@ -163,8 +124,18 @@ class Packet {
 
 }  // namespace
 
+Eigen::Affine3f poseOf(const SceneMover& mover, const Terrain& terrain, double time_s) {
+    const double angle = mover.phase_rad + time_s * mover.speed_m_s / mover.radius_m;
+    const Eigen::Vector2d at =
+        mover.middle_m + mover.radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const double heading = angle + (mover.speed_m_s >= 0 ? 1 : -1) * 1.5707963267948966;
+    const double z_m = terrain.height_m(at.x(), at.y()) + mover.above_ground_m;
+    return Eigen::Translation3f(Eigen::Vector3d(at.x(), at.y(), z_m).cast<float>()) *
+           Eigen::AngleAxisf(static_cast<float>(heading), Vector3f::UnitZ());
+}
+
 struct Scene::World {
-    explicit World(SceneContent made) : content(std::move(made)), device(makeDevice()) {
+    explicit World(SceneContent made) : content(std::move(made)), device(makeEmbreeDevice()) {
         for (const Shape& shape : content.shapes) shapes.push_back(buildShape(device.get(), shape));
         scene.reset(rtcNewScene(device.get()));
         for (const SceneObject& object : content.objects) {

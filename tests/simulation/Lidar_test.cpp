@@ -77,6 +77,23 @@ TEST_P(EachSensor, WithoutFaultsEachReturnIsOnTheGroundAlsoTiltedAndOnTheMove) {
     }
 }
 
+TEST(LidarTest, AFunctionOfPosesIsFlownAsTheFlightItTells) {
+    const Simulation setup(level(), flightAt(3, 8, 10));
+    double last_s = 0;
+    const auto pose_at = [&](double time_s) {
+        last_s = std::max(last_s, time_s);
+        return setup.flight.at(time_s);
+    };
+    Random random(1);
+    const SimulatedScan told = simulateScan(setup.scene, setup.sensor, pose_at, 7.3, random);
+    const SimulatedScan flown = setup.scan(7.3, {});
+    EXPECT_EQ(told.scan.range_m, flown.scan.range_m);
+    EXPECT_EQ(told.scan.x_m, flown.scan.x_m);
+    EXPECT_EQ(told.firing, flown.firing);
+    EXPECT_EQ(told.altitude_m, flown.altitude_m);
+    EXPECT_LE(last_s, 7.3 + firingPattern(setup.sensor).turnPeriod_s() + kPosesBeyondTurn_s);
+}
+
 TEST_P(EachSensor, ReturnsComeInTheOrderOfFiringWithTheirBeams) {
     const Simulation setup(level(), flightAt(3, 4, 4), GetParam());
     const SimulatedScan scan = setup.scan(0, noFaults());

@@ -3,6 +3,7 @@
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/simulation/Flight.h>
 #include <hagen/simulation/Scene.h>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,12 +51,20 @@ struct SimulatedScan {
 /// The azimuth of a scan's first firing, degrees clockwise from x: scans begin behind.
 constexpr double kFirstAzimuth_deg = 180.0;
 
+/// Where the sensor is at a time.
+using PoseAt = std::function<SensorPose(double time_s)>;
+
+/// How far beyond the end of a turn a PoseAt is asked: it is sampled, and goes straight between.
+constexpr double kPosesBeyondTurn_s = 0.015;
+
 /// Simulates the turn that begins at `time_s`.
 ///
 /// Each beam is one ray somewhere in its spot. So a thing thinner than the spot is met as often as
 /// it covers the spot, and otherwise the beam goes on to what is behind. A broad surface is
 /// measured where the beam's axis meets it. A return is lost the more often the weaker it is
 /// (range, incidence, reflectivity). On grass, ranges end up to its height above the soil.
+SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
+                           double time_s, Random& random, const LidarFaults& faults = {});
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
                            double time_s, Random& random, const LidarFaults& faults = {});
 

@@ -28,6 +28,9 @@ struct SceneMover {
     double above_ground_m = 0;
 };
 
+/// From a mover's own frame, where it is at a time, to the map.
+Eigen::Affine3f poseOf(const SceneMover& mover, const Terrain& terrain, double time_s);
+
 /// All that a scene is made of.
 struct SceneContent {
     Terrain terrain;

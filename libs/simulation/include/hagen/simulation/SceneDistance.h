@@ -15,8 +15,11 @@ class SceneDistance {
     SceneDistance(const Scene& scene, const Eigen::AlignedBox3d& bounds_m, double reach_m);
 
     /// To the nearest surface, movers where they are at `time_s`; the reach where nothing is
-    /// nearer. Single blades of grass and crop (Kind::Canopy) do not count: they bend.
+    /// nearer. Single blades of grass and crop (Kind::Canopy) do not count: they bend. 0 within a
+    /// rod; within what is made of triangles, the way out. May be called by several threads.
     float at(const Eigen::Vector3f& point_m, double time_s) const;
+    /// As at(), of what stands alone.
+    float toStanding(const Eigen::Vector3f& point_m) const;
 
  private:
     struct World;

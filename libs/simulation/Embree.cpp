@@ -1,0 +1,28 @@
+#include "Embree.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace hagen {
+namespace {
+
+void throwError(void*, RTCError, const char* message) {
+    throw std::runtime_error(std::string("Embree: ") + message);
+}
+
+}  // namespace
+
+DevicePtr makeEmbreeDevice() {
+    DevicePtr device(rtcNewDevice("threads=1,isa=avx2"));
+    if (!device) throw std::runtime_error("Embree does not start");
+    rtcSetDeviceErrorFunction(device.get(), throwError, nullptr);
+    return device;
+}
+
+void attach(RTCScene scene, RTCGeometry geometry) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+}  // namespace hagen

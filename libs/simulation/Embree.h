@@ -1,0 +1,24 @@
+#pragma once
+#include <embree3/rtcore.h>
+#include <memory>
+#include <type_traits>
+
+namespace hagen {
+
+struct ReleaseDevice {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+
+/// One thread and one instruction set, so that a seed makes the same on every machine. Errors
+/// throw std::runtime_error.
+DevicePtr makeEmbreeDevice();
+
+/// Adds a geometry, and gives it away.
+void attach(RTCScene scene, RTCGeometry geometry);
+
+}  // namespace hagen
