@@ -54,9 +54,9 @@ TreeForm lightTree(Random& random) {
     form.crown_base_m = random.uniform(2.4, 4.0);
     form.crown_radius_m = random.uniform(0.9, 1.5);
     form.trunk_radius_m = 0.015 * form.height_m * random.uniform(0.8, 1.4);
-    form.leaf_m = 0.4;
+    form.leaf_m = 0.5;
     form.leaf_area_m2 = 2.0 * form.crown_radius_m * (form.height_m - form.crown_base_m);
-    form.branches = 12;
+    form.branches = 8;
     form.low_branches = random.below(3);
     return form;
 }
@@ -93,7 +93,7 @@ void scatterTufts(SceneBuilder& builder, double per_m2, double tallest_m) {
 Scene makeForest(double per_m2, const Random& random) {
     SceneBuilder builder = groundOf(4, 0.05, 0.12, random);
     scatterTrees(builder, per_m2);
-    scatterTufts(builder, 0.03, 0.35);
+    scatterTufts(builder, 0.02, 0.35);
     return builder.build();
 }
 
@@ -108,9 +108,9 @@ Scene makeOrchard(Random random) {
         form.crown_base_m = own.uniform(0.6, 1.0);
         form.crown_radius_m = own.uniform(0.8, 1.1);
         form.trunk_radius_m = own.uniform(0.05, 0.09);
-        form.leaf_m = 0.3;
+        form.leaf_m = 0.4;
         form.leaf_area_m2 = own.uniform(7, 10);
-        form.branches = 14;
+        form.branches = 9;
         form.low_branches = own.below(2);
         return makeTree(form, own);
     });
@@ -128,7 +128,7 @@ Scene makeOrchard(Random random) {
             builder.placeAnyOf(Kind::Tree, trees, at.x(), at.y(), {size, size, size});
         }
     }
-    scatterTufts(builder, 0.03, 0.25);
+    scatterTufts(builder, 0.02, 0.25);
     return builder.build();
 }
 
@@ -149,7 +149,7 @@ Scene makeGap(const Random& random) {
     scatterTrees(builder, 0.006, [&](const Vector2d& at) {
         return (at - middle).norm() > 5 && std::abs(at.x() - x_m) > 2.5;
     });
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 
@@ -167,7 +167,7 @@ Scene makeTrap(const Random& random) {
     addWall(builder, right, right + depth_m * out, kWallHeight_m, 0.3);
     const Vector2d middle = back + depth_m / 2 * out;
     scatterTrees(builder, 0.01, [&](const Vector2d& at) { return (at - middle).norm() > 10; });
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 
@@ -182,7 +182,7 @@ Scene makeTerrain(const Random& random) {
         if (!leavesEndsFree(at, 0.7 * size)) return;
         builder.placeAnyOf(Kind::Wall, rocks, at.x(), at.y(), {size, size * wide, size * high});
     });
-    scatterTufts(builder, 0.03, 0.35);
+    scatterTufts(builder, 0.02, 0.35);
     return builder.build();
 }
 
@@ -202,7 +202,7 @@ Scene makeWires(const Random& random) {
         addWireLine(builder, from, from + length_m * step, span_m, heights_m, sideways_m);
     }
     scatterTrees(builder, 0.006);
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 
@@ -250,7 +250,7 @@ Scene makeMovers(const Random& random) {
               [&] { return builder.oneOf(cars); });
     addMovers(builder, 6, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
     scatterTrees(builder, 0.008);
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 
