@@ -206,6 +206,8 @@ Scene makeWires(const Random& random) {
     return builder.build();
 }
 
+constexpr double kLongestMover_m = 2.3;  // half of it: a car's
+
 /// Adds movers whose circles cross the way, but not where it begins or ends.
 template <class ShapeOf>
 void addMovers(SceneBuilder& builder, int count, const SceneMover& least, const SceneMover& most,
@@ -213,7 +215,7 @@ void addMovers(SceneBuilder& builder, int count, const SceneMover& least, const 
     Random& r = builder.random();
     for (int made = 0; made < count;) {
         SceneMover mover;
-        const double x_m = r.uniform(4, 36), y_m = r.uniform(-4, 4);
+        const double x_m = r.uniform(2, 38), y_m = r.uniform(-4, 4);
         mover.middle_m = {x_m, y_m};
         mover.radius_m = r.uniform(least.radius_m, most.radius_m);
         mover.speed_m_s = r.uniform(least.speed_m_s, most.speed_m_s) * anySign(r);
@@ -221,7 +223,8 @@ void addMovers(SceneBuilder& builder, int count, const SceneMover& least, const 
         mover.phase_rad = anyYaw(r);
         mover.shape = shapeOf();
         const auto comesNear = [&](const Vector2d& end_m) {
-            return std::abs((end_m - mover.middle_m).norm() - mover.radius_m) < 5.0;
+            return std::abs((end_m - mover.middle_m).norm() - mover.radius_m) <
+                   kFreeAtEnds_m + kLongestMover_m;
         };
         if (std::abs(y_m) > mover.radius_m - 0.5 || comesNear(kCourseStart_m) ||
             comesNear(kCourseGoal_m)) {
@@ -245,10 +248,10 @@ Scene makeMovers(const Random& random) {
     const std::size_t person = builder.addShape(makePerson());
     const std::size_t drone = builder.addShape(makeDrone());
     const Shapes cars = builder.addShapes(2, makeCar);
-    addMovers(builder, 10, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
-    addMovers(builder, 4, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
+    addMovers(builder, 8, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
+    addMovers(builder, 3, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
               [&] { return builder.oneOf(cars); });
-    addMovers(builder, 6, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
+    addMovers(builder, 5, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
     scatterTrees(builder, 0.008);
     scatterTufts(builder, 0.02, 0.3);
     return builder.build();

@@ -56,7 +56,7 @@ SimulatedScan scanAtStart(const Course& course, double time_s = 0) {
 double nearestThing_m(const Course& course, const Vector3f& from, double time_s) {
     std::vector<Ray> rays;
     Random random(3);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 4000; ++i) {
         const double a = random.normal(), b = random.normal(), d = random.normal();
         rays.push_back({from, Vector3d(a, b, d).normalized().cast<float>(), 0});
     }
@@ -125,7 +125,7 @@ TEST(CourseTest, TrueDistancesAreAboutThoseOfRaysInAllDirections) {
             const auto distance_m = static_cast<double>(c.distance.at(at, 0));
             EXPECT_LE(distance_m, nearest_m + 1e-3) << name << " at " << x_m;
             if (nearest_m < 2.2) {
-                EXPECT_NEAR(distance_m, nearest_m, 0.25) << name << " at " << x_m;
+                EXPECT_NEAR(distance_m, nearest_m, 0.3) << name << " at " << x_m;
             }
         }
     }
@@ -218,7 +218,7 @@ TEST(CourseTest, WiresCrossTheStraightWayAboutAsHighAsOneFlies) {
 TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const Course& c = course("movers", seed);
-        ASSERT_EQ(c.scene.content().movers.size(), 20u);
+        ASSERT_EQ(c.scene.content().movers.size(), 16u);
         for (const SceneMover& mover : c.scene.content().movers) {
             const auto at = [&](double time_s) {
                 return Eigen::Vector2d(poseOf(mover, c.scene.terrain(), time_s)
