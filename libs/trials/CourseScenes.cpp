@@ -135,11 +135,12 @@ Scene makeOrchard(Random random) {
 constexpr double kWallHeight_m = 6;  // higher than one may fly
 constexpr double kBesideField_m = 19;
 
-/// A wall across the field, with a gap; few trees.
+/// A wall across the field, with a gap that is not straight ahead; few trees.
 Scene makeGap(const Random& random) {
     SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
     Random& r = builder.random();
-    const double x_m = r.uniform(14, 26), y_m = r.uniform(-9, 9), skew = r.uniform(-0.2, 0.2);
+    const double side = anySign(r), x_m = r.uniform(14, 26), skew = r.uniform(-0.2, 0.2);
+    const double y_m = side * r.uniform(1.5, 9);
     const double gap_m = r.uniform(1.6, 2.4), thickness_m = r.uniform(0.15, 0.4);
     const Vector2d middle(x_m, y_m), along(std::sin(skew), std::cos(skew));
     addWall(builder, middle + gap_m / 2 * along,

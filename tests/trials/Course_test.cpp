@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachCourse, testing::ValuesIn(courseNames()), [](c
 });
 
 TEST_P(EachCourse, LeadsFortyMetresThroughItsBoundsFromAFreePlaceToAnother) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course(GetParam(), seed);
         EXPECT_EQ(c.scenario, GetParam());
         EXPECT_EQ(c.seed, seed);
@@ -88,7 +88,7 @@ TEST_P(EachCourse, LeadsFortyMetresThroughItsBoundsFromAFreePlaceToAnother) {
         for (const Vector3d& end : {c.start_m, c.goal_m}) {
             const double ground_m = c.scene.terrain().height_m(end.x(), end.y());
             EXPECT_NEAR(end.z() - ground_m, c.altitude_m, 1e-9);
-            for (double time_s = 0; time_s < 30; time_s += 1.5) {
+            for (double time_s = 0; time_s < 30; time_s += 3) {
                 EXPECT_GT(nearestThing_m(c, end.cast<float>(), time_s), 2.0) << "seed " << seed;
             }
         }
@@ -96,7 +96,7 @@ TEST_P(EachCourse, LeadsFortyMetresThroughItsBoundsFromAFreePlaceToAnother) {
 }
 
 TEST_P(EachCourse, HasAPathThatIsNoShorterThanTheStraightWayAndNotMuchLonger) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course(GetParam(), seed);
         const double straight_m = (c.goal_m - c.start_m).norm();
         EXPECT_GE(c.oracle_path_m, straight_m - 1e-9);
@@ -136,9 +136,9 @@ TEST(CourseTest, AForestHasAsManyTreesAsItsDensitySays) {
          std::map<std::string, double>{{"forest-0.02", 0.02}, {"forest-0.10", 0.10}}) {
         const double expected = per_m2 * 56 * 34;  // less those at the ends: 3.9 m about each
         double mean = 0;
-        for (std::uint64_t seed = 1; seed <= 4; ++seed)
-            mean += count(course(name, seed), Kind::Tree) / 4.0;
-        EXPECT_NEAR(mean, expected - per_m2 * 2 * kPi * 3.9 * 3.9, 2.5 * std::sqrt(expected / 4))
+        for (std::uint64_t seed = 1; seed <= 3; ++seed)
+            mean += count(course(name, seed), Kind::Tree) / 3.0;
+        EXPECT_NEAR(mean, expected - per_m2 * 2 * kPi * 3.9 * 3.9, 2.5 * std::sqrt(expected / 3))
             << name;
     }
 }
@@ -176,7 +176,7 @@ double widestWay_m(const Course& c, double from_x_m, double to_x_m) {
 
 TEST(CourseTest, TheWallHasOneGapOfTheWidthThatItIsSaidToHave) {
     std::vector<double> widths_m;
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         widths_m.push_back(2 * widestWay_m(course("gap", seed), 8, 32));
         EXPECT_GT(widths_m.back(), 1.6 - 0.15) << "seed " << seed;  // between cells
         EXPECT_LT(widths_m.back(), 2.4 + 0.01) << "seed " << seed;
@@ -185,7 +185,7 @@ TEST(CourseTest, TheWallHasOneGapOfTheWidthThatItIsSaidToHave) {
 }
 
 TEST(CourseTest, TheTrapIsInTheWayAndCannotBeFlownOver) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("u-trap", seed);
         for (const double height_m : {1.0, 2.0, 4.5}) {
             float least_m = 9;
@@ -199,7 +199,7 @@ TEST(CourseTest, TheTrapIsInTheWayAndCannotBeFlownOver) {
 }
 
 TEST(CourseTest, WiresCrossTheStraightWayAboutAsHighAsOneFlies) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("wires", seed);
         EXPECT_LT(leastClearanceStraight_m(c), 0.65) << "seed " << seed;
         std::vector<RayHit> hits;
@@ -216,7 +216,7 @@ TEST(CourseTest, WiresCrossTheStraightWayAboutAsHighAsOneFlies) {
 }
 
 TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("movers", seed);
         ASSERT_EQ(c.scene.content().movers.size(), 16u);
         for (const SceneMover& mover : c.scene.content().movers) {
@@ -243,10 +243,10 @@ TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
 TEST(CourseTest, WhatIsHardIsInTheWay) {
     for (const char* name : {"forest-0.10", "orchard", "gap", "u-trap", "wires", "street"}) {
         int blocked = 0;
-        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             blocked += leastClearanceStraight_m(course(name, seed)) < 0.45f ? 1 : 0;
         }
-        EXPECT_GE(blocked, 3) << name;
+        EXPECT_EQ(blocked, 3) << name;
     }
 }
 
