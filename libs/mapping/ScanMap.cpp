@@ -95,9 +95,12 @@ void ScanMap::insert(const MappedScan& scan) {
         if (content == MapContent::RoiAndRays || is_hit(i)) walk.pass(scan.points_m[i]);
     }
     // Inner nodes wait for finish().
-    constexpr bool lazily = true;
-    for (const auto& key : walk.voxels().free) tree_->updateNode(key, false, lazily);
-    for (const auto& key : walk.voxels().occupied) tree_->updateNode(key, true, lazily);
+    const auto update = [&](const octomap::OcTreeKey& key, bool is_occupied) {
+        constexpr bool lazily = true;
+        if (!tree_->bbxSet() || tree_->inBBX(key)) tree_->updateNode(key, is_occupied, lazily);
+    };
+    for (const auto& key : walk.voxels().free) update(key, false);
+    for (const auto& key : walk.voxels().occupied) update(key, true);
 }
 
 void ScanMap::finish() {

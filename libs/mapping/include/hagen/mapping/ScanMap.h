@@ -28,6 +28,7 @@ class ScanMap {
 
     /// Each voxel once a scan: hit where a hit lies in it, else free where a ray passes; a ray
     /// that ends in a voxel does not clear it. Leaves only: see finish().
+    /// Where the tree has a bounding box (octomap's setBBXMin() and so on), nothing outside it.
     void insert(const MappedScan& scan);
 
     /// Inner nodes, and leaves that are one in the end: before the tree is saved, or looked at
