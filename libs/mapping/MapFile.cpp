@@ -48,14 +48,22 @@ void saveScene(const octomap::OcTree& tree, const fs::path& file) {
     if (!scene.saveToFile(file.string())) failToWrite(file);
 }
 
-/// As OcTree::writeBinary(), which talks of it on standard error.
-void writeBinary(octomap::OcTree& tree, std::ostream& out) {
-    tree.toMaxLikelihood();
-    tree.prune();
-    out << "# Octomap OcTree binary file\n"
-        << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
+/// The head of octomap's files. Its own functions that write whole files talk on standard error.
+void writeHead(const std::string& kind, const octomap::OcTree& tree, std::ostream& out) {
+    out << kind << "\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
         << tree.getResolution() << "\ndata\n";
-    if (tree.size() > 0) tree.writeBinaryData(out);
+}
+
+void writeOctree(octomap::OcTree& tree, bool is_binary, std::ostream& out) {
+    if (is_binary) tree.toMaxLikelihood();
+    tree.prune();
+    writeHead(is_binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file", tree, out);
+    if (tree.size() == 0) return;
+    if (is_binary) {
+        tree.writeBinaryData(out);
+    } else {
+        tree.writeData(out);
+    }
 }
 
 }  // namespace
@@ -79,13 +87,8 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& 
     if (named.extension() == ".3Dscene") return saveScene(tree, file);
     octomap::OcTree whole(tree);  // as scans leave it, inner nodes lag behind
     whole.updateInnerOccupancy();
-    whole.prune();
     std::ofstream out(file, std::ios::binary);
-    if (named.extension() == ".bt") {
-        writeBinary(whole, out);
-    } else {
-        whole.write(out);
-    }
+    writeOctree(whole, named.extension() == ".bt", out);
     if (!out.flush()) failToWrite(file);
 }
 
