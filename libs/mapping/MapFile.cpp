@@ -60,7 +60,7 @@ void writeOctree(octomap::OcTree& tree, bool is_binary, std::ostream& out) {
     writeHead(is_binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file", tree, out);
     if (tree.size() == 0) return;
     if (is_binary) {
-        tree.writeBinaryData(out);
+        tree.writeBinaryNode(out, tree.getRoot());
     } else {
         tree.writeData(out);
     }
