@@ -42,6 +42,8 @@ int main(int argc, char** argv) {
     addClosedLoop(app, command);
     addMerge(app, command);
     addCalibrate(app, command);
+    addReport(app, command);
+    addReplay(app, command);
     try {
         app.parse(argc, argv);
         catchSignals();
