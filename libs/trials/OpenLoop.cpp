@@ -304,7 +304,9 @@ OpenLoopResult Run::finish() {
     return std::move(result_);
 }
 
-void check(const OpenLoop& open_loop) {
+}  // namespace
+
+void checkOpenLoop(const OpenLoop& open_loop) {
     if (open_loop.models.empty()) throw std::invalid_argument("no world model is named");
     for (const std::string& model : open_loop.models) {
         needsLabels(model);  // throws for an unknown one
@@ -326,10 +328,8 @@ void check(const OpenLoop& open_loop) {
                                 names);
 }
 
-}  // namespace
-
 OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener) {
-    check(open_loop);
+    checkOpenLoop(open_loop);
     return Run(open_loop, listener).result();
 }
 
