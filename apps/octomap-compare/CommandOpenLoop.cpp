@@ -126,6 +126,10 @@ void addOpenLoop(CLI::App& app, Command& command) {
                     "the log's own")
         ->check(CLI::ExistingFile);
     sub->add_option("--sensor-label", source.sensor_label, "this LiDAR alone");
+    sub->add_option("--own-reach-m", source.own_reach_m,
+                    "returns nearer to the sensor are the vehicle's own")
+        ->check(CLI::Range(0.0, 5.0))
+        ->capture_default_str();
     sub->add_option("--models", flags->open_loop.models, "world models (default: all)")
         ->delimiter(',');
     auto* scenario = sub->add_option("--truth-scenario", flags->scenario,
