@@ -146,6 +146,7 @@ class Run {
     std::vector<double> heap_bytes_;
     std::deque<MappedScan> kept_;
     std::deque<Judgement> waiting_;
+    LastingPoints lasting_;
     OpenLoopResult result_;
     std::string why_ended_;
 };
@@ -238,9 +239,10 @@ void Run::digest(const LoggedScan& scan) {
     while (!waiting_.empty() && waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
         judgeOldest();
     }
-    if (!waiting_.empty()) {
+    if (!truth_) {
         const SeenRanges ranges(scan.mapped);
-        for (Judgement& earlier : waiting_) earlier.later.see(scan.mapped, ranges);
+        const auto lasting_m = lasting_.of(scan.mapped);
+        for (Judgement& earlier : waiting_) earlier.later.see(lasting_m, ranges);
     }
     waiting_.push_back(std::move(judgement));
     if (truth_) judgeOldest();
