@@ -40,6 +40,9 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "octomap-compare " HAGEN_VERSION);
     app.require_subcommand(1);
     Command command;
+    addClosedLoop(app, command);
+    addMerge(app, command);
+    addCalibrate(app, command);
     addOpenLoop(app, command);
     try {
         app.parse(argc, argv);

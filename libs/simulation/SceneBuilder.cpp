@@ -6,11 +6,19 @@
 
 namespace hagen {
 
-SceneBuilder::SceneBuilder(const TerrainForm& form, const Path& path, std::uint64_t seed)
-    : random_(seed, 1), content_{Terrain(form, random_), path, {}, {}, {}} {
-    constexpr double kFineLength_m = 55, kFineWidth_m = 38, kReach_m = 140;
-    add(Kind::Terrain, terrain().mesh(kFineLength_m, kFineWidth_m, kReach_m, random_));
+SceneBuilder::SceneBuilder(const TerrainForm& form, const Path& path, const GroundExtent& extent,
+                           const Random& random)
+    : random_(random), content_{Terrain(form, random_), path, {}, {}, {}} {
+    add(Kind::Terrain,
+        terrain().mesh(extent.half_length_m, extent.half_width_m, extent.reach_m, random_));
 }
+
+SceneBuilder::SceneBuilder(const TerrainForm& form, const Path& path, std::uint64_t seed)
+    : SceneBuilder(form, path, {}, Random(seed, 1)) {}
+
+SceneBuilder::SceneBuilder(const TerrainForm& form, const GroundExtent& extent,
+                           const Random& random)
+    : SceneBuilder(form, {}, extent, random) {}
 
 std::size_t SceneBuilder::addShape(Shape shape) {
     content_.shapes.push_back(std::move(shape));
@@ -86,9 +94,13 @@ bool SceneBuilder::addMover(SceneMover mover, double own_radius_m) {
             return false;
         }
     }
+    addMoverAnywhere(mover);
+    return true;
+}
+
+void SceneBuilder::addMoverAnywhere(SceneMover mover) {
     mover.number = nextNumber(Kind::Mover);
     content_.movers.push_back(mover);
-    return true;
 }
 
 void SceneBuilder::scatter(double per_m2, const std::function<void(double, double)>& put) {

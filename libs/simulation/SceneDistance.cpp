@@ -227,8 +227,12 @@ SceneDistance::SceneDistance(const Scene& scene, const Eigen::AlignedBox3d& boun
                              double reach_m)
     : world_(std::make_shared<World>(scene, bounds_m, reach_m)) {}
 
+float SceneDistance::toStanding(const Eigen::Vector3f& point_m) const {
+    return world_->standing->distance_m(point_m, world_->reach_m);
+}
+
 float SceneDistance::at(const Eigen::Vector3f& point_m, double time_s) const {
-    float nearest_m = world_->standing->distance_m(point_m, world_->reach_m);
+    float nearest_m = toStanding(point_m);
     for (const Moving& moving : world_->moving) {
         const double near_m = static_cast<double>(nearest_m + moving.radius_m);
         if (!comesNear(moving.mover, point_m, near_m)) continue;

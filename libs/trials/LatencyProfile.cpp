@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <locale>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,13 +15,15 @@ namespace {
 
 using nlohmann::json;
 
+double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
+
 std::vector<double> quantilesFrom(const json& value) {
     const std::string rule = "must be numbers of at least 0 [ms] that do not fall, one or more";
     if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
     for (const json& quantile : value) {
         if (!quantile.is_number()) throw std::runtime_error(rule);
-        quantiles.push_back(quantile.get<double>());
+        quantiles.push_back(toMicroseconds(quantile.get<double>()));
     }
     const bool is_finite = std::all_of(quantiles.begin(), quantiles.end(),
                                        [](double q) { return std::isfinite(q) && q >= 0; });
@@ -52,7 +55,8 @@ LatencyProfile profileFrom(const json& root) {
     return profile;
 }
 
-/// A line a stage, microseconds.
+}  // namespace
+
 std::string textOf(const LatencyProfile& profile) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
@@ -63,7 +67,7 @@ std::string textOf(const LatencyProfile& profile) {
     for (const auto& [stage, quantiles] : profile.quantiles_ms) {
         text << before << "    " << json(stage) << ": [";
         for (std::size_t q = 0; q < quantiles.size(); ++q) {
-            text << (q > 0 ? ", " : "") << json(std::round(1e3 * quantiles[q]) / 1e3);
+            text << (q > 0 ? ", " : "") << json(toMicroseconds(quantiles[q]));
         }
         text << "]";
         before = ",\n";
@@ -71,8 +75,6 @@ std::string textOf(const LatencyProfile& profile) {
     text << "\n  }\n}\n";
     return text.str();
 }
-
-}  // namespace
 
 double LatencyProfile::at_ms(const std::string& stage, double share) const {
     const auto found = quantiles_ms.find(stage);
@@ -97,12 +99,17 @@ std::vector<double> quantilesOf(std::vector<double> measured_ms, int count) {
     return quantiles;
 }
 
+LatencyProfile latencyProfileFrom(const std::string& text) {
+    return profileFrom(json::parse(text));
+}
+
 LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw std::runtime_error(file.string() + ": cannot be read");
     try {
-        return profileFrom(json::parse(in));
-    } catch (const std::exception& e) {
+        return latencyProfileFrom(
+            {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    } catch (const std::exception& e) {  // json's own are none of std::runtime_error
         throw std::runtime_error(file.string() + ": " + e.what());
     }
 }

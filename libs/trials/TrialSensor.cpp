@@ -9,15 +9,6 @@
 namespace hagen {
 namespace {
 
-LidarFaults trialFaults() {
-    LidarFaults faults;
-    faults.least_noise_m = 0.02;
-    faults.lost = 0.01;
-    faults.dust_per_m = 0;
-    faults.airframe = false;
-    return faults;
-}
-
 HagenFilter standardFilter() {
     const Settings settings;  // those of config/vlp16.yaml hold where no file was read
     return filterFor(settings.sensorModel(), settings.options);

@@ -43,6 +43,15 @@ std::vector<Eigen::Vector3f> wall(float x_m = 5.1f) {
     return points;
 }
 
+/// A board of 1.4 x 0.6 m at x = 3.1 m, before the wall.
+std::vector<Eigen::Vector3f> board() {
+    std::vector<Eigen::Vector3f> points;
+    for (float y = -0.7f; y <= 0.7f; y += 0.05f) {
+        for (float z = 0.8f; z <= 1.4f; z += 0.05f) points.emplace_back(3.1f, y, z);
+    }
+    return points;
+}
+
 /// Few points all around, so that no ray clears another's end.
 std::vector<Eigen::Vector3f> sparsePoints(Random& random, int count) {
     std::vector<Eigen::Vector3f> points;
@@ -184,9 +193,9 @@ TEST(WorldModel, AWindowReachesFifteenMetres) {
 TEST(WorldModel, RaysClearWhatMovedAway) {
     for (const std::string name : {"O-Full-0.2", "O-RoI+rays-0.2", "O-RoI+rays-0.4", "G-Full"}) {
         const auto model = makeWorldModel(name, setting());
-        for (int i = 0; i < 2; ++i) model->update(scanOf(wall(3.1f)));
+        for (int i = 0; i < 2; ++i) model->update(scanOf(board()));
         ASSERT_LT(model->clearance_m({2.1f, 0.1f, 1.1f}), 1.1f) << name;
-        for (int i = 0; i < 12; ++i) model->update(scanOf(wall(9.1f), Label::Rou));
+        for (int i = 0; i < 12; ++i) model->update(scanOf(wall(7.1f), Label::Rou));
         EXPECT_GT(model->clearance_m({2.1f, 0.1f, 1.1f}), 2.0f) << name;
     }
 }
@@ -212,7 +221,7 @@ TEST(WorldModel, BytesAreThoseOfTheHeap) {
         Random random(5);
         const std::size_t before = heap();
         const auto model = makeWorldModel(name, setting());
-        for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 8000)));
+        for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));
         const auto measured = static_cast<double>(heap() - before);
         const auto told = static_cast<double>(model->bytes());
         EXPECT_GT(told, 0.5 * measured) << name << " " << measured;

@@ -4,6 +4,12 @@
 
 namespace hagen {
 
+/// How far the ground reaches, about the origin of the map: finely meshed out to both, then ever
+/// more coarsely.
+struct GroundExtent {
+    double half_length_m = 55, half_width_m = 38, reach_m = 140;
+};
+
 /// Puts a scene together: shapes, and where they stand on the ground. What isFree() allows stays
 /// kClearance_m off the path.
 ///
@@ -14,6 +20,8 @@ class SceneBuilder {
     static constexpr double kHalfLength_m = 75, kHalfWidth_m = 55;  ///< where things are scattered
 
     SceneBuilder(const TerrainForm& terrain, const Path& path, std::uint64_t seed);
+    /// A scene without a path to keep clear: its path means nothing.
+    SceneBuilder(const TerrainForm& terrain, const GroundExtent& extent, const Random& random);
 
     Random& random() { return random_; }
     const Terrain& terrain() const { return content_.terrain; }
@@ -40,6 +48,7 @@ class SceneBuilder {
     std::uint16_t add(Kind kind, Shape shape);
     /// A mover; true where its circle keeps off the path.
     bool addMover(SceneMover mover, double own_radius_m);
+    void addMoverAnywhere(SceneMover mover);
 
     /// Calls put(x, y) at random places of a density (things per square metre) over the whole
     /// scene.
@@ -48,6 +57,8 @@ class SceneBuilder {
     Scene build() { return Scene(std::move(content_)); }
 
  private:
+    SceneBuilder(const TerrainForm& terrain, const Path& path, const GroundExtent& extent,
+                 const Random& random);
     std::uint16_t nextNumber(Kind kind);
 
     Random random_;

@@ -18,6 +18,8 @@ class SceneDistance {
     /// nearer. Single blades of grass and crop (Kind::Canopy) do not count: they bend. 0 within a
     /// rod; within what is made of triangles, the way out. May be called by several threads.
     float at(const Eigen::Vector3f& point_m, double time_s) const;
+    /// As at(), of what stands alone.
+    float toStanding(const Eigen::Vector3f& point_m) const;
 
  private:
     struct World;

@@ -26,8 +26,17 @@ struct LatencyProfile {
 /// A stage's quantiles, `count` of them, of what was measured. Of nothing, none.
 std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 21);
 
-/// JSON. Throw std::runtime_error, naming the file and the key.
+/// The profile as a file holds it: JSON, latencies to the microsecond.
+std::string textOf(const LatencyProfile& profile);
+
+/// The opposite, to the microsecond. Throws std::runtime_error, naming the key.
+LatencyProfile latencyProfileFrom(const std::string& text);
+
+/// Read to the microsecond. Throw std::runtime_error, naming the file and the key.
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
 void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file);
+
+/// Those of config/campaign/profile.json when the program was built.
+LatencyProfile standardLatencyProfile();
 
 }  // namespace hagen
