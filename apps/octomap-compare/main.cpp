@@ -44,6 +44,8 @@ int main(int argc, char** argv) {
     addMerge(app, command);
     addCalibrate(app, command);
     addOpenLoop(app, command);
+    addReport(app, command);
+    addReplay(app, command);
     try {
         app.parse(argc, argv);
         catchSignals();
