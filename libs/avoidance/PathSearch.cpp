@@ -46,21 +46,12 @@ struct Entry {
     }
 };
 
-double extraCost(double clearance_m, double height_off_m, const PathSearchOptions& options) {
+double extraCost(double clearance_m, double height_m, const PathSearchOptions& options) {
     const double range_m = options.wanted_clearance_m - options.least_clearance_m;
     const double short_m = options.wanted_clearance_m - clearance_m;
     const double share = range_m > 0 ? std::clamp(short_m / range_m, 0.0, 1.0) : 0.0;
-    return kProximityCost * share + options.height_cost_per_m * height_off_m;
-}
-
-/// How far a point is above or below the straight line between two others.
-double heightOff(const Eigen::Vector3d& point_m, const Eigen::Vector3d& start_m,
-                 const Eigen::Vector3d& goal_m) {
-    const Eigen::Vector2d line_m = (goal_m - start_m).head<2>();
-    const double square = line_m.squaredNorm();
-    const double share =
-        square > 0 ? std::clamp((point_m - start_m).head<2>().dot(line_m) / square, 0.0, 1.0) : 1.0;
-    return std::abs(point_m.z() - (start_m.z() + share * (goal_m.z() - start_m.z())));
+    return kProximityCost * share +
+           options.height_cost_per_m * std::abs(height_m - options.wanted_height_m);
 }
 
 class Search {
@@ -90,6 +81,7 @@ class Search {
     Eigen::Vector3i least_, size_;  ///< of the grid, in cells from the anchor
     int start_ = 0, goal_ = 0;
     std::uint32_t number_ = 0;
+    Cost haste_permille_;
     std::vector<Cell>& cells_;
     std::vector<Entry> entries_;  ///< a heap
     std::array<Cost, 4> lengths_{};
@@ -111,6 +103,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
       start_m_(start_m),
       goal_m_(goal_m),
       options_(options),
+      haste_permille_(std::llround(1000 * std::max(1.0, options.haste))),
       cells_(memory().cells) {
     if (!(options.cell_m > 0) || options.bounds_m.isEmpty()) {
         throw std::invalid_argument("path search: cells need a size, and bounds to lie in");
@@ -194,8 +187,8 @@ void Search::look(int index) {
             }
         }
     }
-    const double off_m = heightOff(pointOf(index, at.place), start_m_, goal_m_);
-    at.extra_permille = std::llround(1000 * extraCost(at.clearance_m, off_m, options_));
+    const double height_m = pointOf(index, at.place).z();
+    at.extra_permille = std::llround(1000 * extraCost(at.clearance_m, height_m, options_));
 }
 
 /// Whether the straight way between two cells that were looked at is clear. From where the start is
@@ -229,7 +222,7 @@ Cost Search::costOfStep(int from, int to) const {
     return length + length * (a.extra_permille + b.extra_permille) / 2000;
 }
 
-/// The way through empty space over a grid with diagonals.
+/// The way through empty space over a grid with diagonals, times the haste.
 Cost Search::leastCostToGoal(const Eigen::Vector3i& place) const {
     std::array<int, 3> steps{};
     const Eigen::Vector3i goal = placeOf(goal_);
@@ -237,8 +230,9 @@ Cost Search::leastCostToGoal(const Eigen::Vector3i& place) const {
         steps[static_cast<std::size_t>(axis)] = std::abs(place[axis] - goal[axis]);
     }
     std::sort(steps.begin(), steps.end());
-    return lengths_[3] * steps[0] + lengths_[2] * (steps[1] - steps[0]) +
-           lengths_[1] * (steps[2] - steps[1]);
+    const Cost way = lengths_[3] * steps[0] + lengths_[2] * (steps[1] - steps[0]) +
+                     lengths_[1] * (steps[2] - steps[1]);
+    return way * haste_permille_ / 1000;
 }
 
 void Search::push(int from, int to, const Eigen::Vector3i& place, Cost length) {

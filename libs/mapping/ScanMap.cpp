@@ -1,15 +1,108 @@
 #include <hagen/mapping/ScanMap.h>
+
+#include <cmath>
 #include <stdexcept>
+#include <string>
+
+#include "KeyBox.h"
 
 namespace hagen {
 
-ScanMap::ScanMap(const ScanMapOptions& options)
-    : options_(options), tree_(std::make_unique<octomap::OcTree>(options.resolution_m)) {}
+namespace {
 
-void ScanMap::insert(const MappedScan&) { throw std::logic_error("not yet"); }
+octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
-void saveMap(const octomap::OcTree&, const std::filesystem::path&) {
-    throw std::logic_error("not yet");
+/// What a scan says of voxels. One that is hit and passed is hit.
+struct ScanVoxels {
+    std::vector<octomap::OcTreeKey> free, occupied;
+};
+
+/// Walks along rays, and notes each voxel once.
+class RayWalk {
+ public:
+    void start(const octomap::OcTree& tree, const Eigen::Vector3f& origin_m, double max_range_m) {
+        tree_ = &tree;
+        origin_m_ = origin_m;
+        max_range_m_ = static_cast<float>(max_range_m);
+        voxels_.free.clear();
+        voxels_.occupied.clear();
+        const auto reach = static_cast<float>(max_range_m + 2 * tree.getResolution());
+        const Eigen::Vector3f corner = Eigen::Vector3f::Constant(reach);
+        const KeyBox::Corners box{tree.coordToKey(pointOf(origin_m - corner)),
+                                  tree.coordToKey(pointOf(origin_m + corner))};
+        passed_.reset(box);
+        hit_.reset(box);
+        ends_.reset(box);
+    }
+
+    void hit(const Eigen::Vector3f& point_m) {
+        if ((point_m - origin_m_).norm() > max_range_m_) return;
+        const octomap::OcTreeKey key = tree_->coordToKey(pointOf(point_m));
+        if (hit_.add(key)) voxels_.occupied.push_back(key);
+    }
+
+    /// Passes the voxels up to the point's own, or to the greatest range. Rays that end in one
+    /// voxel are one ray to its middle.
+    void pass(const Eigen::Vector3f& point_m) {
+        const Eigen::Vector3f ray = point_m - origin_m_;
+        const float range_m = ray.norm();
+        const Eigen::Vector3f end_m =
+            range_m > max_range_m_ ? origin_m_ + ray * (max_range_m_ / range_m) : point_m;
+        const octomap::OcTreeKey end = tree_->coordToKey(pointOf(end_m));
+        if (!ends_.add(end)) return;
+        if (!tree_->computeRayKeys(pointOf(origin_m_), tree_->keyToCoord(end), ray_)) return;
+        for (const octomap::OcTreeKey& key : ray_) {
+            if (passed_.add(key) && !hit_.has(key)) voxels_.free.push_back(key);
+        }
+    }
+
+    const ScanVoxels& voxels() const { return voxels_; }
+
+ private:
+    const octomap::OcTree* tree_ = nullptr;
+    Eigen::Vector3f origin_m_{0, 0, 0};
+    float max_range_m_ = 0;
+    KeyBox passed_, hit_, ends_;
+    octomap::KeyRay ray_;  // large: kept from scan to scan, with all that is here
+    ScanVoxels voxels_;
+};
+
+void check(const char* what, double value) {
+    if (value > 0 && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("the ") + what + " of an OctoMap is " +
+                                std::to_string(value) + " m; it must be more than 0");
+}
+
+}  // namespace
+
+ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
+    check("resolution", options.resolution_m);
+    check("greatest range", options.max_range_m);
+    tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);
+}
+
+void ScanMap::insert(const MappedScan& scan) {
+    const MapContent content = options_.content;
+    const auto is_hit = [&](std::size_t i) {
+        return content == MapContent::Full || scan.labels[i] == Label::Roi;
+    };
+    thread_local RayWalk walk;
+    walk.start(*tree_, scan.origin_m, options_.max_range_m);
+    for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+        if (is_hit(i)) walk.hit(scan.points_m[i]);
+    }
+    for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+        if (content == MapContent::RoiAndRays || is_hit(i)) walk.pass(scan.points_m[i]);
+    }
+    // Inner nodes wait for finish().
+    constexpr bool lazily = true;
+    for (const auto& key : walk.voxels().free) tree_->updateNode(key, false, lazily);
+    for (const auto& key : walk.voxels().occupied) tree_->updateNode(key, true, lazily);
+}
+
+void ScanMap::finish() {
+    tree_->updateInnerOccupancy();
+    tree_->prune();
 }
 
 }  // namespace hagen

@@ -1,20 +1,124 @@
 #include <hagen/trials/LatencyProfile.h>
+#include <hagen/trials/TrialScore.h>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace hagen {
+namespace {
 
-double LatencyProfile::draw_ms(const std::string& stage, Random& random) const {
+using nlohmann::json;
+
+double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
+
+std::vector<double> quantilesFrom(const json& value) {
+    const std::string rule = "must be numbers of at least 0 [ms] that do not fall, one or more";
+    if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
+    std::vector<double> quantiles;
+    for (const json& quantile : value) {
+        if (!quantile.is_number()) throw std::runtime_error(rule);
+        quantiles.push_back(toMicroseconds(quantile.get<double>()));
+    }
+    const bool is_finite = std::all_of(quantiles.begin(), quantiles.end(),
+                                       [](double q) { return std::isfinite(q) && q >= 0; });
+    if (!is_finite || !std::is_sorted(quantiles.begin(), quantiles.end())) {
+        throw std::runtime_error(rule);
+    }
+    return quantiles;
+}
+
+LatencyProfile profileFrom(const json& root) {
+    if (!root.is_object() || !root.contains("quantiles_ms") || !root["quantiles_ms"].is_object()) {
+        throw std::runtime_error("there is no key 'quantiles_ms'; `calibrate` makes such files");
+    }
+    LatencyProfile profile;
+    for (const auto& [key, text] : {std::pair{"machine", &profile.machine},
+                                    {"made_by", &profile.made_by},
+                                    {"date", &profile.date}}) {
+        if (!root.contains(key)) continue;
+        if (!root[key].is_string()) throw std::runtime_error(std::string(key) + ": must be a text");
+        *text = root[key].get<std::string>();
+    }
+    for (const auto& [stage, value] : root["quantiles_ms"].items()) {
+        try {
+            profile.quantiles_ms[stage] = quantilesFrom(value);
+        } catch (const std::runtime_error& e) {
+            throw std::runtime_error("quantiles_ms: " + stage + ": " + e.what());
+        }
+    }
+    return profile;
+}
+
+}  // namespace
+
+std::string textOf(const LatencyProfile& profile) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << "{\n  \"machine\": " << json(profile.machine)
+         << ",\n  \"made_by\": " << json(profile.made_by) << ",\n  \"date\": " << json(profile.date)
+         << ",\n  \"quantiles_ms\": {";
+    const char* before = "\n";
+    for (const auto& [stage, quantiles] : profile.quantiles_ms) {
+        text << before << "    " << json(stage) << ": [";
+        for (std::size_t q = 0; q < quantiles.size(); ++q) {
+            text << (q > 0 ? ", " : "") << json(toMicroseconds(quantiles[q]));
+        }
+        text << "]";
+        before = ",\n";
+    }
+    text << "\n  }\n}\n";
+    return text.str();
+}
+
+double LatencyProfile::at_ms(const std::string& stage, double share) const {
     const auto found = quantiles_ms.find(stage);
     if (found == quantiles_ms.end() || found->second.empty()) {
-        throw std::runtime_error("the latency profile has no stage \"" + stage + "\"");
+        throw std::runtime_error("the latency profile has no stage \"" + stage +
+                                 "\"; `octomap-compare calibrate` measures all of them");
     }
-    const std::vector<double>& q = found->second;
-    const double at = random.uniform() * static_cast<double>(q.size() - 1);
-    const auto before = static_cast<std::size_t>(at);
-    const double share = at - static_cast<double>(before);
-    return before + 1 < q.size() ? q[before] + share * (q[before + 1] - q[before]) : q.back();
+    return quantileOf(found->second, share);
+}
+
+double LatencyProfile::draw_ms(const std::string& stage, Random& random) const {
+    return at_ms(stage, random.uniform());
+}
+
+double LatencyProfile::median_ms(const std::string& stage) const { return at_ms(stage, 0.5); }
+
+std::vector<double> quantilesOf(std::vector<double> measured_ms, int count) {
+    std::vector<double> quantiles;
+    for (int q = 0; q < count && !measured_ms.empty(); ++q) {
+        quantiles.push_back(quantileOf(measured_ms, static_cast<double>(q) / (count - 1)));
+    }
+    return quantiles;
+}
+
+LatencyProfile latencyProfileFrom(const std::string& text) {
+    return profileFrom(json::parse(text));
+}
+
+LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+    try {
+        return latencyProfileFrom(
+            {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    } catch (const std::exception& e) {  // json's own are none of std::runtime_error
+        throw std::runtime_error(file.string() + ": " + e.what());
+    }
+}
+
+void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file) {
+    std::ofstream out(file, std::ios::binary);
+    out << textOf(profile);
+    out.flush();
+    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 }  // namespace hagen

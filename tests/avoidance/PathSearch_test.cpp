@@ -158,6 +158,7 @@ TEST(PathSearch, GoesAroundRatherThanOverWhereHeightCosts) {
         return most_m;
     };
     EXPECT_GT(heights(), 3);
+    options.wanted_height_m = 2;
     options.height_cost_per_m = 2;
     EXPECT_EQ(heights(), 2);
 }

@@ -19,6 +19,7 @@ struct GuidanceTask {
 struct Carrot {
     Eigen::Vector3d at_m;                 ///< what the planner shall head for
     std::vector<Eigen::Vector3d> path_m;  ///< for pictures; empty where there is none
+    double beyond_m = 0;                  ///< way that is left from there to the goal
 };
 
 /// Where to head for: no memory from call to call.
@@ -28,8 +29,10 @@ class Guidance {
     virtual Carrot carrot(const WorldModel& world, const GuidanceTask& task) const = 0;
 };
 
-/// "straight": at the goal. "astar": 4 m ahead on A*'s path over the same model (0.5 m cells);
-/// straight where there is no path. Throws std::invalid_argument for other names.
+/// "straight": at the goal, level at the wanted altitude above the ground until it is near.
+/// "astar": 4 m ahead on A*'s path over the same model (0.5 m cells), corners cut where there is
+/// room; to the free cell nearest to a goal that is blocked or out of the bounds; straight where
+/// there is no path. Throws std::invalid_argument for other names.
 const std::vector<std::string>& guidanceNames();
 std::unique_ptr<Guidance> makeGuidance(const std::string& name);
 

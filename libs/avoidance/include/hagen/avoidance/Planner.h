@@ -10,13 +10,15 @@ namespace hagen {
 
 /// What a local planner is asked.
 struct PlanningTask {
-    VehicleState start;        ///< when a command given now will be followed (predicted)
-    Eigen::Vector3d carrot_m;  ///< where guidance wants it to go
-    double speed_m_s = 4;      ///< at most
-    double ground_m = 0;       ///< height of the ground below, by the altimeter
-    double altitude_m = 2;     ///< wanted, above the ground
+    VehicleState start;          ///< when a command given now will be followed (predicted)
+    Eigen::Vector3d carrot_m;    ///< where guidance wants it to go, and how high
+    double beyond_carrot_m = 0;  ///< way that is left from there; 0: it is the goal, to stop at
+    double speed_m_s = 4;        ///< at most
+    double ground_m = 0;         ///< height of the ground below, by the altimeter
+    double altitude_m = 2;       ///< wanted, above the ground
     double lowest_m = 1.0, highest_m = 4.5;  ///< altitudes allowed
     VehicleLimits limits;
+    double period_s = 0.1;  ///< the longest that a command may hold before the next can replace it
     bool brakes_in_known_space = false;  ///< a braking tail must end in space that was seen
     bool keeps_candidates = false;       ///< for pictures
 };

@@ -26,7 +26,13 @@ class ScanMap {
     /// Throws std::invalid_argument for a resolution or a range that is not more than 0.
     explicit ScanMap(const ScanMapOptions& options);
 
+    /// Each voxel once a scan: hit where a hit lies in it, else free where a ray passes; a ray
+    /// that ends in a voxel does not clear it. Leaves only: see finish().
     void insert(const MappedScan& scan);
+
+    /// Inner nodes, and leaves that are one in the end: before the tree is saved, or looked at
+    /// coarser than its leaves.
+    void finish();
 
     const octomap::OcTree& tree() const { return *tree_; }
     octomap::OcTree& tree() { return *tree_; }

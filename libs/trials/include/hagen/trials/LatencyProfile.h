@@ -17,10 +17,26 @@ struct LatencyProfile {
 
     /// Draws a latency [ms]. Throws std::runtime_error, naming the stage, for one it does not have.
     double draw_ms(const std::string& stage, Random& random) const;
+    double median_ms(const std::string& stage) const;
+
+    /// The latency [ms] below which this share of a stage's lies.
+    double at_ms(const std::string& stage, double share) const;
 };
 
-/// JSON. Throw std::runtime_error, naming the file and the key.
+/// A stage's quantiles, `count` of them, of what was measured. Of nothing, none.
+std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 21);
+
+/// The profile as a file holds it: JSON, latencies to the microsecond.
+std::string textOf(const LatencyProfile& profile);
+
+/// The opposite, to the microsecond. Throws std::runtime_error, naming the key.
+LatencyProfile latencyProfileFrom(const std::string& text);
+
+/// Read to the microsecond. Throw std::runtime_error, naming the file and the key.
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
 void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file);
+
+/// Those of config/campaign/profile.json when the program was built.
+LatencyProfile standardLatencyProfile();
 
 }  // namespace hagen

@@ -24,6 +24,14 @@ struct Run {
 std::string runHeader();
 std::string rowOf(const Run& run);
 
+/// The run that a row tells. Throws std::runtime_error, naming the column.
+Run runOf(const std::string& row);
+
+/// Names as in runs.csv. poseErrorFrom() throws std::invalid_argument, naming the known ones.
+std::string nameOf(Outcome outcome);
+std::string nameOf(PoseError error);
+PoseError poseErrorFrom(const std::string& name);
+
 /// Throws std::runtime_error, naming file, line and column.
 std::vector<Run> readRuns(const std::filesystem::path& file);
 

@@ -1,0 +1,207 @@
+// octomap-compare closedloop: flies a campaign in simulation.
+#include <hagen/trials/Campaign.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <regex>
+#include <sstream>
+#include <thread>
+
+#include "Commands.h"
+#include "common/Interrupt.h"
+
+namespace hagen {
+namespace {
+
+struct Flags {
+    CampaignPlan plan;
+    std::string seeds, shard = "1/1", unknown = "optimistic", profile, folder;
+    std::vector<std::string> pose_errors{"none"};
+    int jobs = 0;
+    bool overwrites = false, is_quiet = false;
+};
+
+/// "12-34" or "1/4", whole numbers alone.
+std::pair<std::uint64_t, std::uint64_t> pairFrom(const std::string& flag, const std::string& text,
+                                                 const std::string& form, const std::string& what) {
+    std::smatch parts;
+    if (!std::regex_match(text, parts, std::regex(form))) {
+        throw CLI::ValidationError(flag, "'" + text + "' is not " + what);
+    }
+    const std::uint64_t first = std::stoull(parts[1]);
+    return {first, parts[2].matched ? std::stoull(parts[2]) : first};
+}
+
+/// "all", or names.
+void expandAll(std::vector<std::string>& names, const std::vector<std::string>& all) {
+    if (names == std::vector<std::string>{"all"}) names = all;
+}
+
+std::vector<CourseFlights> flightsFrom(Flags& flags) {
+    CampaignPlan& plan = flags.plan;
+    std::tie(plan.first_seed, plan.last_seed) =
+        pairFrom("--seeds", flags.seeds, "(\\d{1,18})(?:-(\\d{1,18}))?", "a seed, or two as A-B");
+    const auto [number, of] =
+        pairFrom("--shard", flags.shard, "(\\d{1,6})/(\\d{1,6})", "i/n, a part of n");
+    plan.brakes_in_known_space = flags.unknown == "brake-known";
+    plan.pose_errors.clear();
+    for (const std::string& name : flags.pose_errors)
+        plan.pose_errors.push_back(poseErrorFrom(name));
+    expandAll(plan.scenarios, courseNames());
+    expandAll(plan.models, worldModelNames());
+    expandAll(plan.guidances, guidanceNames());
+    expandAll(plan.planners, plannerNames());
+    try {
+        return flightsOf(plan, {static_cast<int>(number), static_cast<int>(of)});
+    } catch (const std::invalid_argument& e) {
+        throw CLI::ValidationError("closedloop", e.what());
+    }
+}
+
+LatencyProfile profileFrom(const std::string& file, const std::vector<CourseFlights>& flights) {
+    const LatencyProfile profile =
+        file.empty() ? standardLatencyProfile() : readLatencyProfile(file);
+    try {
+        checkProfile(profile, flights);
+    } catch (const std::runtime_error& e) {
+        throw std::runtime_error((file.empty() ? "the standard profile" : file) + ": " + e.what());
+    }
+    return profile;
+}
+
+std::string durationText(double seconds) {
+    std::ostringstream text;
+    if (seconds < 90) {
+        text << std::lround(seconds) << " s";
+    } else if (seconds < 5400) {
+        text << std::lround(seconds / 60) << " min";
+    } else {
+        text << std::fixed << std::setprecision(1) << seconds / 3600 << " h";
+    }
+    return text.str();
+}
+
+/// A line that says how far it is, and how long it will take; nothing where that is no terminal.
+class ProgressLine {
+ public:
+    ~ProgressLine() {
+        if (is_shown_) std::cerr << "\r\033[K" << std::flush;
+    }
+    void show(std::size_t done, std::size_t all) {
+        if (!is_on_terminal_ || done == last_) return;
+        last_ = done;
+        is_shown_ = true;
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
+        std::cerr << "\r\033[Krun " << done << " of " << all;
+        if (done > 0) {
+            const double left = static_cast<double>(all - done) / static_cast<double>(done);
+            std::cerr << ", about " << durationText(taken.count() * left) << " left";
+        }
+        std::cerr << std::flush;
+    }
+
+ private:
+    bool is_on_terminal_ = isatty(STDERR_FILENO) == 1, is_shown_ = false;
+    std::size_t last_ = static_cast<std::size_t>(-1);
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void printCells(const std::vector<Run>& runs) {
+    struct Cell {
+        int runs = 0, outcomes[3] = {0, 0, 0};
+    };
+    std::map<std::string, Cell> cells;
+    for (const Run& run : runs) {
+        std::ostringstream name;
+        const TrialSetup& setup = run.setup;
+        name << std::left << std::setw(12) << run.scenario << " " << std::setw(4) << setup.speed_m_s
+             << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner
+             << " " << std::setw(6) << nameOf(setup.pose_error) << " x" << std::setw(3)
+             << setup.latency_scale << " " << std::setw(15) << setup.model;
+        Cell& cell = cells[name.str()];
+        ++cell.runs;
+        ++cell.outcomes[static_cast<int>(run.result.outcome)];
+    }
+    std::cout << "scenario     m/s  guidance  planner     pose   lat  model            runs  "
+                 "success  collision  timeout\n";
+    for (const auto& [name, cell] : cells) {
+        std::cout << name << std::right << std::setw(6) << cell.runs << std::setw(9)
+                  << cell.outcomes[0] << std::setw(11) << cell.outcomes[1] << std::setw(9)
+                  << cell.outcomes[2] << "\n";
+    }
+}
+
+int run(Flags flags) {
+    const std::vector<CourseFlights> flights = flightsFrom(flags);
+    const LatencyProfile profile = profileFrom(flags.profile, flights);
+    CampaignFolder folder(flags.folder, profile, flags.overwrites);
+    folder.note(flags.plan);
+    ProgressLine progress;
+    CampaignOptions options;
+    options.jobs =
+        flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
+    options.keep_going = [] { return !isInterrupted(); };
+    if (!flags.is_quiet) {
+        options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+    }
+    flyCampaign(flights, profile, options, folder);
+    if (flags.is_quiet) return 0;
+    printCells(folder.runs());
+    std::cout << (folder.path() / "runs.csv").string() << "\n";
+    return 0;
+}
+
+void addFlags(CLI::App& app, Flags& flags) {
+    const auto list = [&](const char* flag, std::vector<std::string>& names, const char* what) {
+        return app.add_option(flag, names, what)->delimiter(',')->capture_default_str();
+    };
+    CampaignPlan& plan = flags.plan;
+    list("--scenario", plan.scenarios, "courses, or all")->required();
+    app.add_option("--seeds", flags.seeds, "courses' seeds A-B; the same seeds make the same runs")
+        ->required();
+    app.add_option("--speed", plan.speeds_m_s, "m/s, at most")->delimiter(',');
+    list("--models", plan.models, "world models, or all");
+    list("--guidance", plan.guidances, "straight, astar, or all");
+    list("--planner", plan.planners, "primitives, 3dvfh, or all");
+    list("--pose-error", flags.pose_errors,
+         "of believed poses: none, noise (5 cm, 0.5 deg), drift (1 %)")
+        ->check(CLI::IsMember({"none", "noise", "drift"}));
+    app.add_option("--latency-scale", plan.latency_scales,
+                   "times the profile's latencies; 4: an embedded computer")
+        ->delimiter(',');
+    app.add_option("--unknown", flags.unknown,
+                   "space that was never seen: optimistic: free; brake-known: braking must end in "
+                   "space that was seen")
+        ->check(CLI::IsMember({"optimistic", "brake-known"}))
+        ->capture_default_str();
+    app.add_option(
+        "--profile", flags.profile,
+        "latencies to draw from, made by `calibrate`; without it those that come with the program");
+    app.add_option("--shard", flags.shard, "fly part i of n, for several machines; then `merge`")
+        ->capture_default_str();
+    app.add_option("--jobs", flags.jobs, "processes; without it one a core")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("-o,--output", flags.folder,
+                   "folder; the same command goes on where one was stopped, another one adds to it")
+        ->required();
+    app.add_flag("--overwrite", flags.overwrites, "begin the folder anew");
+    app.add_flag("-q,--quiet", flags.is_quiet, "print errors only");
+}
+
+}  // namespace
+
+void addClosedLoop(CLI::App& app, Command& command) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub =
+        app.add_subcommand("closedloop", "fly courses in simulation, model against model");
+    addFlags(*sub, *flags);
+    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
+}
+
+}  // namespace hagen

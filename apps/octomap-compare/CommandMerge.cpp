@@ -1,0 +1,36 @@
+// octomap-compare merge: joins the folders of a campaign that was flown in parts.
+#include <hagen/trials/CampaignFolder.h>
+
+#include <iostream>
+#include <memory>
+
+#include "Commands.h"
+
+namespace hagen {
+namespace {
+
+struct Flags {
+    std::vector<std::string> folders;
+    std::string into;
+    bool overwrites = false;
+};
+
+int run(const Flags& flags) {
+    const std::size_t runs =
+        mergeCampaigns({flags.folders.begin(), flags.folders.end()}, flags.into, flags.overwrites);
+    std::cout << runs << " runs in " << flags.into << "/runs.csv\n";
+    return 0;
+}
+
+}  // namespace
+
+void addMerge(CLI::App& app, Command& command) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("merge", "join folders of one campaign, such as its shards");
+    sub->add_option("folders", flags->folders, "folders of `closedloop`")->required();
+    sub->add_option("-o,--output", flags->into, "folder for all runs")->required();
+    sub->add_flag("--overwrite", flags->overwrites, "begin that folder anew");
+    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
+}
+
+}  // namespace hagen

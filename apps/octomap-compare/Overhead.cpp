@@ -1,0 +1,139 @@
+#include "Overhead.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "Refly.h"
+#include "Summary.h"
+#include "Table.h"
+
+namespace hagen {
+namespace {
+
+constexpr double kLowest_m = 0.5, kHighest_m = 4.5;
+
+int cellOf(double at_m) { return static_cast<int>(std::floor(at_m / OverheadView::kCell_m)); }
+
+void addObstacles(const MappedScan& scan, const Terrain& ground,
+                  std::set<std::pair<int, int>>& cells) {
+    for (const Eigen::Vector3f& p : scan.points_m) {
+        const double x = static_cast<double>(p.x()), y = static_cast<double>(p.y());
+        const double above_m = static_cast<double>(p.z()) - ground.height_m(x, y);
+        if (above_m > kLowest_m && above_m < kHighest_m) cells.insert({cellOf(y), cellOf(x)});
+    }
+}
+
+struct Box {
+    double x0, x1, y0, y1;
+};
+
+/// Start, goal and track, and some room around them.
+Box boxOf(const OverheadView& view) {
+    constexpr double kRoom_m = 5;
+    Box box{view.start_m.x(), view.start_m.x(), view.start_m.y(), view.start_m.y()};
+    const auto include = [&](const Eigen::Vector2d& at) {
+        box = {std::min(box.x0, at.x()), std::max(box.x1, at.x()), std::min(box.y0, at.y()),
+               std::max(box.y1, at.y())};
+    };
+    include(view.goal_m);
+    for (const Eigen::Vector2d& at : view.track_m) include(at);
+    return {box.x0 - kRoom_m, box.x1 + kRoom_m, box.y0 - kRoom_m, box.y1 + kRoom_m};
+}
+
+/// Cells side by side are one rectangle. SVG's y points down.
+std::string cellsPath(const OverheadView& view, const Box& box) {
+    constexpr double cell_m = OverheadView::kCell_m;
+    std::string path;
+    const auto& cells = view.obstacle_cells;
+    for (std::size_t i = 0; i < cells.size();) {
+        std::size_t end = i + 1;
+        while (end < cells.size() && cells[end].second == cells[i].second &&
+               cells[end].first == cells[end - 1].first + 1) {
+            ++end;
+        }
+        const double x = cell_m * cells[i].first, y = cell_m * cells[i].second;
+        const double length = cell_m * static_cast<double>(end - i);
+        if (y > box.y0 && y < box.y1 && x + length > box.x0 && x < box.x1) {
+            path += "M" + fixed(x, 1) + " " + fixed(-y - cell_m, 1) + "h" + fixed(length, 1) + "v" +
+                    fixed(cell_m, 1) + "h" + fixed(-length, 1) + "z";
+        }
+        i = end;
+    }
+    return path;
+}
+
+std::string point(const Eigen::Vector2d& at) { return fixed(at.x(), 2) + "," + fixed(-at.y(), 2); }
+
+std::string circle(const Eigen::Vector2d& at, double radius_m, const std::string& style) {
+    return "<circle cx=\"" + fixed(at.x(), 2) + "\" cy=\"" + fixed(-at.y(), 2) + "\" r=\"" +
+           fixed(radius_m, 2) + "\" " + style + "/>";
+}
+
+}  // namespace
+
+OverheadView viewFromAbove(const Run& run, const LatencyProfile& profile) {
+    OverheadView view{run, false, {}, {}, {}, {}, {}};
+    const Course course = makeCourse(run.scenario, run.seed);
+    std::set<std::pair<int, int>> cells;  // y, x: rows are together
+    TrialListener listener;
+    listener.step = [&](const TrialStep& step) {
+        addObstacles(step.scan, course.scene.terrain(), cells);
+        if (step.plan.is_emergency) view.stops_m.push_back(step.true_state.position_m.head<2>());
+    };
+    listener.moved = [&](double, const VehicleState& state) {
+        view.track_m.push_back(state.position_m.head<2>());
+    };
+    view.is_same = flyAgain(run, profile, listener).is_same;
+    view.start_m = course.start_m.head<2>();
+    view.goal_m = course.goal_m.head<2>();
+    for (const auto& [y, x] : cells) view.obstacle_cells.emplace_back(x, y);
+    return view;
+}
+
+std::vector<Run> worstRuns(const std::vector<Run>& runs, std::size_t count) {
+    std::vector<Run> ranked = runs;
+    const auto badness = [](const Run& run) {
+        return std::make_tuple(run.result.outcome != Outcome::Collision,
+                               run.result.min_clearance_m);
+    };
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [&](const Run& a, const Run& b) { return badness(a) < badness(b); });
+    std::set<std::tuple<std::string, std::string, std::string>> shown;
+    std::vector<Run> worst;
+    for (const Run& run : ranked) {
+        if (worst.size() == count) break;
+        if (run.setup.model == "oracle") continue;
+        if (!shown.insert({run.scenario, run.setup.model, run.setup.guidance}).second) continue;
+        worst.push_back(run);
+    }
+    return worst;
+}
+
+std::string svgOf(const OverheadView& view) {
+    const Box box = boxOf(view);
+    const double width = box.x1 - box.x0, height = box.y1 - box.y0;
+    std::string svg = "<svg class=\"overhead\" viewBox=\"" + fixed(box.x0, 1) + " " +
+                      fixed(-box.y1, 1) + " " + fixed(width, 1) + " " + fixed(height, 1) +
+                      "\" role=\"img\" aria-label=\"The flight from above\">";
+    svg += "<path class=\"obstacles\" d=\"" + cellsPath(view, box) + "\"/>";
+    svg += "<polyline class=\"track\" points=\"";
+    for (std::size_t i = 0; i < view.track_m.size(); i += 5) svg += point(view.track_m[i]) + " ";
+    if (!view.track_m.empty()) svg += point(view.track_m.back());
+    svg += "\"/>";
+    for (const Eigen::Vector2d& at : view.stops_m) svg += circle(at, 0.18, "class=\"stop\"");
+    svg += circle(view.start_m, 0.45, "class=\"start\"");
+    svg += circle(view.goal_m, 1.5, "class=\"goal\"");
+    const bool is_collision = view.run.result.outcome == Outcome::Collision;
+    if (!view.track_m.empty()) {
+        svg += circle(view.track_m.back(), 0.45, is_collision ? "class=\"hit\"" : "class=\"end\"");
+    }
+    // A scale of 5 m.
+    const double x = box.x0 + 1, y = -box.y0 - 1;
+    svg += "<path class=\"scale\" d=\"M" + fixed(x, 1) + " " + fixed(y, 1) + "h5\"/><text x=\"" +
+           fixed(x, 1) + "\" y=\"" + fixed(y - 0.4, 1) + "\">5 m</text>";
+    return svg + "</svg>\n";
+}
+
+}  // namespace hagen

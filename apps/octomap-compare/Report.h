@@ -1,0 +1,34 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Overhead.h"
+#include "Summary.h"
+
+namespace hagen {
+
+/// What a model held along a flight.
+struct MemoryCurve {
+    std::string model;
+    std::vector<std::pair<double, double>> bytes_by_path_m;  ///< path [m], heap [bytes]
+};
+
+/// All that a report tells of.
+struct Report {
+    std::vector<Run> runs;
+    Summary summary;
+    std::optional<LatencyProfile> profile;
+    std::vector<MemoryCurve> memory;
+    std::vector<OverheadView> worst;
+    std::string worst_missing;  ///< why there are none; empty where there are
+};
+
+/// One page that needs nothing else: tables and words as HTML, charts by script.
+std::string reportPage(const Report& report);
+
+/// The verdict and the main tables, for documents.
+std::string reportMarkdown(const Report& report);
+
+}  // namespace hagen

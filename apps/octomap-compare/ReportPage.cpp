@@ -1,0 +1,280 @@
+#include <cmath>
+
+#include "Report.h"
+#include "ReportWords.h"
+#include "SummaryFiles.h"
+#include "Web.h"
+
+namespace hagen {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A part of the report; HTML and Markdown are made from the same ones.
+struct Section {
+    std::string title;
+    std::vector<std::string> words;
+    std::vector<Table> tables;
+    std::vector<std::string> charts{};  ///< ids that the page's script draws
+    std::string html{};                 ///< more, on the page alone
+    bool is_long = false;               ///< folded on the page, left out of documents
+    bool is_list = false;               ///< words are a list
+};
+
+Section conditionSection(const Summary& summary, const Condition& condition) {
+    return {"Outcomes at " + nameOf(condition),
+            {"Success in percent, with Wilson's 95 % interval."},
+            {successTable(summary, condition)}};
+}
+
+void addOutcomes(const Report& report, std::vector<Section>& sections) {
+    const Summary& summary = report.summary;
+    const Condition& reference = summary.conditions.front();
+    Section first = conditionSection(summary, reference);
+    first.charts = {"success"};
+    sections.push_back(first);
+    sections.push_back(
+        {"Collisions at " + nameOf(reference),
+         {"Collisions in percent, with Wilson's 95 % interval. A collision is a true "
+          "clearance under 0.30 m."},
+         {collisionTable(summary, reference)}});
+    for (std::size_t c = 1; c < summary.conditions.size(); ++c) {
+        sections.push_back(conditionSection(summary, summary.conditions[c]));
+    }
+    for (const Condition& condition : summary.conditions) {
+        Section all{"Success, collision and timeout at " + nameOf(condition) + ", every cell",
+                    {},
+                    {outcomeTable(summary, condition)}};
+        all.is_long = true;
+        sections.push_back(all);
+    }
+}
+
+void addPairings(const Report& report, std::vector<Section>& sections) {
+    const Summary& summary = report.summary;
+    sections.push_back(
+        {"The same courses, pair by pair",
+         {"Success of the first less that of the second on courses that both flew; Newcombe's 95 % "
+          "interval; McNemar's exact test with Holm's correction. \"Not inferior\": the interval "
+          "excludes a loss of " +
+          fixed(100 * kMargin, 0) +
+          " points; \"open\": it does not, but holds smaller losses, too."},
+         {pairingTable(summary.overall)}});
+    Section each{"The same, in each scenario", {}, {pairingTable(summary.pairings)}};
+    each.is_long = true;
+    sections.push_back(each);
+    const Table square = squareTable(summary, summary.conditions.front());
+    if (!square.rows.empty() && square.header.size() > 3) {
+        sections.push_back({"World model by guidance",
+                            {"Success in percent at " + nameOf(summary.conditions.front()) +
+                             ": is it the map, or the search for a way, that helps?"},
+                            {square}});
+    }
+    std::vector<std::string> losses = lossesOf(summary);
+    if (losses.empty()) losses = {"In no scenario was its success below another model's."};
+    Section loses{"Where W-RoI loses", losses, {}};
+    loses.is_list = true;
+    sections.push_back(loses);
+}
+
+void addFlights(const Report& report, std::vector<Section>& sections) {
+    const Summary& summary = report.summary;
+    const Condition& reference = summary.conditions.front();
+    const std::string at = " at " + nameOf(reference);
+    if (!summary.speed_limits.empty()) {
+        Section speed{"Success against speed",
+                      {"Lines are success with 95 % intervals; the dashed line is 95 %."},
+                      {speedTable(summary)}};
+        speed.charts = {"speed"};
+        sections.push_back(speed);
+    }
+    Section flight{"How they fly" + at,
+                   {"Over all scenarios that a contender flew, which need not be the same for all. "
+                    "Medians with bootstrap 95 % intervals; the least true clearance is of all "
+                    "runs, the others of successful ones. First reaction: the free way ahead when "
+                    "the vehicle first left its course."},
+                   {flightTable(summary, reference)}};
+    flight.charts = {"clearance"};
+    sections.push_back(flight);
+}
+
+void addEffort(const Report& report, std::vector<Section>& sections) {
+    const Summary& summary = report.summary;
+    const Condition& reference = summary.conditions.front();
+    Section effort{"Time from sensor to command at " + nameOf(reference),
+                   {"From the end of a turn to the command: waiting and all stages. Medians over "
+                    "runs of a run's p50 and p95. A scan that waits when a newer one comes is "
+                    "dropped."},
+                   {effortTable(summary, reference)}};
+    effort.charts = {"command"};
+    sections.push_back(effort);
+    if (report.profile) {
+        Section stages{"Time of each stage",
+                       {"By the latency profile, one core of " + report.profile->machine + "."},
+                       {stageTable(summary, *report.profile)}};
+        stages.charts = {"stages"};
+        sections.push_back(stages);
+    }
+    if (!report.memory.empty()) {
+        Section memory{"Memory against distance",
+                       {"Heap that a model holds along a flight, measured."},
+                       {memoryTable(report.memory)}};
+        memory.charts = {"memory"};
+        sections.push_back(memory);
+    }
+}
+
+std::string captionOf(const OverheadView& view) {
+    const Run& run = view.run;
+    std::string text = run.scenario + ", seed " + std::to_string(run.seed) + ", " +
+                       nameOf(Contender{run.setup.model, run.setup.guidance}) + ", " +
+                       fixed(run.setup.speed_m_s, 1) + " m/s: " + nameOf(run.result.outcome) +
+                       " after " + fixed(run.result.time_s, 1) + " s, least clearance " +
+                       fixed(run.result.min_clearance_m, 2) + " m.";
+    if (!view.is_same) text += " Flown again it came out otherwise: another version, or machine?";
+    return text;
+}
+
+void addWorst(const Report& report, std::vector<Section>& sections) {
+    if (report.worst.empty() && report.worst_missing.empty()) return;
+    Section worst{"The worst runs, from above", {}, {}};
+    if (!report.worst_missing.empty()) {
+        worst.words.push_back(report.worst_missing);
+    } else {
+        worst.words.push_back(
+            "Flown again from their seeds: collisions first, then by clearance; one of each "
+            "scenario and contender. Grey: what the LiDAR saw between 0.5 and 4.5 m above the "
+            "ground. Line: the true path from the filled circle towards the open one (the goal). "
+            "Orange dots: emergency stops. Red cross-hatched end: collision.");
+    }
+    worst.html = "<div class=\"views\">";
+    for (const OverheadView& view : report.worst) {
+        worst.html += "<figure>" + svgOf(view) + "<figcaption>" + htmlText(captionOf(view)) +
+                      "</figcaption></figure>\n";
+    }
+    worst.html += "</div>";
+    sections.push_back(worst);
+}
+
+std::vector<Section> sectionsOf(const Report& report) {
+    std::vector<Section> sections;
+    Section verdict{"Verdict", verdictOf(report.summary), {}};
+    verdict.is_list = true;
+    sections.push_back(verdict);
+    sections.push_back({"What was flown", flownWords(report), {}});
+    if (report.summary.conditions.empty()) return sections;
+    addOutcomes(report, sections);
+    addPairings(report, sections);
+    addFlights(report, sections);
+    addEffort(report, sections);
+    addWorst(report, sections);
+    return sections;
+}
+
+std::string html(const Section& section) {
+    std::string text;
+    if (section.is_list) text += "<ul>";
+    for (const std::string& words : section.words) {
+        const std::string tag = section.is_list ? "li" : "p";
+        text += "<" + tag + ">" + htmlText(words) + "</" + tag + ">\n";
+    }
+    if (section.is_list) text += "</ul>";
+    for (const std::string& chart : section.charts) {
+        text += "<div class=\"charts\" id=\"chart-" + chart + "\"></div>\n";
+    }
+    for (const Table& table : section.tables) text += htmlOf(table);
+    text += section.html;
+    const std::string title = htmlText(section.title);
+    if (section.is_long) {
+        return "<details><summary>" + title + "</summary>\n" + text + "</details>\n";
+    }
+    return "<section><h2>" + title + "</h2>\n" + text + "</section>\n";
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+/// The distribution of least clearances: quantiles at 0, 0.02, ..., 1.
+Json clearancesOf(const Report& report) {
+    Json curves = Json::array();
+    for (const Contender& contender : report.summary.contenders) {
+        std::vector<double> values;
+        for (const Run& run : report.runs) {
+            const Condition condition{run.setup.speed_m_s, run.setup.planner, run.setup.pose_error,
+                                      run.setup.latency_scale, run.setup.brakes_in_known_space};
+            if (condition == report.summary.conditions.front() &&
+                contender == Contender{run.setup.model, run.setup.guidance} &&
+                std::isfinite(run.result.min_clearance_m)) {
+                values.push_back(run.result.min_clearance_m);
+            }
+        }
+        if (values.empty()) continue;
+        Json curve = Json::array();
+        for (int i = 0; i <= 50; ++i) curve.push_back(quantile(values, i / 50.0));
+        curves.push_back(
+            {{"model", contender.model}, {"guidance", contender.guidance}, {"quantiles_m", curve}});
+    }
+    return curves;
+}
+
+Json stagesOf(const Report& report) {
+    Json all = Json::array();
+    if (!report.profile) return all;
+    for (const Contender& contender : report.summary.contenders) {
+        Json stages = Json::array();
+        for (const std::string& stage :
+             stagesOf(contender, report.summary.conditions.front().planner, *report.profile)) {
+            const std::vector<double>& q = report.profile->quantiles_ms.at(stage);
+            stages.push_back({{"stage", stage.substr(stage.find('/') + 1)},
+                              {"p50_ms", quantile(q, 0.5)},
+                              {"p95_ms", quantile(q, 0.95)}});
+        }
+        all.push_back(
+            {{"model", contender.model}, {"guidance", contender.guidance}, {"stages", stages}});
+    }
+    return all;
+}
+
+/// What the page's charts are drawn from.
+Json dataOf(const Report& report) {
+    Json data{{"summary", jsonOf(report.summary)}};
+    if (report.summary.conditions.empty()) return data;
+    data["reference"] = nameOf(report.summary.conditions.front());
+    data["clearances"] = clearancesOf(report);
+    data["stages"] = stagesOf(report);
+    data["memory"] = Json::array();
+    for (const MemoryCurve& curve : report.memory) {
+        Json points = Json::array();
+        for (const auto& [path_m, bytes] : curve.bytes_by_path_m) {
+            points.push_back({number(path_m), number(1e-6 * bytes)});
+        }
+        data["memory"].push_back({{"model", curve.model}, {"megabytes_by_m", points}});
+    }
+    return data;
+}
+
+}  // namespace
+
+std::string reportPage(const Report& report) {
+    std::string body;
+    for (const Section& section : sectionsOf(report)) body += html(section);
+    return filled(web::report_html, {{"style", web::report_css},
+                                     {"body", body},
+                                     {"data", scriptText(dataOf(report).dump())},
+                                     {"chart", web::chart_js},
+                                     {"script", web::report_js}});
+}
+
+std::string reportMarkdown(const Report& report) {
+    std::string text = "# Mapped against mapping-free avoidance\n";
+    for (const Section& section : sectionsOf(report)) {
+        if (section.is_long || (!section.html.empty() && section.tables.empty())) continue;
+        text += "\n## " + section.title + "\n\n";
+        for (const std::string& words : section.words) {
+            text += (section.is_list ? "- " : "") + words + "\n";
+        }
+        for (const Table& table : section.tables) text += "\n" + markdownOf(table);
+    }
+    return text;
+}
+
+}  // namespace hagen

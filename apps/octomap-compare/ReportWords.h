@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "Report.h"
+#include "Table.h"
+
+namespace hagen {
+
+/// The verdict in plain words, a sentence or two each.
+std::vector<std::string> verdictOf(const Summary& summary);
+
+/// What was flown, in sentences.
+std::vector<std::string> flownWords(const Report& report);
+
+/// Pairings in which the first has less success, largest loss first; one sentence each.
+std::vector<std::string> lossesOf(const Summary& summary);
+
+/// Scenarios by contenders, of a condition: "success (interval)" and "collisions/runs".
+Table successTable(const Summary& summary, const Condition& condition);
+Table collisionTable(const Summary& summary, const Condition& condition);
+Table outcomeTable(const Summary& summary, const Condition& condition);  ///< a row a cell
+
+Table pairingTable(const std::vector<Pairing>& pairings);
+Table speedTable(const Summary& summary);
+Table squareTable(const Summary& summary, const Condition& condition);  ///< model x guidance
+Table flightTable(const Summary& summary, const Condition& condition);  ///< clearance, path, ...
+Table effortTable(const Summary& summary, const Condition& condition);  ///< latency, drops, ...
+/// p50, p95 and max of each stage of the models that flew.
+Table stageTable(const Summary& summary, const LatencyProfile& profile);
+Table memoryTable(const std::vector<MemoryCurve>& memory);
+
+/// Stages that a contender's scans go through, in order, by the profile's names; those alone that
+/// the profile has.
+std::vector<std::string> stagesOf(const Contender& contender, const std::string& planner,
+                                  const LatencyProfile& profile);
+
+}  // namespace hagen

@@ -1,0 +1,113 @@
+#pragma once
+#include <hagen/trials/RunTable.h>
+#include <hagen/trials/Statistics.h>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace hagen {
+
+/// What runs have in common that are compared with one another: all but scenario, model, guidance.
+struct Condition {
+    double speed_m_s;
+    std::string planner;
+    PoseError pose_error;
+    double latency_scale;
+    bool brakes_in_known_space;
+
+    auto key() const {
+        return std::tie(speed_m_s, planner, pose_error, latency_scale, brakes_in_known_space);
+    }
+    bool operator<(const Condition& other) const { return key() < other.key(); }
+    bool operator==(const Condition& other) const { return key() == other.key(); }
+};
+
+/// A world model and what guides over it.
+struct Contender {
+    std::string model, guidance;
+
+    bool operator<(const Contender& other) const {
+        return std::tie(guidance, model) < std::tie(other.guidance, other.model);
+    }
+    bool operator==(const Contender& other) const {
+        return model == other.model && guidance == other.guidance;
+    }
+};
+
+/// Of several values: NaN where there is none.
+struct Spread {
+    int count = 0;
+    double p05 = NAN, median = NAN, p95 = NAN;
+    Bounds median_interval{NAN, NAN};  ///< bootstrap, 95 %
+};
+
+/// The runs of one contender in one scenario, or in all, under one condition.
+struct Cell {
+    std::string scenario;  ///< empty: all scenarios
+    Condition condition;
+    Contender contender;
+    int runs = 0, successes = 0, collisions = 0, timeouts = 0;
+    Spread min_clearance_m{};  ///< of all runs; the others below of successful ones
+    Spread path_ratio{};       ///< path over the oracle's path
+    Spread time_s{}, first_reaction_m{}, rms_jerk_m_s3{};
+    Spread latency_p50_ms{}, latency_p95_ms{};  ///< sensor to command, of all runs
+    double latency_max_ms = NAN;
+    double dropped_percent = NAN;  ///< of scans
+    double stops_per_km = NAN;     ///< emergency stops
+};
+
+enum class Verdict { NotInferior, Inferior, Open };
+
+/// Two contenders that flew the same courses under the same condition.
+struct Pairing {
+    std::string scenario;  ///< empty: all scenarios that both flew
+    Condition condition;
+    Contender first, second;
+    int both = 0, only_first = 0, only_second = 0, neither = 0;  ///< succeeded
+    int only_first_collided = 0, only_second_collided = 0;
+    double p = 1, p_holm = 1;  ///< McNemar; Holm's correction over all pairings of the same kind
+    double difference = 0;     ///< of success, first - second
+    Bounds interval{-1, 1};    ///< Newcombe, 95 %
+    Verdict verdict = Verdict::Open;  ///< with a margin of kMargin
+
+    int pairs() const { return both + only_first + only_second + neither; }
+};
+
+/// Less success than this is not inferior: 3 points.
+constexpr double kMargin = 0.03;
+
+/// The success of a contender at several speeds.
+struct SpeedLimit {
+    std::string scenario;
+    Contender contender;
+    double highest_m_s;  ///< with success >= 95 %, and at all lower speeds; NaN: none
+    double sure_m_s;     ///< the same of the interval's lower bound
+};
+
+struct Summary {
+    std::vector<std::string> scenarios;  ///< as they come in the table
+    std::vector<Condition> conditions;   ///< the one with most runs first
+    std::vector<Contender> contenders;   ///< A* first, W-RoI first among its models
+    std::vector<Cell> cells;             ///< by condition, scenario (all scenarios last), contender
+    std::vector<Pairing> overall;        ///< of all scenarios together
+    std::vector<Pairing> pairings;       ///< of each scenario
+    std::vector<SpeedLimit> speed_limits;
+    std::vector<std::string> settings, versions;  ///< of the runs; one of each if all is well
+    int runs = 0;
+};
+
+/// Counts, spreads, paired tests. Under one condition W-RoI is compared with every other model of
+/// the same guidance; with itself under the other guidance; and, straight, with maps under A*.
+Summary summarize(const std::vector<Run>& runs);
+
+/// Nothing where there is no such cell.
+const Cell* find(const Summary& summary, const std::string& scenario, const Condition& condition,
+                 const Contender& contender);
+
+std::string nameOf(Verdict verdict);
+std::string nameOf(const Contender& contender);  ///< "W-RoI, A*"
+/// "4 m/s", and whatever is not as in the reference: planner 3dvfh, pose noise, latency x4, ...
+std::string nameOf(const Condition& condition);
+
+}  // namespace hagen

@@ -1,0 +1,193 @@
+// Draws the charts of a report from the JSON that comes with the page.
+'use strict';
+(() => {
+const data = JSON.parse(document.getElementById('data').textContent);
+const summary = data.summary;
+
+// Okabe and Ito's colours, and a mark each, so that nothing hangs on colour alone.
+const looks = {
+  'W-RoI': ['#0072B2', 'circle'], 'W-Full': ['#56B4E9', 'rect'], 'G-Full': ['#009E73', 'triangle'],
+  'O-Full-0.2': ['#D55E00', 'rectRot'], 'O-Full-0.4': ['#E69F00', 'rectRot'],
+  'O-RoI-0.2': ['#CC79A7', 'star'], 'O-RoI-0.4': ['#A0527F', 'star'],
+  'O-RoI+rays-0.2': ['#7A6A00', 'cross'], 'O-RoI+rays-0.4': ['#B3A000', 'cross'],
+  'oracle': ['#333333', 'crossRot']
+};
+const look = who => {
+  const [color, mark] = looks[who.model] || ['#777777', 'circle'];
+  return {color, mark, dash: who.guidance === 'astar' ? [] : [6, 4]};
+};
+const nameOf = who => who.model + (who.guidance === 'astar' ? ', A*' : ', ' + who.guidance);
+const same = (a, b) => a.model === b.model && a.guidance === b.guidance;
+
+Chart.defaults.animation = false;
+Chart.defaults.maintainAspectRatio = false;
+Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
+Chart.defaults.color = '#1d2530';
+Chart.defaults.plugins.legend.labels.usePointStyle = true;
+Chart.defaults.plugins.legend.position = 'bottom';
+
+// Intervals: points that have `low` and `high` along the axis of values get a bar.
+const intervals = {
+  id: 'intervals',
+  beforeDatasetsDraw(chart, args, options) {
+    if (!options.axis) return;
+    const {ctx, scales} = chart;
+    chart.data.datasets.forEach((set, s) => {
+      if (!chart.isDatasetVisible(s)) return;
+      chart.getDatasetMeta(s).data.forEach((element, i) => {
+        const point = set.data[i];
+        if (point.low === undefined) return;
+        const scale = scales[options.axis];
+        const from = scale.getPixelForValue(point.low), to = scale.getPixelForValue(point.high);
+        ctx.save();
+        ctx.strokeStyle = set.borderColor;
+        ctx.lineWidth = 1.2;
+        ctx.beginPath();
+        if (options.axis === 'x') { ctx.moveTo(from, element.y); ctx.lineTo(to, element.y); }
+        else { ctx.moveTo(element.x, from); ctx.lineTo(element.x, to); }
+        ctx.stroke();
+        ctx.restore();
+      });
+    });
+  }
+};
+Chart.register(intervals);
+
+function draw(place, title, height, config, wide) {
+  const figure = document.createElement('figure');
+  if (wide) figure.className = 'wide';
+  const caption = document.createElement('figcaption');
+  caption.textContent = title;
+  const box = document.createElement('div');
+  box.className = 'canvas';
+  box.style.height = height + 'px';
+  const canvas = document.createElement('canvas');
+  canvas.setAttribute('role', 'img');
+  canvas.setAttribute('aria-label', title);
+  box.append(canvas);
+  figure.append(caption, box);
+  place.append(figure);
+  new Chart(canvas, config);
+}
+function withPlace(name, use) {
+  const place = document.getElementById('chart-' + name);
+  if (place) use(place);
+}
+const axis = (text, more) => Object.assign({title: {display: true, text}}, more);
+const percent = share => 100 * share;
+const inReference = cell => cell.condition.name === data.reference;
+
+withPlace('success', place => {
+  const cells = summary.cells.filter(cell => inReference(cell) && cell.scenario);
+  const names = summary.scenarios.filter(name => cells.some(cell => cell.scenario === name));
+  const present = summary.contenders.filter(who => cells.some(cell => same(cell, who)));
+  const step = 0.72 / Math.max(1, present.length);
+  const datasets = present.map((who, w) => ({
+    label: nameOf(who), borderColor: look(who).color, backgroundColor: look(who).color,
+    pointStyle: look(who).mark, pointRadius: 5,
+    data: cells.filter(cell => same(cell, who)).map(cell => ({
+      x: percent(cell.success.share), low: percent(cell.success.interval[0]),
+      high: percent(cell.success.interval[1]),
+      y: names.indexOf(cell.scenario) + (w - (present.length - 1) / 2) * step}))
+  }));
+  draw(place, 'Success by scenario', 90 + names.length * Math.max(34, 13 * present.length), {
+    type: 'scatter', data: {datasets},
+    options: {
+      plugins: {intervals: {axis: 'x'}},
+      scales: {
+        x: axis('success, %', {max: 100}),
+        y: {min: -0.5, max: names.length - 0.5, reverse: true,
+            afterBuildTicks: scale => { scale.ticks = names.map((name, value) => ({value})); },
+            ticks: {autoSkip: false, callback: value => names[value]},
+            grid: {drawOnChartArea: false}}
+      }
+    }
+  }, true);
+});
+
+withPlace('speed', place => {
+  const scenarios = [...new Set(summary.speed_limits.map(limit => limit.scenario))];
+  for (const scenario of scenarios) {
+    const who = summary.contenders.filter(
+        one => summary.speed_limits.some(l => l.scenario === scenario && same(l, one)));
+    const datasets = who.map((one, w) => ({
+      label: nameOf(one), borderColor: look(one).color, backgroundColor: look(one).color,
+      borderDash: look(one).dash, pointStyle: look(one).mark, pointRadius: 5,
+      data: summary.cells.filter(cell => cell.scenario === scenario && same(cell, one) &&
+          cell.condition.planner === 'primitives' && cell.condition.pose_error === 'none' &&
+          cell.condition.latency_scale === 1 && cell.condition.unknown === 'optimistic')
+        .map(cell => ({x: cell.condition.speed_m_s + 0.06 * (w - (who.length - 1) / 2),
+                       y: percent(cell.success.share), low: percent(cell.success.interval[0]),
+                       high: percent(cell.success.interval[1])}))
+        .sort((a, b) => a.x - b.x)
+    }));
+    const speeds = datasets.flatMap(set => set.data.map(point => point.x));
+    datasets.push({label: '95 %', borderColor: '#777777', borderDash: [2, 4], pointRadius: 0,
+                   borderWidth: 1,
+                   data: [{x: Math.min(...speeds), y: 95}, {x: Math.max(...speeds), y: 95}]});
+    draw(place, scenario, 300, {
+      type: 'line', data: {datasets},
+      options: {plugins: {intervals: {axis: 'y'}},
+                scales: {x: axis('speed, m/s', {type: 'linear', grace: '5%'}),
+                         y: axis('success, %', {max: 101})}}
+    });
+  }
+});
+
+withPlace('clearance', place => {
+  const datasets = data.clearances.map(curve => ({
+    label: nameOf(curve), borderColor: look(curve).color, backgroundColor: look(curve).color,
+    borderDash: look(curve).dash, pointRadius: 0, borderWidth: 2, pointStyle: 'line',
+    data: curve.quantiles_m.map((x, i) => ({x, y: 100 * i / (curve.quantiles_m.length - 1)}))
+  }));
+  draw(place, 'Least true clearance of a flight: share of runs below it', 340, {
+    type: 'line', data: {datasets},
+    options: {scales: {x: axis('least clearance, m', {type: 'linear', min: 0}),
+                       y: axis('runs, %', {min: 0, max: 100})}}
+  }, true);
+});
+
+withPlace('command', place => {
+  const cells = summary.cells.filter(cell => inReference(cell) && !cell.scenario &&
+                                     cell.latency_p50_ms.median !== null);
+  const bars = (label, color, value) => ({
+    label, backgroundColor: color, borderColor: color,
+    data: cells.map(cell => value(cell)), barPercentage: 0.8});
+  draw(place, 'Sensor to command (logarithmic)', 90 + 46 * cells.length, {
+    type: 'bar',
+    data: {labels: cells.map(nameOf), datasets: [
+      bars('p50', '#0072B2', cell => cell.latency_p50_ms.median),
+      bars('p95', '#56B4E9', cell => cell.latency_p95_ms.median),
+      bars('max', '#B8C4CE', cell => cell.latency_max_ms)]},
+    options: {indexAxis: 'y', scales: {x: axis('ms', {type: 'logarithmic'})}}
+  }, true);
+});
+
+withPlace('stages', place => {
+  const colors = {filter: '#0072B2', update: '#E69F00', astar: '#009E73', straight: '#B8C4CE',
+                  primitives: '#CC79A7', '3dvfh': '#A0527F'};
+  const who = data.stages.filter(one => one.stages.length > 0);
+  const stages = [...new Set(who.flatMap(one => one.stages.map(stage => stage.stage)))];
+  for (const [key, title] of [['p50_ms', 'Stages, median'], ['p95_ms', 'Stages, 95th percentile']]) {
+    draw(place, title, 110 + 30 * who.length, {
+      type: 'bar',
+      data: {labels: who.map(nameOf), datasets: stages.map(stage => ({
+        label: stage, backgroundColor: colors[stage] || '#777777',
+        data: who.map(one => (one.stages.find(s => s.stage === stage) || {})[key] || 0)}))},
+      options: {indexAxis: 'y', scales: {x: axis('ms a scan', {stacked: true}), y: {stacked: true}}}
+    });
+  }
+});
+
+withPlace('memory', place => {
+  const datasets = data.memory.map(curve => ({
+    label: curve.model, borderColor: look(curve).color, backgroundColor: look(curve).color,
+    pointRadius: 0, borderWidth: 2, pointStyle: 'line',
+    data: curve.megabytes_by_m.map(([x, y]) => ({x, y}))}));
+  draw(place, 'Memory of the world model', 320, {
+    type: 'line', data: {datasets},
+    options: {scales: {x: axis('flown, m', {type: 'linear'}), y: axis('MB', {type: 'logarithmic'})}}
+  }, true);
+});
+document.body.dataset.charts = String(document.querySelectorAll('canvas').length);
+})();

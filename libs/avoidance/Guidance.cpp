@@ -1,0 +1,150 @@
+#include <hagen/avoidance/Guidance.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+constexpr double kNearGoal_m = 4;  ///< from here on the goal's own height counts
+constexpr double kCarrot_m = 4;
+constexpr double kSight_m = 12;          ///< how far along the path corners are cut
+constexpr double kCutClearance_m = 0.9;  ///< that a cut needs
+constexpr double kGoalSearch_m = 3;  ///< how far from a blocked goal another place is looked for
+constexpr double kHeightCost_per_m = 0.5;
+constexpr double kHaste = 1.3;  ///< of the search: a third of the questions in a dense forest
+constexpr int kMostCells = 4000;
+
+/// The goal, level at the wanted altitude while it is far off: the ground in between is unknown.
+Eigen::Vector3d levelGoal(const GuidanceTask& task) {
+    Eigen::Vector3d goal_m = task.goal_m;
+    const double way_m = (task.goal_m - task.position_m).head<2>().norm();
+    if (way_m > kNearGoal_m) goal_m.z() = task.ground_m + task.altitude_m;
+    goal_m.z() =
+        std::clamp(goal_m.z(), task.ground_m + task.lowest_m, task.ground_m + task.highest_m);
+    return goal_m;
+}
+
+Carrot straightCarrot(const GuidanceTask& task) { return {levelGoal(task), {}, 0}; }
+
+PathSearchOptions searchOptions(const GuidanceTask& task) {
+    PathSearchOptions options;
+    options.bounds_m = task.bounds_m;
+    options.bounds_m.min().z() = task.ground_m + task.lowest_m;
+    options.bounds_m.max().z() = task.ground_m + task.highest_m;
+    options.least_clearance_m = task.limits.room_m();
+    options.wanted_height_m = task.ground_m + task.altitude_m;
+    options.height_cost_per_m = kHeightCost_per_m;
+    options.anchor_m.z() = options.wanted_height_m;
+    options.haste = kHaste;
+    options.most_cells = kMostCells;
+    return options;
+}
+
+/// The goal or, where that is blocked or out of the bounds, the nearest free place on a grid
+/// around it.
+Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& goal_m,
+                              const PathSearchOptions& options) {
+    const auto isFree = [&](const Eigen::Vector3d& at_m) {
+        return world.clearance_m(at_m.cast<float>()) >= options.least_clearance_m;
+    };
+    const Eigen::Vector3d inside_m =
+        goal_m.cwiseMax(options.bounds_m.min()).cwiseMin(options.bounds_m.max());
+    if (isFree(inside_m)) return inside_m;
+    std::vector<Eigen::Vector3d> places_m;
+    const int steps = static_cast<int>(kGoalSearch_m / options.cell_m);
+    for (int z = -steps; z <= steps; ++z) {
+        for (int y = -steps; y <= steps; ++y) {
+            for (int x = -steps; x <= steps; ++x) {
+                const Eigen::Vector3d at_m = inside_m + options.cell_m * Eigen::Vector3d(x, y, z);
+                if (options.bounds_m.contains(at_m)) places_m.push_back(at_m);
+            }
+        }
+    }
+    std::stable_sort(places_m.begin(), places_m.end(), [&](const auto& a, const auto& b) {
+        return (a - inside_m).squaredNorm() < (b - inside_m).squaredNorm();
+    });
+    const auto found = std::find_if(places_m.begin(), places_m.end(), isFree);
+    return found != places_m.end() ? *found : inside_m;
+}
+
+bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m,
+               const Eigen::Vector3d& to_m) {
+    const double length_m = (to_m - from_m).norm();
+    for (double at_m = 0; at_m < length_m;) {
+        const Eigen::Vector3d point_m = from_m + at_m / length_m * (to_m - from_m);
+        const double clearance_m = world.clearance_m(point_m.cast<float>());
+        if (clearance_m < kCutClearance_m) return false;
+        at_m += std::max(clearance_m - kCutClearance_m, 0.1);
+    }
+    return true;
+}
+
+/// The place so far ahead on a path; its end where that is nearer.
+Eigen::Vector3d placeAt(const std::vector<Eigen::Vector3d>& path_m, double way_m) {
+    for (std::size_t i = 1; i < path_m.size(); ++i) {
+        const Eigen::Vector3d step_m = path_m[i] - path_m[i - 1];
+        const double length_m = step_m.norm();
+        if (length_m > way_m) return path_m[i - 1] + way_m / length_m * step_m;
+        way_m -= length_m;
+    }
+    return path_m.back();
+}
+
+double lengthOf(const std::vector<Eigen::Vector3d>& path_m) {
+    double length_m = 0;
+    for (std::size_t i = 1; i < path_m.size(); ++i) length_m += (path_m[i] - path_m[i - 1]).norm();
+    return length_m;
+}
+
+/// A path over a grid turns by 45 degrees or not at all: where the straight way to a place farther
+/// on has room enough, the carrot lies on it.
+Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m) {
+    const double length_m = lengthOf(path_m);
+    Carrot carrot{placeAt(path_m, kCarrot_m), {}, std::max(0.0, length_m - kCarrot_m)};
+    for (double way_m = std::min(kSight_m, length_m); way_m > kCarrot_m; way_m -= 2) {
+        const Eigen::Vector3d place_m = placeAt(path_m, way_m);
+        if (!isInSight(world, path_m.front(), place_m)) continue;
+        const Eigen::Vector3d sight_m = place_m - path_m.front();
+        const double distance_m = sight_m.norm();
+        if (distance_m <= kCarrot_m) continue;
+        carrot.at_m = path_m.front() + kCarrot_m / distance_m * sight_m;
+        carrot.beyond_m = distance_m - kCarrot_m + length_m - way_m;
+        break;
+    }
+    carrot.path_m = std::move(path_m);
+    return carrot;
+}
+
+class StraightGuidance : public Guidance {
+ public:
+    Carrot carrot(const WorldModel&, const GuidanceTask& task) const override {
+        return straightCarrot(task);
+    }
+};
+
+class PathGuidance : public Guidance {
+ public:
+    Carrot carrot(const WorldModel& world, const GuidanceTask& task) const override {
+        const PathSearchOptions options = searchOptions(task);
+        const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
+        auto path_m = findPath([&](const Eigen::Vector3f& at) { return world.clearance_m(at); },
+                               task.position_m, goal_m, options);
+        return path_m ? carrotOn(world, std::move(*path_m)) : straightCarrot(task);
+    }
+};
+
+}  // namespace
+
+const std::vector<std::string>& guidanceNames() {
+    static const std::vector<std::string> names{"straight", "astar"};
+    return names;
+}
+
+std::unique_ptr<Guidance> makeGuidance(const std::string& name) {
+    if (name == "straight") return std::make_unique<StraightGuidance>();
+    if (name == "astar") return std::make_unique<PathGuidance>();
+    throw std::invalid_argument("there is no guidance \"" + name + "\"; there are straight, astar");
+}
+
+}  // namespace hagen

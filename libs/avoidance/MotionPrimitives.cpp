@@ -1,0 +1,144 @@
+#include "MotionPrimitives.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include "Motion.h"
+
+namespace hagen {
+namespace {
+
+constexpr int kAzimuths = 36;
+constexpr double kSteepest_rad = 0.24;
+constexpr std::array<double, 3> kSpeedShares{1.0, 0.6, 0.3};
+constexpr double kVertical_m_s = 1.0;
+constexpr double kAtGoal_m = 0.5;
+
+// Weights; progress at full speed straight to the carrot is worth 1.
+constexpr double kDeviationCost = 0.2;
+constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
+constexpr double kChangeCost = 0.1;
+constexpr double kStandingCost = 0.3;  ///< of a stop away from the goal
+constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
+
+struct Candidate {
+    double cost;  ///< without that of proximity, which takes questions
+    Eigen::Vector3d command_m_s;
+};
+
+/// Where the candidates are measured against: the carrot or, where way is left beyond it, a place
+/// farther in its direction, for the vehicle shall not slow down for a carrot.
+Eigen::Vector3d aimOf(const PlanningTask& task) {
+    const Eigen::Vector3d way_m = task.carrot_m - task.start.position_m;
+    const double length_m = way_m.norm();
+    const double reach_m =
+        std::min(task.speed_m_s * kLookAhead_s + 1, length_m + task.beyond_carrot_m);
+    if (length_m < 1e-6 || length_m >= reach_m) return task.carrot_m;
+    Eigen::Vector3d aim_m = task.start.position_m + reach_m / length_m * way_m;
+    aim_m.z() = task.carrot_m.z();
+    return aim_m;
+}
+
+/// The height wanted is to be reached within the look-ahead, however far the carrot.
+std::array<double, 5> elevationsTo(const Eigen::Vector3d& aim_m, const PlanningTask& task,
+                                   double speed_m_s) {
+    const Eigen::Vector3d way_m = aim_m - task.start.position_m;
+    const double level_m = std::min(way_m.head<2>().norm(), speed_m_s * kLookAhead_s);
+    const double exact_rad = std::atan2(way_m.z(), std::max(level_m, 1e-3));
+    return {std::clamp(exact_rad, -kSteepest_rad, kSteepest_rad), -kSteepest_rad,
+            -kSteepest_rad / 2, kSteepest_rad / 2, kSteepest_rad};
+}
+
+std::vector<Eigen::Vector3d> commandsFor(const PlanningTask& task, const Eigen::Vector3d& aim_m) {
+    const Eigen::Vector3d way_m = aim_m - task.start.position_m;
+    const double heading_rad = std::atan2(way_m.y(), way_m.x());
+    const double speed_m_s = speedTowardsGoal(task);
+    const std::array<double, 5> elevations_rad = elevationsTo(aim_m, task, speed_m_s);
+    std::vector<Eigen::Vector3d> commands_m_s{{0, 0, 0}};
+    commands_m_s.reserve(kAzimuths * elevations_rad.size() * kSpeedShares.size() + 3);
+    for (double vertical_m_s : {kVertical_m_s, -kVertical_m_s}) {
+        commands_m_s.emplace_back(0, 0, std::min(task.speed_m_s, kVertical_m_s) * vertical_m_s);
+    }
+    for (int azimuth = 0; azimuth < kAzimuths; ++azimuth) {
+        const double azimuth_rad = heading_rad + azimuth * 2 * M_PI / kAzimuths;
+        for (double elevation_rad : elevations_rad) {
+            const double level = std::cos(elevation_rad);
+            const Eigen::Vector3d direction(level * std::cos(azimuth_rad),
+                                            level * std::sin(azimuth_rad), std::sin(elevation_rad));
+            for (double share : kSpeedShares) {
+                commands_m_s.push_back(share * speed_m_s * direction);
+            }
+        }
+    }
+    return commands_m_s;
+}
+
+/// Where a command leads within the look-ahead, in coarse steps: enough to rank by.
+Eigen::Vector3d endOf(const PlanningTask& task, const Eigen::Vector3d& command_m_s) {
+    constexpr double kStep_s = 0.1;
+    VehicleState state = task.start;
+    for (int step = 0; step < static_cast<int>(kLookAhead_s / kStep_s + 0.5); ++step) {
+        state = advance(state, command_m_s, kStep_s, task.limits);
+    }
+    return state.position_m;
+}
+
+double costOf(const PlanningTask& task, const Eigen::Vector3d& aim_m,
+              const Eigen::Vector3d& command_m_s) {
+    const Eigen::Vector3d end_m = endOf(task, command_m_s);
+    const Eigen::Vector3d way_m = (aim_m - task.start.position_m);
+    const Eigen::Vector2d flown_m = (end_m - task.start.position_m).head<2>();
+    const double reach_m = task.speed_m_s * kLookAhead_s;
+    const double progress = (way_m.head<2>().norm() - (aim_m - end_m).head<2>().norm()) / reach_m;
+    const Eigen::Vector2d ahead = way_m.head<2>().normalized();
+    const double deviation = std::abs(ahead.x() * flown_m.y() - ahead.y() * flown_m.x()) / reach_m;
+    const double change = (command_m_s - task.start.velocity_m_s).norm() / task.speed_m_s;
+    const bool stands = command_m_s.isZero() && way_m.norm() > kAtGoal_m;
+    return (stands ? kStandingCost : 0) - progress + kDeviationCost * deviation +
+           kHeightCost_per_m * std::abs(end_m.z() - aim_m.z()) +
+           kOutOfAltitudesCost_per_m * outOfAltitudes(end_m.z(), task) + kChangeCost * change;
+}
+
+std::vector<Candidate> rankedCandidates(const PlanningTask& task) {
+    const Eigen::Vector3d aim_m = aimOf(task);
+    std::vector<Candidate> candidates;
+    for (const Eigen::Vector3d& command_m_s : commandsFor(task, aim_m)) {
+        candidates.push_back({costOf(task, aim_m, command_m_s), command_m_s});
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    return candidates;
+}
+
+double proximityCost(double clearance_m, const VehicleLimits& limits) {
+    const double short_m = kComfortable_m - clearance_m;
+    return kProximityCost * std::clamp(short_m / (kComfortable_m - limits.room_m()), 0.0, 1.0);
+}
+
+}  // namespace
+
+Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) const {
+    Plan plan;
+    plan.is_emergency = true;
+    if (mustStop(world, task)) return plan;
+    double best = std::numeric_limits<double>::infinity();
+    std::vector<Eigen::Vector3f> way_m;
+    for (const Candidate& candidate : rankedCandidates(task)) {
+        if (candidate.cost >= best) break;  // the rest cost more, however much room they have
+        const std::optional<float> clearance_m =
+            checkCommand(world, task, candidate.command_m_s, kLookAhead_s, way_m);
+        if (task.keeps_candidates) {
+            plan.candidates.push_back({way_m, candidate.command_m_s, clearance_m.has_value()});
+        }
+        if (!clearance_m) continue;
+        const double cost = candidate.cost + proximityCost(*clearance_m, task.limits);
+        if (cost < best) {
+            best = cost;
+            plan.command_m_s = candidate.command_m_s;
+            plan.is_emergency = false;
+        }
+    }
+    return plan;
+}
+
+}  // namespace hagen

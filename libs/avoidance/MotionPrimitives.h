@@ -1,0 +1,12 @@
+#pragma once
+#include <hagen/avoidance/Planner.h>
+
+namespace hagen {
+
+/// "primitives": the cheapest free one of a fixed set of motions.
+class MotionPrimitives : public Planner {
+ public:
+    Plan plan(const WorldModel& world, const PlanningTask& task) const override;
+};
+
+}  // namespace hagen

@@ -1,0 +1,20 @@
+#include <hagen/avoidance/Planner.h>
+#include <stdexcept>
+#include "MotionPrimitives.h"
+#include "PolarHistogram.h"
+
+namespace hagen {
+
+const std::vector<std::string>& plannerNames() {
+    static const std::vector<std::string> names{"primitives", "3dvfh"};
+    return names;
+}
+
+std::unique_ptr<Planner> makePlanner(const std::string& name) {
+    if (name == "primitives") return std::make_unique<MotionPrimitives>();
+    if (name == "3dvfh") return std::make_unique<PolarHistogram>();
+    throw std::invalid_argument("there is no planner \"" + name +
+                                "\"; there are primitives, 3dvfh");
+}
+
+}  // namespace hagen

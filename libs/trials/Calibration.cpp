@@ -1,0 +1,133 @@
+#include <hagen/trials/Calibration.h>
+#include <hagen/trials/Trial.h>
+
+#include <ctime>
+#include <fstream>
+#include <memory>
+
+#include "Stopwatch.h"
+
+namespace hagen {
+namespace {
+
+const char kCourse[] = "forest-0.05";
+
+std::string processorName() {
+    std::ifstream in("/proc/cpuinfo");
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown processor";
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[16];
+    std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
+    return text;
+}
+
+/// A flight's scans, and the way flown when each was taken.
+struct RecordedScans {
+    std::vector<MappedScan> scans;
+    std::vector<double> path_m;
+    double length_m = 0;
+};
+
+RecordedScans recordFlight(const Course& course) {
+    RecordedScans recorded;
+    TrialListener listener;
+    Eigen::Vector3d last = course.start_m;
+    listener.moved = [&](double, const VehicleState& state) {
+        recorded.length_m += (state.position_m - last).norm();
+        last = state.position_m;
+    };
+    listener.step = [&](const TrialStep& step) {
+        recorded.scans.push_back(step.scan);
+        recorded.path_m.push_back(recorded.length_m);
+    };
+    runTrial(course, TrialSetup{}, constantProfile(kNominal_ms), nullptr, listener);
+    return recorded;
+}
+
+void moveAlongX(MappedScan& scan, float by_m) {
+    scan.origin_m.x() += by_m;
+    for (Eigen::Vector3f& point : scan.points_m) point.x() += by_m;
+}
+
+}  // namespace
+
+LatencyProfile constantProfile(double latency_ms) {
+    LatencyProfile profile;
+    profile.quantiles_ms["filter"] = {latency_ms};
+    for (const std::string& model : worldModelNames()) {
+        profile.quantiles_ms[model + "/update"] = {latency_ms};
+        for (const std::string& name : guidanceNames()) {
+            profile.quantiles_ms[model + "/" + name] = {latency_ms};
+        }
+        for (const std::string& name : plannerNames()) {
+            profile.quantiles_ms[model + "/" + name] = {latency_ms};
+        }
+    }
+    return profile;
+}
+
+LatencyProfile calibrate(const CalibrationOptions& options) {
+    const LatencyProfile nominal = constantProfile(kNominal_ms);
+    TrialMeasurement measurement;
+    TrialSetup setup;
+    const std::size_t planners = plannerNames().size();
+    for (const std::string& model : options.models) {
+        if (options.doing) options.doing(model);
+        setup.model = model;
+        for (int seed = 0; seed < options.courses; ++seed) {
+            const Course course = makeCourse(kCourse, static_cast<std::uint64_t>(seed));
+            for (std::size_t i = 0; i < guidanceNames().size(); ++i) {
+                setup.guidance = guidanceNames()[i];
+                setup.planner = plannerNames()[i % planners];
+                runTrial(course, setup, nominal, &measurement);
+            }
+        }
+    }
+    LatencyProfile profile;
+    profile.machine = processorName();
+    profile.made_by = "octomap-compare " HAGEN_VERSION;
+    profile.date = today();
+    for (const auto& [stage, taken_ms] : measurement.stage_ms) {
+        profile.quantiles_ms[stage] = quantilesOf(taken_ms);
+    }
+    return profile;
+}
+
+std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m) {
+    constexpr double kEvery_m = 10;
+    const Course course = makeCourse(kCourse, 0);
+    RecordedScans recorded = recordFlight(course);
+    WorldModelSetting setting;
+    setting.bounds_m = course.bounds_m.cast<float>();
+    setting.bounds_m.max().x() += static_cast<float>(path_m);
+    setting.true_clearance_m = [](const Eigen::Vector3f&) { return WorldModel::kReach_m; };
+    const double before = heapBytes();
+    const auto world = makeWorldModel(model, setting);
+    std::vector<HeapSample> samples{{0, heapBytes() - before}};
+    double held = samples[0].bytes;
+    for (double lap_m = 0; lap_m < path_m; lap_m += recorded.length_m) {
+        for (std::size_t i = 0; i < recorded.scans.size(); ++i) {
+            const double at_m = lap_m + recorded.path_m[i], heap = heapBytes();
+            world->update(recorded.scans[i]);
+            held += heapBytes() - heap;
+            if (at_m <= path_m && at_m >= samples.back().path_m + kEvery_m) {
+                samples.push_back({at_m, held});
+            }
+            moveAlongX(recorded.scans[i], static_cast<float>(recorded.length_m));
+        }
+    }
+    return samples;
+}
+
+}  // namespace hagen

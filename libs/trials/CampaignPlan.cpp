@@ -1,0 +1,96 @@
+#include <hagen/trials/CampaignPlan.h>
+#include <algorithm>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+void checkNames(const std::string& what, const std::vector<std::string>& names,
+                const std::vector<std::string>& known) {
+    if (names.empty()) throw std::invalid_argument("no " + what + " is given");
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        std::string all;
+        for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+        throw std::invalid_argument("unknown " + what + " '" + name + "'; known are " + all);
+    }
+}
+
+void checkPositive(const std::string& what, const std::vector<double>& values) {
+    if (values.empty()) throw std::invalid_argument("no " + what + " is given");
+    for (const double value : values) {
+        if (!(value > 0 && value <= 100)) {
+            throw std::invalid_argument("a " + what + " must be more than 0, and at most 100");
+        }
+    }
+}
+
+void check(const CampaignPlan& plan, const Shard& shard) {
+    checkNames("scenario", plan.scenarios, courseNames());
+    checkNames("model", plan.models, worldModelNames());
+    checkNames("guidance", plan.guidances, guidanceNames());
+    checkNames("planner", plan.planners, plannerNames());
+    checkPositive("speed", plan.speeds_m_s);
+    checkPositive("latency scale", plan.latency_scales);
+    if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
+    if (plan.last_seed < plan.first_seed) {
+        throw std::invalid_argument("the last seed is before the first");
+    }
+    if (shard.of < 1 || shard.number < 1 || shard.number > shard.of) {
+        throw std::invalid_argument("a shard is i/n with i from 1 to n");
+    }
+}
+
+std::vector<TrialSetup> setupsOf(const CampaignPlan& plan) {
+    std::vector<TrialSetup> setups;
+    TrialSetup setup;
+    setup.brakes_in_known_space = plan.brakes_in_known_space;
+    for (const double speed : plan.speeds_m_s) {
+        for (const double scale : plan.latency_scales) {
+            for (const PoseError error : plan.pose_errors) {
+                for (const std::string& planner : plan.planners) {
+                    for (const std::string& guidance : plan.guidances) {
+                        for (const std::string& model : plan.models) {
+                            setup.speed_m_s = speed;
+                            setup.latency_scale = scale;
+                            setup.pose_error = error;
+                            setup.planner = planner;
+                            setup.guidance = guidance;
+                            setup.model = model;
+                            setups.push_back(setup);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    return setups;
+}
+
+}  // namespace
+
+std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard) {
+    check(plan, shard);
+    const std::vector<TrialSetup> setups = setupsOf(plan);
+    std::vector<CourseFlights> flights;
+    int course = 0;
+    for (std::uint64_t i = 0; i <= plan.last_seed - plan.first_seed; ++i) {
+        for (const std::string& scenario : plan.scenarios) {
+            if (course++ % shard.of != shard.number - 1) continue;
+            flights.push_back({scenario, plan.first_seed + i, setups});
+        }
+    }
+    return flights;
+}
+
+void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights>& flights) {
+    if (flights.empty()) return;
+    for (const TrialSetup& setup : flights.front().setups) {
+        if (needsLabels(setup.model)) profile.median_ms("filter");
+        for (const std::string& stage : {std::string("update"), setup.guidance, setup.planner}) {
+            profile.median_ms(setup.model + "/" + stage);
+        }
+    }
+}
+
+}  // namespace hagen

@@ -1,0 +1,62 @@
+#pragma once
+#include <hagen/trials/Trial.h>
+#include <malloc.h>
+#include <time.h>
+
+#include <algorithm>
+#include <string>
+
+namespace hagen {
+
+/// CPU time of this thread [ms].
+inline double cpuTime_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// What the heap holds, of all threads [bytes].
+inline double heapBytes() {
+    const struct mallinfo2 info = mallinfo2();
+    return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
+/// Takes down what stages cost, where somebody wants to know.
+class Stopwatch {
+ public:
+    explicit Stopwatch(TrialMeasurement* measurement) : measurement_(measurement) {}
+
+    template <class Call>
+    decltype(auto) time(const std::string& stage, Call call) {
+        if (measurement_ == nullptr) return call();
+        const Timer timer{*measurement_, stage};
+        return call();
+    }
+
+    /// Of a call that changes the world model alone: what the heap holds more afterwards is the
+    /// model's. Names no stage: the model's making is not timed.
+    template <class Call>
+    void weigh(const std::string& stage, double path_m, Call call) {
+        if (measurement_ == nullptr) return call();
+        const double before = heapBytes(), start_ms = cpuTime_ms();
+        call();
+        const double taken_ms = cpuTime_ms() - start_ms;
+        held_bytes_ += heapBytes() - before;
+        if (!stage.empty()) measurement_->stage_ms[stage].push_back(taken_ms);
+        measurement_->peak_model_bytes = std::max(measurement_->peak_model_bytes, held_bytes_);
+        measurement_->model_bytes_by_path_m.emplace_back(path_m, held_bytes_);
+    }
+
+ private:
+    struct Timer {
+        TrialMeasurement& measurement;
+        const std::string& stage;
+        double start_ms = cpuTime_ms();
+        ~Timer() { measurement.stage_ms[stage].push_back(cpuTime_ms() - start_ms); }
+    };
+
+    TrialMeasurement* measurement_;
+    double held_bytes_ = 0;
+};
+
+}  // namespace hagen

@@ -1,0 +1,268 @@
+#include <hagen/trials/CommandQueue.h>
+#include <hagen/trials/FlightTrace.h>
+#include <hagen/trials/PoseBelief.h>
+#include <hagen/trials/Trial.h>
+#include <hagen/trials/TrialScore.h>
+#include <hagen/trials/TrialSensor.h>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "Stopwatch.h"
+#include "Streams.h"
+
+namespace hagen {
+namespace {
+
+constexpr int kStepsPerTurn = 5;
+static_assert(kStepsPerTurn * 20 == 100);  // of kControlStep_s in TrialSensor::kTurn_s
+
+/// What each stage takes, by the profile.
+class Latencies {
+ public:
+    Latencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile)
+        : profile_(profile), scale_(setup.latency_scale) {
+        if (needsLabels(setup.model)) stages_.push_back({"filter", Random(course.seed, stream(0))});
+        const std::string names[] = {"update", setup.guidance, setup.planner};
+        for (std::uint64_t i = 0; i < 3; ++i) {
+            stages_.push_back({setup.model + "/" + names[i], Random(course.seed, stream(i + 1))});
+        }
+    }
+    double draw_s() {
+        double sum_ms = 0;
+        for (Stage& stage : stages_) sum_ms += profile_.draw_ms(stage.name, stage.random);
+        return 1e-3 * scale_ * sum_ms;
+    }
+    /// What a planner may count on.
+    double median_s() const {
+        double sum_ms = 0;
+        for (const Stage& stage : stages_) sum_ms += profile_.median_ms(stage.name);
+        return 1e-3 * scale_ * sum_ms;
+    }
+
+ private:
+    struct Stage {
+        std::string name;
+        Random random;
+    };
+    static std::uint64_t stream(std::uint64_t stage) { return streams::kLatency + stage; }
+
+    const LatencyProfile& profile_;
+    double scale_;
+    std::vector<Stage> stages_;
+};
+
+double groundHeight_m(const Course& course, const Eigen::Vector3d& at) {
+    return course.scene.terrain().height_m(at.x(), at.y());
+}
+
+/// A flight, from control step to control step.
+class TrialFlight {
+ public:
+    TrialFlight(const Course& course, const TrialSetup& setup, const LatencyProfile& profile,
+                TrialMeasurement* measurement, const TrialListener& listener)
+        : course_(course),
+          setup_(setup),
+          listener_(listener),
+          stopwatch_(measurement),
+          sensor_(course),
+          belief_(setup.pose_error, course.seed),
+          latencies_(course, setup, profile),
+          guidance_(makeGuidance(setup.guidance)),
+          planner_(makePlanner(setup.planner)),
+          state_{course.start_m, Eigen::Vector3d::Zero()},
+          trace_(state_) {
+        WorldModelSetting world;
+        world.bounds_m = course.bounds_m.cast<float>();
+        world.true_clearance_m = [this](const Eigen::Vector3f& believed_m) {
+            return course_.distance.at(believed_m - scan_offset_m_, scan_s_);
+        };
+        stopwatch_.weigh("", 0, [&] { world_ = makeWorldModel(setup.model, world); });
+    }
+
+    TrialResult fly() {
+        TrialJudge judge(course_, setup_.speed_m_s);
+        for (int step = 0;; ++step) {
+            const double time_s = kControlStep_s * step;
+            const auto clearance_m =
+                static_cast<double>(course_.distance.at(state_.position_m.cast<float>(), time_s));
+            result_.min_clearance_m = std::min(result_.min_clearance_m, clearance_m);
+            if (listener_.moved) listener_.moved(time_s, state_);
+            const auto outcome =
+                judge.judge(state_.position_m, clearance_m, setup_.limits.collision_m, time_s);
+            if (outcome) return finish(*outcome, time_s);
+            if (step > 0 && step % kStepsPerTurn == 0) receive(step / kStepsPerTurn - 1);
+            if (waiting_ && free_s_ < time_s + kControlStep_s) think(time_s);
+            move(time_s);
+        }
+    }
+
+ private:
+    /// A turn is complete. One that still waits was not needed.
+    void receive(int turn) {
+        ++result_.scans;
+        if (waiting_) ++result_.dropped_scans;
+        waiting_ = turn;
+    }
+
+    /// Plans on the waiting scan, from when the planner is free on, within the step from `time_s`.
+    void think(double time_s) {
+        const int turn = *std::exchange(waiting_, std::nullopt);
+        const double start_s = std::max(time_s, free_s_);
+        const double taken_s = latencies_.draw_s();
+        const double expected_s = latencies_.median_s();
+        free_s_ = start_s + taken_s;
+        const double arrived_s = TrialSensor::kTurn_s * (turn + 1);
+        latency_ms_.push_back(1e3 * (free_s_ - arrived_s));
+
+        const SimulatedScan measured = sensor_.measure(turn, trace_);
+        const auto& labels = stopwatch_.time(
+            "filter", [&]() -> const auto& {
+                return sensor_.segment(turn, measured, trace_, belief_);
+            });
+        const MappedScan scan = sensor_.place(turn, measured, labels, trace_, belief_);
+        scan_s_ = scan.time_s;
+        scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
+        const std::string prefix = setup_.model + "/";
+        stopwatch_.weigh(prefix + "update", trace_.way_m(time_s), [&] { world_->update(scan); });
+
+        const VehicleState now = commands_.advanced(state_, time_s, start_s, setup_.limits);
+        VehicleState believed = now;
+        believed.position_m += belief_.offset_m(trace_, start_s);
+        const double followed_s = start_s + expected_s + setup_.limits.actuation_delay_s;
+        const VehicleState then = commands_.advanced(believed, start_s, followed_s, setup_.limits);
+        const double ground_m = believed.position_m.z() - altimeter_m(turn, now.position_m);
+        const Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
+            return guidance_->carrot(*world_, guidanceTask(then, ground_m));
+        });
+        const Plan plan = stopwatch_.time(prefix + setup_.planner, [&] {
+            return planner_->plan(*world_, planningTask(then, carrot, ground_m));
+        });
+        commands_.add(free_s_ + setup_.limits.actuation_delay_s, plan.command_m_s);
+        takeDown(plan, now, start_s);
+        if (listener_.step) {
+            listener_.step({free_s_, now, believed, scan, *world_, carrot, plan,
+                            clearance_m(now, start_s), latency_ms_.back()});
+        }
+    }
+
+    void move(double time_s) {
+        const Eigen::Vector3d before_m_s = state_.velocity_m_s;
+        commands_.forgetBefore(time_s);
+        state_ = commands_.advanced(state_, time_s, time_s + kControlStep_s, setup_.limits);
+        result_.path_m += (state_.position_m - trace_.at(time_s).position_m).norm();
+        trace_.add(state_, (state_.velocity_m_s - before_m_s) / kControlStep_s);
+    }
+
+    double clearance_m(const VehicleState& state, double time_s) const {
+        return static_cast<double>(course_.distance.at(state.position_m.cast<float>(), time_s));
+    }
+
+    /// Height above the ground, as measured.
+    double altimeter_m(int turn, const Eigen::Vector3d& at) const {
+        constexpr double kNoise_m = 0.02;
+        Random random(course_.seed, streams::kAltimeter + static_cast<std::uint64_t>(turn));
+        return at.z() - groundHeight_m(course_, at) + kNoise_m * random.normal();
+    }
+
+    GuidanceTask guidanceTask(const VehicleState& state, double ground_m) const {
+        GuidanceTask task;
+        task.position_m = state.position_m;
+        task.goal_m = course_.goal_m;
+        task.ground_m = ground_m;
+        task.altitude_m = course_.altitude_m;
+        task.bounds_m = course_.bounds_m;
+        task.limits = setup_.limits;
+        return task;
+    }
+
+    PlanningTask planningTask(const VehicleState& state, const Carrot& carrot,
+                              double ground_m) const {
+        PlanningTask task;
+        task.start = state;
+        task.carrot_m = carrot.at_m;
+        task.beyond_carrot_m = carrot.beyond_m;
+        task.speed_m_s = setup_.speed_m_s;
+        task.ground_m = ground_m;
+        task.altitude_m = course_.altitude_m;
+        task.limits = setup_.limits;
+        task.brakes_in_known_space = setup_.brakes_in_known_space;
+        task.keeps_candidates = listener_.keeps_candidates;
+        return task;
+    }
+
+    void takeDown(const Plan& plan, const VehicleState& now, double time_s) {
+        if (plan.is_emergency && !in_emergency_) {
+            ++result_.emergency_stops;
+            tell("emergency stop");
+        }
+        in_emergency_ = plan.is_emergency;
+        const Eigen::Vector3d to_goal = course_.goal_m - now.position_m;
+        if (std::isnan(result_.first_reaction_m) &&
+            leavesCourse(plan.command_m_s, to_goal, setup_.speed_m_s)) {
+            result_.first_reaction_m =
+                freeWay_m(course_, now.position_m, setup_.limits.room_m(), time_s);
+        }
+    }
+
+    TrialResult finish(Outcome outcome, double time_s) {
+        result_.outcome = outcome;
+        result_.time_s = time_s;
+        result_.rms_jerk_m_s3 = trace_.rmsJerk_m_s3();
+        result_.latency_p50_ms = quantileOf(latency_ms_, 0.5);
+        result_.latency_p95_ms = quantileOf(latency_ms_, 0.95);
+        result_.latency_max_ms = quantileOf(latency_ms_, 1);
+        tell(outcome == Outcome::Success     ? "success"
+             : outcome == Outcome::Collision ? "collision"
+                                             : "timeout");
+        return result_;
+    }
+
+    void tell(const std::string& what) const {
+        if (listener_.event) listener_.event(what);
+    }
+
+    const Course& course_;
+    const TrialSetup& setup_;
+    const TrialListener& listener_;
+    Stopwatch stopwatch_;
+    TrialSensor sensor_;
+    PoseBelief belief_;
+    Latencies latencies_;
+    std::unique_ptr<WorldModel> world_;
+    std::unique_ptr<Guidance> guidance_;
+    std::unique_ptr<Planner> planner_;
+
+    VehicleState state_;  ///< true
+    FlightTrace trace_;
+    CommandQueue commands_;
+    std::optional<int> waiting_;  ///< the newest turn that nothing was planned on
+    double free_s_ = 0;           ///< when the planner is free
+    double scan_s_ = 0;           ///< of the last scan that the model took in
+    Eigen::Vector3f scan_offset_m_{0, 0, 0};
+    bool in_emergency_ = false;
+    std::vector<double> latency_ms_;
+    TrialResult result_{Outcome::Timeout,
+                        std::numeric_limits<double>::infinity(),
+                        0,
+                        0,
+                        std::numeric_limits<double>::quiet_NaN(),
+                        0,
+                        0,
+                        0,
+                        0,
+                        0,
+                        0,
+                        0};
+};
+
+}  // namespace
+
+TrialResult runTrial(const Course& course, const TrialSetup& setup, const LatencyProfile& profile,
+                     TrialMeasurement* measurement, const TrialListener& listener) {
+    return TrialFlight(course, setup, profile, measurement, listener).fly();
+}
+
+}  // namespace hagen

@@ -1,0 +1,253 @@
+#include <gtest/gtest.h>
+#include <hagen/avoidance/WorldModel.h>
+#include <hagen/simulation/Random.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace {
+
+using namespace hagen;
+
+const Eigen::AlignedBox3f kBounds(Eigen::Vector3f(-6, -6, -2), Eigen::Vector3f(10, 6, 4));
+const Eigen::Vector3f kOrigin(0.03f, 0.05f, 1.07f);
+
+WorldModelSetting setting() {
+    return {kBounds, [](const Eigen::Vector3f& p) { return std::abs(5 - p.x()); }};
+}
+
+std::vector<std::string> modelsThatLearn() {
+    std::vector<std::string> names = worldModelNames();
+    names.erase(std::find(names.begin(), names.end(), "oracle"));
+    return names;
+}
+
+/// Edge of a model's voxels; 0 for points.
+float edgeOf(const std::string& name) {
+    if (name[0] == 'W') return 0;
+    return name.find("0.4") != std::string::npos ? 0.4f : 0.2f;
+}
+
+MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi) {
+    return {0, kOrigin, points, std::vector<Label>(points.size(), label)};
+}
+
+/// A wall at x = 5.1 m, dense.
+std::vector<Eigen::Vector3f> wall(float x_m = 5.1f) {
+    std::vector<Eigen::Vector3f> points;
+    for (float y = -4; y <= 4; y += 0.07f) {
+        for (float z = -0.5f; z <= 3; z += 0.07f) points.emplace_back(x_m, y, z);
+    }
+    return points;
+}
+
+/// A board of 1.4 x 0.6 m at x = 3.1 m, before the wall.
+std::vector<Eigen::Vector3f> board() {
+    std::vector<Eigen::Vector3f> points;
+    for (float y = -0.7f; y <= 0.7f; y += 0.05f) {
+        for (float z = 0.8f; z <= 1.4f; z += 0.05f) points.emplace_back(3.1f, y, z);
+    }
+    return points;
+}
+
+/// Few points all around, so that no ray clears another's end.
+std::vector<Eigen::Vector3f> sparsePoints(Random& random, int count) {
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < count; ++i) {
+        const double x = random.uniform(-5, 8);
+        const double y = random.uniform(-5, 5);
+        const double z = random.uniform(-1, 3);
+        points.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+    }
+    return points;
+}
+
+float nearestOf(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& at) {
+    float least = WorldModel::kReach_m;
+    for (const auto& point : points) least = std::min(least, (point - at).norm());
+    return least;
+}
+
+TEST(WorldModel, ClearanceIsThatOfThePoints) {
+    for (const std::string& name : modelsThatLearn()) {
+        Random random(7);
+        const auto points = sparsePoints(random, 60);
+        const auto model = makeWorldModel(name, setting());
+        model->update(scanOf(points));
+        // The cube that a point lies in is nearer than the point by its diagonal at most; which
+        // cube is nearest is judged by middles.
+        const float diagonal = std::sqrt(3.0f) * edgeOf(name);
+        // A grid's rays clear what others hit.
+        const bool is_whole = name != "G-Full";
+        for (int i = 0; i < 400; ++i) {
+            const Eigen::Vector3f at = sparsePoints(random, 1)[0];
+            const float expected = nearestOf(points, at);
+            const float clearance = model->clearance_m(at);
+            EXPECT_GE(clearance, expected - diagonal - 1e-4f) << name;
+            if (is_whole) {
+                EXPECT_LE(clearance, expected + diagonal + 1e-4f) << name;
+            }
+        }
+    }
+}
+
+TEST(WorldModel, AWallIsAsFarAsItIs) {
+    for (const std::string& name : worldModelNames()) {
+        const auto model = makeWorldModel(name, setting());
+        for (int i = 0; i < 3; ++i) model->update(scanOf(wall()));
+        const float edge = edgeOf(name);
+        for (float x = 2.3f; x < 4.5f; x += 0.11f) {
+            const float clearance = model->clearance_m({x, 0.1f, 1.1f});
+            EXPECT_GE(5.1f - x + 0.05f, clearance) << name << " " << x;
+            EXPECT_LE(5.1f - x - edge - 0.11f, clearance) << name << " " << x;
+        }
+        EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({-4, 0, 1})) << name;
+    }
+}
+
+TEST(WorldModel, WithinAnObstacleThereIsNoClearance) {
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = makeWorldModel(name, setting());
+        for (int i = 0; i < 3; ++i) model->update(scanOf(wall()));
+        EXPECT_LE(model->clearance_m({5.1f, 0.1f, 1.1f}), edgeOf(name) > 0 ? 0.0f : 0.05f) << name;
+    }
+}
+
+TEST(WorldModel, WithoutAScanAllIsFreeAndUnknown) {
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = makeWorldModel(name, setting());
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({1, 1, 1})) << name;
+            EXPECT_FALSE(model->isKnown({1, 1, 1})) << name;
+            EXPECT_TRUE(model->obstacles().middle_m.empty()) << name;
+            model->update({});  // with nothing in it
+        }
+    }
+}
+
+TEST(WorldModel, WhatIsOutsideTheBoundsMayBeAsked) {
+    for (const std::string& name : worldModelNames()) {
+        const auto model = makeWorldModel(name, setting());
+        model->update(scanOf({{1, 1, 1}, {500, 1, 1}, {1, -500, 1}, {1, 1, 500}}));
+        for (const float far : {11.0f, 100.0f, 9000.0f, -11.0f, -9000.0f}) {
+            for (int axis = 0; axis < 3; ++axis) {
+                Eigen::Vector3f at(0, 0, 0);
+                at[axis] = far;
+                EXPECT_GE(model->clearance_m(at), 0) << name;
+                EXPECT_LE(model->clearance_m(at), WorldModel::kReach_m) << name;
+                model->isKnown(at);
+            }
+        }
+    }
+}
+
+TEST(WorldModel, AnObstacleBesideTheBoundsIsSeen) {
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = makeWorldModel(name, setting());
+        model->update(scanOf({{0.1f, 6.5f, 1.1f}}));
+        EXPECT_NEAR(0.7f, model->clearance_m({0.1f, 5.8f, 1.1f}), 0.4f) << name;
+    }
+}
+
+TEST(WorldModel, WhatIsSeenIsKnown) {
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = makeWorldModel(name, setting());
+        model->update(scanOf(wall()));
+        EXPECT_TRUE(model->isKnown({3.1f, 0.1f, 1.1f})) << name;
+        EXPECT_FALSE(model->isKnown({5.9f, 0.1f, 1.1f})) << name << ": behind it";
+        EXPECT_FALSE(model->isKnown({-3, 0, 1})) << name << ": behind the sensor";
+    }
+}
+
+TEST(WorldModel, OnlyRoiCountsWhereOnlyRoiShall) {
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = makeWorldModel(name, setting());
+        for (int i = 0; i < 3; ++i) model->update(scanOf(wall(), Label::Rou));
+        EXPECT_EQ(needsLabels(name), model->clearance_m({4.1f, 0.1f, 1.1f}) > 2.5f) << name;
+        const bool knows = name.find("O-RoI-") == std::string::npos;
+        EXPECT_EQ(knows, model->isKnown({3.1f, 0.1f, 1.1f})) << name;
+    }
+}
+
+TEST(WorldModel, AWindowForgetsAfterTenScans) {
+    for (const std::string name : {"W-RoI", "W-Full"}) {
+        const auto model = makeWorldModel(name, setting());
+        model->update(scanOf(wall()));
+        for (int i = 1; i < 10; ++i) model->update(scanOf({{-4, 0, 1}}));
+        EXPECT_NEAR(1.1f, model->clearance_m({4, 0.1f, 1.1f}), 0.05f);
+        model->update(scanOf({{-4, 0, 1}}));
+        EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({4, 0.1f, 1.1f}));
+        EXPECT_EQ(10u, model->obstacles().middle_m.size());
+    }
+}
+
+TEST(WorldModel, AWindowReachesFifteenMetres) {
+    const auto model = makeWorldModel("W-Full", setting());
+    model->update(scanOf({{14.9f, 0, 1}, {0, 15.2f, 1}}));
+    EXPECT_NEAR(1, model->clearance_m({13.9f, 0, 1}), 1e-4);
+    EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({0, 14.2f, 1}));
+}
+
+TEST(WorldModel, RaysClearWhatMovedAway) {
+    for (const std::string name : {"O-Full-0.2", "O-RoI+rays-0.2", "O-RoI+rays-0.4", "G-Full"}) {
+        const auto model = makeWorldModel(name, setting());
+        for (int i = 0; i < 2; ++i) model->update(scanOf(board()));
+        ASSERT_LT(model->clearance_m({2.1f, 0.1f, 1.1f}), 1.1f) << name;
+        for (int i = 0; i < 12; ++i) model->update(scanOf(wall(7.1f), Label::Rou));
+        EXPECT_GT(model->clearance_m({2.1f, 0.1f, 1.1f}), 2.0f) << name;
+    }
+}
+
+TEST(WorldModel, ObstaclesAreWhereClearanceEnds) {
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = makeWorldModel(name, setting());
+        model->update(scanOf(wall()));
+        const auto obstacles = model->obstacles();
+        EXPECT_EQ(edgeOf(name), obstacles.edge_m) << name;
+        ASSERT_FALSE(obstacles.middle_m.empty()) << name;
+        for (const auto& middle : obstacles.middle_m) {
+            EXPECT_NEAR(5.1f, middle.x(), edgeOf(name)) << name;
+            EXPECT_EQ(0, model->clearance_m(middle)) << name;
+        }
+    }
+}
+
+std::size_t heap() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
+
+TEST(WorldModel, BytesAreThoseOfTheHeap) {
+    for (const std::string& name : modelsThatLearn()) {
+        Random random(5);
+        const std::size_t before = heap();
+        const auto model = makeWorldModel(name, setting());
+        for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));
+        const auto measured = static_cast<double>(heap() - before);
+        const auto told = static_cast<double>(model->bytes());
+        EXPECT_GT(told, 0.5 * measured) << name << " " << measured;
+        EXPECT_LT(told, 1.5 * measured) << name << " " << measured;
+    }
+}
+
+TEST(WorldModel, TheOracleTellsTheTruth) {
+    const auto model = makeWorldModel("oracle", setting());
+    EXPECT_FLOAT_EQ(1.5f, model->clearance_m({3.5f, 0, 0}));
+    EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({-20, 0, 0}));
+    EXPECT_TRUE(model->isKnown({-20, 0, 0}));
+    EXPECT_EQ(0u, model->bytes());
+    EXPECT_THROW(makeWorldModel("oracle", {kBounds, nullptr}), std::invalid_argument);
+}
+
+TEST(WorldModel, NamesTheKnownOnesForAnother) {
+    for (const std::string bad : {"", "w-roi", "O-Full", "W-RoI "}) {
+        EXPECT_THROW(needsLabels(bad), std::invalid_argument);
+        try {
+            makeWorldModel(bad, setting());
+            ADD_FAILURE() << bad;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_NE(std::string::npos, std::string(error.what()).find("O-RoI+rays-0.4"));
+        }
+    }
+}
+
+}  // namespace
