@@ -1,8 +1,7 @@
-#include <hagen/logs/NumberTable.h>
+// octomap-compare report: what the runs of a folder tell.
 #include <hagen/logs/OutputPath.h>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <stdexcept>
 
@@ -17,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Flags {
-    std::string folder, markdown;
+    std::string folder, memory, markdown;
     int worst = 6;
     bool overwrite = false;
 };
@@ -40,6 +39,7 @@ struct TextOutput {
 std::vector<MemoryCurve> readMemory(const fs::path& file) {
     std::vector<MemoryCurve> curves;
     std::ifstream in(file);
+    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
     std::string text;
     for (int line = 1; std::getline(in, text); ++line) {
         if (line == 1) continue;
@@ -76,7 +76,7 @@ void addWorst(std::size_t count, Report& report) {
     }
 }
 
-void run(const Flags& flags) {
+int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder; give one with a runs.csv");
@@ -92,7 +92,8 @@ void run(const Flags& flags) {
     if (fs::exists(folder / "profile.json")) {
         report.profile = readLatencyProfile(folder / "profile.json");
     }
-    if (fs::exists(folder / "memory.csv")) report.memory = readMemory(folder / "memory.csv");
+    const fs::path memory = flags.memory.empty() ? folder / "memory.csv" : fs::path(flags.memory);
+    if (!flags.memory.empty() || fs::exists(memory)) report.memory = readMemory(memory);
     // Places first: what cannot be written shall be told before minutes of flying.
     const auto check = [&](const fs::path& path) {
         OutputPath(path, OutputPath::Kind::File, flags.overwrite);
@@ -112,21 +113,24 @@ void run(const Flags& flags) {
     for (const auto& output : outputs) output->place.commit();
     for (const std::string& words : verdictOf(report.summary)) std::cout << words << "\n";
     std::cout << (folder / "report.html").string() << "\n";
+    return 0;
 }
 
 }  // namespace
 
-void addReport(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
-    CLI::App* command = app.add_subcommand(
+void addReport(CLI::App& app, Command& command) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand(
         "report", "what runs tell: report.html, summary.json and summary.csv in their folder");
-    command->add_option("DIR", flags->folder, "folder with a runs.csv")->required();
-    command->add_option("--markdown", flags->markdown, "file for the main tables as Markdown");
-    command->add_option("--worst", flags->worst, "worst runs to fly again for a look from above")
+    sub->add_option("DIR", flags->folder, "folder of `closedloop`, with its runs.csv")->required();
+    sub->add_option("--memory", flags->memory,
+                    "CSV of `calibrate --memory`; without: DIR/memory.csv, where there is one");
+    sub->add_option("--markdown", flags->markdown, "file for the main tables as Markdown");
+    sub->add_option("--worst", flags->worst, "worst runs to fly again for a look from above")
         ->capture_default_str()
         ->check(CLI::Range(0, 100));
-    command->add_flag("--overwrite", flags->overwrite, "replace outputs that exist");
-    command->callback([flags] { run(*flags); });
+    sub->add_flag("--overwrite", flags->overwrite, "replace outputs that exist");
+    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
 }
 
 }  // namespace hagen

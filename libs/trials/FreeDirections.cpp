@@ -8,17 +8,12 @@ namespace {
 
 constexpr float kLeastStep_m = 0.05f;
 
-double elevationOf(std::size_t number) {
-    const auto step = static_cast<double>(number / kDirectionAzimuths);
-    return kHighestDirection_rad * (2 * step / (kDirectionElevations - 1) - 1);
-}
-
 std::array<Eigen::Vector3f, kDirections> makeDirections() {
     std::array<Eigen::Vector3f, kDirections> directions;
     for (std::size_t n = 0; n < kDirections; ++n) {
         const double azimuth =
             2 * M_PI * static_cast<double>(n % kDirectionAzimuths) / kDirectionAzimuths;
-        const double elevation = elevationOf(n);
+        const double elevation = elevationOfDirection(n);
         directions[n] =
             Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
                             std::cos(elevation) * std::sin(azimuth), std::sin(elevation))
@@ -43,6 +38,11 @@ double share(std::size_t part, std::size_t whole) {
 }
 
 }  // namespace
+
+double elevationOfDirection(std::size_t number) {
+    const auto step = static_cast<double>(number / kDirectionAzimuths);
+    return kHighestDirection_rad * (2 * step / (kDirectionElevations - 1) - 1);
+}
 
 Eigen::Vector3f directionOf(std::size_t number) {
     static const auto directions = makeDirections();

@@ -39,14 +39,14 @@ Eigen::Isometry3d isometryOf(const CPose3D& pose) {
         Eigen::Matrix4d(pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen()));
 }
 
-/// The points of a scan in the map, where they have a valid range.
+/// The points of a scan in the map, where they have a valid range and are not the vehicle's own.
 void placePoints(const Scan& scan, const std::vector<Label>& labels, const CPose3D& sensor_pose,
-                 MappedScan& mapped) {
+                 float own_reach_m, MappedScan& mapped) {
     const Eigen::Isometry3d to_map = isometryOf(sensor_pose);
     mapped.points_m.clear();
     mapped.labels.clear();
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (labels[i] == Label::Unclassified) continue;
+        if (labels[i] == Label::Unclassified || scan.range_m[i] < own_reach_m) continue;
         const Eigen::Vector3d seen(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
         mapped.points_m.push_back((to_map * seen).cast<float>());
         mapped.labels.push_back(labels[i]);
@@ -55,7 +55,7 @@ void placePoints(const Scan& scan, const std::vector<Label>& labels, const CPose
 
 /// Places a segmented scan by the poses at its returns' own times, else as a whole.
 void place(const ObservationSegmenter::Output& out, const CObservation& observation,
-           const Trajectory& vehicle, LoggedScan& scan) {
+           const Trajectory& vehicle, float own_reach_m, LoggedScan& scan) {
     const CPose3D sensor_on_vehicle(observation.sensorPose());
     const auto& times_s = out.scan->time_s;
     const double turn_s =
@@ -65,7 +65,7 @@ void place(const ObservationSegmenter::Output& out, const CObservation& observat
     const bool is_deskewed = !times_s.empty() && deskew(vehicle, observation.timestamp,
                                                         sensor_on_vehicle, *out.sensor, deskewed);
     scan.is_moved_whole = !is_deskewed;
-    placePoints(deskewed, out.result->returns.label, *out.sensor_pose, scan.mapped);
+    placePoints(deskewed, out.result->returns.label, *out.sensor_pose, own_reach_m, scan.mapped);
 
     const TimePoint start = observation.timestamp;
     const auto middle = is_deskewed ? vehicle.at(later(start, turn_s / 2)) : std::nullopt;
@@ -233,7 +233,7 @@ bool LoggedScans::next(LoggedScan& scan) {
         }
         scan.entry = entry.number;
         scan.filter_ms = std::chrono::duration<double, std::milli>(out.filter_cpu_time).count();
-        place(out, *entry.observation, vehicle, scan);
+        place(out, *entry.observation, vehicle, log_->source.own_reach_m, scan);
         return true;
     }
 }

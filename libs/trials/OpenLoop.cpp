@@ -146,6 +146,7 @@ class Run {
     std::vector<double> heap_bytes_;
     std::deque<MappedScan> kept_;
     std::deque<Judgement> waiting_;
+    LastingPoints lasting_;
     OpenLoopResult result_;
     std::string why_ended_;
 };
@@ -238,9 +239,10 @@ void Run::digest(const LoggedScan& scan) {
     while (!waiting_.empty() && waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
         judgeOldest();
     }
-    if (!waiting_.empty()) {
+    if (!truth_) {
         const SeenRanges ranges(scan.mapped);
-        for (Judgement& earlier : waiting_) earlier.later.see(scan.mapped, ranges);
+        const auto lasting_m = lasting_.of(scan.mapped);
+        for (Judgement& earlier : waiting_) earlier.later.see(lasting_m, ranges);
     }
     waiting_.push_back(std::move(judgement));
     if (truth_) judgeOldest();
@@ -304,7 +306,9 @@ OpenLoopResult Run::finish() {
     return std::move(result_);
 }
 
-void check(const OpenLoop& open_loop) {
+}  // namespace
+
+void checkOpenLoop(const OpenLoop& open_loop) {
     if (open_loop.models.empty()) throw std::invalid_argument("no world model is named");
     for (const std::string& model : open_loop.models) {
         needsLabels(model);  // throws for an unknown one
@@ -326,10 +330,8 @@ void check(const OpenLoop& open_loop) {
                                 names);
 }
 
-}  // namespace
-
 OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener) {
-    check(open_loop);
+    checkOpenLoop(open_loop);
     return Run(open_loop, listener).result();
 }
 

@@ -163,27 +163,9 @@ TEST(ScanMap, WhatMovedAwayIsCleared) {
     EXPECT_EQ(State::Free, stateAt(map, {3.1, 0.1, 0.1}));
 }
 
-TEST(ScanMap, FinishChangesNoVoxel) {
-    Random random(3);
-    const MappedScan scan = randomScan(random, 500);
-    ScanMap map({MapContent::Full, 0.2, 20}), finished({MapContent::Full, 0.2, 20});
-    for (int i = 0; i < 8; ++i) {
-        map.insert(scan);
-        finished.insert(scan);
-        finished.finish();
-    }
-    EXPECT_LT(finished.tree().size(), map.tree().size());
-    for (double x = -3.1; x < 3; x += 0.2) {
-        for (double y = -3.1; y < 3; y += 0.2) {
-            EXPECT_EQ(stateAt(map, {x, y, 0.1}), stateAt(finished, {x, y, 0.1}));
-        }
-    }
-}
-
 TEST(ScanMap, Empty) {
     ScanMap map({});
     map.insert({});
-    map.finish();
     EXPECT_EQ(0u, map.tree().size());
 }
 

@@ -1,1 +1,337 @@
+// Plays a recorded run: what the vehicle saw, what its model held, what it considered, what it did.
+'use strict';
+(() => {
+const data = JSON.parse(document.getElementById('data').textContent);
+const byId = id => document.getElementById(id);
 
+// ---- data: 16-bit numbers in base64, centimetres from the start
+function numbers(text) {
+  const raw = atob(text), bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
+  return new Int16Array(bytes.buffer);
+}
+const points = text => Float32Array.from(numbers(text), n => n * data.unit_m);
+const track = points(data.track);
+const goal = points(data.goal);
+const middles = points(data.model.middles), lives = numbers(data.model.lives);
+const cells = lives.length / 2, edge = data.model.edge_m;
+const ends = data.track.length ? (track.length / 3 - 1) * data.control_step_s : 0;
+
+// ---- scene
+const colors = {roi: 0xd55e00, rou: 0x9aa5b1, model: 0xe69f00, free: 0x009e73, blocked: 0xcc79a7,
+                track: 0x0072b2, path: 0x7a3fb0, command: 0x1d2530};
+const view = byId('view');
+let renderer;
+try {
+  renderer = new THREE.WebGLRenderer({antialias: true});
+} catch (error) {
+  view.innerHTML = '<p class="failed">This page needs WebGL, which this browser does not give.</p>';
+  return;
+}
+renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
+view.append(renderer.domElement);
+const scene = new THREE.Scene();
+scene.background = new THREE.Color(0xeef1f4);
+scene.add(new THREE.HemisphereLight(0xffffff, 0x9aa5b1, 0.95));
+const sun = new THREE.DirectionalLight(0xffffff, 0.45);
+sun.position.set(-10, -20, 30);
+scene.add(sun);
+const camera = new THREE.PerspectiveCamera(50, 1, 0.1, 500);
+camera.up.set(0, 0, 1);
+camera.position.set(-9, -7, 7);
+const controls = new THREE.OrbitControls(camera, renderer.domElement);
+controls.maxDistance = 150;
+
+const ground = -data.start_m[2];
+const grid = new THREE.GridHelper(160, 80, 0xb4bec8, 0xd3dae1);
+grid.rotation.x = Math.PI / 2;
+grid.position.set(20, 0, ground);
+scene.add(grid);
+
+/// Points whose number changes.
+function cloud(color, size) {
+  const geometry = new THREE.BufferGeometry();
+  const made = new THREE.Points(geometry, new THREE.PointsMaterial({color, size}));
+  made.frustumCulled = false;
+  scene.add(made);
+  return {object: made, set: coordinates => {
+    geometry.setAttribute('position', new THREE.BufferAttribute(coordinates, 3));
+    geometry.setDrawRange(0, coordinates.length / 3);
+  }};
+}
+function lines(kind, color, opacity) {
+  const geometry = new THREE.BufferGeometry();
+  const made = new kind(geometry, new THREE.LineBasicMaterial(
+      {color, transparent: opacity < 1, opacity}));
+  made.frustumCulled = false;
+  scene.add(made);
+  return {object: made, set: coordinates => {
+    geometry.setAttribute('position', new THREE.BufferAttribute(coordinates, 3));
+    geometry.setDrawRange(0, coordinates.length / 3);
+  }};
+}
+function ball(radius, color, opacity) {
+  const made = new THREE.Mesh(new THREE.SphereGeometry(radius, 24, 16),
+      new THREE.MeshLambertMaterial({color, transparent: opacity < 1, opacity}));
+  scene.add(made);
+  return made;
+}
+
+const roi = cloud(colors.roi, 0.11), rou = cloud(colors.rou, 0.07);
+const free = lines(THREE.LineSegments, colors.free, 0.55);
+const blocked = lines(THREE.LineSegments, colors.blocked, 0.4);
+const flown = lines(THREE.Line, colors.track, 1), path = lines(THREE.Line, colors.path, 1);
+flown.set(track);
+const carrot = ball(0.16, colors.path, 1);
+const target = ball(1.5, colors.free, 0.25);
+target.position.set(goal[0], goal[1], goal[2]);
+const arrow = new THREE.ArrowHelper(new THREE.Vector3(1, 0, 0), new THREE.Vector3(), 1,
+                                    colors.command, 0.35, 0.2);
+scene.add(arrow);
+
+function vehicle() {
+  const group = new THREE.Group();
+  const dark = new THREE.MeshLambertMaterial({color: 0x2b3440});
+  const body = new THREE.Mesh(new THREE.CylinderGeometry(0.11, 0.11, 0.12, 20), dark);
+  body.rotation.x = Math.PI / 2;
+  group.add(body);
+  for (const angle of [Math.PI / 4, -Math.PI / 4]) {
+    const arm = new THREE.Mesh(new THREE.BoxGeometry(0.62, 0.035, 0.035), dark);
+    arm.rotation.z = angle;
+    group.add(arm);
+  }
+  for (const [x, y] of [[1, 1], [1, -1], [-1, 1], [-1, -1]]) {
+    const rotor = new THREE.Mesh(new THREE.TorusGeometry(0.15, 0.02, 8, 24),
+        new THREE.MeshLambertMaterial({color: x > 0 ? colors.roi : colors.track}));
+    rotor.position.set(0.22 * x, 0.22 * y, 0.03);
+    group.add(rotor);
+  }
+  const room = new THREE.Mesh(new THREE.SphereGeometry(data.radius_m, 24, 16),
+      new THREE.MeshBasicMaterial({color: colors.track, transparent: true, opacity: 0.12,
+                                   depthWrite: false}));
+  group.add(room);
+  scene.add(group);
+  return group;
+}
+const drone = vehicle();
+
+// The model's cells: boxes where they have an edge, else points.
+let model;
+if (edge > 0) {
+  const boxes = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(0.96 * edge, 0.96 * edge, 0.96 * edge),
+      new THREE.MeshLambertMaterial({color: colors.model}), Math.max(1, cells));
+  const matrices = boxes.instanceMatrix.array;
+  for (let i = 0; i < Math.max(1, cells); ++i) matrices.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], 16 * i);
+  boxes.frustumCulled = false;
+  scene.add(boxes);
+  model = {object: boxes, show: list => {
+    list.forEach((cell, i) => {
+      for (let k = 0; k < 3; ++k) matrices[16 * i + 12 + k] = middles[3 * cell + k];
+    });
+    boxes.count = list.length;
+    boxes.instanceMatrix.needsUpdate = true;
+  }};
+} else {
+  const held = cloud(colors.model, 0.09);
+  model = {object: held.object, show: list => {
+    const coordinates = new Float32Array(3 * list.length);
+    list.forEach((cell, i) => coordinates.set(middles.subarray(3 * cell, 3 * cell + 3), 3 * i));
+    held.set(coordinates);
+  }};
+}
+
+// ---- one step
+let shown = -2, held = 0;
+const decoded = new Map();
+function stepData(index) {
+  if (!decoded.has(index)) {
+    const step = data.steps[index], ways = points(step.ways), apart = {free: [], blocked: []};
+    let at = 0;
+    for (const size of step.way_sizes) {
+      const into = size > 0 ? apart.free : apart.blocked, count = Math.abs(size);
+      for (let i = 0; i + 1 < count; ++i) into.push(...ways.subarray(3 * (at + i), 3 * (at + i + 2)));
+      at += count;
+    }
+    decoded.set(index, {roi: points(step.roi), rou: points(step.rou), path: points(step.path),
+                        at: points(step.at), free: new Float32Array(apart.free),
+                        blocked: new Float32Array(apart.blocked)});
+  }
+  return decoded.get(index);
+}
+function stepAt(time) {
+  let low = -1, high = data.steps.length - 1;  // the last one that is not later
+  while (low < high) {
+    const middle = Math.ceil((low + high) / 2);
+    if (data.steps[middle].time_s <= time) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+const nothing = new Float32Array(0);
+function showStep(index) {
+  if (index === shown) return;
+  shown = index;
+  const seen = index >= 0;
+  const now = seen ? stepData(index) : {roi: nothing, rou: nothing, path: nothing, free: nothing, blocked: nothing};
+  for (const [what, place] of [['roi', roi], ['rou', rou], ['path', path], ['free', free], ['blocked', blocked]]) {
+    place.set(now[what]);
+  }
+  const list = [];
+  for (let cell = 0; seen && cell < cells; ++cell) {
+    if (lives[2 * cell] <= index && index < lives[2 * cell + 1]) list.push(cell);
+  }
+  held = list.length;
+  model.show(list);
+  carrot.visible = seen && layers.path.checked;
+  arrow.visible = seen && layers.command.checked;
+  if (seen) {
+    carrot.position.set(now.at[3], now.at[4], now.at[5]);
+    const command = new THREE.Vector3(...data.steps[index].command_m_s), speed = command.length();
+    arrow.visible = arrow.visible && speed > 0.05;
+    if (speed > 0.05) {
+      arrow.setDirection(command.clone().normalize());
+      arrow.setLength(0.5 * speed, 0.3, 0.18);
+    }
+  }
+}
+
+// ---- panels
+const layers = {};
+function layer(name, label, color, objects) {
+  const line = document.createElement('label'), box = document.createElement('input');
+  box.type = 'checkbox';
+  box.checked = true;
+  box.dataset.layer = name;
+  const swatch = document.createElement('i');
+  swatch.style.background = '#' + color.toString(16).padStart(6, '0');
+  line.append(box, swatch, label);
+  byId('layers').append(line);
+  box.addEventListener('change', () => { objects.forEach(one => { one.visible = box.checked; }); draw(); });
+  layers[name] = box;
+}
+layer('roi', 'regions of interest', colors.roi, [roi.object]);
+layer('rou', 'rest of the scan', colors.rou, [rou.object]);
+layer('model', edge > 0 ? 'map (' + data.model_name + ')' : 'window (' + data.model_name + ')', colors.model, [model.object]);
+layer('free', 'motions, free', colors.free, [free.object]);
+layer('blocked', 'motions, blocked', colors.blocked, [blocked.object]);
+layer('path', 'path and carrot', colors.path, [path.object, carrot]);
+layer('flown', 'way flown', colors.track, [flown.object]);
+layer('command', 'command', colors.command, [arrow]);
+
+byId('note').textContent = data.is_same ? '' :
+    'Flown again it came out otherwise than the table tells: another version, or machine?';
+const figures = {};
+for (const name of ['clearance', 'speed', 'latency', 'in the model', 'state']) {
+  const term = document.createElement('dt'), value = document.createElement('dd');
+  term.textContent = name;
+  byId('figures').append(term, value);
+  figures[name] = value;
+}
+for (const event of data.events) {
+  const item = document.createElement('li'), button = document.createElement('button');
+  button.type = 'button';
+  button.textContent = event.time_s.toFixed(2) + ' s: ' + event.what;
+  button.addEventListener('click', () => { pause(); seek(event.time_s); });
+  item.append(button);
+  byId('events').append(item);
+}
+
+function showFigures() {
+  const step = shown >= 0 ? data.steps[shown] : null;
+  figures.clearance.textContent = step ? (step.clearance_m).toFixed(2) + ' m' : '-';
+  figures.clearance.className = step && step.clearance_m < data.radius_m ? 'alarm' : '';
+  figures.speed.textContent = step ? step.speed_m_s.toFixed(1) + ' m/s' : '-';
+  figures.latency.textContent = step ? step.latency_ms.toFixed(1) + ' ms' : '-';
+  figures['in the model'].textContent = held + (edge > 0 ? ' voxels' : ' points');
+  const over = time >= ends;
+  figures.state.textContent = over ? data.outcome : step && step.emergency ? 'emergency stop' : 'flying';
+  figures.state.className = (over && data.outcome !== 'success') || (step && step.emergency) ? 'alarm' : '';
+}
+
+// ---- time
+let time = 0, playing = false, before = 0;
+const slider = byId('time'), play = byId('play'), follow = byId('follow');
+slider.max = String(ends);
+
+function positionAt(when) {
+  const rank = Math.max(0, Math.min(track.length / 3 - 1, when / data.control_step_s));
+  const low = Math.floor(rank), high = Math.min(low + 1, track.length / 3 - 1), share = rank - low;
+  return new THREE.Vector3(...[0, 1, 2].map(k => (1 - share) * track[3 * low + k] + share * track[3 * high + k]));
+}
+function seek(when) {
+  time = Math.max(0, Math.min(ends, when));
+  const position = positionAt(time);
+  const moved = position.clone().sub(drone.position);
+  drone.position.copy(position);
+  arrow.position.copy(position);
+  if (follow.checked) {
+    camera.position.add(moved);
+    controls.target.copy(position);
+  }
+  flown.object.geometry.setDrawRange(0, Math.floor(time / data.control_step_s) + 1);
+  showStep(stepAt(time));
+  showFigures();
+  slider.value = String(time);
+  byId('clock').textContent = time.toFixed(2) + ' s';
+  document.body.dataset.time = time.toFixed(3);
+  document.body.dataset.step = String(shown);
+  document.body.dataset.held = String(held);
+  draw();
+}
+function pause() {
+  playing = false;
+  play.innerHTML = '&#9654;';
+  play.setAttribute('aria-label', 'Play');
+}
+function start() {
+  if (time >= ends) seek(0);
+  playing = true;
+  before = performance.now();
+  play.innerHTML = '&#10074;&#10074;';
+  play.setAttribute('aria-label', 'Pause');
+  requestAnimationFrame(tick);
+}
+function tick(now) {
+  if (!playing) return;
+  const passed = Math.min(0.25, Math.max(0, (now - before) / 1000));
+  before = now;
+  seek(time + passed * Number(byId('rate').value));
+  if (time >= ends) pause(); else requestAnimationFrame(tick);
+}
+function toStep(index) {
+  pause();
+  const last = data.steps.length - 1;
+  seek(index < 0 || last < 0 ? 0 : data.steps[Math.min(index, last)].time_s + 1e-6);
+}
+play.addEventListener('click', () => playing ? pause() : start());
+slider.addEventListener('input', () => { pause(); seek(Number(slider.value)); });
+follow.addEventListener('change', () => seek(time));
+const keys = {
+  ' ': () => playing ? pause() : start(),
+  ArrowRight: () => toStep(shown + 1), ArrowLeft: () => toStep(shown - 1),
+  Home: () => { pause(); seek(0); }, End: () => { pause(); seek(ends); },
+  f: () => { follow.checked = !follow.checked; seek(time); }
+};
+document.addEventListener('keydown', event => {
+  if (event.target.tagName === 'SELECT' || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.key === ' ' && event.target.tagName === 'INPUT' && event.target.type === 'checkbox') return;
+  const act = keys[event.key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+});
+
+function draw() { renderer.render(scene, camera); }
+controls.addEventListener('change', draw);
+function resize() {
+  const width = view.clientWidth, height = view.clientHeight;
+  camera.aspect = width / height;
+  camera.updateProjectionMatrix();
+  renderer.setSize(width, height);
+  draw();
+}
+window.addEventListener('resize', resize);
+resize();
+controls.target.set(0, 0, 0);
+seek(0);
+controls.update();
+})();

@@ -15,6 +15,7 @@ using DirectionSet = std::bitset<kDirections>;
 
 /// A unit vector.
 Eigen::Vector3f directionOf(std::size_t number);
+double elevationOfDirection(std::size_t number);  ///< [rad]
 /// Whether a direction is level or leads up. The others lead to the ground sooner or later, which
 /// an altimeter tells, too.
 bool leadsDown(std::size_t number);

@@ -5,6 +5,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace hagen {
@@ -30,12 +31,24 @@ class SeenRanges {
     std::vector<float> farthest_m_;  ///< 0: no return
 };
 
+/// Which points of a scan last: near them (in the same cell of 0.3 m, or one beside it) one of the
+/// five scans before had a point, too. Specks of dust, and ranges between two things, do not.
+class LastingPoints {
+ public:
+    /// Of the points within 12 m of the sensor.
+    std::vector<Eigen::Vector3f> of(const MappedScan& next);
+
+ private:
+    std::unordered_map<std::uint64_t, std::size_t> last_scan_;  ///< that had a point in a cell
+    std::size_t scans_ = 0;
+};
+
 /// The truth about a place in a recorded flight, of which no scene is known: the raw points of the
 /// scans that came after, whatever the filter says of them, at the poses of the log.
 ///
-/// A direction is blocked where two later points or more lie within the room of the way; it is free
-/// where none does, and later returns came from behind the way's middle line at every half metre;
-/// else it is not scored. Points within 1 m of the sensor are the vehicle's own.
+/// A direction is blocked where two later points or more, of those that last, lie within the room
+/// of the way; it is free where none does, and later returns came from behind the way's middle line
+/// at every half metre; else it is not scored.
 class LaterScansTruth {
  public:
     static constexpr double kDuration_s = 2.5;  ///< scans up to so much later are to be seen
@@ -43,7 +56,7 @@ class LaterScansTruth {
     explicit LaterScansTruth(const Eigen::Vector3f& position_m,
                              const FreeDirectionOptions& options = {});
 
-    void see(const MappedScan& later, const SeenRanges& ranges);
+    void see(const std::vector<Eigen::Vector3f>& lasting_m, const SeenRanges& ranges);
     TrueDirections directions() const;
 
  private:

@@ -16,6 +16,7 @@ struct LogSource {
     std::filesystem::path poses;  ///< where the vehicle was (TUM, KITTI); empty: what the log tells
     std::string sensor_label;     ///< of the LiDAR; empty: all of the log
     Settings settings;
+    float own_reach_m = 0.8f;  ///< nearer returns are the vehicle's own, and in no mapped scan
 };
 
 /// A segmented scan of a log, in the map.

@@ -90,6 +90,10 @@ struct OpenLoopEnded : std::runtime_error {
     OpenLoopResult result;
 };
 
+/// Throws std::invalid_argument for a model that is unknown, or named twice, an unknown scenario,
+/// and an oracle without a scene.
+void checkOpenLoop(const OpenLoop& open_loop);
+
 /// Lets world models digest a log. After each scan, every model is asked for all directions around
 /// the vehicle; what it answers is held against the truth, and against the other models.
 ///
@@ -97,9 +101,8 @@ struct OpenLoopEnded : std::runtime_error {
 /// else 60 x 60 x 20 m around the vehicle. Where it comes near the border of that, all models are
 /// begun anew around it, and digest the last 3 s again, which is not counted.
 ///
-/// Throws std::invalid_argument for an unknown model or scenario, and for an oracle without a
-/// scene; std::runtime_error as LoggedScans does, and where the log's obstacles are not those of
-/// the scene; OpenLoopEnded.
+/// Throws as checkOpenLoop() does; std::runtime_error as LoggedScans does, and where the log's
+/// obstacles are not those of the scene; OpenLoopEnded.
 OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener = {});
 
 }  // namespace hagen

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "Recording.h"
+
+namespace hagen {
+
+/// A page that plays a recording in 3D, and needs nothing else.
+std::string replayPage(const Recording& recording);
+
+/// The end of a recording as a scene for SceneViewer3D: what the model held, the last scan, the
+/// way flown, start and goal. Throws std::runtime_error, naming the file, where writing fails.
+void writeReplayScene(const Recording& recording, const std::filesystem::path& file);
+
+}  // namespace hagen

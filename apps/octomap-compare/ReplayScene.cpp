@@ -1,0 +1,114 @@
+#include <mrpt/opengl/CGridPlaneXY.h>
+#include <mrpt/opengl/COctoMapVoxels.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSphere.h>
+#include <mrpt/opengl/CVectorField3D.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "Replay.h"
+
+namespace hagen {
+namespace {
+
+using namespace mrpt::opengl;
+using mrpt::img::TColor;
+
+CPointCloud::Ptr cloudOf(const std::vector<Eigen::Vector3f>& points_m, const TColor& color,
+                         float size, const std::string& name) {
+    const auto cloud = CPointCloud::Create();
+    for (const Eigen::Vector3f& p : points_m) cloud->insertPoint(p.x(), p.y(), p.z());
+    cloud->setColor_u8(color);
+    cloud->setPointSize(size);
+    cloud->setName(name);
+    return cloud;
+}
+
+CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& middles_m, float edge_m) {
+    const auto voxels = COctoMapVoxels::Create();
+    voxels->resizeVoxelSets(1);
+    voxels->setName("obstacles of the model");
+    for (const Eigen::Vector3f& p : middles_m) {
+        voxels->push_back_Voxel(
+            0, COctoMapVoxels::TVoxel({p.x(), p.y(), p.z()}, edge_m, TColor(230, 159, 0)));
+    }
+    voxels->showVoxels(0, true);
+    voxels->setVisualizationMode(COctoMapVoxels::FIXED);
+    const float e = 0.5f * edge_m;
+    Eigen::Vector3f low(0, 0, 0), high(0, 0, 0);
+    if (!middles_m.empty()) low = high = middles_m[0];
+    for (const Eigen::Vector3f& p : middles_m) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    voxels->setBoundingBox({low.x() - e, low.y() - e, low.z() - e},
+                           {high.x() + e, high.y() + e, high.z() + e});
+    return voxels;
+}
+
+CSphere::Ptr sphereAt(const Eigen::Vector3d& at, float radius_m, const TColor& color,
+                      const std::string& name) {
+    const auto sphere = CSphere::Create(radius_m);
+    sphere->setLocation(at.x(), at.y(), at.z());
+    sphere->setColor_u8(color);
+    sphere->setName(name);
+    return sphere;
+}
+
+CSetOfLines::Ptr trackOf(const std::vector<Eigen::Vector3d>& track_m) {
+    const auto lines = CSetOfLines::Create();
+    for (std::size_t i = 1; i < track_m.size(); ++i) {
+        const Eigen::Vector3d &a = track_m[i - 1], &b = track_m[i];
+        lines->appendLine(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+    }
+    lines->setColor_u8(TColor(0, 114, 178));
+    lines->setLineWidth(3);
+    lines->setName("way flown");
+    return lines;
+}
+
+/// What the model held at the last step.
+std::vector<Eigen::Vector3f> lastOf(const Recording& recording) {
+    const int last = static_cast<int>(recording.steps.size());
+    std::vector<Eigen::Vector3f> middles_m;
+    for (const ModelCell& cell : recording.model) {
+        if (cell.until_step == last) middles_m.push_back(cell.middle_m);
+    }
+    return middles_m;
+}
+
+}  // namespace
+
+void writeReplayScene(const Recording& recording, const std::filesystem::path& file) {
+    COpenGLScene scene;
+    const auto grid = CGridPlaneXY::Create(-10.0f, 60.0f, -30.0f, 30.0f, 0.0f, 5.0f);
+    grid->setLocation(recording.start_m.x(), recording.start_m.y(), 0);
+    grid->setColor_u8(TColor(200, 200, 200));
+    scene.insert(grid);
+    const std::vector<Eigen::Vector3f> held_m = lastOf(recording);
+    if (recording.model_edge_m > 0) {
+        scene.insert(voxelsOf(held_m, recording.model_edge_m));
+    } else {
+        scene.insert(cloudOf(held_m, TColor(230, 159, 0), 4, "obstacles of the model"));
+    }
+    if (!recording.steps.empty()) {
+        const RecordedStep& last = recording.steps.back();
+        scene.insert(cloudOf(last.rou_m, TColor(120, 120, 120), 2, "last scan: uninteresting"));
+        scene.insert(cloudOf(last.roi_m, TColor(213, 94, 0), 3, "last scan: regions of interest"));
+    }
+    scene.insert(trackOf(recording.track_m));
+    const auto radius_m = static_cast<float>(recording.run.setup.limits.radius_m);
+    scene.insert(sphereAt(recording.start_m, 0.2f, TColor(0, 114, 178), "start"));
+    scene.insert(sphereAt(recording.goal_m, 0.4f, TColor(0, 158, 115), "goal"));
+    if (!recording.track_m.empty()) {
+        scene.insert(sphereAt(recording.track_m.back(), radius_m, TColor(86, 180, 233), "vehicle"));
+    }
+    if (!scene.saveToFile(file.string())) {
+        throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    }
+}
+
+}  // namespace hagen
