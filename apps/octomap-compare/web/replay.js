@@ -38,14 +38,13 @@ sun.position.set(-10, -20, 30);
 scene.add(sun);
 const camera = new THREE.PerspectiveCamera(50, 1, 0.1, 500);
 camera.up.set(0, 0, 1);
-camera.position.set(-9, -7, 7);
+camera.position.set(-10, -5, 6);
 const controls = new THREE.OrbitControls(camera, renderer.domElement);
 controls.maxDistance = 150;
 
-const ground = -data.start_m[2];
-const grid = new THREE.GridHelper(160, 80, 0xb4bec8, 0xd3dae1);
+const grid = new THREE.GridHelper(160, 80, 0x9aa5b1, 0xbcc5ce);
 grid.rotation.x = Math.PI / 2;
-grid.position.set(20, 0, ground);
+grid.position.set(20, 0, data.ground_m);
 scene.add(grid);
 
 /// Points whose number changes.
@@ -115,21 +114,31 @@ function vehicle() {
 }
 const drone = vehicle();
 
-// The model's cells: boxes where they have an edge, else points.
-let model;
-if (edge > 0) {
-  const boxes = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(0.96 * edge, 0.96 * edge, 0.96 * edge),
-      new THREE.MeshLambertMaterial({color: colors.model}), Math.max(1, cells));
-  const matrices = boxes.instanceMatrix.array;
-  for (let i = 0; i < Math.max(1, cells); ++i) matrices.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], 16 * i);
-  boxes.frustumCulled = false;
-  scene.add(boxes);
-  model = {object: boxes, show: list => {
+// The model's cells: boxes where they have an edge, else points. Low ones, mostly ground, are paler.
+function boxes(color, opacity) {
+  const size = 0.96 * edge;
+  const made = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(size, size, size),
+      new THREE.MeshLambertMaterial({color, transparent: true, opacity, depthWrite: false}),
+      Math.max(1, cells));
+  const matrices = made.instanceMatrix.array;
+  for (let i = 0; i < matrices.length; i += 16) matrices.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], i);
+  made.frustumCulled = false;
+  scene.add(made);
+  return {object: made, show: list => {
     list.forEach((cell, i) => {
       for (let k = 0; k < 3; ++k) matrices[16 * i + 12 + k] = middles[3 * cell + k];
     });
-    boxes.count = list.length;
-    boxes.instanceMatrix.needsUpdate = true;
+    made.count = list.length;
+    made.instanceMatrix.needsUpdate = true;
+  }};
+}
+let model, low;
+if (edge > 0) {
+  const high = boxes(colors.model, 0.4), isLow = cell => middles[3 * cell + 2] < data.ground_m + 0.6;
+  low = boxes(colors.rou, 0.12);
+  model = {object: high.object, show: list => {
+    high.show(list.filter(cell => !isLow(cell)));
+    low.show(list.filter(isLow));
   }};
 } else {
   const held = cloud(colors.model, 0.09);
@@ -211,6 +220,7 @@ function layer(name, label, color, objects) {
 layer('roi', 'regions of interest', colors.roi, [roi.object]);
 layer('rou', 'rest of the scan', colors.rou, [rou.object]);
 layer('model', edge > 0 ? 'map (' + data.model_name + ')' : 'window (' + data.model_name + ')', colors.model, [model.object]);
+if (low) layer('low', 'map, below 0.6 m', colors.rou, [low.object]);
 layer('free', 'motions, free', colors.free, [free.object]);
 layer('blocked', 'motions, blocked', colors.blocked, [blocked.object]);
 layer('path', 'path and carrot', colors.path, [path.object, carrot]);
@@ -332,6 +342,8 @@ function resize() {
 window.addEventListener('resize', resize);
 resize();
 controls.target.set(0, 0, 0);
-seek(0);
+// replay.html#t=5 begins at 5 s; else the first plan is shown.
+const asked = window.location.hash.match(/^#t=([0-9.]+)$/);
+seek(asked ? Number(asked[1]) : data.steps.length > 0 ? data.steps[0].time_s : 0);
 controls.update();
 })();
