@@ -7,7 +7,8 @@ namespace hagen {
 namespace {
 
 constexpr double kNearGoal_m = 4;  ///< from here on the goal's own height counts
-constexpr double kCarrot_m = 4;
+constexpr double kCarrot_m = 4, kNearestCarrot_m = 1;
+constexpr double kEase_m = 0.05;
 constexpr double kSight_m = 12;          ///< how far along the path corners are cut
 constexpr double kCutClearance_m = 0.9;  ///< that a cut needs
 constexpr double kGoalSearch_m = 3;  ///< how far from a blocked goal another place is looked for
@@ -68,14 +69,14 @@ Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& go
     return found != places_m.end() ? *found : inside_m;
 }
 
-bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m,
-               const Eigen::Vector3d& to_m) {
+bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
+               double least_m) {
     const double length_m = (to_m - from_m).norm();
     for (double at_m = 0; at_m < length_m;) {
         const Eigen::Vector3d point_m = from_m + at_m / length_m * (to_m - from_m);
         const double clearance_m = world.clearance_m(point_m.cast<float>());
-        if (clearance_m < kCutClearance_m) return false;
-        at_m += std::max(clearance_m - kCutClearance_m, 0.1);
+        if (clearance_m < least_m) return false;
+        at_m += std::max(clearance_m - least_m, 0.1);
     }
     return true;
 }
@@ -97,14 +98,27 @@ double lengthOf(const std::vector<Eigen::Vector3d>& path_m) {
     return length_m;
 }
 
+/// How far along a path the carrot may lie: planners fly straight, so it must not hide behind a
+/// bend.
+double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& path_m,
+                   double least_m) {
+    double way_m = kCarrot_m;
+    while (way_m > kNearestCarrot_m &&
+           !isInSight(world, path_m.front(), placeAt(path_m, way_m), least_m)) {
+        way_m -= 0.5;
+    }
+    return way_m;
+}
+
 /// A path over a grid turns by 45 degrees or not at all: where the straight way to a place farther
 /// on has room enough, the carrot lies on it.
-Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m) {
+Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m, double room_m) {
     const double length_m = lengthOf(path_m);
-    Carrot carrot{placeAt(path_m, kCarrot_m), {}, std::max(0.0, length_m - kCarrot_m)};
+    const double carrot_m = carrotWay_m(world, path_m, room_m);
+    Carrot carrot{placeAt(path_m, carrot_m), {}, std::max(0.0, length_m - carrot_m)};
     for (double way_m = std::min(kSight_m, length_m); way_m > kCarrot_m; way_m -= 2) {
         const Eigen::Vector3d place_m = placeAt(path_m, way_m);
-        if (!isInSight(world, path_m.front(), place_m)) continue;
+        if (!isInSight(world, path_m.front(), place_m, kCutClearance_m)) continue;
         const Eigen::Vector3d sight_m = place_m - path_m.front();
         const double distance_m = sight_m.norm();
         if (distance_m <= kCarrot_m) continue;
@@ -126,11 +140,18 @@ class StraightGuidance : public Guidance {
 class PathGuidance : public Guidance {
  public:
     Carrot carrot(const WorldModel& world, const GuidanceTask& task) const override {
-        const PathSearchOptions options = searchOptions(task);
+        PathSearchOptions options = searchOptions(task);
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
-        auto path_m = findPath([&](const Eigen::Vector3f& at) { return world.clearance_m(at); },
-                               task.position_m, goal_m, options);
-        return path_m ? carrotOn(world, std::move(*path_m)) : straightCarrot(task);
+        const auto clearance_m = [&](const Eigen::Vector3f& at) { return world.clearance_m(at); };
+        // What planners can follow without touching their margin; else what just fits.
+        options.least_clearance_m += kEase_m;
+        auto path_m = findPath(clearance_m, task.position_m, goal_m, options);
+        if (!path_m) {
+            options.least_clearance_m -= kEase_m;
+            path_m = findPath(clearance_m, task.position_m, goal_m, options);
+        }
+        if (!path_m) return straightCarrot(task);
+        return carrotOn(world, std::move(*path_m), task.limits.room_m());
     }
 };
 

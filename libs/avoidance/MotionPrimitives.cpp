@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kAzimuths = 36;
 constexpr double kSteepest_rad = 0.24;
-constexpr std::array<double, 3> kSpeedShares{1.0, 0.6, 0.3};
+constexpr std::array<double, 4> kSpeedShares{1.0, 0.6, 0.3, 0.1};
 constexpr double kVertical_m_s = 1.0;
 constexpr double kAtGoal_m = 0.5;
 

@@ -4,6 +4,7 @@
 #include <hagen/trials/Trial.h>
 #include <hagen/trials/TrialScore.h>
 #include <hagen/trials/TrialSensor.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -188,6 +189,7 @@ class TrialFlight {
         task.ground_m = ground_m;
         task.altitude_m = course_.altitude_m;
         task.limits = setup_.limits;
+        task.period_s = std::max(TrialSensor::kTurn_s, latencies_.median_s());
         task.brakes_in_known_space = setup_.brakes_in_known_space;
         task.keeps_candidates = listener_.keeps_candidates;
         return task;
