@@ -1,8 +1,8 @@
 #include <hagen/logs/LogPoses.h>
+#include <hagen/logs/MapOutput.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/RawlogSurvey.h>
 #include <hagen/logs/ScanFolder.h>
-#include <hagen/observations/Deskew.h>
 #include <hagen/observations/MrptMessage.h>
 #include <hagen/observations/ObservationSegmenter.h>
 #include <hagen/trials/LoggedScans.h>
@@ -25,54 +25,34 @@ using TimePoint = mrpt::Clock::time_point;
 
 constexpr double kDefaultScanPeriod_s = 0.1;  // of a scan folder without times
 
-TimePoint later(TimePoint time, double by_s) {
-    return time +
-           std::chrono::duration_cast<mrpt::Clock::duration>(std::chrono::duration<double>(by_s));
-}
-
 Eigen::Vector3f positionOf(const CPose3D& pose) {
     return Eigen::Vector3d(pose.x(), pose.y(), pose.z()).cast<float>();
 }
 
-Eigen::Isometry3d isometryOf(const CPose3D& pose) {
-    return Eigen::Isometry3d(
-        Eigen::Matrix4d(pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen()));
-}
-
-/// The points of a scan in the map, where they have a valid range and are not the vehicle's own.
-void placePoints(const Scan& scan, const std::vector<Label>& labels, const CPose3D& sensor_pose,
-                 float own_reach_m, MappedScan& mapped) {
-    const Eigen::Isometry3d to_map = isometryOf(sensor_pose);
-    mapped.points_m.clear();
-    mapped.labels.clear();
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (labels[i] == Label::Unclassified || scan.range_m[i] < own_reach_m) continue;
-        const Eigen::Vector3d seen(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
-        mapped.points_m.push_back((to_map * seen).cast<float>());
-        mapped.labels.push_back(labels[i]);
+/// Takes out the vehicle's own returns.
+void removeOwn(const ObservationSegmenter::Output& out, float own_reach_m, MappedScan& mapped) {
+    std::size_t kept = 0, placed = 0;
+    for (std::size_t i = 0; i < out.scan->size(); ++i) {
+        if (out.result->returns.label[i] == Label::Unclassified) continue;
+        if (out.scan->range_m[i] >= own_reach_m) {
+            mapped.points_m[kept] = mapped.points_m[placed];
+            mapped.labels[kept] = mapped.labels[placed];
+            ++kept;
+        }
+        ++placed;
     }
+    mapped.points_m.resize(kept);
+    mapped.labels.resize(kept);
 }
 
-/// Places a segmented scan by the poses at its returns' own times, else as a whole.
+/// Requires a pose at the scan's time.
 void place(const ObservationSegmenter::Output& out, const CObservation& observation,
            const Trajectory& vehicle, float own_reach_m, LoggedScan& scan) {
-    const CPose3D sensor_on_vehicle(observation.sensorPose());
-    const auto& times_s = out.scan->time_s;
-    const double turn_s =
-        times_s.empty() ? 0.0
-                        : static_cast<double>(*std::max_element(times_s.begin(), times_s.end()));
-    Scan deskewed = *out.scan;
-    const bool is_deskewed = !times_s.empty() && deskew(vehicle, observation.timestamp,
-                                                        sensor_on_vehicle, *out.sensor, deskewed);
-    scan.is_moved_whole = !is_deskewed;
-    placePoints(deskewed, out.result->returns.label, *out.sensor_pose, own_reach_m, scan.mapped);
-
-    const TimePoint start = observation.timestamp;
-    const auto middle = is_deskewed ? vehicle.at(later(start, turn_s / 2)) : std::nullopt;
-    const auto end = is_deskewed ? vehicle.at(later(start, turn_s)) : std::nullopt;
-    scan.mapped.time_s = mrpt::Clock::toDouble(start) + turn_s;
-    scan.mapped.origin_m = positionOf(middle ? *middle + sensor_on_vehicle : *out.sensor_pose);
-    scan.vehicle_m = positionOf(end ? *end : *vehicle.at(start));
+    scan.mapped = *placeInMap(out, observation, vehicle);
+    removeOwn(out, own_reach_m, scan.mapped);
+    const auto end = vehicle.at(mrpt::Clock::fromDouble(scan.mapped.time_s));
+    scan.is_moved_whole = out.scan->time_s.empty() || !end;
+    scan.vehicle_m = positionOf(end ? *end : *vehicle.at(observation.timestamp));
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ constexpr float kHalfBox_m = 30, kHalfBoxUp_m = 10;  // around the vehicle
 constexpr float kBorder_m = 12, kBorderUp_m = 5;     // beyond what queries and clearances reach
 constexpr double kKept_s = 3;                        // of scans, for maps that are begun anew
 
-// A log's obstacles lie on those of its scene, but for ranges' noise and poses between scans.
-constexpr float kMostOffScene_m = 0.3f;
+// Half of a scan's obstacles lie nearer than this to those of its own scene (1 to 2 cm as a rule).
+constexpr float kMostOffScene_m = 0.08f;
 constexpr std::size_t kFewestForFit = 100;
 
 Eigen::AlignedBox3f widened(const Eigen::AlignedBox3f& box, float aside_m, float up_m) {

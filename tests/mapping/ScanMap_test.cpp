@@ -98,6 +98,10 @@ void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
                 const State state = stateAt(map, middleOf(voxel, edge));
                 if (hits.count(voxel)) {
                     ASSERT_EQ(State::Occupied, state) << x << " " << y << " " << z;
+                    const Eigen::Vector3d at = middleOf(voxel, edge);
+                    ASSERT_EQ(map.tree().getProbHitLog(),
+                              map.tree().search(at.x(), at.y(), at.z())->getLogOdds())
+                        << "hit once, and not cleared";
                     continue;
                 }
                 double longest = 0, longest_about = 0;
