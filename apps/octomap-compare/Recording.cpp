@@ -118,6 +118,8 @@ Recording record(const Run& run, const LatencyProfile& profile, const RecordingL
     recording.is_same = again.is_same;
     recording.start_m = again.course.start_m;
     recording.goal_m = again.course.goal_m;
+    recording.ground_m =
+        again.course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
     model.tell(recording);
     return recording;
 }

@@ -39,6 +39,7 @@ struct Recording {
     Run run;
     bool is_same = false;
     Eigen::Vector3d start_m, goal_m;
+    double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
     std::vector<Eigen::Vector3d> track_m;  ///< true, every kControlStep_s
     std::vector<ModelCell> model;

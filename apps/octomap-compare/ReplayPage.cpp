@@ -87,6 +87,7 @@ class PageWriter {
             {"unit_m", kUnit_m},
             {"control_step_s", kControlStep_s},
             {"start_m", {recording_.start_m.x(), recording_.start_m.y(), recording_.start_m.z()}},
+            {"ground_m", rounded(recording_.ground_m - recording_.start_m.z())},
             {"goal", points(std::vector<Eigen::Vector3d>{recording_.goal_m})},
             {"radius_m", run.setup.limits.radius_m}};
     }

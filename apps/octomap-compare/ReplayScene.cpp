@@ -85,7 +85,7 @@ std::vector<Eigen::Vector3f> lastOf(const Recording& recording) {
 void writeReplayScene(const Recording& recording, const std::filesystem::path& file) {
     COpenGLScene scene;
     const auto grid = CGridPlaneXY::Create(-10.0f, 60.0f, -30.0f, 30.0f, 0.0f, 5.0f);
-    grid->setLocation(recording.start_m.x(), recording.start_m.y(), 0);
+    grid->setLocation(recording.start_m.x(), recording.start_m.y(), recording.ground_m);
     grid->setColor_u8(TColor(200, 200, 200));
     scene.insert(grid);
     const std::vector<Eigen::Vector3f> held_m = lastOf(recording);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "Report.h"
@@ -70,10 +71,17 @@ void addPairings(const Report& report, std::vector<Section>& sections) {
                              ": is it the map, or the search for a way, that helps?"},
                             {square}});
     }
-    std::vector<std::string> losses = lossesOf(summary);
-    if (losses.empty()) losses = {"In no scenario was its success below another model's."};
-    Section loses{"Where W-RoI loses", losses, {}};
-    loses.is_list = true;
+    const std::vector<Pairing> losses = lossesOf(summary);
+    const auto certain = std::count_if(
+        losses.begin(), losses.end(), [](const Pairing& pairing) { return pairing.p_holm < 0.05; });
+    Section loses{"Where W-RoI loses",
+                  {"Of " + std::to_string(summary.pairings.size()) +
+                   " comparisons in single scenarios, W-RoI has less success in " +
+                   std::to_string(losses.size()) + "; " + std::to_string(certain) +
+                   " of these are certain after Holm's correction (p < 0.05), the others may be "
+                   "chance. Largest loss first."},
+                  {}};
+    if (!losses.empty()) loses.tables.push_back(pairingTable(losses));
     sections.push_back(loses);
 }
 

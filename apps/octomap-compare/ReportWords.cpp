@@ -66,16 +66,40 @@ std::string sentenceOf(const Pairing& pairing) {
     return text;
 }
 
+/// "Better" and "less" only where McNemar's test, corrected, says so, too.
 std::string verdictWords(const Pairing& pairing) {
     const std::string margin = fixed(100 * kMargin, 0) + " points";
-    switch (pairing.verdict) {
-        case Verdict::NotInferior:
-            return pairing.interval.low > 0 ? "better" : "not inferior by " + margin;
-        case Verdict::Inferior:
-            return "inferior by more than " + margin;
-        default:
-            return "not decided: more courses are needed to exclude a loss of " + margin;
+    const bool is_certain = pairing.p_holm < 0.05;
+    if (pairing.verdict == Verdict::Inferior) return "inferior by more than " + margin;
+    if (pairing.verdict == Verdict::NotInferior) {
+        return is_certain && pairing.interval.low > 0 ? "better" : "not inferior by " + margin;
     }
+    if (is_certain && pairing.interval.high < 0) {
+        return "less, but whether by " + margin + " is not decided";
+    }
+    return "not decided: more courses are needed to exclude a loss of " + margin;
+}
+
+/// The answer before the figures.
+std::string headlineOf(const Summary& summary, const Condition& reference,
+                       const std::string& guidance) {
+    std::vector<std::string> of[3];
+    for (const Pairing& pairing : summary.overall) {
+        if (!(pairing.condition == reference) || pairing.first.guidance != guidance ||
+            pairing.second.model == pairing.first.model || pairing.second.model == "oracle") {
+            continue;
+        }
+        of[static_cast<int>(pairing.verdict)].push_back(nameOf(pairing.second));
+    }
+    std::vector<std::string> parts;
+    const char* words[] = {"not inferior to ", "inferior to ", "not decided against "};
+    for (int verdict = 0; verdict < 3; ++verdict) {
+        if (!of[verdict].empty()) parts.push_back(words[verdict] + join(of[verdict], " and "));
+    }
+    if (parts.empty()) return "";
+    return "Without a map, " + nameOf(Contender{"W-RoI", guidance}) + ", at " + nameOf(reference) +
+           ", is " + join(parts, "; ") + ", by success with a margin of " +
+           fixed(100 * kMargin, 0) + " points.";
 }
 
 std::string collisionWords(const Cell& cell) {
@@ -91,13 +115,17 @@ std::vector<std::string> verdictOf(const Summary& summary) {
     if (summary.conditions.empty()) return {"Nothing was flown: the table has no runs."};
     const Condition& reference = summary.conditions.front();
     std::vector<std::string> words;
+    for (const char* guidance : {"astar", "straight"}) {
+        const std::string headline = headlineOf(summary, reference, guidance);
+        if (!headline.empty()) words.push_back(headline);
+    }
     for (const Pairing& pairing : summary.overall) {
         if (!(pairing.condition == reference)) continue;
         words.push_back(sentenceOf(pairing) + ": " + verdictWords(pairing) + " (p " +
                         pText(pairing.p_holm) + ").");
     }
     for (const Contender& contender : presentIn(summary, reference)) {
-        if (contender.model == "oracle") continue;
+        if (contender.model != "W-RoI") continue;
         words.push_back(collisionWords(*find(summary, "", reference, contender)));
     }
     words.push_back(
@@ -133,7 +161,7 @@ std::vector<std::string> flownWords(const Report& report) {
     return words;
 }
 
-std::vector<std::string> lossesOf(const Summary& summary) {
+std::vector<Pairing> lossesOf(const Summary& summary) {
     std::vector<Pairing> losses;
     for (const Pairing& pairing : summary.pairings) {
         if (pairing.difference < 0 && pairing.second.model != "oracle") losses.push_back(pairing);
@@ -141,12 +169,7 @@ std::vector<std::string> lossesOf(const Summary& summary) {
     std::stable_sort(losses.begin(), losses.end(), [](const Pairing& a, const Pairing& b) {
         return a.difference < b.difference;
     });
-    std::vector<std::string> words;
-    for (const Pairing& pairing : losses) {
-        const std::string certain = pairing.p_holm < 0.05 ? "" : "; may be chance";
-        words.push_back(sentenceOf(pairing) + " (p " + pText(pairing.p_holm) + certain + ").");
-    }
-    return words;
+    return losses;
 }
 
 Table successTable(const Summary& summary, const Condition& condition) {
@@ -222,7 +245,10 @@ Table squareTable(const Summary& summary, const Condition& condition) {
                 const Cell* cell = find(summary, scenario, condition, {model, guidance});
                 row.push_back(cell == nullptr ? "" : percentOf(cell->successes, cell->runs));
             }
-            table.rows.push_back(row);
+            // A row of one cell compares nothing.
+            if (std::count(row.begin(), row.end(), "") + 2 < static_cast<long>(row.size()) - 1) {
+                table.rows.push_back(row);
+            }
         }
     }
     return table;

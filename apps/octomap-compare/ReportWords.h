@@ -13,8 +13,8 @@ std::vector<std::string> verdictOf(const Summary& summary);
 /// What was flown, in sentences.
 std::vector<std::string> flownWords(const Report& report);
 
-/// Pairings in which the first has less success, largest loss first; one sentence each.
-std::vector<std::string> lossesOf(const Summary& summary);
+/// Pairings in single scenarios in which the first has less success, largest loss first.
+std::vector<Pairing> lossesOf(const Summary& summary);
 
 /// Scenarios by contenders, of a condition: "success (interval)" and "collisions/runs".
 Table successTable(const Summary& summary, const Condition& condition);

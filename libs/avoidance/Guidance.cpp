@@ -13,7 +13,7 @@ constexpr double kCutClearance_m = 0.9;  ///< that a cut needs
 constexpr double kGoalSearch_m = 3;  ///< how far from a blocked goal another place is looked for
 constexpr double kHeightCost_per_m = 0.5;
 constexpr double kHaste = 1.3;  ///< of the search: a third of the questions in a dense forest
-constexpr int kMostCells = 6000;
+constexpr int kMostCells = 4000;
 
 /// The goal, level at the wanted altitude while it is far off: the ground in between is unknown.
 Eigen::Vector3d levelGoal(const GuidanceTask& task) {

@@ -18,6 +18,7 @@ struct SmallFlight {
     std::string planner = "primitives", guidance = "straight";
     double speed_m_s = 4, latency_s = 0.1, longest_s = 60;
     double ground_m = 0;
+    bool brakes_in_known_space = false;
     /// Called before each plan, for worlds that move.
     std::function<void(double time_s)> moves = [](double) {};
 };
@@ -56,6 +57,7 @@ inline SmallFlightResult fly(const SolidWorld& world, const SmallFlight& flight)
             task.beyond_carrot_m = carrot.beyond_m;
             task.speed_m_s = flight.speed_m_s;
             task.ground_m = flight.ground_m;
+            task.brakes_in_known_space = flight.brakes_in_known_space;
             const Plan plan = planner->plan(world, task);
             command_m_s = plan.command_m_s;
             ++result.plans;

@@ -18,7 +18,7 @@ const cells = lives.length / 2, edge = data.model.edge_m;
 const ends = data.track.length ? (track.length / 3 - 1) * data.control_step_s : 0;
 
 // ---- scene
-const colors = {roi: 0xd55e00, rou: 0x9aa5b1, model: 0xe69f00, free: 0x009e73, blocked: 0xcc79a7,
+const colors = {roi: 0xd55e00, rou: 0x9aa5b1, model: 0xe69f00, above: 0xb58a3c, free: 0x009e73, blocked: 0xcc79a7,
                 track: 0x0072b2, path: 0x7a3fb0, command: 0x1d2530};
 const view = byId('view');
 let renderer;
@@ -38,14 +38,13 @@ sun.position.set(-10, -20, 30);
 scene.add(sun);
 const camera = new THREE.PerspectiveCamera(50, 1, 0.1, 500);
 camera.up.set(0, 0, 1);
-camera.position.set(-9, -7, 7);
+camera.position.set(-10, -5, 6);
 const controls = new THREE.OrbitControls(camera, renderer.domElement);
 controls.maxDistance = 150;
 
-const ground = -data.start_m[2];
-const grid = new THREE.GridHelper(160, 80, 0xb4bec8, 0xd3dae1);
+const grid = new THREE.GridHelper(160, 80, 0x9aa5b1, 0xbcc5ce);
 grid.rotation.x = Math.PI / 2;
-grid.position.set(20, 0, ground);
+grid.position.set(20, 0, data.ground_m);
 scene.add(grid);
 
 /// Points whose number changes.
@@ -115,21 +114,35 @@ function vehicle() {
 }
 const drone = vehicle();
 
-// The model's cells: boxes where they have an edge, else points.
-let model;
-if (edge > 0) {
-  const boxes = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(0.96 * edge, 0.96 * edge, 0.96 * edge),
-      new THREE.MeshLambertMaterial({color: colors.model}), Math.max(1, cells));
-  const matrices = boxes.instanceMatrix.array;
-  for (let i = 0; i < Math.max(1, cells); ++i) matrices.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], 16 * i);
-  boxes.frustumCulled = false;
-  scene.add(boxes);
-  model = {object: boxes, show: list => {
+// The model's cells: boxes where they have an edge, else points. Low ones, mostly
+// ground, are paler; those above where one may fly are hidden unless asked for.
+function boxes(color, opacity) {
+  const size = 0.5 * edge;  // so that one sees what is behind
+  const made = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(size, size, size),
+      new THREE.MeshLambertMaterial({color, transparent: opacity < 1, opacity, depthWrite: opacity === 1}),
+      Math.max(1, cells));
+  const matrices = made.instanceMatrix.array;
+  for (let i = 0; i < matrices.length; i += 16) matrices.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], i);
+  made.frustumCulled = false;
+  scene.add(made);
+  return {object: made, show: list => {
     list.forEach((cell, i) => {
       for (let k = 0; k < 3; ++k) matrices[16 * i + 12 + k] = middles[3 * cell + k];
     });
-    boxes.count = list.length;
-    boxes.instanceMatrix.needsUpdate = true;
+    made.count = list.length;
+    made.instanceMatrix.needsUpdate = true;
+  }};
+}
+let model, low, above;
+if (edge > 0) {
+  const inside = boxes(colors.model, 1);
+  low = boxes(colors.rou, 0.35);
+  above = boxes(colors.above, 0.6);
+  const height = cell => middles[3 * cell + 2] - data.ground_m;
+  model = {object: inside.object, show: list => {
+    low.show(list.filter(cell => height(cell) < 0.6));
+    inside.show(list.filter(cell => height(cell) >= 0.6 && height(cell) < 4.5));
+    above.show(list.filter(cell => height(cell) >= 4.5));
   }};
 } else {
   const held = cloud(colors.model, 0.09);
@@ -196,10 +209,11 @@ function showStep(index) {
 
 // ---- panels
 const layers = {};
-function layer(name, label, color, objects) {
+function layer(name, label, color, objects, hidden) {
   const line = document.createElement('label'), box = document.createElement('input');
   box.type = 'checkbox';
-  box.checked = true;
+  box.checked = !hidden;
+  if (hidden) objects.forEach(one => { one.visible = false; });
   box.dataset.layer = name;
   const swatch = document.createElement('i');
   swatch.style.background = '#' + color.toString(16).padStart(6, '0');
@@ -211,6 +225,10 @@ function layer(name, label, color, objects) {
 layer('roi', 'regions of interest', colors.roi, [roi.object]);
 layer('rou', 'rest of the scan', colors.rou, [rou.object]);
 layer('model', edge > 0 ? 'map (' + data.model_name + ')' : 'window (' + data.model_name + ')', colors.model, [model.object]);
+if (low) {
+  layer('low', 'map, below 0.6 m', colors.rou, [low.object]);
+  layer('above', 'map, above 4.5 m', colors.above, [above.object], true);
+}
 layer('free', 'motions, free', colors.free, [free.object]);
 layer('blocked', 'motions, blocked', colors.blocked, [blocked.object]);
 layer('path', 'path and carrot', colors.path, [path.object, carrot]);
@@ -332,6 +350,8 @@ function resize() {
 window.addEventListener('resize', resize);
 resize();
 controls.target.set(0, 0, 0);
-seek(0);
+// replay.html#t=5 begins at 5 s; else the first plan is shown.
+const asked = window.location.hash.match(/^#t=([0-9.]+)$/);
+seek(asked ? Number(asked[1]) : data.steps.length > 0 ? data.steps[0].time_s : 0);
 controls.update();
 })();

@@ -23,7 +23,7 @@ Chart.defaults.animation = false;
 Chart.defaults.maintainAspectRatio = false;
 Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
 Chart.defaults.color = '#1d2530';
-Chart.defaults.plugins.legend.labels.usePointStyle = true;
+Object.assign(Chart.defaults.plugins.legend.labels, {usePointStyle: true, boxWidth: 9, boxHeight: 9});
 Chart.defaults.plugins.legend.position = 'bottom';
 
 // Intervals: points that have `low` and `high` along the axis of values get a bar.
@@ -75,6 +75,9 @@ function withPlace(name, use) {
 }
 const axis = (text, more) => Object.assign({title: {display: true, text}}, more);
 const percent = share => 100 * share;
+/// Where an axis of shares begins, so that no interval is cut off.
+const lowest = datasets => Math.max(0, Math.min(...datasets.flatMap(
+    set => set.data.map(point => 10 * Math.floor(point.low / 10)))));
 const inReference = cell => cell.condition.name === data.reference;
 
 withPlace('success', place => {
@@ -83,7 +86,8 @@ withPlace('success', place => {
   const present = summary.contenders.filter(who => cells.some(cell => same(cell, who)));
   const step = 0.72 / Math.max(1, present.length);
   const datasets = present.map((who, w) => ({
-    label: nameOf(who), borderColor: look(who).color, backgroundColor: look(who).color,
+    label: nameOf(who), borderColor: look(who).color, clip: 8,
+    backgroundColor: who.guidance === 'astar' ? look(who).color : '#ffffff', borderWidth: 2,
     pointStyle: look(who).mark, pointRadius: 5,
     data: cells.filter(cell => same(cell, who)).map(cell => ({
       x: percent(cell.success.share), low: percent(cell.success.interval[0]),
@@ -95,7 +99,7 @@ withPlace('success', place => {
     options: {
       plugins: {intervals: {axis: 'x'}},
       scales: {
-        x: axis('success, %', {max: 100}),
+        x: axis('success, %', {min: lowest(datasets), max: 100}),
         y: {min: -0.5, max: names.length - 0.5, reverse: true,
             afterBuildTicks: scale => { scale.ticks = names.map((name, value) => ({value})); },
             ticks: {autoSkip: false, callback: value => names[value]},
@@ -112,7 +116,7 @@ withPlace('speed', place => {
         one => summary.speed_limits.some(l => l.scenario === scenario && same(l, one)));
     const datasets = who.map((one, w) => ({
       label: nameOf(one), borderColor: look(one).color, backgroundColor: look(one).color,
-      borderDash: look(one).dash, pointStyle: look(one).mark, pointRadius: 5,
+      clip: 8, borderDash: look(one).dash, pointStyle: look(one).mark, pointRadius: 5,
       data: summary.cells.filter(cell => cell.scenario === scenario && same(cell, one) &&
           cell.condition.planner === 'primitives' && cell.condition.pose_error === 'none' &&
           cell.condition.latency_scale === 1 && cell.condition.unknown === 'optimistic')
@@ -122,14 +126,15 @@ withPlace('speed', place => {
         .sort((a, b) => a.x - b.x)
     }));
     const speeds = datasets.flatMap(set => set.data.map(point => point.x));
-    datasets.push({label: '95 %', borderColor: '#777777', borderDash: [2, 4], pointRadius: 0,
+    const least = lowest(datasets);
+    datasets.push({label: '95 %', pointStyle: 'line', borderColor: '#777777', borderDash: [2, 4], pointRadius: 0,
                    borderWidth: 1,
                    data: [{x: Math.min(...speeds), y: 95}, {x: Math.max(...speeds), y: 95}]});
     draw(place, scenario, 300, {
       type: 'line', data: {datasets},
       options: {plugins: {intervals: {axis: 'y'}},
-                scales: {x: axis('speed, m/s', {type: 'linear', grace: '5%'}),
-                         y: axis('success, %', {max: 101})}}
+                scales: {x: axis('speed, m/s', {type: 'linear', grace: '8%'}),
+                         y: axis('success, %', {min: least, max: 100})}}
     });
   }
 });
