@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kStart_s = kSimulatedLogStart_s;
-constexpr double kPoseStep_s = 0.05;     // well below the gap over which poses are interpolated
+constexpr double kPoseStep_s = 0.05;  // well below the gap over which poses are interpolated
 
 /// A file of poses that appears when it is whole.
 class PoseOutput {
@@ -138,6 +138,11 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     const Flight flight(scene.terrain(), scene.path(), settings, log.seed);
     const double measuring_s = firingPattern(sensor).turnPeriod_s();
 
+    LidarFaults faults;
+    if (log.clear_air) {
+        faults.dust_per_m = 0;
+        faults.airframe = false;
+    }
     Random random(log.seed, 3);
     SimulationReport report;
     for (int scan = 0; scan < log.scans; ++scan) {
@@ -147,7 +152,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
                                      " scans before it are in" + outputs.keepPartial());
         }
         const double time_s = log.every_s * scan, next_s = log.every_s * (scan + 1);
-        const SimulatedScan made = simulateScan(scene, sensor, flight, time_s, random);
+        const SimulatedScan made = simulateScan(scene, sensor, flight, time_s, random, faults);
         writePose(time_s, made.pose, outputs);
         const Measured measured = writeScanEntry(made, sensor, time_s, outputs);
         // Poses on until past the last firing, or until the next scan brings one.

@@ -13,7 +13,8 @@ struct SimulatedLog {
     std::uint64_t seed = 1;
     int scans = 0;
     double altitude_m = 2, speed_m_s = 4, tilt_sd_deg = 4;
-    double every_s = 0.1;  ///< from the start of a scan to that of the next
+    double every_s = 0.1;    ///< from the start of a scan to that of the next
+    bool clear_air = false;  ///< no dust, and nothing of the vehicle in the sensor's view
 
     std::filesystem::path rawlog, folder, poses;
     bool overwrite = false;

@@ -54,6 +54,9 @@ void declare(CLI::App& app, SimulatedLog& log, bool& is_quiet) {
         ->check(CLI::Range(0.0, 15.0))
         ->capture_default_str()
         ->group("Flight");
+    app.add_flag("--clear-air", log.clear_air,
+                 "no dust, and nothing of the vehicle in the sensor's view")
+        ->group("Flight");
     app.add_option("--every-s", log.every_s, "from one scan's start to the next one's")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str()

@@ -159,6 +159,14 @@ TEST_F(RawlogSimulate, ASensorWithoutPacketsGoesIntoAFolder) {
     EXPECT_GT(scan.size(), 50000u);
 }
 
+TEST_F(RawlogSimulate, InClearAirNothingIsUnclassified) {
+    const auto dusty = run(with(wires_, {"-o", path("a.rawlog")}));
+    const auto clear = run(with(wires_, {"-o", path("b.rawlog"), "--clear-air"}));
+    ASSERT_EQ(clear.exit_code, 0) << clear.err;
+    EXPECT_EQ(dusty.out.find(" 0 unclassified"), std::string::npos) << dusty.out;
+    EXPECT_NE(clear.out.find(" 0 unclassified"), std::string::npos) << clear.out;
+}
+
 TEST_F(RawlogSimulate, OverwritesWhereItIsToldTo) {
     ASSERT_EQ(run(with(wires_, {"--kitti", path("a"), "-o", path("a.rawlog")})).exit_code, 0);
     EXPECT_EQ(
