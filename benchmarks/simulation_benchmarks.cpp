@@ -1,8 +1,11 @@
-// How long a simulated scan takes: in every scene, and in some of at least 150 000 triangles.
+// How long a simulated scan takes: in every scene, in some of at least 150 000 triangles, and along
+// courses; how long courses take to make, and true distances in them.
 #include <benchmark/benchmark.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
+#include <hagen/trials/Course.h>
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -31,6 +34,40 @@ void simulate(benchmark::State& state, const hagen::Scene& scene, const std::str
     state.counters["triangles"] = static_cast<double>(scene.triangles());
 }
 
+void makeCourses(benchmark::State& state, const std::string& name) {
+    std::uint64_t seed = 1;
+    for (auto _ : state) benchmark::DoNotOptimize(hagen::makeCourse(name, seed++));
+}
+
+/// From start to goal along the straight line, as if nothing stood there.
+void scanCourse(benchmark::State& state, const std::string& name) {
+    const hagen::Course course = hagen::makeCourse(name, 1);
+    const hagen::SensorModel model = hagen::sensorModel("VLP-16");
+    hagen::Random random(1);
+    const hagen::PoseAt pose_at = [&](double time_s) {
+        const double share = std::fmod(time_s, 10.0) / 10;
+        return hagen::SensorPose{course.start_m + share * (course.goal_m - course.start_m),
+                                 Eigen::Quaterniond::Identity()};
+    };
+    double time_s = 0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(hagen::simulateScan(course.scene, model, pose_at, time_s, random,
+                                                     hagen::trialFaults()));
+        time_s += 0.7;
+    }
+}
+
+void measureDistances(benchmark::State& state, const std::string& name) {
+    const hagen::Course course = hagen::makeCourse(name, 1);
+    hagen::Random random(1);
+    double time_s = 0;
+    for (auto _ : state) {
+        const double x_m = random.uniform(0, 40), y_m = random.uniform(-12, 12);
+        const Eigen::Vector3d at(x_m, y_m, course.start_m.z() + random.uniform(-1, 2));
+        benchmark::DoNotOptimize(course.distance.at(at.cast<float>(), time_s += 0.001));
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -45,6 +82,16 @@ int main(int argc, char** argv) {
     for (const std::string scenario : {"street", "gap", "orchard", "forest-0.10"}) {
         add(scenario + " with a wide ground",
             [=] { return withWideGround(hagen::makeScene(scenario, 1)); });
+    }
+    using Run = void (*)(benchmark::State&, const std::string&);
+    const auto addCourse = [](const std::string& what, const std::string& course, Run run,
+                              benchmark::TimeUnit unit) {
+        benchmark::RegisterBenchmark((what + " course " + course).c_str(), run, course)->Unit(unit);
+    };
+    for (const std::string& course : hagen::courseNames()) {
+        addCourse("make", course, makeCourses, benchmark::kMillisecond);
+        addCourse("scan on", course, scanCourse, benchmark::kMillisecond);
+        addCourse("distance on", course, measureDistances, benchmark::kMicrosecond);
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -12,6 +12,7 @@ using Command = std::function<int()>;
 void addClosedLoop(CLI::App& app, Command& command);
 void addMerge(CLI::App& app, Command& command);
 void addCalibrate(CLI::App& app, Command& command);
+void addOpenLoop(CLI::App& app, Command& command);
 void addReport(CLI::App& app, Command& command);
 void addReplay(CLI::App& app, Command& command);
 

@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
         "Examples:\n"
         "  octomap-compare closedloop --scenario forest-0.05 --seeds 1000-1019 --models "
         "W-RoI,O-Full-0.4 -o runs\n"
+        "  octomap-compare openloop -i flight.rawlog --poses flight.tum -o models\n"
         "  octomap-compare COMMAND --help\n"
         "Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
     app.set_version_flag("--version", "octomap-compare " HAGEN_VERSION);
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
     addClosedLoop(app, command);
     addMerge(app, command);
     addCalibrate(app, command);
+    addOpenLoop(app, command);
     addReport(app, command);
     addReplay(app, command);
     try {

@@ -55,6 +55,10 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         std::printf("poses of %zu of %s: %s\n", report.scans_with_pose,
                     counted(report.scans, "scan", "scans").c_str(), report.poses.c_str());
     }
+    if (!conversion.octomaps.empty()) {
+        std::printf("in the OctoMap: %zu of %s\n", report.scans_in_map,
+                    counted(report.scans, "scan", "scans").c_str());
+    }
     if (report.scans_with_attitude > 0 && report.settings.options.level_by_attitude) {
         std::printf("levelled by the vehicle's attitude: %zu of %s\n", report.scans_with_attitude,
                     counted(report.scans, "scan", "scans").c_str());
@@ -65,6 +69,7 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     output("segmented rawlog", conversion.rawlog);
     output("scans and labels", conversion.folder);
     output("pictures", conversion.pictures);
+    for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);
 }
 

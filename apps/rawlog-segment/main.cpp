@@ -37,7 +37,8 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
-                  << ": is not used: only a window (window_scans) and --kitti need it; angles are "
+                  << ": is not used: only a window (window_scans), --kitti and --octomap need it; "
+                     "angles are "
                      "levelled by poses with times (TUM) alone\n";
     }
     return report;
@@ -123,6 +124,33 @@ void declare(CLI::App& app, CommandLine& line) {
         ->check(CLI::Range(-360.0, 360.0))
         ->needs(pictures)
         ->group("Output");
+    auto* octomap =
+        app.add_option("--octomap", conversion.octomaps,
+                       "OctoMap of the scans, which need poses: .bt, .ot, or .3Dscene for "
+                       "SceneViewer3D; may be repeated")
+            ->allow_extra_args(false)
+            ->check(CLI::Validator(
+                [](const std::string& name) {
+                    return isMapFile(name) ? "" : name + " does not end in .bt, .ot or .3Dscene";
+                },
+                "PATH"))
+            ->group("Output");
+    app.add_option("--octomap-content", conversion.octomap.content,
+                   "every return (full), RoI returns alone (roi), or RoI returns, and free space "
+                   "from all rays (roi+rays, the default)")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, MapContent>{{"full", MapContent::Full},
+                                              {"roi", MapContent::Roi},
+                                              {"roi+rays", MapContent::RoiAndRays}}))
+        ->option_text("full|roi|roi+rays")
+        ->needs(octomap)
+        ->group("Output");
+    app.add_option("--octomap-resolution", conversion.octomap.resolution_m,
+                   "edge of its voxels in metres (default: 0.2)")
+        ->check(CLI::Range(0.01, 100.0))
+        ->option_text("M")
+        ->needs(octomap)
+        ->group("Output");
     app.add_option("--stats", conversion.stats, "JSON: settings, counts, latencies, each scan")
         ->check(not_empty)
         ->group("Output");
@@ -157,8 +185,11 @@ void check(const CommandLine& line) {
     if (line.dumps_settings) return;
     if (conversion.input.empty()) throw CLI::RequiredError("--input");
     if (conversion.rawlog.empty() && conversion.folder.empty() && conversion.pictures.empty() &&
-        conversion.stats.empty()) {
-        throw CLI::RequiredError("an output (-o, --kitti, --pictures or --stats)");
+        conversion.octomaps.empty() && conversion.stats.empty()) {
+        throw CLI::RequiredError("an output (-o, --kitti, --pictures, --octomap or --stats)");
+    }
+    if (!(conversion.octomap.resolution_m > 0)) {  // not a number is in any range
+        throw CLI::ValidationError("--octomap-resolution", "is not more than 0");
     }
     if (conversion.from > conversion.to) {
         throw CLI::ValidationError("--from", "is beyond --to");
@@ -174,6 +205,7 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview --stats flight.json\n"
         "  rawlog-segment -i flight.rawlog --kitti labels -c config/paper.yaml\n"
         "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"
+        "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
         "\n"
         "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "

@@ -3,6 +3,7 @@
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/simulation/LogClock.h>
 #include <hagen/simulation/Scenarios.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kStart_s = 1767225600;  // 2026-01-01, a full hour
+constexpr double kStart_s = kSimulatedLogStart_s;
 constexpr double kPoseStep_s = 0.05;     // well below the gap over which poses are interpolated
 
 /// A file of poses that appears when it is whole.

@@ -2,13 +2,21 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <memory>
 
+#include "VoxelTree.h"
+
+namespace mrpt::maps {
+class COccupancyGridMap3D;
+}
+
 namespace hagen {
 
-/// MRPT's COccupancyGridMap3D of all points, and the distances to what is occupied in it
-/// (dynamicEDT3D).
+/// MRPT's COccupancyGridMap3D of all points, within the bounds, and a tree of what is occupied in
+/// it.
 class GridModel : public WorldModel {
  public:
-    GridModel(double resolution_m, const Eigen::AlignedBox3f& bounds_m);
+    static constexpr float kMaxRange_m = 20;  ///< farther returns clear up to here, and are no hits
+
+    GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m);
     ~GridModel() override;
 
     void update(const MappedScan& scan) override;
@@ -18,8 +26,13 @@ class GridModel : public WorldModel {
     Obstacles obstacles() const override;
 
  private:
-    struct Grid;
-    std::unique_ptr<Grid> grid_;
+    std::vector<Eigen::Vector3f> occupied_m() const;
+
+    float edge_m_;
+    Eigen::Array3f corner_m_;  ///< least
+    Eigen::Array3i size_;      ///< in cells
+    std::unique_ptr<mrpt::maps::COccupancyGridMap3D> map_;
+    VoxelTree obstacles_;
 };
 
 }  // namespace hagen

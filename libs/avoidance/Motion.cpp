@@ -7,7 +7,6 @@ namespace {
 
 constexpr double kStanding_m_s = 0.05;
 constexpr float kCheckStep_m = 0.08f;
-constexpr float kTolerance_m = 0.02f;   ///< by which a way out may come nearer
 constexpr double kApproachShare = 0.4;  ///< of the acceleration, to stop at the goal
 constexpr double kLeastApproach_m_s = 0.5;
 
@@ -36,7 +35,7 @@ std::optional<float> freeClearance(const WorldModel& world,
         const float clearance_m = world.clearance_m(way_m[i]);
         if (clearance_m < needed_m) return std::nullopt;
         const auto room = static_cast<float>(room_m);
-        needed_m = clearance_m >= room ? room : std::max(needed_m, clearance_m - kTolerance_m);
+        needed_m = clearance_m >= room ? room : clearance_m;
         least_m = std::min(least_m, clearance_m);
         free_m = std::max(clearance_m - needed_m, kCheckStep_m);
     }
@@ -57,6 +56,8 @@ std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& t
     if (!soon_m) return std::nullopt;
     const std::optional<float> later_m = freeClearance(world, way_m, task.limits.room_m());
     if (!later_m) return std::nullopt;
+    const bool is_near = *later_m < static_cast<float>(task.limits.room_m());
+    if (is_near && !(world.clearance_m(way_m.back()) > *later_m)) return std::nullopt;
     return std::min(*soon_m, *later_m);
 }
 

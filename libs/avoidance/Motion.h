@@ -14,13 +14,13 @@ void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, doub
              const VehicleLimits& limits, std::vector<Eigen::Vector3f>& way_m);
 
 /// The least clearance seen on a way; none where it is less than `room_m` somewhere. A way that
-/// begins nearer than that must not come nearer until there is room.
+/// begins nearer than that must not come nearer still.
 std::optional<float> freeClearance(const WorldModel& world,
                                    const std::vector<Eigen::Vector3f>& way_m, double room_m);
 
 /// Whether a command can be flown: held for `hold_s` and followed by braking, and just as well
-/// broken off after a period, so that braking at once will be possible then. The least clearance
-/// of both. The longer way is left in `way_m`.
+/// broken off after a period, so that braking at once will be possible then. From too near an
+/// obstacle it must lead away. The least clearance of both. The longer way is left in `way_m`.
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
                                   std::vector<Eigen::Vector3f>& way_m);

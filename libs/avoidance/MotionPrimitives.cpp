@@ -12,11 +12,13 @@ constexpr int kAzimuths = 36;
 constexpr double kSteepest_rad = 0.24;
 constexpr std::array<double, 3> kSpeedShares{1.0, 0.6, 0.3};
 constexpr double kVertical_m_s = 1.0;
+constexpr double kAtGoal_m = 0.5;
 
 // Weights; progress at full speed straight to the carrot is worth 1.
 constexpr double kDeviationCost = 0.2;
 constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
 constexpr double kChangeCost = 0.1;
+constexpr double kStandingCost = 0.3;  ///< of a stop away from the goal
 constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
 
 struct Candidate {
@@ -91,7 +93,8 @@ double costOf(const PlanningTask& task, const Eigen::Vector3d& aim_m,
     const Eigen::Vector2d ahead = way_m.head<2>().normalized();
     const double deviation = std::abs(ahead.x() * flown_m.y() - ahead.y() * flown_m.x()) / reach_m;
     const double change = (command_m_s - task.start.velocity_m_s).norm() / task.speed_m_s;
-    return -progress + kDeviationCost * deviation +
+    const bool stands = command_m_s.isZero() && way_m.norm() > kAtGoal_m;
+    return (stands ? kStandingCost : 0) - progress + kDeviationCost * deviation +
            kHeightCost_per_m * std::abs(end_m.z() - aim_m.z()) +
            kOutOfAltitudesCost_per_m * outOfAltitudes(end_m.z(), task) + kChangeCost * change;
 }

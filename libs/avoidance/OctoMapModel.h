@@ -1,15 +1,19 @@
 #pragma once
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/mapping/ScanMap.h>
-#include <memory>
+#include <array>
+#include <cstdint>
+#include <set>
+
+#include "VoxelTree.h"
 
 namespace hagen {
 
-/// An OctoMap, and the distances to what is occupied in it (dynamicEDT3D), kept up to date.
+/// An OctoMap within the bounds, and a tree of what is occupied in it, kept up to date by the map's
+/// own change detection.
 class OctoMapModel : public WorldModel {
  public:
     OctoMapModel(MapContent content, double resolution_m, const Eigen::AlignedBox3f& bounds_m);
-    ~OctoMapModel() override;
 
     void update(const MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
@@ -18,9 +22,12 @@ class OctoMapModel : public WorldModel {
     Obstacles obstacles() const override;
 
  private:
-    struct Distances;
+    using Key = std::array<std::uint16_t, 3>;
+    void noteChanges();
+
     ScanMap map_;
-    std::unique_ptr<Distances> distances_;
+    std::set<Key> occupied_;  ///< in an order that no hash decides
+    VoxelTree obstacles_;
 };
 
 }  // namespace hagen

@@ -81,6 +81,7 @@ class Search {
     Eigen::Vector3i least_, size_;  ///< of the grid, in cells from the anchor
     int start_ = 0, goal_ = 0;
     std::uint32_t number_ = 0;
+    Cost haste_permille_;
     std::vector<Cell>& cells_;
     std::vector<Entry> entries_;  ///< a heap
     std::array<Cost, 4> lengths_{};
@@ -102,6 +103,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
       start_m_(start_m),
       goal_m_(goal_m),
       options_(options),
+      haste_permille_(std::llround(1000 * std::max(1.0, options.haste))),
       cells_(memory().cells) {
     if (!(options.cell_m > 0) || options.bounds_m.isEmpty()) {
         throw std::invalid_argument("path search: cells need a size, and bounds to lie in");
@@ -220,7 +222,7 @@ Cost Search::costOfStep(int from, int to) const {
     return length + length * (a.extra_permille + b.extra_permille) / 2000;
 }
 
-/// The way through empty space over a grid with diagonals.
+/// The way through empty space over a grid with diagonals, times the haste.
 Cost Search::leastCostToGoal(const Eigen::Vector3i& place) const {
     std::array<int, 3> steps{};
     const Eigen::Vector3i goal = placeOf(goal_);
@@ -228,8 +230,9 @@ Cost Search::leastCostToGoal(const Eigen::Vector3i& place) const {
         steps[static_cast<std::size_t>(axis)] = std::abs(place[axis] - goal[axis]);
     }
     std::sort(steps.begin(), steps.end());
-    return lengths_[3] * steps[0] + lengths_[2] * (steps[1] - steps[0]) +
-           lengths_[1] * (steps[2] - steps[1]);
+    const Cost way = lengths_[3] * steps[0] + lengths_[2] * (steps[1] - steps[0]) +
+                     lengths_[1] * (steps[2] - steps[1]);
+    return way * haste_permille_ / 1000;
 }
 
 void Search::push(int from, int to, const Eigen::Vector3i& place, Cost length) {

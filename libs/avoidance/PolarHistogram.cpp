@@ -18,6 +18,7 @@ constexpr double kSlowest_m_s = 0.3;
 constexpr double kTargetCost = 1.0, kChangeCost = 0.25;
 constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
 constexpr double kBlockedCost = 1.5;
+constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< directions free for less are a last resort
 
 struct HistogramCell {
     double cost;  ///< without that of what blocks it, which takes questions
@@ -54,6 +55,13 @@ double freeDistance(const WorldModel& world, const PlanningTask& task,
 double speedFor(double free_m, const PlanningTask& task) {
     const double a = task.limits.acceleration_m_s2;
     return a * (std::sqrt(kReaction_s * kReaction_s + 2 * free_m / a) - kReaction_s);
+}
+
+/// What it costs that a direction is not free all the way.
+double blockedCost(const PlanningTask& task, double free_m, double reach_m) {
+    const double goal_m = (task.carrot_m - task.start.position_m).norm() + task.beyond_carrot_m;
+    const bool is_shut = free_m < std::min(kOpen_m, goal_m);
+    return kBlockedCost * (1 - free_m / reach_m) + (is_shut ? kShutCost : 0);
 }
 
 double costOf(const PlanningTask& task, const Eigen::Vector3d& target,
@@ -124,7 +132,7 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     for (const HistogramCell& cell : rankedCells(task)) {
         if (cell.cost >= best) break;  // the rest cost more, however far they are free
         const double free_m = freeDistance(world, task, cell.direction, reach_m);
-        const double cost = cell.cost + kBlockedCost * (1 - free_m / reach_m);
+        const double cost = cell.cost + blockedCost(task, free_m, reach_m);
         if (cost >= best) continue;
         if (const auto command_m_s = commandAlong(world, task, cell, free_m, plan)) {
             best = cost;

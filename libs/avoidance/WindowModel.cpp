@@ -3,52 +3,22 @@
 #include <cmath>
 #include <nanoflann.hpp>
 
+#include "Nearest.h"
 #include "SeenDirections.h"
 
 namespace hagen {
 
 namespace {
 
-/// Points as nanoflann reads them.
-struct Points {
-    std::vector<Eigen::Vector3f> at_m;
-
-    std::size_t kdtree_get_point_count() const { return at_m.size(); }
-    float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return at_m[i][static_cast<Eigen::Index>(axis)];
-    }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
+                                                 TreePoints, 3>;
 constexpr std::size_t kLeafSize = 32;
-
-/// The least squared distance, of several trees one after the other.
-class Nearest {
- public:
-    explicit Nearest(float beyond_m2) : least_m2_(beyond_m2) {}
-
-    bool addPoint(float distance_m2, std::uint32_t) {
-        least_m2_ = std::min(least_m2_, distance_m2);
-        return true;
-    }
-    float worstDist() const { return least_m2_; }
-    std::size_t size() const { return 1; }
-    bool full() const { return true; }
-
- private:
-    float least_m2_;
-};
 
 }  // namespace
 
 struct WindowModel::PastScan {
     Eigen::Vector3f origin_m;
-    Points points;
+    TreePoints points;
     SeenDirections seen;
     std::unique_ptr<Tree> tree;
 };
@@ -74,7 +44,7 @@ void WindowModel::update(const MappedScan& scan) {
 }
 
 float WindowModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    Nearest nearest(kReach_m * kReach_m);
+    Nearest nearest(kReach_m);
     for (const auto& scan : scans_) scan->tree->findNeighbors(nearest, point_m.data(), {});
     return std::sqrt(nearest.worstDist());
 }

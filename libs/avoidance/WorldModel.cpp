@@ -50,7 +50,7 @@ std::unique_ptr<WorldModel> makeOctoMap(const WorldModelSetting& setting) {
 }
 
 std::unique_ptr<WorldModel> makeGrid(const WorldModelSetting& setting) {
-    return std::make_unique<GridModel>(0.2, setting.bounds_m);
+    return std::make_unique<GridModel>(0.2f, setting.bounds_m);
 }
 
 std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {

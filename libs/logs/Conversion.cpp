@@ -38,7 +38,8 @@ bool isTumGiven(const Conversion& conversion) {
 bool needsPoses(const Conversion& conversion) {
     const Options& options = conversion.settings.options;
     const bool can_level = options.level_by_attitude && isTumGiven(conversion);
-    return options.window_scans > 1 || !conversion.folder.empty() || can_level;
+    return options.window_scans > 1 || !conversion.folder.empty() || !conversion.octomaps.empty() ||
+           can_level;
 }
 
 /// The survey, with the LiDARs that are segmented alone.
@@ -142,8 +143,10 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     if (!fs::exists(conversion.input)) {
         throw std::runtime_error(conversion.input.string() + ": no such file or folder");
     }
-    checkApart({conversion.rawlog, conversion.folder, conversion.pictures, conversion.stats},
-               {conversion.input, conversion.poses});
+    std::vector<fs::path> outputs = conversion.octomaps;
+    outputs.insert(outputs.end(),
+                   {conversion.rawlog, conversion.folder, conversion.pictures, conversion.stats});
+    checkApart(outputs, {conversion.input, conversion.poses});
     return fs::is_directory(conversion.input) ? convertFolder(conversion, listener)
                                               : convertRawlog(conversion, listener);
 }

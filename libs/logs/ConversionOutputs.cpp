@@ -16,6 +16,9 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
     if (!conversion.pictures.empty()) {
         pictures_.emplace(conversion.pictures, OutputPath::Kind::Pictures, overwrite);
     }
+    if (!conversion.octomaps.empty()) {
+        map_.emplace(conversion.octomaps, conversion.octomap, overwrite);
+    }
     if (!conversion.stats.empty()) {
         stats_.emplace(conversion.stats, OutputPath::Kind::File, overwrite);
     }
@@ -52,12 +55,14 @@ std::string ConversionOutputs::writeScan(const ObservationSegmenter::Output& seg
 
 void ConversionOutputs::finish(const ConversionReport& report) {
     for (const auto& [label, writer] : folder_writers_) writer.finish();
+    if (map_) map_->write();
     if (stats_) writeStatistics(stats_->temporary(), conversion_, report);
 }
 
 void ConversionOutputs::commit(const ConversionReport& report) {
     finish(report);
     if (stats_) stats_->commit();
+    if (map_) map_->commit();
     if (pictures_) pictures_->commit();
     if (folders_) folders_->commit();
     if (rawlog_) rawlog_->commit();
@@ -72,6 +77,7 @@ std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
     keep(rawlog_);
     keep(folders_);
     keep(pictures_);
+    if (map_) names += map_->keepPartial();
     keep(stats_);
     return names;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/logs/Conversion.h>
+#include <hagen/logs/MapOutput.h>
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/logs/ScanFolderWriter.h>
 #include <hagen/logs/SensorFolders.h>
@@ -30,6 +31,10 @@ class ConversionOutputs {
                           const std::string& sensor_label, const std::string& name,
                           const Options& options);
 
+    /// Adds a scan to the map, where one is made.
+    bool wantsMap() const { return map_.has_value(); }
+    void insertIntoMap(const MappedScan& scan) { map_->insert(scan); }
+
     void commit(const ConversionReport& report);
     /// Keeps what is there under names that say it is a part, and says which.
     std::string keepPartial(const ConversionReport& report);
@@ -40,6 +45,7 @@ class ConversionOutputs {
     const Conversion& conversion_;
     std::optional<RawlogWriter> rawlog_;
     std::optional<SensorFolders> folders_, pictures_;
+    std::optional<MapOutput> map_;
     std::optional<OutputPath> stats_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
     std::map<std::string, std::size_t> scans_;                ///< written so far

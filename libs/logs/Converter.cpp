@@ -83,6 +83,11 @@ void Converter::setPoses(const LogPoses& poses) {
     vehicle_ = poses.vehicle;
     report_.poses = poses.source;
     levels_by_file_ = !conversion_.poses.empty() && poses.vehicle.has_horizon;
+    if (outputs_.wantsMap() && poses.source.empty()) {
+        throw std::runtime_error(conversion_.input.string() +
+                                 ": tells no poses, and a map needs them; give them (--poses "
+                                 "FILE.tum, lines of 'time x y z qx qy qz qw')");
+    }
 }
 
 // Reading, in the log's order.
@@ -184,12 +189,25 @@ void Converter::tellRemarks(const ScanOnItsWay& scan, const std::string& entry) 
     }
 }
 
+void Converter::insertIntoMap(const ScanOnItsWay& scan, const std::string& entry) {
+    const auto mapped = placeInMap(scan.segmented, *scan.observation, vehicle_);
+    if (mapped) {
+        outputs_.insertIntoMap(*mapped);
+        ++report_.scans_in_map;
+        return;
+    }
+    const std::lock_guard lock(listens_);
+    listener_.remark(entry, "no pose is near its time: the map leaves it out");
+}
+
 void Converter::account(ScanOnItsWay& scan, const EntryOnItsWay& entry) {
     const std::string& label = scan.observation->sensorLabel;
     if (!scan.is_segmented && !scan.why_not.empty()) ++report_.unreadable_scans;
-    tellRemarks(scan, "entry " + std::to_string(entry.number) + " (" +
-                          (scan.name.empty() ? label : scan.name) + ")");
+    const std::string name = "entry " + std::to_string(entry.number) + " (" +
+                             (scan.name.empty() ? label : scan.name) + ")";
+    tellRemarks(scan, name);
     if (scan.is_segmented) {
+        if (outputs_.wantsMap()) insertIntoMap(scan, name);
         ScanReport report = reportOf(scan.segmented);
         report.entry = entry.number;
         report.sensor_label = label;
@@ -275,6 +293,12 @@ ConversionReport Converter::finish(std::size_t entries) {
                                  " entries, none from " + std::to_string(conversion_.from) + " on");
     }
     checkLabels();
+    if (outputs_.wantsMap() && report_.scans > 0 && report_.scans_in_map == 0) {
+        throw std::runtime_error(report_.poses + ": has no pose near any of the " +
+                                 std::to_string(report_.scans) + " scans of " +
+                                 conversion_.input.string() +
+                                 "; are its times of another clock? There is no map");
+    }
     outputs_.commit(report_);
     return std::move(report_);
 }

@@ -63,6 +63,7 @@ class Converter {
     Converter(const Conversion& conversion, const Settings& settings,
               const ConversionListener& listener);
 
+    /// Throws std::runtime_error where an output needs poses, and none are known.
     void setPoses(const LogPoses& poses);
 
     /// Reads entries until read() says that there are no more. An entry that breaks off, or a
@@ -87,6 +88,7 @@ class Converter {
     void segment(ScanOnItsWay& scan);
     void serialiseAll(EntryOnItsWay& entry) const;
     void work(EntryOnItsWay& entry);
+    void insertIntoMap(const ScanOnItsWay& scan, const std::string& entry);
     void account(ScanOnItsWay& scan, const EntryOnItsWay& entry);
     void account(EntryOnItsWay& entry);
     void count(const ObservationSegmenter::Output& out, const ScanReport& scan);

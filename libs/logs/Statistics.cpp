@@ -79,9 +79,11 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
                                      {"pictures", conversion.pictures}}) {
         if (!path.empty()) json["outputs"][what] = path.string();
     }
+    for (const auto& path : conversion.octomaps) json["outputs"]["octomaps"] += path.string();
     json["settings"] = settingsOf(report.settings);
     json["sensors"] = report.sensors;
     json["poses"] = {{"source", report.poses}, {"scans_with_pose", report.scans_with_pose}};
+    if (!conversion.octomaps.empty()) json["scans_in_map"] = report.scans_in_map;
     json["entries"] = report.entries;
     json["unreadable_scans"] = report.unreadable_scans;
     json["left_out_before"] = report.left_out_before;

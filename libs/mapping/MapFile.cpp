@@ -1,16 +1,95 @@
-#include <hagen/mapping/ScanMap.h>
-
+#include <hagen/mapping/MapFile.h>
+#include <mrpt/img/color_maps.h>
 #include <mrpt/opengl/COctoMapVoxels.h>
+#include <mrpt/opengl/COpenGLScene.h>
 
-#include <mrpt/serialization/CArchive.h>
-
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
 namespace hagen {
 
-void saveMap(const octomap::OcTree&, const std::filesystem::path&) {
-    throw std::logic_error("not yet");
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void failToWrite(const fs::path& file) {
+    throw std::runtime_error(file.string() + ": the map cannot be written; is there room for it?");
+}
+
+/// The occupied voxels as MRPT draws them, from blue (the lowest) to red.
+mrpt::opengl::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
+    auto voxels = mrpt::opengl::COctoMapVoxels::Create();
+    voxels->resizeVoxelSets(1);
+    voxels->enableLights(true);
+    voxels->enableCubeTransparency(false);
+    double least[3] = {0, 0, 0}, most[3] = {1, 1, 1};
+    if (tree.size() > 0) {
+        tree.getMetricMin(least[0], least[1], least[2]);
+        tree.getMetricMax(most[0], most[1], most[2]);
+    }
+    voxels->setBoundingBox({least[0], least[1], least[2]}, {most[0], most[1], most[2]});
+    for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
+        if (!tree.isNodeOccupied(*leaf)) continue;
+        const octomap::point3d at = leaf.getCoordinate();
+        const double height = (static_cast<double>(at.z()) - least[2]) / (most[2] - least[2]);
+        const mrpt::img::TColor color =
+            mrpt::img::colormap(mrpt::img::cmJET, static_cast<float>(std::clamp(height, 0.0, 1.0)));
+        voxels->push_back_Voxel(
+            0, {mrpt::math::TPoint3Df(at.x(), at.y(), at.z()), leaf.getSize(), color});
+    }
+    voxels->setVisualizationMode(mrpt::opengl::COctoMapVoxels::FIXED);
+    return voxels;
+}
+
+void saveScene(const octomap::OcTree& tree, const fs::path& file) {
+    mrpt::opengl::COpenGLScene scene;
+    scene.insert(voxelsOf(tree));
+    if (!scene.saveToFile(file.string())) failToWrite(file);
+}
+
+/// The head of octomap's files. Its own functions that write whole files talk on standard error.
+void writeHead(const std::string& kind, const octomap::OcTree& tree, std::ostream& out) {
+    out << kind << "\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
+        << tree.getResolution() << "\ndata\n";
+}
+
+void writeOctree(octomap::OcTree& tree, bool is_binary, std::ostream& out) {
+    if (is_binary) tree.toMaxLikelihood();
+    tree.prune();
+    writeHead(is_binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file", tree, out);
+    if (tree.size() == 0) return;
+    if (is_binary) {
+        tree.writeBinaryNode(out, tree.getRoot());
+    } else {
+        tree.writeData(out);
+    }
+}
+
+}  // namespace
+
+bool isMapFile(const fs::path& file) {
+    const std::string ending = file.extension().string();
+    return ending == ".bt" || ending == ".ot" || ending == ".3Dscene";
+}
+
+void checkMapFile(const fs::path& file) {
+    if (isMapFile(file)) return;
+    throw std::runtime_error(file.string() +
+                             ": a map is written as .bt (occupied or free), .ot (probabilities) or "
+                             ".3Dscene (for SceneViewer3D); give it one of these endings");
+}
+
+void saveMap(const octomap::OcTree& tree, const fs::path& file) { saveMap(tree, file, file); }
+
+void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
+    checkMapFile(named);
+    if (named.extension() == ".3Dscene") return saveScene(tree, file);
+    octomap::OcTree whole(tree);  // as scans leave it, inner nodes lag behind
+    whole.updateInnerOccupancy();
+    std::ofstream out(file, std::ios::binary);
+    writeOctree(whole, named.extension() == ".bt", out);
+    if (!out.flush()) failToWrite(file);
 }
 
 }  // namespace hagen

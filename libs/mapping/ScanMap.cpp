@@ -94,15 +94,13 @@ void ScanMap::insert(const MappedScan& scan) {
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         if (content == MapContent::RoiAndRays || is_hit(i)) walk.pass(scan.points_m[i]);
     }
-    // Inner nodes wait for finish().
-    constexpr bool lazily = true;
-    for (const auto& key : walk.voxels().free) tree_->updateNode(key, false, lazily);
-    for (const auto& key : walk.voxels().occupied) tree_->updateNode(key, true, lazily);
-}
-
-void ScanMap::finish() {
-    tree_->updateInnerOccupancy();
-    tree_->prune();
+    // Inner nodes, and leaves that are one in the end, wait until the map is saved.
+    const auto update = [&](const octomap::OcTreeKey& key, bool is_occupied) {
+        constexpr bool lazily = true;
+        if (!tree_->bbxSet() || tree_->inBBX(key)) tree_->updateNode(key, is_occupied, lazily);
+    };
+    for (const auto& key : walk.voxels().free) update(key, false);
+    for (const auto& key : walk.voxels().occupied) update(key, true);
 }
 
 }  // namespace hagen

@@ -2,6 +2,8 @@
 #include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/core/initializer.h>
 
+#include <ctime>
+
 namespace hagen {
 
 IMPLEMENTS_MRPT_OBJECT(ObservationSegmenter, mrpt::rtti::CObject, hagen)
@@ -34,6 +36,12 @@ CObservationPointCloud::Ptr partOf(const mrpt::obs::CObservation& observation,
 
 void append(const std::string& remark, std::string& remarks) {
     remarks += (remarks.empty() ? "" : "; ") + remark;
+}
+
+std::chrono::nanoseconds threadCpuTime() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
 }
 
 }  // namespace
@@ -129,7 +137,9 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
 
     std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
                                                              "process.segment");
+    const auto cpu_start = threadCpuTime();
     const SegmentationResult& result = lidar.filter.segment(window, whereabouts.attitude);
+    const auto filter_cpu_time = threadCpuTime() - cpu_start;
     segmenting.reset();
     const auto labelled = std::chrono::steady_clock::now();
 
@@ -147,6 +157,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.attitude = whereabouts.attitude;
     out.remark = remark;
     out.time_to_labels = labelled - start;
+    out.filter_cpu_time = filter_cpu_time;
     return true;
 }
 

@@ -124,11 +124,23 @@ class Packet {
 
 }  // namespace
 
+namespace {
+
+double angleOf(const SceneMover& mover, double time_s) {
+    return mover.phase_rad + time_s * mover.speed_m_s / mover.radius_m;
+}
+
+}  // namespace
+
+Eigen::Vector2d placeOf(const SceneMover& mover, double time_s) {
+    const double angle = angleOf(mover, time_s);
+    return mover.middle_m + mover.radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+}
+
 Eigen::Affine3f poseOf(const SceneMover& mover, const Terrain& terrain, double time_s) {
-    const double angle = mover.phase_rad + time_s * mover.speed_m_s / mover.radius_m;
-    const Eigen::Vector2d at =
-        mover.middle_m + mover.radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    const double heading = angle + (mover.speed_m_s >= 0 ? 1 : -1) * 1.5707963267948966;
+    const Eigen::Vector2d at = placeOf(mover, time_s);
+    const double heading =
+        angleOf(mover, time_s) + (mover.speed_m_s >= 0 ? 1 : -1) * 1.5707963267948966;
     const double z_m = terrain.height_m(at.x(), at.y()) + mover.above_ground_m;
     return Eigen::Translation3f(Eigen::Vector3d(at.x(), at.y(), z_m).cast<float>()) *
            Eigen::AngleAxisf(static_cast<float>(heading), Vector3f::UnitZ());

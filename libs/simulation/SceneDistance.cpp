@@ -183,10 +183,11 @@ float radiusOf(const Surfaces& surfaces) {
     return radius_m;
 }
 
-/// Whether a mover's circle comes near a point at all, seen from above.
-bool comesNear(const SceneMover& mover, const Vector3f& point, double near_m) {
-    const double off_m = (point.head<2>().cast<double>() - mover.middle_m).norm();
-    return std::abs(off_m - mover.radius_m) < near_m;
+/// Whether a mover is near a point, seen from above; first, whether its circle is at all.
+bool isNear(const SceneMover& mover, const Vector3f& point, double time_s, double near_m) {
+    const Eigen::Vector2d at = point.head<2>().cast<double>();
+    if (std::abs((at - mover.middle_m).norm() - mover.radius_m) >= near_m) return false;
+    return (at - placeOf(mover, time_s)).norm() < near_m;
 }
 
 }  // namespace
@@ -235,9 +236,8 @@ float SceneDistance::at(const Eigen::Vector3f& point_m, double time_s) const {
     float nearest_m = toStanding(point_m);
     for (const Moving& moving : world_->moving) {
         const double near_m = static_cast<double>(nearest_m + moving.radius_m);
-        if (!comesNear(moving.mover, point_m, near_m)) continue;
+        if (!isNear(moving.mover, point_m, time_s, near_m)) continue;
         const Eigen::Affine3f pose = poseOf(moving.mover, world_->scene.terrain(), time_s);
-        if ((point_m - pose.translation()).norm() >= nearest_m + moving.radius_m) continue;
         const Eigen::Isometry3f rigid(pose.matrix());
         nearest_m = moving.tree->distance_m(rigid.inverse() * point_m, nearest_m);
     }

@@ -153,16 +153,16 @@ CampaignFolder::CampaignFolder(fs::path folder, const LatencyProfile& profile, b
     open(overwrite);
 }
 
-CampaignFolder::~CampaignFolder() {
-    if (lock_ >= 0) ::close(lock_);
-}
-
 void CampaignFolder::lock() {
-    lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0) failWith(folder_, "cannot be opened");
+    const int descriptor = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) failWith(folder_, "cannot be opened");
+    lock_ = {new int(descriptor), [](const int* held) {
+                 ::close(*held);
+                 delete held;
+             }};
     // A program that was killed may need a moment to be gone with all its workers.
-    for (int attempt = 0; flock(lock_, LOCK_EX | LOCK_NB) != 0; ++attempt) {
-        if (attempt == 20) {
+    for (int attempt = 0; flock(descriptor, LOCK_EX | LOCK_NB) != 0; ++attempt) {
+        if (attempt == 10) {
             throw std::runtime_error(folder_.string() +
                                      ": another octomap-compare is writing to it");
         }

@@ -54,9 +54,9 @@ TreeForm lightTree(Random& random) {
     form.crown_base_m = random.uniform(2.4, 4.0);
     form.crown_radius_m = random.uniform(0.9, 1.5);
     form.trunk_radius_m = 0.015 * form.height_m * random.uniform(0.8, 1.4);
-    form.leaf_m = 0.4;
+    form.leaf_m = 0.5;
     form.leaf_area_m2 = 2.0 * form.crown_radius_m * (form.height_m - form.crown_base_m);
-    form.branches = 12;
+    form.branches = 8;
     form.low_branches = random.below(3);
     return form;
 }
@@ -93,7 +93,7 @@ void scatterTufts(SceneBuilder& builder, double per_m2, double tallest_m) {
 Scene makeForest(double per_m2, const Random& random) {
     SceneBuilder builder = groundOf(4, 0.05, 0.12, random);
     scatterTrees(builder, per_m2);
-    scatterTufts(builder, 0.03, 0.35);
+    scatterTufts(builder, 0.02, 0.35);
     return builder.build();
 }
 
@@ -108,9 +108,9 @@ Scene makeOrchard(Random random) {
         form.crown_base_m = own.uniform(0.6, 1.0);
         form.crown_radius_m = own.uniform(0.8, 1.1);
         form.trunk_radius_m = own.uniform(0.05, 0.09);
-        form.leaf_m = 0.3;
+        form.leaf_m = 0.4;
         form.leaf_area_m2 = own.uniform(7, 10);
-        form.branches = 14;
+        form.branches = 9;
         form.low_branches = own.below(2);
         return makeTree(form, own);
     });
@@ -128,18 +128,19 @@ Scene makeOrchard(Random random) {
             builder.placeAnyOf(Kind::Tree, trees, at.x(), at.y(), {size, size, size});
         }
     }
-    scatterTufts(builder, 0.03, 0.25);
+    scatterTufts(builder, 0.02, 0.25);
     return builder.build();
 }
 
 constexpr double kWallHeight_m = 6;  // higher than one may fly
 constexpr double kBesideField_m = 19;
 
-/// A wall across the field, with a gap; few trees.
+/// A wall across the field, with a gap that is not straight ahead; few trees.
 Scene makeGap(const Random& random) {
     SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
     Random& r = builder.random();
-    const double x_m = r.uniform(14, 26), y_m = r.uniform(-9, 9), skew = r.uniform(-0.2, 0.2);
+    const double side = anySign(r), x_m = r.uniform(14, 26), skew = r.uniform(-0.2, 0.2);
+    const double y_m = side * r.uniform(1.5, 9);
     const double gap_m = r.uniform(1.6, 2.4), thickness_m = r.uniform(0.15, 0.4);
     const Vector2d middle(x_m, y_m), along(std::sin(skew), std::cos(skew));
     addWall(builder, middle + gap_m / 2 * along,
@@ -149,7 +150,7 @@ Scene makeGap(const Random& random) {
     scatterTrees(builder, 0.006, [&](const Vector2d& at) {
         return (at - middle).norm() > 5 && std::abs(at.x() - x_m) > 2.5;
     });
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 
@@ -167,7 +168,7 @@ Scene makeTrap(const Random& random) {
     addWall(builder, right, right + depth_m * out, kWallHeight_m, 0.3);
     const Vector2d middle = back + depth_m / 2 * out;
     scatterTrees(builder, 0.01, [&](const Vector2d& at) { return (at - middle).norm() > 10; });
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 
@@ -182,7 +183,7 @@ Scene makeTerrain(const Random& random) {
         if (!leavesEndsFree(at, 0.7 * size)) return;
         builder.placeAnyOf(Kind::Wall, rocks, at.x(), at.y(), {size, size * wide, size * high});
     });
-    scatterTufts(builder, 0.03, 0.35);
+    scatterTufts(builder, 0.02, 0.35);
     return builder.build();
 }
 
@@ -202,9 +203,11 @@ Scene makeWires(const Random& random) {
         addWireLine(builder, from, from + length_m * step, span_m, heights_m, sideways_m);
     }
     scatterTrees(builder, 0.006);
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
+
+constexpr double kLongestMover_m = 2.3;  // half of it: a car's
 
 /// Adds movers whose circles cross the way, but not where it begins or ends.
 template <class ShapeOf>
@@ -213,7 +216,7 @@ void addMovers(SceneBuilder& builder, int count, const SceneMover& least, const 
     Random& r = builder.random();
     for (int made = 0; made < count;) {
         SceneMover mover;
-        const double x_m = r.uniform(4, 36), y_m = r.uniform(-4, 4);
+        const double x_m = r.uniform(2, 38), y_m = r.uniform(-4, 4);
         mover.middle_m = {x_m, y_m};
         mover.radius_m = r.uniform(least.radius_m, most.radius_m);
         mover.speed_m_s = r.uniform(least.speed_m_s, most.speed_m_s) * anySign(r);
@@ -221,7 +224,8 @@ void addMovers(SceneBuilder& builder, int count, const SceneMover& least, const 
         mover.phase_rad = anyYaw(r);
         mover.shape = shapeOf();
         const auto comesNear = [&](const Vector2d& end_m) {
-            return std::abs((end_m - mover.middle_m).norm() - mover.radius_m) < 5.0;
+            return std::abs((end_m - mover.middle_m).norm() - mover.radius_m) <
+                   kFreeAtEnds_m + kLongestMover_m;
         };
         if (std::abs(y_m) > mover.radius_m - 0.5 || comesNear(kCourseStart_m) ||
             comesNear(kCourseGoal_m)) {
@@ -245,12 +249,12 @@ Scene makeMovers(const Random& random) {
     const std::size_t person = builder.addShape(makePerson());
     const std::size_t drone = builder.addShape(makeDrone());
     const Shapes cars = builder.addShapes(2, makeCar);
-    addMovers(builder, 10, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
-    addMovers(builder, 4, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
+    addMovers(builder, 8, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
+    addMovers(builder, 3, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
               [&] { return builder.oneOf(cars); });
-    addMovers(builder, 6, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
+    addMovers(builder, 5, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
     scatterTrees(builder, 0.008);
-    scatterTufts(builder, 0.05, 0.3);
+    scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 

@@ -183,6 +183,7 @@ class TrialFlight {
         PlanningTask task;
         task.start = state;
         task.carrot_m = carrot.at_m;
+        task.beyond_carrot_m = carrot.beyond_m;
         task.speed_m_s = setup_.speed_m_s;
         task.ground_m = ground_m;
         task.altitude_m = course_.altitude_m;

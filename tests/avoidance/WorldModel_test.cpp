@@ -1,7 +1,17 @@
 #include <gtest/gtest.h>
 #include <hagen/avoidance/WorldModel.h>
+#include <hagen/mapping/ScanMap.h>
 #include <hagen/simulation/Random.h>
 #include <malloc.h>
+
+// dynamicEDT3D's headers come with warnings.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wextra"
+#include <dynamicEDT3D/dynamicEDTOctomap.h>
+#pragma GCC diagnostic pop
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +99,29 @@ TEST(WorldModel, ClearanceIsThatOfThePoints) {
             if (is_whole) {
                 EXPECT_LE(clearance, expected + diagonal + 1e-4f) << name;
             }
+        }
+    }
+}
+
+/// dynamicEDT3D measures from middle to middle of voxels, and cuts at a whole number of them.
+TEST(WorldModel, AMapsClearanceIsThatOfADistanceTransform) {
+    constexpr float kEdge_m = 0.2f;
+    ScanMap map({MapContent::Full, kEdge_m, 20});
+    DynamicEDTOctomap distances(WorldModel::kReach_m, &map.tree(), {-7, -7, -3}, {11, 7, 5}, false);
+    const auto model = makeWorldModel("O-Full-0.2", setting());
+    Random random(11);
+    for (int scan = 0; scan < 3; ++scan) {
+        const MappedScan seen = scanOf(sparsePoints(random, 300));
+        map.insert(seen);
+        distances.update();
+        model->update(seen);
+        for (int i = 0; i < 300; ++i) {
+            const Eigen::Vector3f at = sparsePoints(random, 1)[0];
+            const float middles_m = distances.getDistance(octomap::point3d(at.x(), at.y(), at.z()));
+            const float clearance_m = model->clearance_m(at);
+            EXPECT_LE(clearance_m, middles_m + 0.87f * kEdge_m);
+            EXPECT_GE(clearance_m,
+                      std::min(WorldModel::kReach_m, middles_m - 2 * 0.87f * kEdge_m - kEdge_m));
         }
     }
 }
@@ -224,7 +257,8 @@ TEST(WorldModel, BytesAreThoseOfTheHeap) {
         for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));
         const auto measured = static_cast<double>(heap() - before);
         const auto told = static_cast<double>(model->bytes());
-        EXPECT_GT(told, 0.5 * measured) << name << " " << measured;
+        // An octree is made of pieces so small that malloc doubles them.
+        EXPECT_GT(told, 0.35 * measured) << name << " " << measured;
         EXPECT_LT(told, 1.5 * measured) << name << " " << measured;
     }
 }

@@ -98,6 +98,10 @@ void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
                 const State state = stateAt(map, middleOf(voxel, edge));
                 if (hits.count(voxel)) {
                     ASSERT_EQ(State::Occupied, state) << x << " " << y << " " << z;
+                    const Eigen::Vector3d at = middleOf(voxel, edge);
+                    ASSERT_EQ(map.tree().getProbHitLog(),
+                              map.tree().search(at.x(), at.y(), at.z())->getLogOdds())
+                        << "hit once, and not cleared";
                     continue;
                 }
                 double longest = 0, longest_about = 0;
@@ -163,27 +167,9 @@ TEST(ScanMap, WhatMovedAwayIsCleared) {
     EXPECT_EQ(State::Free, stateAt(map, {3.1, 0.1, 0.1}));
 }
 
-TEST(ScanMap, FinishChangesNoVoxel) {
-    Random random(3);
-    const MappedScan scan = randomScan(random, 500);
-    ScanMap map({MapContent::Full, 0.2, 20}), finished({MapContent::Full, 0.2, 20});
-    for (int i = 0; i < 8; ++i) {
-        map.insert(scan);
-        finished.insert(scan);
-        finished.finish();
-    }
-    EXPECT_LT(finished.tree().size(), map.tree().size());
-    for (double x = -3.1; x < 3; x += 0.2) {
-        for (double y = -3.1; y < 3; y += 0.2) {
-            EXPECT_EQ(stateAt(map, {x, y, 0.1}), stateAt(finished, {x, y, 0.1}));
-        }
-    }
-}
-
 TEST(ScanMap, Empty) {
     ScanMap map({});
     map.insert({});
-    map.finish();
     EXPECT_EQ(0u, map.tree().size());
 }
 

@@ -10,9 +10,10 @@ namespace hagen {
 struct PathSearchOptions {
     Eigen::AlignedBox3d bounds_m;  ///< the middles of cells lie within
     double cell_m = 0.5;
-    double least_clearance_m = 0.65;    ///< of every point of the path
-    double wanted_clearance_m = 1.2;    ///< cells with less cost more
-    int most_cells = 200000;            ///< to be opened; then the search gives up
+    double least_clearance_m = 0.65;  ///< of every point of the path
+    double wanted_clearance_m = 1.2;  ///< cells with less cost more
+    int most_cells = 200000;          ///< to be opened; then the search gives up
+    double haste = 1;  ///< 1: the cheapest path; above: up to so many times dearer, found sooner
     Eigen::Vector3d anchor_m{0, 0, 0};  ///< the middle of one of the cells
     double wanted_height_m = 0;
     double height_cost_per_m = 0;  ///< of a metre of way, for each metre off the wanted height

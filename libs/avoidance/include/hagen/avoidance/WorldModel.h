@@ -51,7 +51,7 @@ struct WorldModelSetting {
 ///
 ///     W-RoI           sliding window of RoI points: 10 scans, within 15 m
 ///     W-Full          the same of all points
-///     O-Full-0.2      OctoMap of all points at 0.2 m, distances by dynamicEDT3D; O-Full-0.4
+///     O-Full-0.2      OctoMap of all points at 0.2 m; O-Full-0.4
 ///     O-RoI-0.2       of RoI points alone; O-RoI-0.4
 ///     O-RoI+rays-0.2  RoI points are hits, rays of all points clear; O-RoI+rays-0.4
 ///     G-Full          MRPT's COccupancyGridMap3D of all points at 0.2 m

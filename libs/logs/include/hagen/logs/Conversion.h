@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/mapping/ScanMap.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/Settings.h>
 #include <cstddef>
@@ -20,8 +21,10 @@ struct Conversion {
     std::filesystem::path rawlog;    ///< segmented rawlog
     std::filesystem::path folder;    ///< scan folder; of several LiDARs a folder of such
     std::filesystem::path pictures;  ///< folder of pictures of each stage, a folder a scan
-    std::filesystem::path stats;     ///< JSON: settings in force, counts, a line a scan
-    bool overwrite = false;          ///< replace outputs that exist
+    std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot or .3Dscene: one map, file by file
+    ScanMapOptions octomap;                       ///< what goes into it
+    std::filesystem::path stats;  ///< JSON: settings in force, counts, a line a scan
+    bool overwrite = false;       ///< replace outputs that exist
 
     std::filesystem::path poses;  ///< where the vehicle was (TUM, KITTI); empty: what the log tells
     std::size_t from = 0;         ///< first and last entry to convert, both included
@@ -58,6 +61,7 @@ struct ConversionReport {
     std::map<std::string, std::string> sensors;
     std::string poses;  ///< where they come from; empty: none needed, or none known
     std::size_t scans_with_pose = 0;
+    std::size_t scans_in_map = 0;         ///< of an OctoMap; those without a pose are not
     std::size_t scans_with_attitude = 0;  ///< how the sensor was tilted was known
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< of the input that is read, 0 ... 1
@@ -95,6 +99,9 @@ struct Interrupted : std::runtime_error {
 ///
 /// With a window of several scans, poses come from a file, or from the log; a scan without one is
 /// segmented alone, which a remark says.
+///
+/// An OctoMap needs poses. It takes each return by the pose at its own time where that is known,
+/// and leaves out scans without a pose, which remarks say.
 ///
 /// Outputs appear under their names when they are whole. Throws std::runtime_error, naming file and
 /// entry, where it fails; a log that breaks off, or a listener that ends it, leaves what was done

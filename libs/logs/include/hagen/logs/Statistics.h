@@ -8,6 +8,7 @@ namespace hagen {
 ///
 ///     {"hagen": version, "input": ..., "outputs": {...}, "settings": {key: value, ...},
 ///      "sensors": {label: text}, "poses": {"source": ..., "scans_with_pose": n},
+///      "scans_in_map": n (of an OctoMap alone),
 ///      "entries": n, "unreadable_scans": n, "left_out_before": n,
 ///      "returns": {"all": n, "roi": n, "rou": n, "unclassified": n},
 ///      "latency_ms": {"scans": n, "p50": ..., "p95": ..., "p99": ..., "max": ...},

@@ -1,9 +1,8 @@
 #pragma once
+#include <hagen/mapping/MapFile.h>
 #include <hagen/mapping/MappedScan.h>
 #include <octomap/OcTree.h>
-#include <filesystem>
 #include <memory>
-#include <string>
 
 namespace hagen {
 
@@ -27,12 +26,10 @@ class ScanMap {
     explicit ScanMap(const ScanMapOptions& options);
 
     /// Each voxel once a scan: hit where a hit lies in it, else free where a ray passes; a ray
-    /// that ends in a voxel does not clear it. Leaves only: see finish().
+    /// that ends in a voxel does not clear it. Leaves only: inner nodes are
+    /// brought up to date when the map is saved.
+    /// Where the tree has a bounding box (octomap's setBBXMin() and so on), nothing outside it.
     void insert(const MappedScan& scan);
-
-    /// Inner nodes, and leaves that are one in the end: before the tree is saved, or looked at
-    /// coarser than its leaves.
-    void finish();
 
     const octomap::OcTree& tree() const { return *tree_; }
     octomap::OcTree& tree() { return *tree_; }
@@ -42,10 +39,5 @@ class ScanMap {
     ScanMapOptions options_;
     std::unique_ptr<octomap::OcTree> tree_;
 };
-
-/// Writes the map by the file's ending: .bt (occupied or free), .ot (probabilities), .3Dscene (for
-/// SceneViewer3D). Throws std::runtime_error, naming the file, for any other, and where writing
-/// fails. Writes in place: callers use OutputPath.
-void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file);
 
 }  // namespace hagen

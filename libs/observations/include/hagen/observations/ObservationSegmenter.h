@@ -60,6 +60,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
         /// From the call of process() to the labels; the clouds are made after that.
         std::chrono::steady_clock::duration time_to_labels{};
+        /// Of it, the filter alone: this thread's CPU time.
+        std::chrono::nanoseconds filter_cpu_time{};
     };
 
     /// What a log tells of a scan besides its returns.

@@ -28,6 +28,8 @@ struct SceneMover {
     double above_ground_m = 0;
 };
 
+/// Where a mover is at a time, seen from above.
+Eigen::Vector2d placeOf(const SceneMover& mover, double time_s);
 /// From a mover's own frame, where it is at a time, to the map.
 Eigen::Affine3f poseOf(const SceneMover& mover, const Terrain& terrain, double time_s);
 

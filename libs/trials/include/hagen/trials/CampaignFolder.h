@@ -3,6 +3,7 @@
 #include <hagen/trials/RunTable.h>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,6 @@ class CampaignFolder {
     /// but a campaign, one with other settings (unless `overwrite`: it begins anew then), or one
     /// that another program is writing to.
     CampaignFolder(std::filesystem::path folder, const LatencyProfile& profile, bool overwrite);
-    ~CampaignFolder();
-    CampaignFolder(const CampaignFolder&) = delete;
-    CampaignFolder& operator=(const CampaignFolder&) = delete;
 
     const std::filesystem::path& path() const { return folder_; }
     const std::string& settingsHash() const { return settings_hash_; }
@@ -73,7 +71,7 @@ class CampaignFolder {
     void writeDescription();
 
     std::filesystem::path folder_;
-    int lock_ = -1;
+    std::shared_ptr<const int> lock_;  ///< the folder's descriptor, closed with the last copy
     LatencyProfile profile_;
     std::string settings_hash_;
     std::vector<std::string> flown_;   ///< plans, as JSON

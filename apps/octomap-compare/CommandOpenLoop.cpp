@@ -1,0 +1,149 @@
+// octomap-compare openloop: world models digest a recorded log.
+#include <hagen/trials/OpenLoop.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "Commands.h"
+#include "OpenLoopFiles.h"
+#include "OpenLoopTable.h"
+#include "common/Interrupt.h"
+
+namespace hagen {
+namespace {
+
+struct Flags {
+    OpenLoop open_loop;
+    std::vector<std::string> configs;
+    std::string folder, scenario;
+    std::uint64_t seed = 1;
+    bool overwrites = false, is_quiet = false;
+};
+
+/// All; the oracle where there is a scene that it can know.
+std::vector<std::string> standardModels(bool has_scene) {
+    std::vector<std::string> models = worldModelNames();
+    if (!has_scene) models.erase(std::find(models.begin(), models.end(), "oracle"));
+    return models;
+}
+
+/// A line that says how far it is; nothing where that is no terminal.
+class ProgressLine {
+ public:
+    ~ProgressLine() {
+        if (is_shown_) std::cerr << "\r\033[K" << std::flush;
+    }
+    void show(std::size_t done, std::size_t all) {
+        if (!is_on_terminal_) return;
+        is_shown_ = true;
+        std::cerr << "\r\033[Kscan " << done << " of " << all << std::flush;
+    }
+
+ private:
+    bool is_on_terminal_ = isatty(STDERR_FILENO) == 1, is_shown_ = false;
+};
+
+/// What a user should know about the figures.
+void tellRemarks(const OpenLoopResult& result) {
+    const auto tell = [](std::size_t scans, const std::string& what) {
+        if (scans > 0) std::cerr << "octomap-compare: " << scans << " " << what << "\n";
+    };
+    tell(result.scans_without_pose, "scans have no pose within 0.2 s, and were left out");
+    tell(result.unreadable_scans, "scans could not be read, and were left out");
+    tell(
+        result.scans_moved_whole,
+        "scans were placed by one pose each: their returns have no times, or poses do not reach to "
+        "their ends");
+    tell(result.maps_begun_anew,
+         "times all models were begun anew: the flight is longer than a box of maps");
+    if (!result.poses_have_horizon) {
+        std::cerr << "octomap-compare: the poses are seen from the first scan, and so are level "
+                     "directions\n";
+    }
+}
+
+int run(Flags flags) {
+    OpenLoop& open_loop = flags.open_loop;
+    if (!flags.scenario.empty()) open_loop.scene = {flags.scenario, flags.seed};
+    if (open_loop.models.empty()) open_loop.models = standardModels(open_loop.scene.has_value());
+    checkOpenLoop(open_loop);
+    for (const std::string& config : flags.configs) {
+        mergeSettings(config, open_loop.source.settings);
+    }
+    OpenLoopFiles files(flags.folder, flags.overwrites);
+    ProgressLine progress;
+    OpenLoopListener listener;
+    listener.row = [&](const OpenLoopRow& row, const OpenLoopCost& cost) { files.add(row, cost); };
+    listener.keep_going = [] { return !isInterrupted(); };
+    if (!flags.is_quiet) {
+        listener.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+    }
+    try {
+        const OpenLoopResult result = runOpenLoop(open_loop, listener);
+        files.commit(open_loop, result);
+        if (flags.is_quiet) return 0;
+        tellRemarks(result);
+        std::cout << tableOf(open_loop, result);
+        return 0;
+    } catch (const OpenLoopEnded& ended) {
+        files.keepPartial(open_loop, ended.result);
+        if (!flags.is_quiet) {
+            tellRemarks(ended.result);
+            std::cout << tableOf(open_loop, ended.result);
+        }
+        throw std::runtime_error(std::string(ended.what()) + "; figures of the " +
+                                 std::to_string(ended.result.scans) + " scans before it are in " +
+                                 flags.folder + "/*.partial*");
+    }
+}
+
+/// Wrong usage is told as such.
+int runChecked(const Flags& flags) {
+    try {
+        return run(flags);
+    } catch (const SettingsError& e) {
+        throw CLI::ValidationError("--config", e.what());
+    } catch (const std::invalid_argument& e) {
+        throw CLI::ValidationError("openloop", e.what());
+    }
+}
+
+}  // namespace
+
+void addOpenLoop(CLI::App& app, Command& command) {
+    const auto flags = std::make_shared<Flags>();
+    LogSource& source = flags->open_loop.source;
+    CLI::App* sub = app.add_subcommand(
+        "openloop", "let all world models digest a recorded log: what they cost, what they know");
+    sub->add_option("-i,--input", source.log, "a .rawlog, or a scan folder (KITTI layout)")
+        ->check(CLI::ExistingPath)
+        ->required();
+    sub->add_option("--poses", source.poses,
+                    "where the vehicle was (TUM), or the sensor scan by scan (KITTI); wins over "
+                    "the log's own")
+        ->check(CLI::ExistingFile);
+    sub->add_option("--sensor-label", source.sensor_label, "this LiDAR alone");
+    sub->add_option("--own-reach-m", source.own_reach_m,
+                    "returns nearer to the sensor are the vehicle's own")
+        ->check(CLI::Range(0.0, 5.0))
+        ->capture_default_str();
+    sub->add_option("--models", flags->open_loop.models, "world models (default: all)")
+        ->delimiter(',');
+    auto* scenario = sub->add_option("--truth-scenario", flags->scenario,
+                                     "scene that rawlog-simulate made the log in: the truth "
+                                     "(default: the raw points of later scans)");
+    sub->add_option("--truth-seed", flags->seed, "its seed")
+        ->needs(scenario)
+        ->capture_default_str();
+    sub->add_option("-c,--config", flags->configs, "settings file; may be repeated, later ones win")
+        ->allow_extra_args(false);
+    sub->add_option("-o,--output", flags->folder, "folder for tables and summary.json")->required();
+    sub->add_flag("--overwrite", flags->overwrites, "replace tables that exist");
+    sub->add_flag("-q,--quiet", flags->is_quiet, "print errors only");
+    sub->callback([flags, &command] { command = [flags] { return runChecked(*flags); }; });
+}
+
+}  // namespace hagen

@@ -1,0 +1,42 @@
+// An OctoMap of the obstacles of a log, in which the rays of all returns clear: for each scan, the
+// filter, the pose, the map. `rawlog-segment --octomap` does the same, with more care.
+#include <hagen/logs/LogPoses.h>
+#include <hagen/logs/MapOutput.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/mapping/MapFile.h>
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) try {
+    if (argc < 3) {
+        std::fprintf(stderr, "usage: 03_roi_to_octomap LOG.rawlog MAP.bt [POSES.tum]\n");
+        return 2;
+    }
+    // A pose may come after the scan that it is needed for: they are read first.
+    const hagen::Trajectory vehicle =
+        hagen::posesOfRawlog(hagen::surveyRawlog(argv[1]), argc > 3 ? argv[3] : "").vehicle;
+
+    hagen::ObservationSegmenter segmenter;
+    hagen::ScanMap map({hagen::MapContent::RoiAndRays, 0.2, 20});
+    std::size_t scans = 0, hits = 0;
+    hagen::RawlogReader reader(argv[1]);
+    while (const auto entry = reader.next()) {
+        const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry);
+        hagen::ObservationSegmenter::Output out;
+        if (!observation || !segmenter.process(*observation, out, vehicle)) continue;
+        // Each return by the pose at its own time; none where the vehicle was is not known.
+        const auto mapped = hagen::placeInMap(out, *observation, vehicle);
+        if (!mapped) continue;
+        map.insert(*mapped);
+        ++scans;
+        hits += out.result->returns.roi.size();
+    }
+    hagen::saveMap(map.tree(), argv[2]);
+    std::printf("%zu scans with %zu RoI points: %zu nodes in %s\n", scans, hits, map.tree().size(),
+                argv[2]);
+    return 0;
+} catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+}

@@ -1,0 +1,42 @@
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hagen {
+
+/// Points as nanoflann reads them.
+struct TreePoints {
+    std::vector<Eigen::Vector3f> at_m;
+
+    std::size_t kdtree_get_point_count() const { return at_m.size(); }
+    float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return at_m[i][static_cast<Eigen::Index>(axis)];
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+/// A result set for nanoflann: the least squared distance, of several trees one after the other.
+/// It begins with the farthest that matters, so that what is farther costs little.
+class Nearest {
+ public:
+    explicit Nearest(float most_m) : least_m2_(most_m * most_m) {}
+
+    bool addPoint(float distance_m2, std::uint32_t) {
+        least_m2_ = std::min(least_m2_, distance_m2);
+        return true;
+    }
+    float worstDist() const { return least_m2_; }
+    std::size_t size() const { return 1; }
+    bool full() const { return true; }
+
+ private:
+    float least_m2_;
+};
+
+}  // namespace hagen

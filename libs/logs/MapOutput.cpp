@@ -1,0 +1,82 @@
+#include <hagen/logs/MapOutput.h>
+#include <hagen/mapping/MapFile.h>
+#include <hagen/observations/Deskew.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace hagen {
+
+namespace {
+
+using mrpt::poses::CPose3D;
+
+Eigen::Isometry3d isometryOf(const CPose3D& pose) {
+    return Eigen::Isometry3d(
+        Eigen::Matrix4d(pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen()));
+}
+
+double durationOf(const Scan& scan) {
+    const auto last = std::max_element(scan.time_s.begin(), scan.time_s.end());
+    return last == scan.time_s.end() ? 0 : static_cast<double>(*last);
+}
+
+mrpt::Clock::time_point later(mrpt::Clock::time_point time, double by_s) {
+    return time +
+           std::chrono::duration_cast<mrpt::Clock::duration>(std::chrono::duration<double>(by_s));
+}
+
+}  // namespace
+
+std::optional<MappedScan> placeInMap(const ObservationSegmenter::Output& segmented,
+                                     const mrpt::obs::CObservation& observation,
+                                     const Trajectory& vehicle) {
+    if (!segmented.sensor_pose) return std::nullopt;
+    const CPose3D sensor_on_vehicle(observation.sensorPose());
+    Scan scan = *segmented.scan;
+    const bool moves = !scan.time_s.empty() && deskew(vehicle, observation.timestamp,
+                                                      sensor_on_vehicle, *segmented.sensor, scan);
+    const double duration_s = durationOf(scan);
+    const auto middle =
+        moves ? vehicle.at(later(observation.timestamp, duration_s / 2)) : std::nullopt;
+
+    MappedScan mapped;
+    mapped.time_s = mrpt::Clock::toDouble(observation.timestamp) + duration_s;
+    mapped.origin_m = isometryOf(middle ? *middle + sensor_on_vehicle : *segmented.sensor_pose)
+                          .translation()
+                          .cast<float>();
+    const Eigen::Isometry3d to_map = isometryOf(*segmented.sensor_pose);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Label label = segmented.result->returns.label[i];
+        if (label == Label::Unclassified) continue;
+        const Eigen::Vector3d seen(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+        mapped.points_m.push_back((to_map * seen).cast<float>());
+        mapped.labels.push_back(label);
+    }
+    return mapped;
+}
+
+MapOutput::MapOutput(const std::vector<std::filesystem::path>& files, const ScanMapOptions& options,
+                     bool overwrite)
+    : map_(options) {
+    for (const auto& file : files) {
+        checkMapFile(file);
+        files_.emplace_back(file, OutputPath::Kind::File, overwrite);
+    }
+}
+
+void MapOutput::write() const {
+    for (const OutputPath& file : files_) saveMap(map_.tree(), file.temporary(), file.path());
+}
+
+void MapOutput::commit() {
+    for (OutputPath& file : files_) file.commit();
+}
+
+std::string MapOutput::keepPartial() {
+    std::string names;
+    for (OutputPath& file : files_) names += " " + file.keepPartial().string();
+    return names;
+}
+
+}  // namespace hagen

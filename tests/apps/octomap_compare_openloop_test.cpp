@@ -1,0 +1,186 @@
+// Runs the built program, as a user would.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+const std::string kOrchard = HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog";
+const std::vector<std::string> kModels{"--models", "W-RoI,O-Full-0.4"};
+
+std::vector<std::string> with(std::vector<std::string> arguments,
+                              const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+class OpenLoopCommand : public testing::Test {
+ protected:
+    test::Outcome run(std::vector<std::string> arguments) const {
+        return test::run(HAGEN_OCTOMAP_COMPARE, with({"openloop"}, arguments));
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    /// A log of a few scans in a scene that is light to make, and its poses.
+    void simulate(int scans) const {
+        const auto outcome = test::run(
+            HAGEN_RAWLOG_SIMULATE,
+            {"--scenario", "gap", "--scans", std::to_string(scans), "--altitude", "2", "--seed",
+             "3", "-o", path("gap.rawlog"), "--poses", path("gap.tum"), "--kitti", path("gap")});
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    }
+    std::vector<std::string> gap(const std::string& out) const {
+        return with({"-i", path("gap.rawlog"), "--poses", path("gap.tum"), "-o", path(out)},
+                    kModels);
+    }
+    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
+                       const std::string& words) const {
+        const auto outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(OpenLoopCommand, TheOracleIsRightAndAllHaveDigestedTheSame) {
+    simulate(4);
+    const auto outcome =
+        run({"-i", path("gap.rawlog"), "--poses", path("gap.tum"), "--truth-scenario", "gap",
+             "--truth-seed", "3", "--models", "oracle,W-RoI,W-Full", "-o", path("out")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("truth: the scene gap of seed 3"), std::string::npos) << outcome.out;
+    const auto summary = nlohmann::json::parse(test::readFile(path("out/summary.json")));
+    EXPECT_EQ(summary["scans"], 4);
+    EXPECT_EQ(summary["scans_moved_whole"], 0);
+    const auto& models = summary["models"];
+    ASSERT_EQ(models.size(), 3u);
+    EXPECT_EQ(models[0]["directions"]["all"]["precision"], 1.0);
+    EXPECT_EQ(models[0]["directions"]["all"]["recall"], 1.0);
+    EXPECT_EQ(models[0]["directions"]["all"]["scored"], 4 * 300);
+    EXPECT_GT(models[1]["directions"]["level"]["recall"], 0.9);
+    EXPECT_GT(models[2]["obstacles"], models[1]["obstacles"]);
+    EXPECT_EQ(summary["free_agreement"]["jaccard"][0][0], 1.0);
+    EXPECT_GT(summary["measured"]["models"][2]["peak_heap_bytes"], 100000);
+
+    std::istringstream rows(test::readFile(path("out/scans.csv")));
+    std::map<std::string, int> rows_of_returns;
+    std::string row;
+    std::getline(rows, row);
+    EXPECT_EQ(row.rfind("scan,entry,time_s,model,returns,roi,", 0), 0u) << row;
+    for (int n = 0; std::getline(rows, row); ++n) {
+        std::vector<std::string> fields;
+        std::istringstream line(row);
+        for (std::string field; std::getline(line, field, ',');) fields.push_back(field);
+        ASSERT_EQ(fields.size(), 18u) << row;
+        EXPECT_EQ(fields[0], std::to_string(n / 3));
+        ++rows_of_returns[fields[0] + " " + fields[4] + " " + fields[5]];
+    }
+    EXPECT_EQ(rows_of_returns.size(), 4u);
+    for (const auto& [returns, times] : rows_of_returns) EXPECT_EQ(times, 3) << returns;
+}
+
+TEST_F(OpenLoopCommand, TheSameLogGivesTheSameBytesAndItsScanFolderTheSameFigures) {
+    simulate(4);
+    ASSERT_EQ(run(gap("a")).exit_code, 0);
+    ASSERT_EQ(run(with(gap("b"), {"-q"})).out, "");
+    for (const char* file : {"openloop.csv", "scans.csv", "agreement.csv"}) {
+        EXPECT_EQ(test::readFile(folder_ / "a" / file), test::readFile(folder_ / "b" / file));
+        EXPECT_GT(test::readFile(folder_ / "a" / file).size(), 40u);
+    }
+    const auto folder = run(with({"-i", path("gap"), "-o", path("c")}, kModels));
+    ASSERT_EQ(folder.exit_code, 0) << folder.err;
+    EXPECT_NE(folder.err.find("4 scans were placed by one pose each"), std::string::npos)
+        << folder.err;
+}
+
+TEST_F(OpenLoopCommand, ALogWithPosesOfItsOwnNeedsNoFile) {
+    const auto outcome = run({"-i", kOrchard, "--models", "W-RoI", "-o", path("out")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("30 scans of"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("truth: raw points of later scans"), std::string::npos);
+}
+
+TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
+    simulate(6);
+    std::istringstream poses(test::readFile(path("gap.tum")));
+    std::string some;
+    int n = 0;
+    for (std::string line; std::getline(poses, line) && n < 7; ++n) some += line + "\n";
+    folder_.write("some.tum", some);
+    const std::vector<std::string> log{"-i", path("gap.rawlog"), "--models", "W-RoI"};
+    const auto outcome = run(with(log, {"--poses", path("some.tum"), "-o", path("out")}));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("scans have no pose within 0.2 s"), std::string::npos)
+        << outcome.err;
+
+    folder_.write("none.tum", "5 0 0 2 0 0 0 1\n");
+    expectFailure(with(log, {"--poses", path("none.tum"), "-o", path("no")}), 1,
+                  "has no pose near any of the 6 scans");
+    EXPECT_FALSE(fs::exists(path("no")));
+    folder_.write("empty.tum", "# nothing\n");
+    expectFailure(with(log, {"--poses", path("empty.tum"), "-o", path("no")}), 1, "holds no pose");
+}
+
+TEST_F(OpenLoopCommand, RefusesWrongUsage) {
+    const std::vector<std::string> orchard{"-i", kOrchard, "-o", path("no")};
+    expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
+    expectFailure(with(orchard, {"--models", "W-Roy"}), 2, "there are: W-RoI");
+    expectFailure(with(orchard, {"--models", "oracle"}), 2, "--truth-scenario");
+    expectFailure(with(orchard, {"--truth-scenario", "jungle"}), 2, "known are");
+    expectFailure(with(orchard, {"--truth-seed", "3"}), 2, "--truth-scenario");
+    expectFailure({"-i", path("missing.rawlog"), "-o", path("no")}, 2, "missing.rawlog");
+    expectFailure({"-i", kOrchard}, 2, "--output");
+    folder_.write("wrong.yaml", "zone: 3\n");
+    expectFailure(with(orchard, {"-c", path("wrong.yaml")}), 2, "wrong.yaml");
+    EXPECT_FALSE(fs::exists(path("no")));
+}
+
+TEST_F(OpenLoopCommand, ASceneThatIsNotTheLogsIsRefused) {
+    expectFailure({"-i", kOrchard, "--truth-scenario", "orchard", "--truth-seed", "2", "--models",
+                   "oracle", "-o", path("no")},
+                  1, "was not simulated in orchard of seed 2");
+}
+
+TEST_F(OpenLoopCommand, LeavesWhatExistsAlone) {
+    fs::create_directory(path("out"));
+    folder_.write("out/scans.csv", "mine");
+    expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("out")}, 1,
+                  "scans.csv exists; give --overwrite");
+    EXPECT_EQ(test::readFile(path("out/scans.csv")), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 1);
+    folder_.write("file", "mine");
+    expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("file")}, 1, "file");
+}
+
+TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
+    simulate(12);
+    fs::resize_file(path("gap.rawlog"), fs::file_size(path("gap.rawlog")) * 2 / 3);
+    const auto outcome = run(gap("out"));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("gap.rawlog: entry"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("scans before it are in"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.out.find("W-RoI"), std::string::npos) << outcome.out;
+    EXPECT_TRUE(fs::exists(path("out/openloop.partial.csv")));
+    EXPECT_FALSE(fs::exists(path("out/openloop.csv")));
+}
+
+TEST_F(OpenLoopCommand, SaysWhenTheDiskIsFull) {
+    // No file may grow beyond a kilobyte.
+    const std::string command = std::string("ulimit -f 1; exec ") + HAGEN_OCTOMAP_COMPARE +
+                                " openloop -i " + kOrchard + " --models W-RoI,W-Full -o " +
+                                path("full");
+    const auto outcome = test::run("/bin/bash", {"-c", command});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("cannot be written; is the disk full?"), std::string::npos)
+        << outcome.err;
+    EXPECT_FALSE(fs::exists(path("full")));
+}
+
+}  // namespace
+}  // namespace hagen
