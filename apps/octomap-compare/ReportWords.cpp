@@ -314,6 +314,28 @@ Table stageTable(const Summary& summary, const LatencyProfile& profile) {
     return table;
 }
 
+Table measuredTable(const std::map<std::string, MeasuredRuns>& measured) {
+    Table table{{"model", "runs", "peak heap, median, MB", "most, MB"}, {}};
+    std::set<std::string> stages;
+    for (const auto& [model, runs] : measured) {
+        for (const auto& [stage, values] : runs.p50_ms) stages.insert(stage);
+    }
+    for (const std::string& stage : stages) table.header.push_back(stage + " p50, ms");
+    for (const auto& [model, runs] : measured) {
+        const std::vector<double>& bytes = runs.peak_model_bytes;
+        std::vector<std::string> row{model, std::to_string(bytes.size()),
+                                     fixed(1e-6 * quantile(bytes, 0.5), 2),
+                                     fixed(1e-6 * quantile(bytes, 1), 2)};
+        for (const std::string& stage : stages) {
+            const auto found = runs.p50_ms.find(stage);
+            row.push_back(found == runs.p50_ms.end() ? "-"
+                                                     : fixed(quantile(found->second, 0.5), 2));
+        }
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
 Table memoryTable(const std::vector<MemoryCurve>& memory) {
     Table table{{"model", "flown, m", "at the end, MB", "peak, MB"}, {}};
     for (const MemoryCurve& curve : memory) {

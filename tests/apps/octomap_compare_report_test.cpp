@@ -199,6 +199,17 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
               std::string::npos);
 }
 
+TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
+    writeRuns(threeContenders());
+    folder_.write("measured.csv",
+                  "model,filter_p50_ms,filter_p95_ms,update_p50_ms,peak_model_bytes\n"
+                  "W-RoI,0.8,9,1.25,2000000\nW-RoI,0.6,9,1.75,4000000\nG-Full,,,14,1\n");
+    ASSERT_EQ(run({"report", folder(), "--markdown", path("a.md")}).exit_code, 0);
+    const std::string text = test::readFile(path("a.md"));
+    EXPECT_NE(text.find("| W-RoI | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"), std::string::npos);
+    EXPECT_NE(text.find("| G-Full | 1 | 0.00 | 0.00 | - | 14.00 |"), std::string::npos);
+}
+
 TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
     writeRuns(threeContenders());
     folder_.write("summary.csv", "mine");
@@ -224,6 +235,9 @@ TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
     folder_.write("memory.csv", "model,path_m,bytes\nW-RoI,far,1\n");
     expectFailure({"report", folder()}, 1, "memory.csv:2: not model,path_m,bytes");
     folder_.write("memory.csv", "model,path_m,bytes\n");
+    folder_.write("measured.csv", "model,peak_model_bytes\nW-RoI,2e6\nW-RoI,much\n");
+    expectFailure({"report", folder()}, 1, "measured.csv:3: \"much\" is no number");
+    folder_.write("measured.csv", "model,peak_model_bytes\n");
     folder_.write("profile.json", "{");
     expectFailure({"report", folder()}, 1, "profile.json");
 }
