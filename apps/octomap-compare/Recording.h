@@ -36,9 +36,9 @@ struct RecordedEvent {
 
 /// A whole run, small enough to be looked at in a page.
 struct Recording {
-    Run run;
+    Run run{};
     bool is_same = false;
-    Eigen::Vector3d start_m, goal_m;
+    Eigen::Vector3d start_m{0, 0, 0}, goal_m{0, 0, 0};
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
     std::vector<Eigen::Vector3d> track_m;  ///< true, every kControlStep_s

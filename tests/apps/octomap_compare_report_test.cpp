@@ -2,11 +2,16 @@
 #include <gtest/gtest.h>
 #include <hagen/simulation/Random.h>
 
+#include <mrpt/opengl/COctoMapVoxels.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CPointCloud.h>
+
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "octomap-compare/Overhead.h"
+#include "octomap-compare/Replay.h"
 #include "octomap-compare/Report.h"
 #include "octomap-compare/Summary.h"
 #include "octomap-compare/Table.h"
@@ -153,6 +158,53 @@ TEST(Pages, FillTheirPlacesAndEscapeWhatTheyAreTold) {
     EXPECT_EQ(fixed(NAN, 2), "-");
     EXPECT_EQ(percentOf(0, 200), "0.0 (0.0 to 1.9)");
     EXPECT_EQ(markdownOf({{"a", "b"}, {{"1", "2"}}}), "| a | b |\n|---|--:|\n| 1 | 2 |\n");
+}
+
+Recording smallRecording() {
+    Recording recording;
+    recording.run = runOf("gap", 1, "O-Full-0.4", "astar", kWon);
+    recording.is_same = true;
+    recording.start_m = {5, 0, 2};
+    recording.goal_m = {45, 0, 2};
+    RecordedStep step{};
+    step.roi_m = {{6, 0, 2}};
+    step.rou_m = {{7, 0, 0}, {8, 0, 0}};
+    step.motions = {{{{5, 0, 2}, {6, 0, 2}}, false}};
+    recording.steps = {step, step};
+    recording.track_m = {{6, 2, 5}};
+    recording.model = {{{6, 0, 2}, 0, 2}, {{9, 0, 2}, 0, 1}};
+    recording.model_edge_m = 0.4f;
+    return recording;
+}
+
+TEST(Replay, APageHoldsCentimetresFromTheStart) {
+    const std::string page = replayPage(smallRecording());
+    // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
+    EXPECT_NE(page.find("\"track\":\"ZADIACwB\""), std::string::npos);
+    EXPECT_NE(page.find("\"way_sizes\":[-2]"), std::string::npos);  // not free
+    EXPECT_NE(page.find("<title>gap, seed 1, O-Full-0.4, A*, 4.0 m/s: success</title>"),
+              std::string::npos);
+    EXPECT_NE(replayPage(Recording{}).find("\"steps\":[]"), std::string::npos);
+}
+
+TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
+    const test::TemporaryFolder folder;
+    writeReplayScene(smallRecording(), folder / "a.3Dscene");
+    mrpt::opengl::COpenGLScene scene;
+    ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
+    const auto voxels = std::dynamic_pointer_cast<mrpt::opengl::COctoMapVoxels>(
+        scene.getByName("obstacles of the model"));
+    ASSERT_NE(voxels, nullptr);
+    EXPECT_EQ(voxels->getVoxelCount(0), 1u);
+    const auto roi = std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(
+        scene.getByName("last scan: regions of interest"));
+    ASSERT_NE(roi, nullptr);
+    EXPECT_EQ(roi->size(), 1u);
+    ASSERT_NE(scene.getByName("vehicle"), nullptr);
+    EXPECT_EQ(scene.getByName("vehicle")->getPoseX(), 6);
+    writeReplayScene(Recording{}, folder / "empty.3Dscene");
+    EXPECT_NE(test::messageOf([&] { writeReplayScene({}, folder / "no/a.3Dscene"); }).find("no/a"),
+              std::string::npos);
 }
 
 class ReportCommand : public testing::Test {
