@@ -249,10 +249,10 @@ Scene makeMovers(const Random& random) {
     const std::size_t person = builder.addShape(makePerson());
     const std::size_t drone = builder.addShape(makeDrone());
     const Shapes cars = builder.addShapes(2, makeCar);
-    addMovers(builder, 8, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
-    addMovers(builder, 3, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
+    addMovers(builder, 3, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
+    addMovers(builder, 1, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
               [&] { return builder.oneOf(cars); });
-    addMovers(builder, 5, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
+    addMovers(builder, 2, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
     scatterTrees(builder, 0.008);
     scatterTufts(builder, 0.02, 0.3);
     return builder.build();

@@ -218,7 +218,7 @@ TEST(CourseTest, WiresCrossTheStraightWayAboutAsHighAsOneFlies) {
 TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("movers", seed);
-        ASSERT_EQ(c.scene.content().movers.size(), 16u);
+        ASSERT_EQ(c.scene.content().movers.size(), 6u);
         for (const SceneMover& mover : c.scene.content().movers) {
             const auto at = [&](double time_s) {
                 return Eigen::Vector2d(poseOf(mover, c.scene.terrain(), time_s)
