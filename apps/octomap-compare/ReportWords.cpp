@@ -80,6 +80,10 @@ std::string verdictWords(const Pairing& pairing) {
     return "not decided: more courses are needed to exclude a loss of " + margin;
 }
 
+std::string spoken(const Contender& contender) {
+    return contender.model + (contender.guidance == "astar" ? " with A*" : " flown straight");
+}
+
 /// The answer before the figures.
 std::string headlineOf(const Summary& summary, const Condition& reference,
                        const std::string& guidance) {
@@ -89,17 +93,17 @@ std::string headlineOf(const Summary& summary, const Condition& reference,
             pairing.second.model == pairing.first.model || pairing.second.model == "oracle") {
             continue;
         }
-        of[static_cast<int>(pairing.verdict)].push_back(nameOf(pairing.second));
+        of[static_cast<int>(pairing.verdict)].push_back(spoken(pairing.second));
     }
     std::vector<std::string> parts;
     const char* words[] = {"not inferior to ", "inferior to ", "not decided against "};
     for (int verdict = 0; verdict < 3; ++verdict) {
-        if (!of[verdict].empty()) parts.push_back(words[verdict] + join(of[verdict], " and "));
+        if (!of[verdict].empty()) parts.push_back(words[verdict] + join(of[verdict], ", "));
     }
     if (parts.empty()) return "";
-    return "Without a map, " + nameOf(Contender{"W-RoI", guidance}) + ", at " + nameOf(reference) +
-           ", is " + join(parts, "; ") + ", by success with a margin of " +
-           fixed(100 * kMargin, 0) + " points.";
+    return "Without a map, " + spoken({"W-RoI", guidance}) + " at " + nameOf(reference) + ", is " +
+           join(parts, "; ") + ", by success with a margin of " + fixed(100 * kMargin, 0) +
+           " points.";
 }
 
 std::string collisionWords(const Cell& cell) {
