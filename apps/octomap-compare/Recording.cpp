@@ -96,6 +96,18 @@ RecordedStep recorded(const TrialStep& step, const RecordingLimits& limits) {
     return kept;
 }
 
+/// Long runs keep less of each step.
+void thinLongRun(const RecordingLimits& limits, Recording& recording) {
+    const std::size_t steps = recording.steps.size();
+    if (steps <= limits.full_steps) return;
+    const auto share = [&](std::size_t most) { return most * limits.full_steps / steps; };
+    for (RecordedStep& step : recording.steps) {
+        step.roi_m = thinned(step.roi_m, share(limits.points));
+        step.rou_m = thinned(step.rou_m, share(limits.points));
+        step.motions = thinned(step.motions, share(limits.motions));
+    }
+}
+
 }  // namespace
 
 Recording record(const Run& run, const LatencyProfile& profile, const RecordingLimits& limits) {
@@ -121,6 +133,7 @@ Recording record(const Run& run, const LatencyProfile& profile, const RecordingL
     recording.ground_m =
         again.course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
     model.tell(recording);
+    thinLongRun(limits, recording);
     return recording;
 }
 

@@ -36,9 +36,9 @@ struct RecordedEvent {
 
 /// A whole run, small enough to be looked at in a page.
 struct Recording {
-    Run run;
+    Run run{};
     bool is_same = false;
-    Eigen::Vector3d start_m, goal_m;
+    Eigen::Vector3d start_m{0, 0, 0}, goal_m{0, 0, 0};
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
     std::vector<Eigen::Vector3d> track_m;  ///< true, every kControlStep_s
@@ -48,11 +48,12 @@ struct Recording {
 };
 
 struct RecordingLimits {
-    std::size_t points = 2500;   ///< of each label, a step
-    std::size_t motions = 60;    ///< a step
-    std::size_t cells = 150000;  ///< of the model
-    float point_grid_m = 0.1f;   ///< of models made of points: one in each such cube
-    float reach_m = 25;          ///< of points
+    std::size_t full_steps = 150;  ///< runs of more keep less of each, so that pages stay small
+    std::size_t points = 2500;     ///< of each label, a step
+    std::size_t motions = 60;      ///< a step
+    std::size_t cells = 150000;    ///< of the model
+    float point_grid_m = 0.1f;     ///< of models made of points: one in each such cube
+    float reach_m = 25;            ///< of points
 };
 
 /// Flies the run again, and keeps what can be seen. Throws as flyAgain() does.

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "Measured.h"
 #include "Overhead.h"
 #include "Summary.h"
 
@@ -21,6 +22,7 @@ struct Report {
     Summary summary;
     std::optional<LatencyProfile> profile;
     std::vector<MemoryCurve> memory;
+    std::map<std::string, MeasuredRuns> measured;  ///< by model; empty where nobody measured
     std::vector<OverheadView> worst;
     std::string worst_missing;  ///< why there are none; empty where there are
 };

@@ -123,6 +123,13 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
         stages.charts = {"stages"};
         sections.push_back(stages);
     }
+    if (!report.measured.empty()) {
+        sections.push_back({"Memory and CPU time, measured while flying",
+                            {"On the machine that flew the campaign, perhaps on several cores at a "
+                             "time: medians over runs. Flights draw their latencies from the "
+                             "profile, not from these. Heap is what a model held at most."},
+                            {measuredTable(report.measured)}});
+    }
     if (!report.memory.empty()) {
         Section memory{"Memory against distance",
                        {"Heap that a model holds along a flight, measured."},

@@ -80,6 +80,10 @@ std::string verdictWords(const Pairing& pairing) {
     return "not decided: more courses are needed to exclude a loss of " + margin;
 }
 
+std::string spoken(const Contender& contender) {
+    return contender.model + (contender.guidance == "astar" ? " with A*" : " flown straight");
+}
+
 /// The answer before the figures.
 std::string headlineOf(const Summary& summary, const Condition& reference,
                        const std::string& guidance) {
@@ -89,17 +93,17 @@ std::string headlineOf(const Summary& summary, const Condition& reference,
             pairing.second.model == pairing.first.model || pairing.second.model == "oracle") {
             continue;
         }
-        of[static_cast<int>(pairing.verdict)].push_back(nameOf(pairing.second));
+        of[static_cast<int>(pairing.verdict)].push_back(spoken(pairing.second));
     }
     std::vector<std::string> parts;
     const char* words[] = {"not inferior to ", "inferior to ", "not decided against "};
     for (int verdict = 0; verdict < 3; ++verdict) {
-        if (!of[verdict].empty()) parts.push_back(words[verdict] + join(of[verdict], " and "));
+        if (!of[verdict].empty()) parts.push_back(words[verdict] + join(of[verdict], ", "));
     }
     if (parts.empty()) return "";
-    return "Without a map, " + nameOf(Contender{"W-RoI", guidance}) + ", at " + nameOf(reference) +
-           ", is " + join(parts, "; ") + ", by success with a margin of " +
-           fixed(100 * kMargin, 0) + " points.";
+    return "Without a map, " + spoken({"W-RoI", guidance}) + " at " + nameOf(reference) + ", is " +
+           join(parts, "; ") + ", by success with a margin of " + fixed(100 * kMargin, 0) +
+           " points.";
 }
 
 std::string collisionWords(const Cell& cell) {
@@ -310,6 +314,28 @@ Table stageTable(const Summary& summary, const LatencyProfile& profile) {
             table.rows.push_back({stage, fixed(quantile(q, 0.5), 2), fixed(quantile(q, 0.95), 2),
                                   fixed(q.back(), 2)});
         }
+    }
+    return table;
+}
+
+Table measuredTable(const std::map<std::string, MeasuredRuns>& measured) {
+    Table table{{"model", "runs", "peak heap, median, MB", "most, MB"}, {}};
+    std::set<std::string> stages;
+    for (const auto& [model, runs] : measured) {
+        for (const auto& [stage, values] : runs.p50_ms) stages.insert(stage);
+    }
+    for (const std::string& stage : stages) table.header.push_back(stage + " p50, ms");
+    for (const auto& [model, runs] : measured) {
+        const std::vector<double>& bytes = runs.peak_model_bytes;
+        std::vector<std::string> row{model, std::to_string(bytes.size()),
+                                     fixed(1e-6 * quantile(bytes, 0.5), 2),
+                                     fixed(1e-6 * quantile(bytes, 1), 2)};
+        for (const std::string& stage : stages) {
+            const auto found = runs.p50_ms.find(stage);
+            row.push_back(found == runs.p50_ms.end() ? "-"
+                                                     : fixed(quantile(found->second, 0.5), 2));
+        }
+        table.rows.push_back(row);
     }
     return table;
 }

@@ -28,6 +28,8 @@ Table flightTable(const Summary& summary, const Condition& condition);  ///< cle
 Table effortTable(const Summary& summary, const Condition& condition);  ///< latency, drops, ...
 /// p50, p95 and max of each stage of the models that flew.
 Table stageTable(const Summary& summary, const LatencyProfile& profile);
+/// CPU time and heap of each model, as measured while flying.
+Table measuredTable(const std::map<std::string, MeasuredRuns>& measured);
 Table memoryTable(const std::vector<MemoryCurve>& memory);
 
 /// Stages that a contender's scans go through, in order, by the profile's names; those alone that

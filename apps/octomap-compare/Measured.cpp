@@ -1,0 +1,73 @@
+#include "Measured.h"
+
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+
+namespace hagen {
+namespace {
+
+std::vector<std::string> fieldsOf(const std::string& line) {
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+        if (c == ',') {
+            fields.emplace_back();
+        } else if (c != '\r') {
+            fields.back() += c;
+        }
+    }
+    return fields;
+}
+
+void add(const std::string& text, std::vector<double>& values) {
+    if (text.empty()) return;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+        throw std::runtime_error("\"" + text + "\" is no number");
+    }
+    values.push_back(value);
+}
+
+void addRow(const std::vector<std::string>& names, const std::vector<std::string>& fields,
+            std::map<std::string, MeasuredRuns>& all) {
+    if (fields.size() != names.size()) throw std::runtime_error("not as many fields as columns");
+    std::string model;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        if (names[c] == "model") model = fields[c];
+    }
+    MeasuredRuns& runs = all[model];
+    const std::string median = "_p50_ms";
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        const std::string& name = names[c];
+        if (name == "peak_model_bytes") add(fields[c], runs.peak_model_bytes);
+        if (name.size() > median.size() &&
+            name.compare(name.size() - median.size(), median.size(), median) == 0) {
+            add(fields[c], runs.p50_ms[name.substr(0, name.size() - median.size())]);
+        }
+    }
+}
+
+}  // namespace
+
+std::map<std::string, MeasuredRuns> readMeasured(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+    std::map<std::string, MeasuredRuns> all;
+    std::vector<std::string> names;
+    std::string text;
+    for (int line = 1; std::getline(in, text); ++line) {
+        try {
+            if (line == 1) {
+                names = fieldsOf(text);
+            } else {
+                addRow(names, fieldsOf(text), all);
+            }
+        } catch (const std::runtime_error& e) {
+            throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + e.what());
+        }
+    }
+    return all;
+}
+
+}  // namespace hagen

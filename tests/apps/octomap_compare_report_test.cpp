@@ -1,0 +1,322 @@
+// What is told of runs: sums with known answers; and the built program's report and replay.
+#include <gtest/gtest.h>
+#include <hagen/simulation/Random.h>
+
+#include <mrpt/opengl/COctoMapVoxels.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CPointCloud.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "octomap-compare/Overhead.h"
+#include "octomap-compare/Replay.h"
+#include "octomap-compare/Report.h"
+#include "octomap-compare/Summary.h"
+#include "octomap-compare/Table.h"
+#include "octomap-compare/Web.h"
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+using Row = hagen::Run;  // a test has a Run() of its own
+
+Row runOf(const std::string& scenario, std::uint64_t seed, const std::string& model,
+          const std::string& guidance, hagen::Outcome outcome, double speed_m_s = 4) {
+    Row run{};
+    run.scenario = scenario;
+    run.seed = seed;
+    run.setup.model = model;
+    run.setup.guidance = guidance;
+    run.setup.speed_m_s = speed_m_s;
+    run.result = {outcome, 0.1 * static_cast<double>(seed % 10),
+                  44,      12,
+                  NAN,     20,
+                  100,     5,
+                  2,       4,
+                  6,       static_cast<double>(seed)};
+    run.oracle_path_m = 40;
+    run.settings_hash = "a";
+    run.version = "1";
+    return run;
+}
+
+constexpr auto kWon = hagen::Outcome::Success, kHit = hagen::Outcome::Collision,
+               kLate = hagen::Outcome::Timeout;
+const Condition kReference{4, "primitives", PoseError::None, 1, false};
+
+/// Seeds 0..9: W-RoI wins all but 0 (hit); O-Full-0.4 all but 0, 1, 2 (late); W-RoI straight none.
+std::vector<Row> threeContenders() {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed == 0 ? kHit : kWon));
+        runs.push_back(runOf("gap", seed, "O-Full-0.4", "astar", seed < 3 ? kLate : kWon));
+        runs.push_back(runOf("gap", seed, "W-RoI", "straight", kLate));
+    }
+    return runs;
+}
+
+TEST(Summary, CountsCellsAndSpreads) {
+    const Summary summary = summarize(threeContenders());
+    ASSERT_EQ(summary.contenders.size(), 3u);
+    EXPECT_EQ(nameOf(summary.contenders[0]), "W-RoI, A*");
+    const Cell* cell = find(summary, "gap", kReference, {"W-RoI", "astar"});
+    ASSERT_NE(cell, nullptr);
+    EXPECT_EQ(cell->runs, 10);
+    EXPECT_EQ(cell->successes, 9);
+    EXPECT_EQ(cell->collisions, 1);
+    EXPECT_EQ(cell->timeouts, 0);
+    EXPECT_NEAR(cell->min_clearance_m.median, 0.45, 1e-12);  // 0, 0.1, ..., 0.9
+    EXPECT_NEAR(cell->path_ratio.median, 1.1, 1e-12);
+    EXPECT_EQ(cell->path_ratio.count, 9);  // of successful ones alone
+    EXPECT_EQ(cell->first_reaction_m.count, 0);
+    EXPECT_NEAR(cell->dropped_percent, 5, 1e-12);
+    EXPECT_NEAR(cell->stops_per_km, 2 / 0.044, 1e-9);
+    EXPECT_EQ(cell->latency_max_ms, 9);
+    EXPECT_EQ(find(summary, "gap", kReference, {"W-Full", "astar"}), nullptr);
+}
+
+TEST(Summary, PairsRunsThroughTheSameCourse) {
+    std::vector<Row> runs = threeContenders();
+    runs.push_back(runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    const Summary summary = summarize(runs);
+    // A*: against the map and against itself straight; straight: against the map under A*.
+    ASSERT_EQ(summary.pairings.size(), 3u);
+    const Pairing* pairing = nullptr;
+    for (const Pairing& one : summary.pairings) {
+        if (one.first.guidance == "astar" && one.second.model == "O-Full-0.4") pairing = &one;
+    }
+    ASSERT_NE(pairing, nullptr);
+    EXPECT_EQ(pairing->both, 7);
+    EXPECT_EQ(pairing->only_first, 2);
+    EXPECT_EQ(pairing->only_second, 0);
+    EXPECT_EQ(pairing->neither, 1);
+    EXPECT_EQ(pairing->only_first_collided, 1);
+    EXPECT_NEAR(pairing->difference, 0.2, 1e-12);
+    EXPECT_NEAR(pairing->p, 0.5, 1e-12);
+    EXPECT_GE(pairing->p_holm, pairing->p);
+    EXPECT_EQ(pairing->verdict, Verdict::Open);
+}
+
+TEST(Summary, JudgesByTheMargin) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed < 2 ? kHit : kWon));
+        runs.push_back(runOf("gap", seed, "W-Full", "astar", seed == 2 ? kHit : kWon));
+        runs.push_back(runOf("gap", seed, "G-Full", "astar", seed < 100 ? kLate : kWon));
+        runs.push_back(runOf("gap", seed, "W-RoI", "straight", seed < 100 ? kLate : kWon));
+    }
+    for (const Pairing& pairing : summarize(runs).overall) {
+        const bool is_worse =
+            pairing.first.guidance == "straight" && pairing.second.model != "G-Full";
+        EXPECT_EQ(pairing.verdict, is_worse ? Verdict::Inferior : Verdict::NotInferior)
+            << nameOf(pairing.first) << " " << nameOf(pairing.second);
+    }
+}
+
+TEST(Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        for (const double speed_m_s : {4.0, 6.0, 8.0, 10.0}) {
+            const bool fails = speed_m_s == 8 && seed < 6;  // 94 %
+            runs.push_back(
+                runOf("forest-0.10", seed, "W-RoI", "astar", fails ? kHit : kWon, speed_m_s));
+        }
+    }
+    const Summary summary = summarize(runs);
+    ASSERT_EQ(summary.speed_limits.size(), 1u);
+    EXPECT_EQ(summary.speed_limits[0].highest_m_s, 6);
+    EXPECT_EQ(summary.speed_limits[0].sure_m_s, 6);  // 100 of 100: 96.3 % and more
+}
+
+TEST(Summary, OfNothingIsEmpty) {
+    EXPECT_TRUE(summarize({}).cells.empty());
+    EXPECT_NE(reportPage(Report{}).find("Nothing was flown"), std::string::npos);
+}
+
+TEST(WorstRuns, AreCollisionsFirstThenByClearanceOneOfAKind) {
+    std::vector<Row> runs = threeContenders();
+    runs.push_back(runOf("gap", 0, "oracle", "astar", kHit));
+    runs.push_back(runOf("street", 1, "W-RoI", "astar", kHit));
+    const std::vector<Row> worst = worstRuns(runs, 3);
+    ASSERT_EQ(worst.size(), 3u);
+    EXPECT_EQ(worst[0].scenario + worst[0].setup.model, "gapW-RoI");
+    EXPECT_EQ(worst[1].scenario, "street");
+    EXPECT_EQ(worst[2].setup.model, "O-Full-0.4");
+    EXPECT_TRUE(worstRuns({}, 6).empty());
+}
+
+TEST(Pages, FillTheirPlacesAndEscapeWhatTheyAreTold) {
+    EXPECT_EQ(filled("a{{x}}b{{y}}", {{"x", "{{y}}"}, {"y", "2"}}), "a{{y}}b2");
+    EXPECT_THROW(filled("{{z}}", {}), std::logic_error);
+    EXPECT_EQ(scriptText("\"</script>\""), "\"<\\/script>\"");
+    EXPECT_EQ(htmlText("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+    EXPECT_EQ(fixed(-0.001, 2), "0.00");
+    EXPECT_EQ(fixed(NAN, 2), "-");
+    EXPECT_EQ(percentOf(0, 200), "0.0 (0.0 to 1.9)");
+    EXPECT_EQ(markdownOf({{"a", "b"}, {{"1", "2"}}}), "| a | b |\n|---|--:|\n| 1 | 2 |\n");
+}
+
+Recording smallRecording() {
+    Recording recording;
+    recording.run = runOf("gap", 1, "O-Full-0.4", "astar", kWon);
+    recording.is_same = true;
+    recording.start_m = {5, 0, 2};
+    recording.goal_m = {45, 0, 2};
+    RecordedStep step{};
+    step.roi_m = {{6, 0, 2}};
+    step.rou_m = {{7, 0, 0}, {8, 0, 0}};
+    step.motions = {{{{5, 0, 2}, {6, 0, 2}}, false}};
+    recording.steps = {step, step};
+    recording.track_m = {{6, 2, 5}};
+    recording.model = {{{6, 0, 2}, 0, 2}, {{9, 0, 2}, 0, 1}};
+    recording.model_edge_m = 0.4f;
+    return recording;
+}
+
+TEST(Replay, APageHoldsCentimetresFromTheStart) {
+    const std::string page = replayPage(smallRecording());
+    // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
+    EXPECT_NE(page.find("\"track\":\"ZADIACwB\""), std::string::npos);
+    EXPECT_NE(page.find("\"way_sizes\":[-2]"), std::string::npos);  // not free
+    EXPECT_NE(page.find("<title>gap, seed 1, O-Full-0.4, A*, 4.0 m/s: success</title>"),
+              std::string::npos);
+    EXPECT_NE(replayPage(Recording{}).find("\"steps\":[]"), std::string::npos);
+}
+
+TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
+    const test::TemporaryFolder folder;
+    writeReplayScene(smallRecording(), folder / "a.3Dscene");
+    mrpt::opengl::COpenGLScene scene;
+    ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
+    const auto voxels = std::dynamic_pointer_cast<mrpt::opengl::COctoMapVoxels>(
+        scene.getByName("obstacles of the model"));
+    ASSERT_NE(voxels, nullptr);
+    EXPECT_EQ(voxels->getVoxelCount(0), 1u);
+    const auto roi = std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(
+        scene.getByName("last scan: regions of interest"));
+    ASSERT_NE(roi, nullptr);
+    EXPECT_EQ(roi->size(), 1u);
+    ASSERT_NE(scene.getByName("vehicle"), nullptr);
+    EXPECT_EQ(scene.getByName("vehicle")->getPoseX(), 6);
+    writeReplayScene(Recording{}, folder / "empty.3Dscene");
+    EXPECT_NE(test::messageOf([&] { writeReplayScene({}, folder / "no/a.3Dscene"); }).find("no/a"),
+              std::string::npos);
+}
+
+class ReportCommand : public testing::Test {
+ protected:
+    test::Outcome run(const std::vector<std::string>& arguments) {
+        return test::run(HAGEN_OCTOMAP_COMPARE, arguments);
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string folder() const { return folder_.path().string(); }
+    void writeRuns(const std::vector<Row>& runs) {
+        std::string text = runHeader() + "\n";
+        for (const Row& one : runs) text += rowOf(one) + "\n";
+        folder_.write("runs.csv", text);
+    }
+    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
+                       const std::string& message) {
+        const test::Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+        EXPECT_NE((outcome.err + outcome.out).find(message), std::string::npos)
+            << outcome.err << outcome.out;
+        EXPECT_FALSE(fs::exists(path("report.html")));
+        EXPECT_FALSE(fs::exists(path("replay.html")));
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
+    writeRuns(threeContenders());
+    const test::Outcome outcome = run({"report", folder(), "--markdown", path("a.md")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("still allow a true share of 1.9 %"), std::string::npos);
+    std::ifstream in(path("summary.json"));
+    const auto json = nlohmann::json::parse(in);
+    EXPECT_EQ(json["runs"], 30);
+    EXPECT_EQ(json["pairings"].size(), 3u);
+    EXPECT_NE(test::readFile(path("summary.csv"))
+                  .find("gap,4.0000,primitives,none,1.0000,"
+                        "optimistic,W-RoI,astar,10,9,0.9000,0.5958,"),
+              std::string::npos);
+    const std::string page = test::readFile(path("report.html"));
+    EXPECT_NE(page.find("90.0 (59.6 to 98.2)"), std::string::npos);
+    EXPECT_NE(page.find("no profile.json"), std::string::npos);  // worst runs
+    EXPECT_NE(test::readFile(path("a.md")).find("| gap | 90.0 (59.6 to 98.2) |"),
+              std::string::npos);
+}
+
+TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
+    writeRuns(threeContenders());
+    folder_.write("measured.csv",
+                  "model,filter_p50_ms,filter_p95_ms,update_p50_ms,peak_model_bytes\n"
+                  "W-RoI,0.8,9,1.25,2000000\nW-RoI,0.6,9,1.75,4000000\nG-Full,,,14,1\n");
+    ASSERT_EQ(run({"report", folder(), "--markdown", path("a.md")}).exit_code, 0);
+    const std::string text = test::readFile(path("a.md"));
+    EXPECT_NE(text.find("| W-RoI | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"), std::string::npos);
+    EXPECT_NE(text.find("| G-Full | 1 | 0.00 | 0.00 | - | 14.00 |"), std::string::npos);
+}
+
+TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
+    writeRuns(threeContenders());
+    folder_.write("summary.csv", "mine");
+    expectFailure({"report", folder()}, 1, "summary.csv exists; give --overwrite");
+    EXPECT_EQ(test::readFile(path("summary.csv")), "mine");
+    EXPECT_EQ(run({"report", folder(), "--overwrite"}).exit_code, 0);
+}
+
+TEST_F(ReportCommand, NamesWhatIsMissing) {
+    expectFailure({"report", path("nowhere")}, 1, "nowhere: no such folder");
+    expectFailure({"report", folder()}, 1, "runs.csv: cannot be opened");
+    writeRuns({});
+    expectFailure({"report", folder()}, 1, "runs.csv: has no runs");
+    folder_.write("runs.csv", "");
+    expectFailure({"report", folder()}, 1, "runs.csv:1: is empty");
+    expectFailure({"report"}, 2, "DIR is required");
+}
+
+TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
+    folder_.write("runs.csv", runHeader() + "\n" + rowOf(threeContenders()[0]) + "\ngap,1\n");
+    expectFailure({"report", folder()}, 1, "runs.csv:3: 2 fields, not 24");
+    writeRuns(threeContenders());
+    folder_.write("memory.csv", "model,path_m,bytes\nW-RoI,far,1\n");
+    expectFailure({"report", folder()}, 1, "memory.csv:2: not model,path_m,bytes");
+    folder_.write("memory.csv", "model,path_m,bytes\n");
+    folder_.write("measured.csv", "model,peak_model_bytes\nW-RoI,2e6\nW-RoI,much\n");
+    expectFailure({"report", folder()}, 1, "measured.csv:3: \"much\" is no number");
+    folder_.write("measured.csv", "model,peak_model_bytes\n");
+    folder_.write("profile.json", "{");
+    expectFailure({"report", folder()}, 1, "profile.json");
+}
+
+TEST_F(ReportCommand, SaysWhereItCannotWrite) {
+    writeRuns(threeContenders());
+    fs::create_directory(path("report.html"));
+    const test::Outcome outcome = run({"report", folder(), "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("report.html"), std::string::npos) << outcome.err;
+    fs::remove(path("report.html"));
+    expectFailure({"report", folder(), "--markdown", path("no/a.md")}, 1, path("no"));
+    if (fs::exists("/proc/version")) {
+        fs::remove(path("runs.csv"));
+        expectFailure({"report", "/proc"}, 1, "/proc/runs.csv: cannot be opened");
+    }
+}
+
+TEST_F(ReportCommand, AReplayNeedsOneRun) {
+    writeRuns(threeContenders());
+    expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run of seed 77");
+    expectFailure({"replay", folder(), "--seed", "1", "--model", "G-Full"}, 2, "no run of seed 1");
+    expectFailure({"replay", folder(), "--seed", "1"}, 2,
+                  "--scenario gap --model W-RoI --guidance straight   (4 m/s: timeout)");
+    expectFailure({"replay", folder()}, 2, "--seed is required");
+    expectFailure({"replay", folder(), "--seed", "1", "--model", "O-Full-0.4"}, 1, "profile.json");
+}
+
+}  // namespace
+}  // namespace hagen
