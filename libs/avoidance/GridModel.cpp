@@ -58,6 +58,10 @@ float GridModel::clearance_m(const Eigen::Vector3f& point_m) const {
     return obstacles_.distance_m(point_m, kReach_m);
 }
 
+float GridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const {
+    return obstacles_.distance_m(point_m, std::min(most_m, kReach_m));
+}
+
 bool GridModel::isKnown(const Eigen::Vector3f& point_m) const {
     const Eigen::Array3f cell = ((point_m.array() - corner_m_) / edge_m_).floor();
     if ((cell < 0).any() || (cell >= size_.cast<float>()).any()) return false;

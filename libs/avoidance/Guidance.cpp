@@ -142,7 +142,10 @@ class PathGuidance : public Guidance {
     Carrot carrot(const WorldModel& world, const GuidanceTask& task) const override {
         PathSearchOptions options = searchOptions(task);
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
-        const auto clearance_m = [&](const Eigen::Vector3f& at) { return world.clearance_m(at); };
+        const auto most_m = static_cast<float>(options.wanted_clearance_m);
+        const auto clearance_m = [&](const Eigen::Vector3f& at) {
+            return world.clearanceWithin_m(at, most_m);  // more room costs no less
+        };
         // What planners can follow without touching their margin; else what just fits.
         options.least_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);

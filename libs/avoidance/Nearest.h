@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hagen {
@@ -27,8 +28,11 @@ class Nearest {
  public:
     explicit Nearest(float most_m) : least_m2_(most_m * most_m) {}
 
-    bool addPoint(float distance_m2, std::uint32_t) {
-        least_m2_ = std::min(least_m2_, distance_m2);
+    /// Of the next tree, only so many of the first points count.
+    void consider(std::size_t points) { counting_ = points; }
+
+    bool addPoint(float distance_m2, std::uint32_t point) {
+        if (point < counting_) least_m2_ = std::min(least_m2_, distance_m2);
         return true;
     }
     float worstDist() const { return least_m2_; }
@@ -37,6 +41,7 @@ class Nearest {
 
  private:
     float least_m2_;
+    std::size_t counting_ = std::numeric_limits<std::size_t>::max();
 };
 
 }  // namespace hagen

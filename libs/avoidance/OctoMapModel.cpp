@@ -50,6 +50,10 @@ float OctoMapModel::clearance_m(const Eigen::Vector3f& point_m) const {
     return obstacles_.distance_m(point_m, kReach_m);
 }
 
+float OctoMapModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const {
+    return obstacles_.distance_m(point_m, std::min(most_m, kReach_m));
+}
+
 bool OctoMapModel::isKnown(const Eigen::Vector3f& point_m) const {
     octomap::OcTreeKey key;
     return map_.tree().coordToKeyChecked(pointOf(point_m), key) && map_.tree().search(key);

@@ -17,6 +17,7 @@ class OctoMapModel : public WorldModel {
 
     void update(const MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;
     Obstacles obstacles() const override;

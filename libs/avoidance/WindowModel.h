@@ -1,13 +1,12 @@
 #pragma once
 #include <hagen/avoidance/WorldModel.h>
-#include <array>
 #include <deque>
 #include <memory>
 
 namespace hagen {
 
-/// No map: the points of the last scans, each scan in a tree of its own, so that a new one costs
-/// one small tree and forgets the oldest.
+/// No map: the points of the last scans, two scans in a tree, so that a new one costs one small
+/// tree, questions go through few, and the oldest scan is forgotten as it is.
 class WindowModel : public WorldModel {
  public:
     static constexpr std::size_t kScans = 10;
@@ -18,14 +17,18 @@ class WindowModel : public WorldModel {
 
     void update(const MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;
     Obstacles obstacles() const override;
 
  private:
-    struct PastScan;
+    struct PastScans;
+    void forgetOldest();
+
     bool roi_only_;
-    std::deque<std::unique_ptr<PastScan>> scans_;  ///< newest first
+    std::size_t scans_ = 0;
+    std::deque<std::unique_ptr<PastScans>> past_;  ///< newest first
 };
 
 }  // namespace hagen

@@ -1,6 +1,7 @@
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/Trial.h>
 
+#include <array>
 #include <ctime>
 #include <fstream>
 #include <memory>
@@ -10,7 +11,7 @@
 namespace hagen {
 namespace {
 
-const char kCourse[] = "forest-0.05";
+const std::array<const char*, 3> kCourses{"forest-0.05", "forest-0.10", "u-trap"};
 
 std::string processorName() {
     std::ifstream in("/proc/cpuinfo");
@@ -86,7 +87,9 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
         if (options.doing) options.doing(model);
         setup.model = model;
         for (int seed = 0; seed < options.courses; ++seed) {
-            const Course course = makeCourse(kCourse, static_cast<std::uint64_t>(seed));
+            const Course course =
+                makeCourse(kCourses[static_cast<std::size_t>(seed) % kCourses.size()],
+                           static_cast<std::uint64_t>(seed));
             for (std::size_t i = 0; i < guidanceNames().size(); ++i) {
                 setup.guidance = guidanceNames()[i];
                 setup.planner = plannerNames()[i % planners];
@@ -106,7 +109,7 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
 
 std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m) {
     constexpr double kEvery_m = 10;
-    const Course course = makeCourse(kCourse, 0);
+    const Course course = makeCourse(kCourses[0], 0);
     RecordedScans recorded = recordFlight(course);
     WorldModelSetting setting;
     setting.bounds_m = course.bounds_m.cast<float>();

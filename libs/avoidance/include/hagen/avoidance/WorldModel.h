@@ -2,6 +2,7 @@
 #include <hagen/mapping/MappedScan.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -25,6 +26,11 @@ class WorldModel {
     /// From a point to the nearest obstacle known, at most kReach_m; 0 within one. What is unknown
     /// counts as free.
     virtual float clearance_m(const Eigen::Vector3f& point_m) const = 0;
+
+    /// The same, at most `most_m`: a model may answer sooner where no more matters.
+    virtual float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const {
+        return std::min(clearance_m(point_m), most_m);
+    }
 
     /// Whether a point was seen, free or not.
     virtual bool isKnown(const Eigen::Vector3f& point_m) const = 0;

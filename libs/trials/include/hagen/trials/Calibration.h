@@ -7,12 +7,12 @@
 namespace hagen {
 
 struct CalibrationOptions {
-    std::vector<std::string> models;                     ///< those to measure
-    int courses = 3;                                     ///< of forest-0.05, from seed 0 on
+    std::vector<std::string> models;  ///< those to measure
+    int courses = 3;                  ///< of forest-0.05, forest-0.10, u-trap, in turn
     std::function<void(const std::string& what)> doing;  ///< told before each model
 };
 
-/// Measures every stage's CPU time on this machine, in flights through forest-0.05 with both
+/// Measures every stage's CPU time on this machine, in flights of those courses with both
 /// guidances and both planners. The flights themselves are under latencies of kNominal_ms a stage.
 /// To be run where nothing else runs. Throws std::invalid_argument for unknown names.
 LatencyProfile calibrate(const CalibrationOptions& options);
