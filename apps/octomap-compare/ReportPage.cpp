@@ -231,13 +231,13 @@ Json clearancesOf(const Report& report) {
     return curves;
 }
 
-Json stagesOf(const Report& report) {
+Json stagesJson(const Report& report) {
     Json all = Json::array();
     if (!report.profile) return all;
     for (const Contender& contender : report.summary.contenders) {
         Json stages = Json::array();
         for (const std::string& stage :
-             stagesOf(contender, report.summary.conditions.front().planner, *report.profile)) {
+             stageNamesOf(contender, report.summary.conditions.front().planner, *report.profile)) {
             const std::vector<double>& q = report.profile->quantiles_ms.at(stage);
             stages.push_back({{"stage", stage.substr(stage.find('/') + 1)},
                               {"p50_ms", quantile(q, 0.5)},
@@ -255,7 +255,7 @@ Json dataOf(const Report& report) {
     if (report.summary.conditions.empty()) return data;
     data["reference"] = nameOf(report.summary.conditions.front());
     data["clearances"] = clearancesOf(report);
-    data["stages"] = stagesOf(report);
+    data["stages"] = stagesJson(report);
     data["memory"] = Json::array();
     for (const MemoryCurve& curve : report.memory) {
         Json points = Json::array();

@@ -285,13 +285,13 @@ Table effortTable(const Summary& summary, const Condition& condition) {
     return table;
 }
 
-std::vector<std::string> stagesOf(const Contender& contender, const std::string& planner,
-                                  const LatencyProfile& profile) {
-    std::vector<std::string> stages;
-    if (contender.model != "oracle" && needsLabels(contender.model)) stages.push_back("filter");
-    for (const std::string& part : {std::string("update"), contender.guidance, planner}) {
-        stages.push_back(contender.model + "/" + part);
-    }
+std::vector<std::string> stageNamesOf(const Contender& contender, const std::string& planner,
+                                      const LatencyProfile& profile) {
+    TrialSetup setup;
+    setup.model = contender.model;
+    setup.guidance = contender.guidance;
+    setup.planner = planner;
+    std::vector<std::string> stages = stagesOf(setup);
     stages.erase(std::remove_if(stages.begin(), stages.end(),
                                 [&](const std::string& stage) {
                                     const auto found = profile.quantiles_ms.find(stage);
@@ -308,7 +308,7 @@ Table stageTable(const Summary& summary, const LatencyProfile& profile) {
     std::set<std::string> shown;
     for (const Contender& contender : summary.contenders) {
         for (const std::string& stage :
-             stagesOf(contender, summary.conditions.front().planner, profile)) {
+             stageNamesOf(contender, summary.conditions.front().planner, profile)) {
             if (!shown.insert(stage).second) continue;
             const std::vector<double>& q = profile.quantiles_ms.at(stage);
             table.rows.push_back({stage, fixed(quantile(q, 0.5), 2), fixed(quantile(q, 0.95), 2),

@@ -34,7 +34,7 @@ Table memoryTable(const std::vector<MemoryCurve>& memory);
 
 /// Stages that a contender's scans go through, in order, by the profile's names; those alone that
 /// the profile has.
-std::vector<std::string> stagesOf(const Contender& contender, const std::string& planner,
-                                  const LatencyProfile& profile);
+std::vector<std::string> stageNamesOf(const Contender& contender, const std::string& planner,
+                                      const LatencyProfile& profile);
 
 }  // namespace hagen

@@ -65,14 +65,17 @@ void moveAlongX(MappedScan& scan, float by_m) {
 
 LatencyProfile constantProfile(double latency_ms) {
     LatencyProfile profile;
-    profile.quantiles_ms["filter"] = {latency_ms};
+    TrialSetup setup;
     for (const std::string& model : worldModelNames()) {
-        profile.quantiles_ms[model + "/update"] = {latency_ms};
-        for (const std::string& name : guidanceNames()) {
-            profile.quantiles_ms[model + "/" + name] = {latency_ms};
-        }
-        for (const std::string& name : plannerNames()) {
-            profile.quantiles_ms[model + "/" + name] = {latency_ms};
+        setup.model = model;
+        for (const std::string& guidance : guidanceNames()) {
+            setup.guidance = guidance;
+            for (const std::string& planner : plannerNames()) {
+                setup.planner = planner;
+                for (const std::string& stage : stagesOf(setup)) {
+                    profile.quantiles_ms[stage] = {latency_ms};
+                }
+            }
         }
     }
     return profile;
@@ -82,7 +85,6 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
     const LatencyProfile nominal = constantProfile(kNominal_ms);
     TrialMeasurement measurement;
     TrialSetup setup;
-    const std::size_t planners = plannerNames().size();
     for (const std::string& model : options.models) {
         if (options.doing) options.doing(model);
         setup.model = model;
@@ -90,10 +92,12 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
             const Course course =
                 makeCourse(kCourses[static_cast<std::size_t>(seed) % kCourses.size()],
                            static_cast<std::uint64_t>(seed));
-            for (std::size_t i = 0; i < guidanceNames().size(); ++i) {
-                setup.guidance = guidanceNames()[i];
-                setup.planner = plannerNames()[i % planners];
-                runTrial(course, setup, nominal, &measurement);
+            for (const std::string& guidance : guidanceNames()) {
+                setup.guidance = guidance;
+                for (const std::string& planner : plannerNames()) {
+                    setup.planner = planner;
+                    runTrial(course, setup, nominal, &measurement);
+                }
             }
         }
     }

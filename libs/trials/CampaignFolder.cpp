@@ -135,8 +135,9 @@ std::string measuredHeader() {
 std::string measuredRowOf(const Run& run, const TrialMeasurement& measurement) {
     const std::string prefix = run.setup.model + "/";
     std::string row = keyOf(run);
-    for (const std::string& stage : {std::string("filter"), prefix + "update",
-                                     prefix + run.setup.guidance, prefix + run.setup.planner}) {
+    for (const std::string& stage :
+         {std::string("filter"), prefix + "update", prefix + run.setup.guidance,
+          prefix + run.setup.guidance + "+" + run.setup.planner}) {
         const auto found = measurement.stage_ms.find(stage);
         for (const double share : {0.5, 0.95}) {
             row += ",";

@@ -86,10 +86,7 @@ std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shar
 void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights>& flights) {
     if (flights.empty()) return;
     for (const TrialSetup& setup : flights.front().setups) {
-        if (needsLabels(setup.model)) profile.median_ms("filter");
-        for (const std::string& stage : {std::string("update"), setup.guidance, setup.planner}) {
-            profile.median_ms(setup.model + "/" + stage);
-        }
+        for (const std::string& stage : stagesOf(setup)) profile.median_ms(stage);
     }
 }
 

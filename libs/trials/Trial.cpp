@@ -25,10 +25,10 @@ class Latencies {
  public:
     Latencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile)
         : profile_(profile), scale_(setup.latency_scale) {
-        if (needsLabels(setup.model)) stages_.push_back({"filter", Random(course.seed, stream(0))});
-        const std::string names[] = {"update", setup.guidance, setup.planner};
-        for (std::uint64_t i = 0; i < 3; ++i) {
-            stages_.push_back({setup.model + "/" + names[i], Random(course.seed, stream(i + 1))});
+        // Streams are counted from the last, so that models with and without the filter share them.
+        const std::vector<std::string> names = stagesOf(setup);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            stages_.push_back({names[i], Random(course.seed, stream(names.size() - i))});
         }
     }
     double draw_s() {
@@ -127,6 +127,7 @@ class TrialFlight {
         scan_s_ = scan.time_s;
         scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
         const std::string prefix = setup_.model + "/";
+        const std::string planner = prefix + setup_.guidance + "+" + setup_.planner;
         stopwatch_.weigh(prefix + "update", trace_.way_m(time_s), [&] { world_->update(scan); });
 
         const VehicleState now = commands_.advanced(state_, time_s, start_s, setup_.limits);
@@ -138,9 +139,8 @@ class TrialFlight {
         const Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
             return guidance_->carrot(*world_, guidanceTask(then, ground_m));
         });
-        const Plan plan = stopwatch_.time(prefix + setup_.planner, [&] {
-            return planner_->plan(*world_, planningTask(then, carrot, ground_m));
-        });
+        const Plan plan = stopwatch_.time(
+            planner, [&] { return planner_->plan(*world_, planningTask(then, carrot, ground_m)); });
         commands_.add(free_s_ + setup_.limits.actuation_delay_s, plan.command_m_s);
         takeDown(plan, now, start_s);
         if (listener_.step) {
@@ -261,6 +261,17 @@ class TrialFlight {
 };
 
 }  // namespace
+
+std::vector<std::string> stagesOf(const TrialSetup& setup) {
+    std::vector<std::string> stages;
+    if (needsLabels(setup.model)) stages.push_back("filter");
+    const std::string prefix = setup.model + "/";
+    for (const std::string& part :
+         {std::string("update"), setup.guidance, setup.guidance + "+" + setup.planner}) {
+        stages.push_back(prefix + part);
+    }
+    return stages;
+}
 
 TrialResult runTrial(const Course& course, const TrialSetup& setup, const LatencyProfile& profile,
                      TrialMeasurement* measurement, const TrialListener& listener) {

@@ -26,7 +26,8 @@ Outcome octomapCompare(const std::vector<std::string>& arguments) {
 fs::path someProfile(const TemporaryFolder& folder) {
     std::string text = R"({"quantiles_ms": {"filter": [0.5, 1])";
     for (const char* model : {"W-RoI", "W-Full", "oracle"}) {
-        for (const char* stage : {"update", "astar", "straight", "primitives", "3dvfh"}) {
+        for (const char* stage : {"update", "astar", "straight", "astar+primitives",
+                                  "straight+primitives", "astar+3dvfh", "straight+3dvfh"}) {
             text += std::string(", \"") + model + "/" + stage + "\": [1, 3, 9]";
         }
     }

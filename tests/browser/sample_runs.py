@@ -61,7 +61,8 @@ def profile():
         stages[f"{model}/update"] = update_ms
         stages[f"{model}/astar"] = 1.7
         stages[f"{model}/straight"] = 0.01
-        stages[f"{model}/primitives"] = 1.6
+        stages[f"{model}/astar+primitives"] = 1.6
+        stages[f"{model}/straight+primitives"] = 1.8
     quantiles = {name: [round(ms * (0.7 + 0.04 * i + (0.5 if i == 20 else 0)), 4)
                         for i in range(21)] for name, ms in stages.items()}
     return {"machine": "a machine that is not there", "made_by": "sample_runs.py",

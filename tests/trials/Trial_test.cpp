@@ -153,7 +153,7 @@ TEST(Trial, MeasuringAndListeningChangeNothing) {
     EXPECT_NEAR(steps, watched.scans, 1);
     EXPECT_GT(candidates, 0u);
     EXPECT_EQ(last, "success");
-    for (const char* stage : {"filter", "W-RoI/update", "W-RoI/astar", "W-RoI/primitives"}) {
+    for (const char* stage : {"filter", "W-RoI/update", "W-RoI/astar", "W-RoI/astar+primitives"}) {
         EXPECT_EQ(measurement.stage_ms[stage].size(), static_cast<std::size_t>(steps)) << stage;
     }
     EXPECT_GT(measurement.peak_model_bytes, 1000);

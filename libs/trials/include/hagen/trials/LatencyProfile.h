@@ -11,8 +11,9 @@ namespace hagen {
 /// so that they do not depend on how fast, or how busy, the machine is that they run on.
 struct LatencyProfile {
     std::string machine, made_by, date;  ///< processor; program and version; ISO date
-    /// Stage names: "filter", "MODEL/update", "MODEL/astar", "MODEL/straight", "MODEL/primitives",
-    /// "MODEL/3dvfh". Of each, quantiles at 0, 1/(n-1), ..., 1 [ms].
+    /// Stage names: "filter", "MODEL/update", "MODEL/GUIDANCE", "MODEL/GUIDANCE+PLANNER" (how
+    /// long a planner takes depends on where it is sent). Of each, quantiles at 0, 1/(n-1), ..., 1
+    /// [ms].
     std::map<std::string, std::vector<double>> quantiles_ms;
 
     /// Draws a latency [ms]. Throws std::runtime_error, naming the stage, for one it does not have.

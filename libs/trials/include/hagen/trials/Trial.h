@@ -25,6 +25,10 @@ struct TrialSetup {
     VehicleLimits limits;
 };
 
+/// The stages of a setup's planning by their names in a profile: the filter where labels are
+/// needed, update, guidance, planner.
+std::vector<std::string> stagesOf(const TrialSetup& setup);
+
 /// What came of a run. Does not depend on the machine.
 struct TrialResult {
     Outcome outcome;
