@@ -52,6 +52,24 @@ TEST(Guidance, TheCarrotIsTheGoalWhereThatIsNear) {
     EXPECT_NEAR(near.beyond_m, 0, 1e-9);
 }
 
+/// Planners fly straight at it: it must not hide behind a bend of the path.
+TEST(Guidance, TheCarrotIsInSight) {
+    SolidWorld world;  // an S between two walls, 2.2 m wide
+    world.box({2, -20, -10}, {2.4f, 0.7f, 20}).box({4.6f, -0.7f, -10}, {5, 20, 20});
+    GuidanceTask task = eastwards();
+    for (const double y_m : {-0.5, 0.0, 0.8}) {
+        task.position_m = {0.8, y_m, 2};
+        const Carrot behind = carrot("astar", world, task);
+        ASSERT_GT(behind.path_m.size(), 2u);
+        const Eigen::Vector3d way_m = behind.at_m - task.position_m;
+        EXPECT_GT(way_m.norm(), 0.9);
+        for (double share = 0; share <= 1; share += 0.02) {
+            const Eigen::Vector3d at_m = task.position_m + share * way_m;
+            EXPECT_GE(world.clearance_m(at_m.cast<float>()), 0.6) << y_m << " " << share;
+        }
+    }
+}
+
 TEST(Guidance, ThePathLeadsAroundAWall) {
     SolidWorld world;
     world.box({6, -15, -10}, {7, 5, 20});

@@ -216,6 +216,42 @@ TEST(WorldModel, AWindowForgetsAfterTenScans) {
     }
 }
 
+TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
+    for (const std::string& name : modelsThatLearn()) {
+        Random random(8);
+        const auto model = makeWorldModel(name, setting());
+        for (int scan = 0; scan < 3; ++scan) model->update(scanOf(sparsePoints(random, 40)));
+        for (int i = 0; i < 200; ++i) {
+            const Eigen::Vector3f at = sparsePoints(random, 1)[0];
+            for (const float most_m : {0.3f, 1.2f, 9.0f}) {
+                EXPECT_FLOAT_EQ(model->clearanceWithin_m(at, most_m),
+                                std::min(model->clearance_m(at), most_m))
+                    << name;
+            }
+        }
+    }
+}
+
+/// Two scans share a tree; the oldest is forgotten by itself, whichever it shares with.
+TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
+    Random random(9);
+    const auto model = makeWorldModel("W-Full", setting());
+    std::vector<std::vector<Eigen::Vector3f>> past;
+    for (int number = 0; number < 25; ++number) {
+        past.push_back(sparsePoints(random, 5));
+        model->update(scanOf(past.back()));
+        std::vector<Eigen::Vector3f> kept;
+        for (std::size_t i = past.size() > 10 ? past.size() - 10 : 0; i < past.size(); ++i) {
+            kept.insert(kept.end(), past[i].begin(), past[i].end());
+        }
+        EXPECT_EQ(model->obstacles().middle_m.size(), kept.size());
+        for (int i = 0; i < 50; ++i) {
+            const Eigen::Vector3f at = sparsePoints(random, 1)[0];
+            EXPECT_NEAR(model->clearance_m(at), nearestOf(kept, at), 1e-5f) << number;
+        }
+    }
+}
+
 TEST(WorldModel, AWindowReachesFifteenMetres) {
     const auto model = makeWorldModel("W-Full", setting());
     model->update(scanOf({{14.9f, 0, 1}, {0, 15.2f, 1}}));
@@ -252,6 +288,8 @@ std::size_t heap() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 TEST(WorldModel, BytesAreThoseOfTheHeap) {
     for (const std::string& name : modelsThatLearn()) {
         Random random(5);
+        const auto first = makeWorldModel(name, setting());
+        first->update(scanOf(sparsePoints(random, 3000)));  // what is kept for all models is there
         const std::size_t before = heap();
         const auto model = makeWorldModel(name, setting());
         for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));

@@ -103,13 +103,27 @@ TEST(Trial, WhoDoesNotBrakeInTimeCollides) {
     putWall(content, -40, 40);
     const Course course = simpleCourse(std::move(content));
     TrialSetup setup;
-    setup.latency_scale = 100;  // each plan takes three seconds
     setup.guidance = "straight";
     setup.model = "oracle";
     setup.speed_m_s = 8;
-    const TrialResult result = runTrial(course, setup, constantProfile(10));
+    LatencyProfile profile =
+        constantProfile(1);  // half of the plans take seconds, against the median
+    profile.quantiles_ms["oracle/update"] = {1, 1, 20000};
+    const TrialResult result = runTrial(course, setup, profile);
     EXPECT_EQ(result.outcome, Outcome::Collision);
     EXPECT_LT(result.min_clearance_m, 0.3);
+}
+
+TEST(Trial, WhoKnowsToBeSlowStopsInTime) {
+    SceneContent content = emptyContent();
+    putWall(content, -40, 40);
+    TrialSetup setup;
+    setup.latency_scale = 100;  // each plan takes three seconds, and the planner knows
+    setup.guidance = "straight";
+    setup.model = "oracle";
+    setup.speed_m_s = 8;
+    const Course course = simpleCourse(std::move(content));
+    EXPECT_NE(runTrial(course, setup, constantProfile(10)).outcome, Outcome::Collision);
 }
 
 TEST(Trial, TheSameSeedFliesTheSame) {
