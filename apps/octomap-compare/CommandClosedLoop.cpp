@@ -123,13 +123,16 @@ void printCells(const std::vector<Run>& runs) {
         name << std::left << std::setw(12) << run.scenario << " " << std::setw(4) << setup.speed_m_s
              << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner
              << " " << std::setw(6) << nameOf(setup.pose_error) << " x" << std::setw(3)
-             << setup.latency_scale << " " << std::setw(15) << setup.model;
+             << setup.latency_scale << " " << std::setw(12)
+             << (setup.brakes_in_known_space ? "brake-known" : "optimistic") << std::setw(15)
+             << setup.model;
         Cell& cell = cells[name.str()];
         ++cell.runs;
         ++cell.outcomes[static_cast<int>(run.result.outcome)];
     }
-    std::cout << "scenario     m/s  guidance  planner     pose   lat  model            runs  "
-                 "success  collision  timeout\n";
+    std::cout
+        << "scenario     m/s  guidance  planner     pose   lat  unknown     model            runs  "
+           "success  collision  timeout\n";
     for (const auto& [name, cell] : cells) {
         std::cout << name << std::right << std::setw(6) << cell.runs << std::setw(9)
                   << cell.outcomes[0] << std::setw(11) << cell.outcomes[1] << std::setw(9)

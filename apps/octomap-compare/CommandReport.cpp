@@ -81,6 +81,18 @@ int run(const Flags& flags) {
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder; give one with a runs.csv");
     }
+    const fs::path journal = folder / "journal";
+    const bool is_unfinished = fs::is_directory(journal) && !fs::is_empty(journal);
+    if (is_unfinished && !fs::exists(folder / "runs.csv")) {
+        throw std::runtime_error(folder.string() +
+                                 ": was stopped before it had a runs.csv; give the same closedloop "
+                                 "command again, and it goes on where it was");
+    }
+    if (is_unfinished) {
+        std::cerr << folder.string()
+                  << ": a closedloop command was stopped here; what it finished is in journal and "
+                     "not in this report until the same command is given again\n";
+    }
     Report report;
     report.runs = readRuns(folder / "runs.csv");
     if (report.runs.empty()) {

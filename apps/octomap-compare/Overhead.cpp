@@ -95,7 +95,8 @@ OverheadView viewFromAbove(const Run& run, const LatencyProfile& profile) {
 std::vector<Run> worstRuns(const std::vector<Run>& runs, std::size_t count) {
     std::vector<Run> ranked = runs;
     const auto badness = [](const Run& run) {
-        return std::make_tuple(run.result.outcome != Outcome::Collision,
+        const Outcome outcome = run.result.outcome;
+        return std::make_tuple(outcome != Outcome::Collision, outcome == Outcome::Success,
                                run.result.min_clearance_m);
     };
     std::stable_sort(ranked.begin(), ranked.end(),

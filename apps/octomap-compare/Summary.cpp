@@ -1,5 +1,7 @@
 #include "Summary.h"
 
+#include <hagen/trials/TrialScore.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -58,8 +60,9 @@ Cell cellOf(const std::string& scenario, const Runs& runs) {
     cell.collisions = static_cast<int>(ofOutcome(runs, Outcome::Collision).size());
     cell.timeouts = cell.runs - cell.successes - cell.collisions;
     cell.min_clearance_m = spreadOf(runs, &TrialResult::min_clearance_m);
-    cell.path_ratio =
-        spreadOf(won, [](const Run& run) { return run.result.path_m / run.oracle_path_m; });
+    cell.path_ratio = spreadOf(won, [](const Run& run) {  // a flight ends that far from the goal
+        return run.result.path_m / (run.oracle_path_m - TrialJudge::kArrived_m);
+    });
     cell.time_s = spreadOf(won, &TrialResult::time_s);
     cell.first_reaction_m = spreadOf(won, &TrialResult::first_reaction_m);
     cell.rms_jerk_m_s3 = spreadOf(won, &TrialResult::rms_jerk_m_s3);

@@ -8,6 +8,21 @@ namespace {
 
 mrpt::math::TPoint3D pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
+/// MRPT takes the end of every ray for occupied, whatever it is told: of one that met nothing the
+/// end stays what it was.
+void insertRay(mrpt::maps::COccupancyGridMap3D& map, const mrpt::math::TPoint3D& from,
+               const mrpt::math::TPoint3D& to, bool is_hit) {
+    auto& grid = map.m_grid;
+    auto* end = grid.cellByIndex(grid.x2idx(to.x), grid.y2idx(to.y), grid.z2idx(to.z));
+    if (is_hit || end == nullptr) {
+        map.insertRay(from, to, is_hit);
+        return;
+    }
+    const auto was = *end;
+    map.insertRay(from, to, is_hit);
+    *end = was;
+}
+
 }  // namespace
 
 GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m)
@@ -32,7 +47,7 @@ void GridModel::update(const MappedScan& scan) {
         const bool is_hit = range_m <= kMaxRange_m;
         const Eigen::Vector3f end_m =
             is_hit ? point_m : scan.origin_m + ray * (kMaxRange_m / range_m);
-        map_->insertRay(origin, pointOf(end_m), is_hit);
+        insertRay(*map_, origin, pointOf(end_m), is_hit);
     }
     obstacles_.rebuild(occupied_m());
 }

@@ -61,8 +61,7 @@ bool OctoMapModel::isKnown(const Eigen::Vector3f& point_m) const {
 
 std::size_t OctoMapModel::bytes() const {
     constexpr std::size_t kBytesOfSetNode = 32 + sizeof(Key);
-    return sizeof(*this) + map_.tree().memoryUsage() + obstacles_.bytes() +
-           occupied_.size() * kBytesOfSetNode;
+    return sizeof(*this) + map_.bytes() + obstacles_.bytes() + occupied_.size() * kBytesOfSetNode;
 }
 
 WorldModel::Obstacles OctoMapModel::obstacles() const {

@@ -8,7 +8,7 @@ namespace hagen {
 
 /// How far beyond the bounds of a flight maps look for obstacles: what stands there is in the way
 /// of one that goes along the edge.
-constexpr float kMapMargin_m = 1.0f;
+constexpr float kMapMargin_m = 3.0f;
 
 /// The distance to the nearest of many cubes, the occupied voxels of a map: an occupied voxel
 /// claims that something is in it, which may be at the side that faces the one who asks. Exact,

@@ -37,6 +37,8 @@ class KeyBox {
         return (words_[i / 64] >> (i % 64)) & 1;
     }
 
+    std::size_t bytes() const { return words_.capacity() * sizeof(std::uint64_t); }
+
  private:
     std::size_t indexOf(const octomap::OcTreeKey& key) const {
         return (static_cast<std::size_t>(key[2] - least_[2]) * size_[1] +

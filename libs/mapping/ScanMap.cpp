@@ -17,8 +17,16 @@ struct ScanVoxels {
     std::vector<octomap::OcTreeKey> free, occupied;
 };
 
+void check(const char* what, double value) {
+    if (value > 0 && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("the ") + what + " of an OctoMap is " +
+                                std::to_string(value) + " m; it must be more than 0");
+}
+
+}  // namespace
+
 /// Walks along rays, and notes each voxel once.
-class RayWalk {
+class ScanMap::RayWalk {
  public:
     void start(const octomap::OcTree& tree, const Eigen::Vector3f& origin_m, double max_range_m) {
         tree_ = &tree;
@@ -28,8 +36,16 @@ class RayWalk {
         voxels_.occupied.clear();
         const auto reach = static_cast<float>(max_range_m + 2 * tree.getResolution());
         const Eigen::Vector3f corner = Eigen::Vector3f::Constant(reach);
-        const KeyBox::Corners box{tree.coordToKey(pointOf(origin_m - corner)),
-                                  tree.coordToKey(pointOf(origin_m + corner))};
+        KeyBox::Corners box;
+        if (!tree.coordToKeyChecked(pointOf(origin_m - corner), box.least) ||
+            !tree.coordToKeyChecked(pointOf(origin_m + corner), box.most)) {
+            throw std::runtime_error("a scan at " + std::to_string(std::lround(origin_m.x())) +
+                                     ", " + std::to_string(std::lround(origin_m.y())) + ", " +
+                                     std::to_string(std::lround(origin_m.z())) +
+                                     " m lies beyond the reach of an OctoMap of " +
+                                     std::to_string(tree.getResolution()) +
+                                     " m; give poses that are nearer to their origin");
+        }
         passed_.reset(box);
         hit_.reset(box);
         ends_.reset(box);
@@ -57,6 +73,11 @@ class RayWalk {
     }
 
     const ScanVoxels& voxels() const { return voxels_; }
+    std::size_t bytes() const {
+        return sizeof(*this) + passed_.bytes() + hit_.bytes() + ends_.bytes() +
+               (ray_.sizeMax() + voxels_.free.capacity() + voxels_.occupied.capacity()) *
+                   sizeof(octomap::OcTreeKey);
+    }
 
  private:
     const octomap::OcTree* tree_ = nullptr;
@@ -67,26 +88,24 @@ class RayWalk {
     ScanVoxels voxels_;
 };
 
-void check(const char* what, double value) {
-    if (value > 0 && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("the ") + what + " of an OctoMap is " +
-                                std::to_string(value) + " m; it must be more than 0");
-}
-
-}  // namespace
-
 ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
     check("resolution", options.resolution_m);
     check("greatest range", options.max_range_m);
     tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);
+    walk_ = std::make_unique<RayWalk>();
 }
+ScanMap::~ScanMap() = default;
+ScanMap::ScanMap(ScanMap&&) noexcept = default;
+ScanMap& ScanMap::operator=(ScanMap&&) noexcept = default;
+
+std::size_t ScanMap::bytes() const { return tree_->memoryUsage() + walk_->bytes(); }
 
 void ScanMap::insert(const MappedScan& scan) {
     const MapContent content = options_.content;
     const auto is_hit = [&](std::size_t i) {
         return content == MapContent::Full || scan.labels[i] == Label::Roi;
     };
-    thread_local RayWalk walk;
+    RayWalk& walk = *walk_;
     walk.start(*tree_, scan.origin_m, options_.max_range_m);
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         if (is_hit(i)) walk.hit(scan.points_m[i]);

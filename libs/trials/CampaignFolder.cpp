@@ -58,10 +58,14 @@ ordered_json vehicleJson() {
             {"response_per_s", limits.response_per_s}};
 }
 
+/// To be counted up with every change of courses, world models, guidance, planners or the flight
+/// itself that makes a run come out otherwise: runs of both must not stand in one table.
+constexpr int kRevision = 2;
+
 /// Hash of all that makes a run what it is, but for what its own row tells.
 std::string hashOfSettings(const LatencyProfile& profile) {
-    return hashOf(std::string(HAGEN_VERSION) + "\n" + vehicleJson().dump() + "\n" +
-                  dumpSettings(Settings{}) + "\n" + textOf(profile));
+    return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +
+                  vehicleJson().dump() + "\n" + dumpSettings(Settings{}) + "\n" + textOf(profile));
 }
 
 ordered_json jsonOf(const CampaignPlan& plan) {
@@ -172,15 +176,14 @@ void CampaignFolder::lock() {
 }
 
 void CampaignFolder::open(bool overwrite) {
-    const bool is_new =
-        !fs::exists(folder_) || (fs::is_directory(folder_) && fs::is_empty(folder_));
+    fs::create_directories(folder_);
+    lock();  // before looking: another program may be making it a campaign's
+    const bool is_new = fs::is_empty(folder_);
     const fs::path description = folder_ / "campaign.json";
     if (!is_new && !fs::exists(description)) {
         throw std::runtime_error(folder_.string() +
                                  ": exists, and holds no campaign; name another folder");
     }
-    fs::create_directories(folder_);
-    lock();
     if (overwrite) {
         for (const char* name : {"campaign.json", "profile.json", "runs.csv", "measured.csv"}) {
             fs::remove(folder_ / name);

@@ -70,8 +70,8 @@ TEST(Summary, CountsCellsAndSpreads) {
     EXPECT_EQ(cell->collisions, 1);
     EXPECT_EQ(cell->timeouts, 0);
     EXPECT_NEAR(cell->min_clearance_m.median, 0.45, 1e-12);  // 0, 0.1, ..., 0.9
-    EXPECT_NEAR(cell->path_ratio.median, 1.1, 1e-12);
-    EXPECT_EQ(cell->path_ratio.count, 9);  // of successful ones alone
+    EXPECT_NEAR(cell->path_ratio.median, 44 / 38.5, 1e-12);  // 1.5 m before the goal it ends
+    EXPECT_EQ(cell->path_ratio.count, 9);                    // of successful ones alone
     EXPECT_EQ(cell->first_reaction_m.count, 0);
     EXPECT_NEAR(cell->dropped_percent, 5, 1e-12);
     EXPECT_NEAR(cell->stops_per_km, 2 / 0.044, 1e-9);
@@ -137,7 +137,7 @@ TEST(Summary, OfNothingIsEmpty) {
     EXPECT_NE(reportPage(Report{}).find("Nothing was flown"), std::string::npos);
 }
 
-TEST(WorstRuns, AreCollisionsFirstThenByClearanceOneOfAKind) {
+TEST(WorstRuns, AreCollisionsThenTimeoutsThenByClearanceOneOfAKind) {
     std::vector<Row> runs = threeContenders();
     runs.push_back(runOf("gap", 0, "oracle", "astar", kHit));
     runs.push_back(runOf("street", 1, "W-RoI", "astar", kHit));

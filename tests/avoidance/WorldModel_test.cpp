@@ -216,6 +216,19 @@ TEST(WorldModel, AWindowForgetsAfterTenScans) {
     }
 }
 
+/// A ray that ends beyond a map's range met nothing there.
+TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
+    const Eigen::AlignedBox3f wide(Eigen::Vector3f(-30, -30, -3), Eigen::Vector3f(30, 30, 6));
+    std::vector<Eigen::Vector3f> far_off;
+    for (float y = -12; y <= 12; y += 0.2f) far_off.emplace_back(25.0f, y, 1.3f);
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = makeWorldModel(name, {wide, nullptr});
+        model->update(scanOf(far_off));
+        EXPECT_TRUE(model->obstacles().middle_m.empty()) << name;
+        EXPECT_EQ(model->clearance_m({20, 0.1f, 1.3f}), WorldModel::kReach_m) << name;
+    }
+}
+
 TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
     for (const std::string& name : modelsThatLearn()) {
         Random random(8);

@@ -180,4 +180,21 @@ TEST(ScanMap, RefusesAnEdgeOrARangeOfNothing) {
     }
 }
 
+TEST(ScanMap, AScanBeyondItsReachIsRefusedNotWrapped) {
+    for (const float far_m : {6600.0f, 500000.0f, -6600.0f}) {
+        ScanMap map({MapContent::Full, 0.2, 20});
+        MappedScan scan;
+        scan.origin_m = {far_m, 0, 0};
+        scan.points_m = {{far_m + 5, 0, 0}};
+        scan.labels = {Label::Roi};
+        try {
+            map.insert(scan);
+            ADD_FAILURE() << far_m;
+        } catch (const std::runtime_error& e) {
+            EXPECT_NE(std::string(e.what()).find("poses"), std::string::npos) << e.what();
+        }
+        EXPECT_EQ(map.tree().size(), 0u);
+    }
+}
+
 }  // namespace

@@ -34,6 +34,19 @@ void journal(CampaignFolder& folder, const std::vector<std::uint64_t>& seeds) {
     for (const std::uint64_t seed : seeds) journal.append(runOfSeed(seed, folder), measurement);
 }
 
+TEST(Journal, AFullDiskIsNamed) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const TemporaryFolder place;
+    CampaignFolder folder(place / "c", constantProfile(1), false);
+    Journal journal("/dev/full");
+    try {
+        journal.append(runOfSeed(1, folder), {});
+        ADD_FAILURE() << "took a row that went nowhere";
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("/dev/full"), std::string::npos) << e.what();
+    }
+}
+
 TEST(CampaignPlan, FliesEveryCombinationOnce) {
     CampaignPlan plan;
     plan.scenarios = {"gap", "street"};

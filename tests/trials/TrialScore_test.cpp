@@ -28,8 +28,8 @@ TEST(TrialJudge, WhoComesNoNearerIsLateAndWhoLeavesTheCourseIsLost) {
     EXPECT_EQ(judge.judge({4, 0, 2}, 2, 0.3, 16.9), std::nullopt);
     EXPECT_EQ(judge.judge({5.5, 0, 2}, 2, 0.3, 17.1), Outcome::Timeout);
     TrialJudge other(course, 4);
-    EXPECT_EQ(other.judge({5, 14.9, 2}, 2, 0.3, 2), std::nullopt);
-    EXPECT_EQ(other.judge({5, 15.1, 2}, 2, 0.3, 2), Outcome::Timeout);
+    EXPECT_EQ(other.judge({5, 12.9, 2}, 2, 0.3, 2), std::nullopt);
+    EXPECT_EQ(other.judge({5, 13.1, 2}, 2, 0.3, 2), Outcome::Timeout);
 }
 
 TEST(TrialJudge, NoFlightIsEndless) {

@@ -42,7 +42,8 @@ class Planner {
     virtual Plan plan(const WorldModel& world, const PlanningTask& task) const = 0;
 };
 
-/// "primitives": motions of 36 azimuths x 5 elevations x 4 speeds with a braking tail.
+/// "primitives": motions of 36 azimuths x 5 elevations x 4 speeds, up, down and standing,
+/// with a braking tail.
 /// "3dvfh": polar histogram of 6 degree cells (3DVFH+).
 /// Both stop where contact is near (mustStop). Throws std::invalid_argument for other names.
 const std::vector<std::string>& plannerNames();

@@ -29,7 +29,16 @@ class ScanMap {
     /// that ends in a voxel does not clear it. Leaves only: inner nodes are
     /// brought up to date when the map is saved.
     /// Where the tree has a bounding box (octomap's setBBXMin() and so on), nothing outside it.
+    ~ScanMap();
+    ScanMap(ScanMap&&) noexcept;
+    ScanMap& operator=(ScanMap&&) noexcept;
+
+    /// Throws std::runtime_error, saying where it lies, for a scan that is farther from the map's
+    /// origin than an OctoMap reaches: 32768 voxels.
     void insert(const MappedScan& scan);
+
+    /// Of the tree, by the sizes of its parts, and of the memory that is used again.
+    std::size_t bytes() const;
 
     const octomap::OcTree& tree() const { return *tree_; }
     octomap::OcTree& tree() { return *tree_; }
@@ -37,7 +46,9 @@ class ScanMap {
 
  private:
     ScanMapOptions options_;
+    class RayWalk;
     std::unique_ptr<octomap::OcTree> tree_;
+    std::unique_ptr<RayWalk> walk_;  ///< memory that is used again from scan to scan
 };
 
 }  // namespace hagen

@@ -16,8 +16,7 @@ using DirectionSet = std::bitset<kDirections>;
 /// A unit vector.
 Eigen::Vector3f directionOf(std::size_t number);
 double elevationOfDirection(std::size_t number);  ///< [rad]
-/// Whether a direction is level or leads up. The others lead to the ground sooner or later, which
-/// an altimeter tells, too.
+/// Whether a direction leads down: to the ground, sooner or later, which an altimeter tells, too.
 bool leadsDown(std::size_t number);
 
 /// How far, and with how much room, a vehicle goes in a direction.

@@ -25,7 +25,7 @@ struct LatencyProfile {
 };
 
 /// A stage's quantiles, `count` of them, of what was measured. Of nothing, none.
-std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 21);
+std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 201);
 
 /// The profile as a file holds it: JSON, latencies to the microsecond.
 std::string textOf(const LatencyProfile& profile);

@@ -16,7 +16,7 @@ namespace hagen {
 ///                it left the course's bounds by more than kOutside_m
 class TrialJudge {
  public:
-    static constexpr double kArrived_m = 1.5, kOutside_m = 3;
+    static constexpr double kArrived_m = 1.5, kOutside_m = 1;
 
     TrialJudge(const Course& course, double speed_m_s);
 
