@@ -30,9 +30,9 @@ class Guidance {
 };
 
 /// "straight": at the goal, level at the wanted altitude above the ground until it is near.
-/// "astar": 4 m ahead on A*'s path over the same model (0.5 m cells), corners cut where there is
-/// room; to the free cell nearest to a goal that is blocked or out of the bounds; straight where
-/// there is no path; nearer where a bend would hide it. Throws std::invalid_argument for other names.
+/// "astar": 4 m ahead on A*'s path over the same model (0.5 m cells), less where a bend would hide
+/// it, corners cut where there is room; to the free cell nearest to a goal that is blocked or out
+/// of the bounds; straight where there is no path. Throws std::invalid_argument for other names.
 const std::vector<std::string>& guidanceNames();
 std::unique_ptr<Guidance> makeGuidance(const std::string& name);
 

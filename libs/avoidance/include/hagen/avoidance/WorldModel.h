@@ -48,7 +48,7 @@ class WorldModel {
 
 /// What a world model is told before the flight.
 struct WorldModelSetting {
-    Eigen::AlignedBox3f bounds_m;  ///< where the flight can lead; maps are kept within it
+    Eigen::AlignedBox3f bounds_m;  ///< where the flight can lead; maps end 3 m beyond
     /// The true distance to the nearest obstacle at the time of the last scan, for the oracle.
     std::function<float(const Eigen::Vector3f&)> true_clearance_m;
 };
