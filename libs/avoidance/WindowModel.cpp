@@ -5,6 +5,7 @@
 
 #include "Nearest.h"
 #include "SeenDirections.h"
+#include "Thinning.h"
 
 namespace hagen {
 
@@ -56,6 +57,7 @@ void WindowModel::update(const MappedScan& scan) {
             past->points.at_m.push_back(scan.points_m[i]);
         }
     }
+    past->points.at_m = thinned(past->points.at_m, scan.origin_m, kThinning_m);
     view.points = past->points.at_m.size();
     past->views.push_back(std::move(view));
     if (!past_.empty() && past_.front()->views.size() < kScansPerTree) {

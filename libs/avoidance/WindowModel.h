@@ -6,11 +6,14 @@
 namespace hagen {
 
 /// No map: the points of the last scans, two scans in a tree, so that a new one costs one small
-/// tree, questions go through few, and the oldest scan is forgotten as it is.
+/// tree, questions go through few, and the oldest scan is forgotten as it is. Of each scan one
+/// point a cube of 5 cm is kept: a wall nearby has half of a scan's points, far closer than they
+/// are true.
 class WindowModel : public WorldModel {
  public:
     static constexpr std::size_t kScans = 10;
     static constexpr float kRadius_m = 15;  ///< points farther from their scan's origin are left
+    static constexpr float kThinning_m = 0.05f;
 
     explicit WindowModel(bool roi_only);
     ~WindowModel() override;
