@@ -14,27 +14,35 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | bits << 2) & 0x09249249;
 }
 
+std::uint32_t placeOnCurve(const Eigen::Array3f& at_cubes) {
+    constexpr float kMiddle = 512;
+    const auto cube = (at_cubes + kMiddle).cast<std::uint32_t>().eval();
+    return spread(cube.x()) << 2 | spread(cube.y()) << 1 | spread(cube.z());
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_m,
-                                     const Eigen::Vector3f& middle_m, float edge_m) {
-    constexpr float kHalf = 512;
+                                     const Eigen::Vector3f& origin_m, float edge_m) {
     std::vector<std::uint64_t> cubes_and_points;  // sorted as pairs would be, but sooner
     cubes_and_points.reserve(points_m.size());
     for (std::size_t i = 0; i < points_m.size(); ++i) {
-        const Eigen::Array<std::uint32_t, 3, 1> cube =
-            ((points_m[i] - middle_m).array() / edge_m + kHalf).cast<std::uint32_t>();
-        const std::uint64_t curve =
-            spread(cube.x()) << 2 | spread(cube.y()) << 1 | spread(cube.z());
-        cubes_and_points.push_back(curve << 32 | i);
+        const std::uint64_t cube = placeOnCurve((points_m[i] - origin_m).array() / edge_m);
+        cubes_and_points.push_back(cube << 32 | i);
     }
     std::sort(cubes_and_points.begin(), cubes_and_points.end());
-    const auto end = std::unique(cubes_and_points.begin(), cubes_and_points.end(),
-                                 [](auto a, auto b) { return a >> 32 == b >> 32; });
+
     std::vector<Eigen::Vector3f> kept_m;
     kept_m.reserve(points_m.size());
-    for (auto it = cubes_and_points.begin(); it != end; ++it) {
-        kept_m.push_back(points_m[*it & 0xffffffff]);
+    std::uint64_t last = ~std::uint64_t{0};
+    for (const std::uint64_t cube_and_point : cubes_and_points) {
+        const Eigen::Vector3f& point_m = points_m[cube_and_point & 0xffffffff];
+        if (cube_and_point >> 32 != last) {
+            kept_m.push_back(point_m);
+        } else if ((point_m - origin_m).squaredNorm() < (kept_m.back() - origin_m).squaredNorm()) {
+            kept_m.back() = point_m;
+        }
+        last = cube_and_point >> 32;
     }
     return kept_m;
 }

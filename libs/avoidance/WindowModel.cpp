@@ -14,7 +14,7 @@ namespace {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
                                                  TreePoints, 3>;
 constexpr std::size_t kLeafSize = 32;
-constexpr std::size_t kScansPerTree = 2;
+constexpr std::size_t kScansPerTree = 3;
 
 /// Where a scan was taken, what it saw, and how many points of it count.
 struct View {

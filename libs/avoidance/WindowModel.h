@@ -5,15 +5,15 @@
 
 namespace hagen {
 
-/// No map: the points of the last scans, two scans in a tree, so that a new one costs one small
-/// tree, questions go through few, and the oldest scan is forgotten as it is. Of each scan one
-/// point a cube of 5 cm is kept: a wall nearby has half of a scan's points, far closer than they
-/// are true.
+/// No map: the points of the last scans, thinned to one a cube of 10 cm each, three scans in a
+/// tree, so that a new one costs a small tree, questions go through few, and the oldest scan is
+/// forgotten as it is. Unthinned, a wall nearby would be most of a scan, far closer than it is
+/// measured.
 class WindowModel : public WorldModel {
  public:
     static constexpr std::size_t kScans = 10;
     static constexpr float kRadius_m = 15;  ///< points farther from their scan's origin are left
-    static constexpr float kThinning_m = 0.05f;
+    static constexpr float kThinning_m = 0.1f;
 
     explicit WindowModel(bool roi_only);
     ~WindowModel() override;

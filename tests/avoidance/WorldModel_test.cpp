@@ -14,7 +14,9 @@
 #pragma GCC diagnostic pop
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace {
@@ -245,7 +247,47 @@ TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
     }
 }
 
-/// Two scans share a tree; the oldest is forgotten by itself, whichever it shares with.
+/// Of each 10 cm cube around the origin the nearest point, by brute force; so what is told is never
+/// nearer than the truth, and by no more than a cube's diagonal farther.
+TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
+    constexpr float kEdge_m = 0.1f;
+    Random random(10);
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Eigen::Vector3f> points;
+        for (int i = 0; i < 400; ++i) {
+            const Eigen::Vector3d at(random.uniform(-1, 1), random.uniform(-0.3, 0.3),
+                                     random.uniform(0.8, 1.4));
+            points.push_back(at.cast<float>());
+        }
+        std::map<std::array<int, 3>, float> nearest_m;
+        for (const Eigen::Vector3f& point : points) {
+            const Eigen::Array3f cube = ((point - kOrigin).array() / kEdge_m).floor();
+            const float range_m = (point - kOrigin).norm();
+            const auto [it, is_new] =
+                nearest_m.insert({{int(cube.x()), int(cube.y()), int(cube.z())}, range_m});
+            if (!is_new) it->second = std::min(it->second, range_m);
+        }
+        std::vector<float> expected, kept;
+        for (const auto& [cube, range_m] : nearest_m) expected.push_back(range_m);
+        const auto model = makeWorldModel("W-Full", setting());
+        model->update(scanOf(points));
+        for (const Eigen::Vector3f& point : model->obstacles().middle_m) {
+            EXPECT_TRUE(std::find(points.begin(), points.end(), point) != points.end());
+            kept.push_back((point - kOrigin).norm());
+        }
+        std::sort(expected.begin(), expected.end());
+        std::sort(kept.begin(), kept.end());
+        EXPECT_EQ(expected, kept);
+        for (int i = 0; i < 50; ++i) {
+            const Eigen::Vector3f at = sparsePoints(random, 1)[0];
+            const float truth_m = nearestOf(points, at);
+            EXPECT_GE(model->clearance_m(at), truth_m - 1e-5f);
+            EXPECT_LE(model->clearance_m(at), truth_m + kEdge_m * std::sqrt(3.0f));
+        }
+    }
+}
+
+/// Three scans share a tree; the oldest is forgotten by itself, whichever it shares with.
 TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
     Random random(9);
     const auto model = makeWorldModel("W-Full", setting());

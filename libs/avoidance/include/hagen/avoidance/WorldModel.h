@@ -55,7 +55,7 @@ struct WorldModelSetting {
 
 /// Names of all world models:
 ///
-///     W-RoI           sliding window of RoI points: 10 scans, within 15 m
+///     W-RoI           sliding window of RoI points: 10 scans, within 15 m, one point a 10 cm cube
 ///     W-Full          the same of all points
 ///     O-Full-0.2      OctoMap of all points at 0.2 m; O-Full-0.4
 ///     O-RoI-0.2       of RoI points alone; O-RoI-0.4
