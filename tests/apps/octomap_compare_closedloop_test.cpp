@@ -25,7 +25,7 @@ Outcome octomapCompare(const std::vector<std::string>& arguments) {
 /// A profile that does not depend on the machine that the program was made on.
 fs::path someProfile(const TemporaryFolder& folder) {
     std::string text = R"({"quantiles_ms": {"filter": [0.5, 1])";
-    for (const char* model : {"W-RoI", "W-Full", "oracle"}) {
+    for (const char* model : {"W-RoI", "W-Full", "G-Full", "O-Full-0.4", "oracle"}) {
         for (const char* stage : {"update", "astar", "straight", "astar+primitives",
                                   "straight+primitives", "astar+3dvfh", "straight+3dvfh"}) {
             text += std::string(", \"") + model + "/" + stage + "\": [1, 3, 9]";
@@ -85,6 +85,40 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
     EXPECT_EQ(readFile(folder / "merged/campaign.json"), readFile(folder / "one/campaign.json"));
     // Nothing is left to fly.
     ASSERT_EQ(octomapCompare(flying(folder, "merged")).exit_code, 0);
+    EXPECT_EQ(readFile(folder / "merged/runs.csv"), runs);
+}
+
+TEST(ClosedLoopFlights, MapsAndPathSearchesToo) {
+    const TemporaryFolder folder;
+    const auto fly = [&](const std::string& into, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"closedloop",
+                                           "--scenario",
+                                           "forest-0.05",
+                                           "--speed",
+                                           "10",
+                                           "--seeds",
+                                           "1000-1001",
+                                           "--models",
+                                           "W-Full,G-Full,O-Full-0.4",
+                                           "--guidance",
+                                           "astar",
+                                           "--profile",
+                                           someProfile(folder).string(),
+                                           "-o",
+                                           (folder / into).string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = octomapCompare(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return readFile(folder / into / "runs.csv");
+    };
+    const std::string runs = fly("one", {"--jobs", "1"});
+    EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 7);
+    fly("first", {"--shard", "1/2"});
+    fly("second", {"--shard", "2/2", "--jobs", "2"});
+    ASSERT_EQ(octomapCompare({"merge", (folder / "first").string(), (folder / "second").string(),
+                              "-o", (folder / "merged").string()})
+                  .exit_code,
+              0);
     EXPECT_EQ(readFile(folder / "merged/runs.csv"), runs);
 }
 
