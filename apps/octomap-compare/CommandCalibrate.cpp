@@ -1,4 +1,5 @@
 // octomap-compare calibrate: measures what each stage takes on this machine.
+#include <hagen/logs/CloseWritten.h>
 #include <hagen/logs/OutputPath.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/Trial.h>
@@ -45,7 +46,7 @@ void printProfile(const LatencyProfile& profile) {
 
 void writeMemory(const Flags& flags, const std::vector<std::string>& models,
                  const std::filesystem::path& file) {
-    std::ofstream out(file, std::ios::binary);
+    std::ofstream out = openToWrite(file, flags.memory);
     out << "model,path_m,bytes\n";
     for (const std::string& model : models) {
         if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
@@ -55,8 +56,7 @@ void writeMemory(const Flags& flags, const std::vector<std::string>& models,
                 << static_cast<long long>(sample.bytes) << "\n";
         }
     }
-    out.close();
-    if (!out) throw std::runtime_error(flags.memory + ": cannot be written; is the disk full?");
+    closeWritten(out, flags.memory);
 }
 
 int run(const Flags& flags) {

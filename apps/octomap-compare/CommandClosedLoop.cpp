@@ -1,9 +1,5 @@
 // octomap-compare closedloop: flies a campaign in simulation.
 #include <hagen/trials/Campaign.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
@@ -14,6 +10,7 @@
 #include <thread>
 
 #include "Commands.h"
+#include "ProgressLine.h"
 #include "common/Interrupt.h"
 
 namespace hagen {
@@ -75,43 +72,6 @@ LatencyProfile profileFrom(const std::string& file, const std::vector<CourseFlig
     return profile;
 }
 
-std::string durationText(double seconds) {
-    std::ostringstream text;
-    if (seconds < 90) {
-        text << std::lround(seconds) << " s";
-    } else if (seconds < 5400) {
-        text << std::lround(seconds / 60) << " min";
-    } else {
-        text << std::fixed << std::setprecision(1) << seconds / 3600 << " h";
-    }
-    return text.str();
-}
-
-/// A line that says how far it is, and how long it will take; nothing where that is no terminal.
-class ProgressLine {
- public:
-    ~ProgressLine() {
-        if (is_shown_) std::cerr << "\r\033[K" << std::flush;
-    }
-    void show(std::size_t done, std::size_t all) {
-        if (!is_on_terminal_ || done == last_) return;
-        last_ = done;
-        is_shown_ = true;
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
-        std::cerr << "\r\033[Krun " << done << " of " << all;
-        if (done > 0) {
-            const double left = static_cast<double>(all - done) / static_cast<double>(done);
-            std::cerr << ", about " << durationText(taken.count() * left) << " left";
-        }
-        std::cerr << std::flush;
-    }
-
- private:
-    bool is_on_terminal_ = isatty(STDERR_FILENO) == 1, is_shown_ = false;
-    std::size_t last_ = static_cast<std::size_t>(-1);
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 void printCells(const std::vector<Run>& runs) {
     struct Cell {
         int runs = 0, outcomes[3] = {0, 0, 0};
@@ -145,7 +105,7 @@ int run(Flags flags) {
     const LatencyProfile profile = profileFrom(flags.profile, flights);
     CampaignFolder folder(flags.folder, profile, flags.overwrites);
     folder.note(flags.plan);
-    ProgressLine progress;
+    ProgressLine progress("run");
     CampaignOptions options;
     options.jobs =
         flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());

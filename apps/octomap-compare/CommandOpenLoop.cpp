@@ -1,6 +1,5 @@
 // octomap-compare openloop: world models digest a recorded log.
 #include <hagen/trials/OpenLoop.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include "Commands.h"
 #include "OpenLoopFiles.h"
 #include "OpenLoopTable.h"
+#include "ProgressLine.h"
 #include "common/Interrupt.h"
 
 namespace hagen {
@@ -29,22 +29,6 @@ std::vector<std::string> standardModels(bool has_scene) {
     if (!has_scene) models.erase(std::find(models.begin(), models.end(), "oracle"));
     return models;
 }
-
-/// A line that says how far it is; nothing where that is no terminal.
-class ProgressLine {
- public:
-    ~ProgressLine() {
-        if (is_shown_) std::cerr << "\r\033[K" << std::flush;
-    }
-    void show(std::size_t done, std::size_t all) {
-        if (!is_on_terminal_) return;
-        is_shown_ = true;
-        std::cerr << "\r\033[Kscan " << done << " of " << all << std::flush;
-    }
-
- private:
-    bool is_on_terminal_ = isatty(STDERR_FILENO) == 1, is_shown_ = false;
-};
 
 /// What a user should know about the figures.
 void tellRemarks(const OpenLoopResult& result) {
@@ -74,7 +58,7 @@ int run(Flags flags) {
         mergeSettings(config, open_loop.source.settings);
     }
     OpenLoopFiles files(flags.folder, flags.overwrites);
-    ProgressLine progress;
+    ProgressLine progress("scan");
     OpenLoopListener listener;
     listener.row = [&](const OpenLoopRow& row, const OpenLoopCost& cost) { files.add(row, cost); };
     listener.keep_going = [] { return !isInterrupted(); };

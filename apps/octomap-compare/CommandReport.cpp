@@ -1,4 +1,5 @@
 // octomap-compare report: what the runs of a folder tell.
+#include <hagen/logs/CloseWritten.h>
 #include <hagen/logs/OutputPath.h>
 #include <fstream>
 #include <iostream>
@@ -25,11 +26,7 @@ struct Flags {
 struct TextOutput {
     TextOutput(const fs::path& path, bool overwrite, std::string content)
         : place(path, OutputPath::Kind::File, overwrite), text(std::move(content)) {
-        std::ofstream out(place.temporary(), std::ios::binary);
-        out << text;
-        out.close();
-        if (!out)
-            throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+        writeText(text, place.temporary(), path);
     }
     OutputPath place;
     std::string text;

@@ -139,6 +139,16 @@ Json summaryOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
     return report;
 }
 
+/// Removes what earlier runs that ended early left of a file: x.partial.csv, x.partial-2.csv.
+void removePartsOf(const fs::path& file) {
+    for (int number = 1;; ++number) {
+        fs::path part = file.parent_path() / file.stem();
+        part += number == 1 ? ".partial" : ".partial-" + std::to_string(number);
+        part += file.extension();
+        if (!fs::remove(part)) return;
+    }
+}
+
 }  // namespace
 
 std::string truthOf(const OpenLoop& open_loop) {
@@ -171,11 +181,8 @@ OpenLoopFiles::~OpenLoopFiles() {
 OpenLoopFiles::File& OpenLoopFiles::open(const std::string& name, bool overwrite) {
     files_.push_back(std::make_unique<File>(folder_ / name, overwrite));
     File& file = *files_.back();
-    file.out.open(file.path.temporary());
+    file.out = openToWrite(file.path.temporary(), file.path.path());
     file.out.imbue(std::locale::classic());
-    if (!file.out) {
-        throw std::runtime_error((folder_ / name).string() + ": cannot be written to");
-    }
     return file;
 }
 
@@ -189,10 +196,8 @@ void OpenLoopFiles::add(const OpenLoopRow& row, const OpenLoopCost& cost) {
     scans_measured_->out << cost.scan << "," << cost.model << "," << Fixed{cost.filter_ms, 3} << ","
                          << Fixed{cost.update_ms, 3} << "," << Fixed{cost.queries_ms, 3} << ","
                          << Fixed{cost.heap_bytes, 0} << "\n";
-    for (const File* file : {scans_, scans_measured_}) {
-        if (file->out) continue;
-        throw std::runtime_error(file->path.path().string() +
-                                 ": cannot be written; is the disk full?");
+    for (File* file : {scans_, scans_measured_}) {
+        if (!file->out) closeWritten(file->out, file->path.path());  // throws
     }
 }
 
@@ -209,6 +214,7 @@ void OpenLoopFiles::finish(const OpenLoop& open_loop, const OpenLoopResult& resu
 void OpenLoopFiles::commit(const OpenLoop& open_loop, const OpenLoopResult& result) {
     finish(open_loop, result);
     for (const auto& file : files_) file->path.commit();
+    for (const auto& file : files_) removePartsOf(file->path.path());
 }
 
 void OpenLoopFiles::keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result) {

@@ -29,6 +29,7 @@ class OpenLoopFiles {
 
     /// Throws std::runtime_error, naming the file, where it cannot be written.
     void add(const OpenLoopRow& row, const OpenLoopCost& cost);
+    /// Parts that earlier runs left are removed.
     void commit(const OpenLoop& open_loop, const OpenLoopResult& result);
     /// What was digested of a log that ended early: scans.partial.csv and so on.
     void keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result);

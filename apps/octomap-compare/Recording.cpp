@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "Ending.h"
+
 namespace hagen {
 namespace {
 
@@ -77,10 +79,7 @@ class ModelHistory {
 
 RecordedStep recorded(const TrialStep& step, const RecordingLimits& limits) {
     RecordedStep kept{step.time_s,
-                      step.true_clearance_m,
                       step.latency_ms,
-                      step.true_state.position_m,
-                      step.true_state.velocity_m_s,
                       step.plan.command_m_s,
                       step.carrot.at_m,
                       step.plan.is_emergency,
@@ -108,6 +107,17 @@ void thinLongRun(const RecordingLimits& limits, Recording& recording) {
     }
 }
 
+/// What is known of the whole flight only when its course is at hand again.
+void addTruth(const Reflown& again, Recording& recording) {
+    for (std::size_t i = 0; i < recording.track.size(); ++i) {
+        RecordedMoment& moment = recording.track[i];
+        moment.clearance_m = static_cast<double>(again.course.distance.at(
+            moment.at_m.cast<float>(), kControlStep_s * static_cast<double>(i)));
+    }
+    recording.ending = endingOf(again.course, again.result, recording.track.back().at_m);
+    recording.scene = trueSceneOf(again.course.scene, again.course.bounds_m, again.result.time_s);
+}
+
 }  // namespace
 
 Recording record(const Run& run, const LatencyProfile& profile, const RecordingLimits& limits) {
@@ -123,7 +133,7 @@ Recording record(const Run& run, const LatencyProfile& profile, const RecordingL
     };
     listener.moved = [&](double time_s, const VehicleState& state) {
         now_s = time_s;
-        recording.track_m.push_back(state.position_m);
+        recording.track.push_back({state.position_m, state.velocity_m_s.norm(), 0});
     };
     listener.event = [&](const std::string& what) { recording.events.push_back({now_s, what}); };
     const Reflown again = flyAgain(run, profile, listener);
@@ -132,6 +142,7 @@ Recording record(const Run& run, const LatencyProfile& profile, const RecordingL
     recording.goal_m = again.course.goal_m;
     recording.ground_m =
         again.course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
+    addTruth(again, recording);
     model.tell(recording);
     thinLongRun(limits, recording);
     return recording;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Refly.h"
+#include "TrueScene.h"
 
 namespace hagen {
 
@@ -21,12 +22,18 @@ struct RecordedMotion {
 
 /// A planning step, thinned out for a picture.
 struct RecordedStep {
-    double time_s, clearance_m, latency_ms;
-    Eigen::Vector3d position_m, velocity_m_s, command_m_s, carrot_m;
+    double time_s, latency_ms;
+    Eigen::Vector3d command_m_s, carrot_m;
     bool is_emergency;
     std::vector<Eigen::Vector3f> roi_m, rou_m;  ///< returns of the scan
     std::vector<Eigen::Vector3f> path_m;        ///< of guidance
     std::vector<RecordedMotion> motions;
+};
+
+/// The vehicle as it truly was.
+struct RecordedMoment {
+    Eigen::Vector3d at_m;
+    double speed_m_s, clearance_m;
 };
 
 struct RecordedEvent {
@@ -41,7 +48,9 @@ struct Recording {
     Eigen::Vector3d start_m{0, 0, 0}, goal_m{0, 0, 0};
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
-    std::vector<Eigen::Vector3d> track_m;  ///< true, every kControlStep_s
+    std::vector<RecordedMoment> track;  ///< every kControlStep_s, to the very end of the flight
+    std::string ending;                 ///< how it ended, in words
+    TrueScene scene;
     std::vector<ModelCell> model;
     float model_edge_m = 0;  ///< of its cells; 0: points
     std::vector<RecordedEvent> events;

@@ -9,8 +9,9 @@ namespace hagen {
 /// A page that plays a recording in 3D, and needs nothing else.
 std::string replayPage(const Recording& recording);
 
-/// The end of a recording as a scene for SceneViewer3D: what the model held, the last scan, the
-/// way flown, start and goal. Throws std::runtime_error, naming the file, where writing fails.
+/// The end of a recording as a scene for SceneViewer3D: what truly stood and moved, what the model
+/// held, the last scan, the way flown, start and goal. Throws std::runtime_error, naming the file,
+/// where writing fails.
 void writeReplayScene(const Recording& recording, const std::filesystem::path& file);
 
 }  // namespace hagen

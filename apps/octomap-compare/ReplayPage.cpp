@@ -1,8 +1,8 @@
-#include <array>
 #include <cmath>
-#include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "PackedNumbers.h"
 #include "Replay.h"
 #include "Summary.h"
 #include "Table.h"
@@ -16,36 +16,8 @@ using Json = nlohmann::ordered_json;
 /// A centimetre: coordinates of pages are whole numbers of it, 16 bits from the start on, so they
 /// reach 327 m.
 constexpr double kUnit_m = 0.01;
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) group = (group << 8) | (k < left ? bytes[i + k] : 0u);
-        for (std::size_t digit = 0; digit < 4; ++digit) {
-            text += digit <= left ? kDigits[(group >> (18 - 6 * digit)) & 63u] : '=';
-        }
-    }
-    return text;
-}
-
-/// Whole numbers of 16 bits, little-endian.
-class Numbers {
- public:
-    void add(double value) {
-        const auto whole =
-            static_cast<std::int16_t>(std::lround(std::fmax(-32768, std::fmin(32767, value))));
-        bytes_.push_back(static_cast<std::uint8_t>(whole & 0xff));
-        bytes_.push_back(static_cast<std::uint8_t>((whole >> 8) & 0xff));
-    }
-    std::string text() const { return base64(bytes_); }
-
- private:
-    std::vector<std::uint8_t> bytes_;
-};
+constexpr double kShapeUnit_m = 0.005;    // of what stands about: 164 m
+constexpr double kTurnUnit_rad = 0.0001;  // more than half a turn
 
 class PageWriter {
  public:
@@ -53,8 +25,9 @@ class PageWriter {
 
     Json data() const {
         Json data = head();
-        data["track"] = points(recording_.track_m);
-        Numbers lives;
+        addTrack(data);
+        data["scene"] = scene();
+        PackedNumbers lives;
         std::vector<Eigen::Vector3f> middles;
         for (const ModelCell& cell : recording_.model) {
             middles.push_back(cell.middle_m);
@@ -83,6 +56,7 @@ class PageWriter {
             {"guidance", run.setup.guidance},
             {"speed_m_s", run.setup.speed_m_s},
             {"outcome", nameOf(run.result.outcome)},
+            {"ending", recording_.ending},
             {"is_same", recording_.is_same},
             {"unit_m", kUnit_m},
             {"control_step_s", kControlStep_s},
@@ -92,8 +66,95 @@ class PageWriter {
             {"radius_m", run.setup.limits.radius_m}};
     }
 
+    void addTrack(Json& data) const {
+        PackedNumbers places, speeds, clearances;
+        for (const RecordedMoment& moment : recording_.track) {
+            add(moment.at_m, places);
+            speeds.add(moment.speed_m_s / kUnit_m);
+            clearances.add(moment.clearance_m / kUnit_m);
+        }
+        data["track"] = places.text();
+        data["speeds"] = speeds.text();
+        data["clearances"] = clearances.text();
+    }
+
+    /// Shapes once each, and where they stand.
+    Json scene() const {
+        const TrueScene& scene = recording_.scene;
+        Json shapes = Json::array(), things = Json::array(), movers = Json::array();
+        for (const Shape& shape : scene.shapes) shapes.push_back(cornersOf(shape));
+        std::map<std::pair<std::size_t, Kind>, Json> poses;
+        for (const SceneObject& object : scene.objects) {
+            poses[{object.shape, object.kind}].push_back(json(object.pose));
+        }
+        for (const auto& [what, places] : poses) {
+            things.push_back(
+                {{"shape", what.first}, {"kind", nameOf(what.second)}, {"poses", places}});
+        }
+        for (const TrueScene::Mover& mover : scene.movers) {
+            movers.push_back({{"shape", mover.shape}, {"poses", json(mover.poses)}});
+        }
+        return {{"unit_m", kShapeUnit_m},
+                {"shapes", shapes},
+                {"things", things},
+                {"mover_step_s", TrueScene::kMoverStep_s},
+                {"turn_unit_rad", kTurnUnit_rad},
+                {"movers", movers},
+                {"ground", json(scene.ground)}};
+    }
+
+    /// The corners of a shape's triangles, in its own frame.
+    static std::string cornersOf(const Shape& shape) {
+        PackedNumbers numbers;
+        for (const auto& triangle : shape.triangles) {
+            for (const std::uint32_t corner : triangle) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    numbers.add(static_cast<double>(shape.vertices_m[corner][axis]) / kShapeUnit_m);
+                }
+            }
+        }
+        return numbers.text();
+    }
+
+    /// Three rows of four.
+    Json json(const Eigen::Affine3f& pose) const {
+        Json rows = Json::array();
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                const auto value = static_cast<double>(pose(row, column));
+                rows.push_back(rounded(column < 3 ? value : value - recording_.start_m[row]));
+            }
+        }
+        return rows;
+    }
+
+    /// Places and headings, one after the other.
+    std::string json(const std::vector<Eigen::Affine3f>& poses) const {
+        PackedNumbers numbers;
+        for (const Eigen::Affine3f& pose : poses) {
+            add(Eigen::Vector3f(pose.translation()), numbers);
+            const double heading_rad =
+                std::atan2(static_cast<double>(pose(1, 0)), static_cast<double>(pose(0, 0)));
+            numbers.add(heading_rad / kTurnUnit_rad);
+        }
+        return numbers.text();
+    }
+
+    Json json(const TrueScene::Ground& ground) const {
+        PackedNumbers heights;
+        for (const double height_m : ground.heights_m) {
+            heights.add((height_m - recording_.start_m.z()) / kUnit_m);
+        }
+        return {{"x_m", rounded(ground.least_m.x() - recording_.start_m.x())},
+                {"y_m", rounded(ground.least_m.y() - recording_.start_m.y())},
+                {"step_m", ground.step_m},
+                {"along_x", ground.along_x},
+                {"along_y", ground.along_y},
+                {"heights", heights.text()}};
+    }
+
     template <class Point>
-    void add(const Point& at, Numbers& numbers) const {
+    void add(const Point& at, PackedNumbers& numbers) const {
         for (int axis = 0; axis < 3; ++axis) {
             const double from_start_m = static_cast<double>(at[axis]) - recording_.start_m[axis];
             numbers.add(from_start_m / kUnit_m);
@@ -101,25 +162,22 @@ class PageWriter {
     }
     template <class Point>
     std::string points(const std::vector<Point>& all) const {
-        Numbers numbers;
+        PackedNumbers numbers;
         for (const Point& at : all) add(at, numbers);
         return numbers.text();
     }
 
     Json json(const RecordedStep& step) const {
-        Numbers ways;
+        PackedNumbers ways;
         Json sizes = Json::array();
         for (const RecordedMotion& motion : step.motions) {
             for (const Eigen::Vector3f& at : motion.way_m) add(at, ways);
             const int points = static_cast<int>(motion.way_m.size());
             sizes.push_back(motion.is_free ? points : -points);  // negative: not free
         }
-        const Eigen::Vector3d& v = step.velocity_m_s;
         return {{"time_s", step.time_s},
-                {"clearance_m", rounded(step.clearance_m)},
                 {"latency_ms", rounded(step.latency_ms)},
-                {"speed_m_s", rounded(v.norm())},
-                {"at", points(std::vector<Eigen::Vector3d>{step.position_m, step.carrot_m})},
+                {"carrot", points(std::vector<Eigen::Vector3d>{step.carrot_m})},
                 {"command_m_s",
                  {rounded(step.command_m_s.x()), rounded(step.command_m_s.y()),
                   rounded(step.command_m_s.z())}},

@@ -1,13 +1,15 @@
+#include <hagen/logs/CloseWritten.h>
 #include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/CSphere.h>
 #include <mrpt/opengl/CVectorField3D.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <array>
 
 #include "Replay.h"
 
@@ -58,10 +60,10 @@ CSphere::Ptr sphereAt(const Eigen::Vector3d& at, float radius_m, const TColor& c
     return sphere;
 }
 
-CSetOfLines::Ptr trackOf(const std::vector<Eigen::Vector3d>& track_m) {
+CSetOfLines::Ptr trackOf(const std::vector<RecordedMoment>& track) {
     const auto lines = CSetOfLines::Create();
-    for (std::size_t i = 1; i < track_m.size(); ++i) {
-        const Eigen::Vector3d &a = track_m[i - 1], &b = track_m[i];
+    for (std::size_t i = 1; i < track.size(); ++i) {
+        const Eigen::Vector3d &a = track[i - 1].at_m, &b = track[i].at_m;
         lines->appendLine(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
     }
     lines->setColor_u8(TColor(0, 114, 178));
@@ -80,14 +82,46 @@ std::vector<Eigen::Vector3f> lastOf(const Recording& recording) {
     return middles_m;
 }
 
+void addShape(const Shape& shape, const Eigen::Affine3f& pose, const TColor& color,
+              CSetOfTriangles& all) {
+    for (const auto& corners : shape.triangles) {
+        std::array<mrpt::math::TPoint3Df, 3> at;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Eigen::Vector3f p = pose * shape.vertices_m[corners[i]];
+            at[i] = {p.x(), p.y(), p.z()};
+        }
+        mrpt::opengl::TTriangle triangle(at[0], at[1], at[2]);
+        triangle.setColor(color);
+        all.insertTriangle(triangle);
+    }
+}
+
+/// What truly stands, and what moves where it was at the end.
+CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
+    const TColor standing(110, 130, 105), moving(170, 60, 60);
+    const TrueScene& scene = recording.scene;
+    const auto all = CSetOfTriangles::Create();
+    for (const SceneObject& object : scene.objects) {
+        addShape(scene.shapes[object.shape], object.pose, standing, *all);
+    }
+    const double end_s = kControlStep_s * static_cast<double>(recording.track.size() - 1);
+    for (const TrueScene::Mover& mover : scene.movers) {
+        addShape(scene.shapes[mover.shape], poseAt(mover, end_s), moving, *all);
+    }
+    all->setName("true scene");
+    return all;
+}
+
 }  // namespace
 
 void writeReplayScene(const Recording& recording, const std::filesystem::path& file) {
+    openToWrite(file, file);  // MRPT does not tell why it cannot
     COpenGLScene scene;
     const auto grid = CGridPlaneXY::Create(-10.0f, 60.0f, -30.0f, 30.0f, 0.0f, 5.0f);
     grid->setLocation(recording.start_m.x(), recording.start_m.y(), recording.ground_m);
     grid->setColor_u8(TColor(200, 200, 200));
     scene.insert(grid);
+    if (!recording.scene.shapes.empty()) scene.insert(trueSceneOf(recording));
     const std::vector<Eigen::Vector3f> held_m = lastOf(recording);
     if (recording.model_edge_m > 0) {
         scene.insert(voxelsOf(held_m, recording.model_edge_m));
@@ -99,16 +133,15 @@ void writeReplayScene(const Recording& recording, const std::filesystem::path& f
         scene.insert(cloudOf(last.rou_m, TColor(120, 120, 120), 2, "last scan: uninteresting"));
         scene.insert(cloudOf(last.roi_m, TColor(213, 94, 0), 3, "last scan: regions of interest"));
     }
-    scene.insert(trackOf(recording.track_m));
+    scene.insert(trackOf(recording.track));
     const auto radius_m = static_cast<float>(recording.run.setup.limits.radius_m);
     scene.insert(sphereAt(recording.start_m, 0.2f, TColor(0, 114, 178), "start"));
     scene.insert(sphereAt(recording.goal_m, 0.4f, TColor(0, 158, 115), "goal"));
-    if (!recording.track_m.empty()) {
-        scene.insert(sphereAt(recording.track_m.back(), radius_m, TColor(86, 180, 233), "vehicle"));
+    if (!recording.track.empty()) {
+        scene.insert(
+            sphereAt(recording.track.back().at_m, radius_m, TColor(86, 180, 233), "vehicle"));
     }
-    if (!scene.saveToFile(file.string())) {
-        throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
-    }
+    if (!scene.saveToFile(file.string())) failToWrite(file, 0);
 }
 
 }  // namespace hagen

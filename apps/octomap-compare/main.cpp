@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "Commands.h"
 #include "common/Interrupt.h"
@@ -23,6 +24,19 @@ int fail(int exit_code, const std::string& message) {
 int printed(int exit_code) {
     if (std::fflush(stdout) == 0 && std::cout.flush()) return exit_code;
     return fail(kFailed, "the results cannot be printed");
+}
+
+/// What to say where no command was understood.
+std::string commandsOf(const CLI::App& app) {
+    const std::vector<std::string> unknown = app.remaining();
+    std::string text =
+        unknown.empty() ? "no command is given" : "'" + unknown[0] + "' is no command";
+    const char* before = "; there are ";
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        text += before + command->get_name();
+        before = ", ";
+    }
+    return text + " (octomap-compare --help tells more)";
 }
 
 }  // namespace
@@ -54,6 +68,7 @@ int main(int argc, char** argv) {
         app.exit(e);
         return printed(0);
     } catch (const CLI::ParseError& e) {
+        if (app.get_subcommands().empty()) return fail(kWrongUsage, commandsOf(app));
         app.exit(e);
         return kWrongUsage;
     } catch (const std::filesystem::filesystem_error& e) {

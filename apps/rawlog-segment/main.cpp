@@ -68,6 +68,24 @@ struct CommandLine {
     bool is_quiet = false, dumps_settings = false;
 };
 
+/// Reads a name as what it stands for. CLI11's own tells the numbers behind the names, too.
+template <class Value>
+CLI::Validator oneOf(const std::vector<std::pair<std::string, Value>>& values) {
+    return CLI::Validator(
+        [values](std::string& name) -> std::string {
+            std::string names;
+            for (const auto& [known, value] : values) {
+                if (name == known) {
+                    name = std::to_string(static_cast<int>(value));
+                    return "";
+                }
+                names += (names.empty() ? "" : ", ") + known;
+            }
+            return "'" + name + "' is none of " + names;
+        },
+        "");
+}
+
 void declare(CLI::App& app, CommandLine& line) {
     Conversion& conversion = line.conversion;
     const CLI::Validator not_empty(
@@ -105,8 +123,8 @@ void declare(CLI::App& app, CommandLine& line) {
     app.add_option("--cloud", conversion.cloud_class,
                    "clouds of coordinates (simple), or with "
                    "intensities (xyzi)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, CloudClass>{
-            {"simple", CloudClass::Simple}, {"xyzi", CloudClass::WithIntensity}}))
+        ->transform(oneOf<CloudClass>(
+            {{"simple", CloudClass::Simple}, {"xyzi", CloudClass::WithIntensity}}))
         ->option_text("simple|xyzi")
         ->needs(rawlog)
         ->group("Output");
@@ -138,10 +156,9 @@ void declare(CLI::App& app, CommandLine& line) {
     app.add_option("--octomap-content", conversion.octomap.content,
                    "every return (full), RoI returns alone (roi), or RoI returns, and free space "
                    "from all rays (roi+rays, the default)")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, MapContent>{{"full", MapContent::Full},
-                                              {"roi", MapContent::Roi},
-                                              {"roi+rays", MapContent::RoiAndRays}}))
+        ->transform(oneOf<MapContent>({{"full", MapContent::Full},
+                                       {"roi", MapContent::Roi},
+                                       {"roi+rays", MapContent::RoiAndRays}}))
         ->option_text("full|roi|roi+rays")
         ->needs(octomap)
         ->group("Output");

@@ -4,6 +4,8 @@
 #include <mrpt/opengl/COpenGLScene.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
@@ -13,8 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What errno tells is why, where it was 0 before.
 [[noreturn]] void failToWrite(const fs::path& file) {
-    throw std::runtime_error(file.string() + ": the map cannot be written; is there room for it?");
+    throw std::runtime_error(
+        file.string() + ": the map cannot be written" +
+        (errno == 0 ? "; is there room for it?" : std::string(": ") + std::strerror(errno)));
 }
 
 /// The occupied voxels as MRPT draws them, from blue (the lowest) to red.
@@ -42,10 +47,11 @@ mrpt::opengl::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
     return voxels;
 }
 
-void saveScene(const octomap::OcTree& tree, const fs::path& file) {
+void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     mrpt::opengl::COpenGLScene scene;
     scene.insert(voxelsOf(tree));
-    if (!scene.saveToFile(file.string())) failToWrite(file);
+    errno = 0;
+    if (!scene.saveToFile(file.string())) failToWrite(named);
 }
 
 /// The head of octomap's files. Its own functions that write whole files talk on standard error.
@@ -84,12 +90,14 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) { saveMap(tree, 
 
 void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
-    if (named.extension() == ".3Dscene") return saveScene(tree, file);
+    if (named.extension() == ".3Dscene") return saveScene(tree, file, named);
     octomap::OcTree whole(tree);  // as scans leave it, inner nodes lag behind
     whole.updateInnerOccupancy();
+    errno = 0;
     std::ofstream out(file, std::ios::binary);
+    if (!out) failToWrite(named);
     writeOctree(whole, named.extension() == ".bt", out);
-    if (!out.flush()) failToWrite(file);
+    if (!out.flush()) failToWrite(named);
 }
 
 }  // namespace hagen

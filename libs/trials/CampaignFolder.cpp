@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <hagen/logs/CloseWritten.h>
 #include <hagen/logs/OutputPath.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/trials/CampaignFolder.h>
@@ -85,10 +86,7 @@ ordered_json jsonOf(const CampaignPlan& plan) {
 /// Writes a file under a temporary name, and renames it when it is whole.
 void writeWhole(const fs::path& file, const std::string& text) {
     OutputPath output(file, OutputPath::Kind::File, true);
-    std::ofstream out(output.temporary(), std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    writeText(text, output.temporary(), file);
     output.commit();
 }
 

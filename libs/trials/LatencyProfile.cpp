@@ -1,3 +1,4 @@
+#include <hagen/logs/CloseWritten.h>
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/TrialScore.h>
 #include <algorithm>
@@ -115,10 +116,7 @@ LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
 }
 
 void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file) {
-    std::ofstream out(file, std::ios::binary);
-    out << textOf(profile);
-    out.flush();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+    writeText(textOf(profile), file, file);
 }
 
 }  // namespace hagen

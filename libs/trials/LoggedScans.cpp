@@ -84,11 +84,7 @@ struct LoggedScans::Log {
 
 void LoggedScans::Log::setPoses(const LogPoses& known, const std::vector<TimePoint>& times) {
     const std::string name = source.log.string();
-    if (times.empty()) {
-        throw std::runtime_error(
-            name + ": has no LiDAR scan" +
-            (source.sensor_label.empty() ? "" : " of '" + source.sensor_label + "'"));
-    }
+    if (times.empty()) throw std::runtime_error(name + ": has no LiDAR scan");
     if (known.source.empty()) {
         throw std::runtime_error(name +
                                  ": tells no poses; give them (--poses FILE.tum, lines of "
@@ -101,11 +97,16 @@ void LoggedScans::Log::setPoses(const LogPoses& known, const std::vector<TimePoi
         without_pose += !pose;
         if (pose) flight_m.extend(positionOf(*pose));
     }
-    if (without_pose < scans) return;
-    throw std::runtime_error(
-        poses.source + ": has no pose near any of the " + std::to_string(scans) + " scans of " +
-        name + ", of which the first was taken at " +
-        std::to_string(mrpt::Clock::toDouble(times.front())) + " s; are they of another clock?");
+    const std::size_t placed = scans - without_pose;
+    if (2 * placed >= scans) return;
+    const std::string which = placed == 0
+                                  ? "has no pose near any of the " + std::to_string(scans)
+                                  : "has poses near " + std::to_string(placed) + " of the " +
+                                        std::to_string(scans) + " scans alone, fewer than half,";
+    throw std::runtime_error(poses.source + ": " + which + (placed == 0 ? " scans" : "") + " of " +
+                             name + ", of which the first was taken at " +
+                             std::to_string(mrpt::Clock::toDouble(times.front())) +
+                             " s; are they of another flight, or another clock?");
 }
 
 class LoggedScans::Rawlog : public LoggedScans::Log {
@@ -113,9 +114,15 @@ class LoggedScans::Rawlog : public LoggedScans::Log {
     explicit Rawlog(const LogSource& of) : Log(of), reader_(of.log) {
         const RawlogSurvey survey = surveyRawlog(of.log);
         std::vector<TimePoint> times;
+        std::string labels;
         for (const auto& [label, places] : survey.scans) {
+            labels += (labels.empty() ? "'" : ", '") + label + "'";
             if (!isWanted(label)) continue;
             for (const auto& place : places) times.push_back(place.time);
+        }
+        if (times.empty() && !labels.empty()) {
+            throw std::runtime_error(of.log.string() + ": has no LiDAR scan of '" +
+                                     of.sensor_label + "'; there are " + labels);
         }
         setPoses(posesOfRawlog(survey, of.poses), times);
         segmenter.setMinLoggingLevel(mrpt::system::LVL_ERROR);

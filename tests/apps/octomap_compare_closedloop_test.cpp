@@ -66,6 +66,8 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
     const Outcome one = octomapCompare(flying(folder, "one", {"--jobs", "1"}));
     ASSERT_EQ(one.exit_code, 0) << one.err;
     EXPECT_NE(one.out.find("runs.csv"), std::string::npos);
+    EXPECT_EQ(one.err.rfind("run 0 of 6\n", 0), 0u) << one.err;  // no terminal: plain lines
+    EXPECT_EQ(one.err.find('\r'), std::string::npos);
     const std::string runs = readFile(folder / "one/runs.csv");
     EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 7);
     ASSERT_EQ(octomapCompare(flying(folder, "two", {"--jobs", "2"})).exit_code, 0);

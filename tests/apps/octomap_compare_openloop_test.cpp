@@ -28,11 +28,12 @@ class OpenLoopCommand : public testing::Test {
     }
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     /// A log of a few scans in a scene that is light to make, and its poses.
-    void simulate(int scans) const {
+    void simulate(int scans, const std::vector<std::string>& more = {}) const {
         const auto outcome = test::run(
-            HAGEN_RAWLOG_SIMULATE,
-            {"--scenario", "gap", "--scans", std::to_string(scans), "--altitude", "2", "--seed",
-             "3", "-o", path("gap.rawlog"), "--poses", path("gap.tum"), "--kitti", path("gap")});
+            HAGEN_RAWLOG_SIMULATE, with({"--scenario", "gap", "--scans", std::to_string(scans),
+                                         "--altitude", "2", "--seed", "3", "-o", path("gap.rawlog"),
+                                         "--poses", path("gap.tum"), "--kitti", path("gap")},
+                                        more));
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     }
     std::vector<std::string> gap(const std::string& out) const {
@@ -119,6 +120,11 @@ TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
     EXPECT_NE(outcome.err.find("scans have no pose within 0.2 s"), std::string::npos)
         << outcome.err;
 
+    const std::size_t comment = some.find('\n'), first_pose = some.find('\n', comment + 1);
+    folder_.write("other.tum", some.substr(0, some.find('\n', first_pose + 1) + 1));
+    expectFailure(with(log, {"--poses", path("other.tum"), "-o", path("no")}), 1,
+                  "has poses near 1 of the 6 scans alone, fewer than half");
+    EXPECT_FALSE(fs::exists(path("no")));
     folder_.write("none.tum", "5 0 0 2 0 0 0 1\n");
     expectFailure(with(log, {"--poses", path("none.tum"), "-o", path("no")}), 1,
                   "has no pose near any of the 6 scans");
@@ -133,6 +139,8 @@ TEST_F(OpenLoopCommand, RefusesWrongUsage) {
     expectFailure(with(orchard, {"--models", "W-Roy"}), 2, "there are: W-RoI");
     expectFailure(with(orchard, {"--models", "oracle"}), 2, "--truth-scenario");
     expectFailure(with(orchard, {"--truth-scenario", "jungle"}), 2, "known are");
+    expectFailure(with(orchard, {"--sensor-label", "roof"}), 1,
+                  "has no LiDAR scan of 'roof'; there are 'lidar'");
     expectFailure(with(orchard, {"--truth-seed", "3"}), 2, "--truth-scenario");
     expectFailure({"-i", path("missing.rawlog"), "-o", path("no")}, 2, "missing.rawlog");
     expectFailure({"-i", kOrchard}, 2, "--output");
@@ -168,6 +176,24 @@ TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     EXPECT_NE(outcome.out.find("W-RoI"), std::string::npos) << outcome.out;
     EXPECT_TRUE(fs::exists(path("out/openloop.partial.csv")));
     EXPECT_FALSE(fs::exists(path("out/openloop.csv")));
+    EXPECT_EQ(run(gap("out")).exit_code, 1);
+    EXPECT_TRUE(fs::exists(path("out/openloop.partial-2.csv")));
+
+    simulate(4, {"--overwrite"});
+    ASSERT_EQ(run(gap("out")).exit_code, 0);
+    for (const auto& file : fs::directory_iterator(path("out"))) {
+        EXPECT_EQ(file.path().filename().string().find("partial"), std::string::npos) << file;
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 6);
+}
+
+TEST_F(OpenLoopCommand, SaysInPlainLinesHowFarItIsWhereThereIsNoTerminal) {
+    simulate(4);
+    const auto outcome = run(gap("out"));
+    EXPECT_EQ(outcome.err.rfind("scan 1 of 4, about ", 0), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find("\nscan 4 of 4\n"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << outcome.err;
+    EXPECT_EQ(run(with(gap("quiet"), {"-q"})).err, "");
 }
 
 TEST_F(OpenLoopCommand, SaysWhenTheDiskIsFull) {
@@ -177,7 +203,7 @@ TEST_F(OpenLoopCommand, SaysWhenTheDiskIsFull) {
                                 path("full");
     const auto outcome = test::run("/bin/bash", {"-c", command});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("cannot be written; is the disk full?"), std::string::npos)
+    EXPECT_NE(outcome.err.find("cannot be written: File too large"), std::string::npos)
         << outcome.err;
     EXPECT_FALSE(fs::exists(path("full")));
 }

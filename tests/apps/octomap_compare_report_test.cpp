@@ -5,11 +5,14 @@
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "octomap-compare/ChooseRun.h"
+#include "octomap-compare/Ending.h"
 #include "octomap-compare/Overhead.h"
 #include "octomap-compare/Replay.h"
 #include "octomap-compare/Report.h"
@@ -164,6 +167,7 @@ Recording smallRecording() {
     Recording recording;
     recording.run = runOf("gap", 1, "O-Full-0.4", "astar", kWon);
     recording.is_same = true;
+    recording.ending = "arrived at 9.00 s";
     recording.start_m = {5, 0, 2};
     recording.goal_m = {45, 0, 2};
     RecordedStep step{};
@@ -171,7 +175,7 @@ Recording smallRecording() {
     step.rou_m = {{7, 0, 0}, {8, 0, 0}};
     step.motions = {{{{5, 0, 2}, {6, 0, 2}}, false}};
     recording.steps = {step, step};
-    recording.track_m = {{6, 2, 5}};
+    recording.track = {{{6, 2, 5}, 3, 0.5}};
     recording.model = {{{6, 0, 2}, 0, 2}, {{9, 0, 2}, 0, 1}};
     recording.model_edge_m = 0.4f;
     return recording;
@@ -181,6 +185,8 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
     const std::string page = replayPage(smallRecording());
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
     EXPECT_NE(page.find("\"track\":\"ZADIACwB\""), std::string::npos);
+    EXPECT_NE(page.find("\"clearances\":\"MgA=\""), std::string::npos);  // 50: 32 00
+    EXPECT_NE(page.find("\"ending\":\"arrived at 9.00 s\""), std::string::npos);
     EXPECT_NE(page.find("\"way_sizes\":[-2]"), std::string::npos);  // not free
     EXPECT_NE(page.find("<title>gap, seed 1, O-Full-0.4, A*, 4.0 m/s: success</title>"),
               std::string::npos);
@@ -207,6 +213,143 @@ TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
               std::string::npos);
 }
 
+/// A triangle that stands at x = 7 m and one that moves from there to 8 m in a step.
+TrueScene smallScene() {
+    TrueScene scene;
+    Shape triangle;
+    triangle.addTriangle({0, 0, 0}, {0.005f, 0, 0}, {0, 0, 0.01f});
+    scene.shapes = {triangle};
+    const Eigen::Affine3f here(Eigen::Translation3f(7, 0, 2)), there(Eigen::Translation3f(8, 0, 2));
+    scene.objects = {{Kind::Tree, 1, 0, here}};
+    scene.movers = {{0, {here, there}}};
+    scene.ground = {{0, 0}, 2, 1, 1, {1.5}};
+    return scene;
+}
+
+TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
+    Recording recording = smallRecording();
+    recording.scene = smallScene();
+    const std::string page = replayPage(recording);
+    // Half centimetres: nine numbers, of which the fourth is 1 and the ninth 2.
+    EXPECT_NE(page.find("\"shapes\":[\"AAAAAAAAAQAAAAAAAAAAAAIA\"]"), std::string::npos);
+    EXPECT_NE(
+        page.find("{\"shape\":0,\"kind\":\"tree\",\"poses\":[[1.0,0.0,0.0,2.0,0.0,1.0,0.0,0.0,"
+                  "0.0,0.0,1.0,0.0]]}"),
+        std::string::npos);
+    EXPECT_NE(page.find("\"movers\":[{\"shape\":0,\"poses\":\"yAAAAAAAAAAsAQAAAAAAAA==\"}]"),
+              std::string::npos);  // 200 0 0 0, 300 0 0 0
+    EXPECT_NE(page.find("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""),
+              std::string::npos);  // -50: CE FF
+}
+
+TEST(Replay, ASceneHoldsWhatTrulyStands) {
+    const test::TemporaryFolder folder;
+    Recording recording = smallRecording();
+    recording.scene = smallScene();
+    writeReplayScene(recording, folder / "a.3Dscene");
+    mrpt::opengl::COpenGLScene scene;
+    ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
+    const auto truth =
+        std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(scene.getByName("true scene"));
+    ASSERT_NE(truth, nullptr);
+    EXPECT_EQ(truth->getTrianglesCount(), 2u);
+}
+
+TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
+    const Course course = makeCourse("movers", 3);
+    const SceneContent& content = course.scene.content();
+    const TrueScene seen = trueSceneOf(course.scene, course.bounds_m, 3);
+    EXPECT_EQ(seen.objects.size() + 1, content.objects.size());
+    for (const SceneObject& object : seen.objects) {
+        EXPECT_NE(object.kind, Kind::Terrain);
+        EXPECT_FALSE(seen.shapes[object.shape].triangles.empty());
+    }
+    ASSERT_EQ(seen.movers.size(), content.movers.size());
+    for (std::size_t i = 0; i < seen.movers.size(); ++i) {
+        EXPECT_FALSE(seen.shapes[seen.movers[i].shape].triangles.empty());  // rods, too
+        for (const double time_s : {0.0, 1.3, 2.99, 3.0}) {
+            const Eigen::Affine3f truly = poseOf(content.movers[i], content.terrain, time_s);
+            const Eigen::Affine3f drawn = poseAt(seen.movers[i], time_s);
+            EXPECT_LT((truly.translation() - drawn.translation()).norm(), 0.03f) << time_s;
+            EXPECT_TRUE(truly.linear().isApprox(drawn.linear(), 0.01f)) << time_s;
+        }
+    }
+    const TrueScene::Ground& ground = seen.ground;
+    ASSERT_EQ(ground.heights_m.size(), std::size_t(ground.along_x * ground.along_y));
+    EXPECT_EQ(ground.heights_m[std::size_t(3 * ground.along_x + 5)],
+              content.terrain.height_m(ground.least_m.x() + 10, ground.least_m.y() + 6));
+}
+
+TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
+    const Course course = makeCourse("movers", 3);
+    TrialResult result{};
+    result.time_s = 2.5;
+    result.outcome = Outcome::Collision;
+    const Eigen::Vector3d start_m = course.start_m;
+    const double ground_m = course.scene.terrain().height_m(start_m.x(), start_m.y());
+    const std::string ground = endingOf(course, result, {start_m.x(), start_m.y(), ground_m + 0.2});
+    EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
+    EXPECT_NE(ground.find(" m from it to the vehicle's middle"), std::string::npos);
+
+    const SceneMover& person = course.scene.content().movers.front();
+    const Eigen::Affine3f pose = poseOf(person, course.scene.terrain(), result.time_s);
+    const Eigen::Vector3f above_head = pose * Eigen::Vector3f(0, 0, 2);
+    const std::string moving = endingOf(course, result, above_head.cast<double>());
+    EXPECT_EQ(moving.rfind("hit something that moves at 2.50 s: 0.2", 0), 0u) << moving;
+
+    result.outcome = Outcome::Success;
+    EXPECT_EQ(endingOf(course, result, course.goal_m), "arrived at 2.50 s");
+    result.outcome = Outcome::Timeout;
+    EXPECT_EQ(endingOf(course, result, start_m), "gave up for lack of progress at 2.50 s");
+    EXPECT_EQ(endingOf(course, result, {1000, 0, 2}), "left the course at 2.50 s");
+}
+
+TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
+    Row run = runOf("forest-0.10", 7, "O-RoI+rays-0.4", "astar", kWon);
+    EXPECT_EQ(fileNameOf(run), "forest-0.10-7-O-RoI+rays-0.4-astar-4mps");
+    run.setup.speed_m_s = 2.5;
+    run.setup.planner = "3dvfh";
+    run.setup.pose_error = PoseError::Noise;
+    run.setup.latency_scale = 4;
+    run.setup.brakes_in_known_space = true;
+    EXPECT_EQ(fileNameOf(run),
+              "forest-0.10-7-O-RoI+rays-0.4-astar-2.5mps-3dvfh-noise-latency4-brake-known");
+}
+
+TEST(ChooseRun, ListsWhatThereIsInstead) {
+    const std::vector<Row> runs = threeContenders();
+    RunWanted wanted;
+    wanted.seed = 77;
+    const auto refusal = [&wanted](const std::vector<Row>& among) -> std::string {
+        try {
+            return chooseRun(among, wanted).scenario;
+        } catch (const std::invalid_argument& e) {
+            return e.what();
+        }
+    };
+    EXPECT_EQ(refusal(runs),
+              "has no run of seed 77; there are:\n  gap: seeds 0-9, 4 m/s, O-Full-0.4,W-RoI, "
+              "astar,straight");
+    wanted.seed = 3;
+    wanted.model = "G-Full";
+    EXPECT_EQ(refusal(runs),
+              "has no run of seed 3 with these flags; of that seed are:\n  gap: seed 3, 4 m/s, "
+              "O-Full-0.4,W-RoI, astar,straight");
+    EXPECT_EQ(refusal({}), "has no run of seed 3, nor any other");
+}
+
+TEST(ChooseRun, TellsWaysOfUnknownSpaceApart) {
+    std::vector<Row> runs{runOf("gap", 1, "W-RoI", "astar", kWon),
+                          runOf("gap", 1, "W-RoI", "astar", kHit)};
+    runs[1].setup.brakes_in_known_space = true;
+    RunWanted wanted;
+    wanted.seed = 1;
+    wanted.unknown = "brake-known";
+    EXPECT_TRUE(chooseRun(runs, wanted).setup.brakes_in_known_space);
+    wanted.unknown = "optimistic";
+    EXPECT_FALSE(chooseRun(runs, wanted).setup.brakes_in_known_space);
+}
+
 class ReportCommand : public testing::Test {
  protected:
     test::Outcome run(const std::vector<std::string>& arguments) {
@@ -226,7 +369,9 @@ class ReportCommand : public testing::Test {
         EXPECT_NE((outcome.err + outcome.out).find(message), std::string::npos)
             << outcome.err << outcome.out;
         EXPECT_FALSE(fs::exists(path("report.html")));
-        EXPECT_FALSE(fs::exists(path("replay.html")));
+        for (const auto& file : fs::directory_iterator(folder_.path())) {
+            EXPECT_NE(file.path().filename().string().substr(0, 7), "replay-") << file.path();
+        }
     }
     test::TemporaryFolder folder_;
 };
@@ -308,6 +453,13 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
     }
 }
 
+TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
+    const std::string there_are =
+        "there are closedloop, merge, calibrate, openloop, report, replay";
+    expectFailure({"fly"}, 2, "'fly' is no command; " + there_are);
+    expectFailure({}, 2, "no command is given; " + there_are);
+}
+
 TEST_F(ReportCommand, AReplayNeedsOneRun) {
     writeRuns(threeContenders());
     expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run of seed 77");
@@ -315,6 +467,12 @@ TEST_F(ReportCommand, AReplayNeedsOneRun) {
     expectFailure({"replay", folder(), "--seed", "1"}, 2,
                   "--scenario gap --model W-RoI --guidance straight   (4 m/s: timeout)");
     expectFailure({"replay", folder()}, 2, "--seed is required");
+    expectFailure({"replay", folder(), "--seed", "1", "--unknown", "nonsense"}, 2,
+                  "{optimistic,brake-known}");
+    for (const char* spelling : {"brake-known", "brake_known"}) {
+        expectFailure({"replay", folder(), "--seed", "1", "--unknown", spelling}, 2,
+                      "no run of seed 1 with these flags");
+    }
     expectFailure({"replay", folder(), "--seed", "1", "--model", "O-Full-0.4"}, 1, "profile.json");
 }
 

@@ -186,7 +186,8 @@ TEST_F(RawlogSegmentOctomap, RefusesWrongUsage) {
     }
     expectFailure({"-i", kRecording, "--octomap", path("map.pcd")}, 2, ".3Dscene");
     expectFailure({"-i", kRecording, "--octomap", ""}, 2, "--octomap");
-    expectFailure({"-i", kRecording, "--octomap", map, "--octomap-content", "all"}, 2, "roi+rays");
+    expectFailure({"-i", kRecording, "--octomap", map, "--octomap-content", "all"}, 2,
+                  "--octomap-content: 'all' is none of full, roi, roi+rays\n");
     expectFailure({"-i", kRecording, "-o", path("x"), "--octomap-content", "roi"}, 2, "--octomap");
 }
 

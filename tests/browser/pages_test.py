@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Opens the pages of octomap-compare in a browser: do charts get drawn, does the replay play?
 Usage: pages_test.py OCTOMAP-COMPARE"""
+import csv
 import pathlib
 import re
 import subprocess
@@ -61,9 +62,83 @@ def check_report(folder):
             check(browser.errors() == [], f"{width} px: no errors")
 
 
+# Pixels of the view that change as a layer is switched on or off, in parts of a thousand.
+TOGGLED = """
+const picture = () => {
+  document.getElementById('time').dispatchEvent(new Event('input'));  // draws
+  const copy = document.createElement('canvas');
+  copy.width = 200; copy.height = 120;
+  const pen = copy.getContext('2d');
+  pen.drawImage(document.querySelector('#view canvas'), 0, 0, 200, 120);
+  return pen.getImageData(0, 0, 200, 120).data;
+};
+const box = document.querySelector(`[data-layer=${arguments[0]}]`), before = picture();
+box.click();
+const after = picture();
+box.click();
+let changed = 0;
+for (let i = 0; i < before.length; i += 4) {
+  if ([0, 1, 2].some(k => Math.abs(before[i + k] - after[i + k]) > 8)) ++changed;
+}
+return 1000 * changed / (200 * 120);"""
+
+# Panels, opened, that lie over one another, or reach out of the window.
+OVERLAPS = """
+document.getElementById('layers').open = true;
+const boxes = ['header', '#layers', 'footer'].map(
+    name => [name, document.querySelector(name).getBoundingClientRect()]);
+const wrong = [];
+boxes.forEach(([name, a], i) => {
+  if (a.left < 0 || a.top < 0 || a.right > innerWidth || a.bottom > innerHeight) wrong.push(name);
+  for (const [other, b] of boxes.slice(i + 1)) {
+    if (a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom) {
+      wrong.push(name + ' over ' + other);
+    }
+  }
+});
+return wrong;"""
+
+
+def check_panels(page):
+    for width, height in ((1280, 800), (400, 900), (400, 500), (800, 450)):
+        with Browser(width, height) as browser:
+            browser.open(page)
+            browser.wait_for("return document.body.dataset.step !== undefined;")
+            wrong = browser.run(OVERLAPS)
+            check(wrong == [], f"{width} x {height} px: panels lie apart {wrong}")
+
+
+def check_crash(folder):
+    """A replay ends where and when the flight did, not at its last plan."""
+    with open(folder / "runs.csv", encoding="utf-8") as table:
+        row = next(csv.DictReader(table))
+    check(row["outcome"] == "collision", "a fast flight that plans late ends in a collision")
+    command("replay", folder, "--seed", "4")
+    page = folder / "replay-forest-0.10-4-W-RoI-straight-10mps-latency15.html"
+    with Browser() as browser:
+        browser.open(page)
+        browser.wait_for("return document.body.dataset.step !== undefined;")
+        ending = browser.run("return document.getElementById('ending').textContent;")
+        check(re.fullmatch(rf"Hit a tree at {float(row['time_s']):.2f} s: "
+                           rf"{float(row['min_clearance_m']):.2f} m from .*", ending), ending)
+        browser.press("\ue010")  # end
+        end = browser.run(STATE)
+        check(abs(float(end["time"]) - float(row["time_s"])) < 0.011, "it ends at the impact")
+        check(abs(float(end["clearance"]) - float(row["min_clearance_m"])) < 0.011,
+              f"where the clearance is that of the table: {end['clearance']} m")
+        browser.press("\ue012")  # arrow to the left
+        last = browser.run(STATE)
+        check(last["step"] == end["step"] and float(last["time"]) < float(end["time"]),
+              "the last plan was before it")
+        browser.press("\ue014")  # arrow to the right
+        check(browser.run(STATE) == end, "the step after the last plan is the end")
+        check(browser.run(TOGGLED, "scene") > 50, "the true scene can be switched off and on")
+        check(browser.errors() == [], "no errors")
+
+
 def check_replay(folder, model):
-    command("replay", folder, "--seed", "0", "--model", model, "-o", folder / model)
-    page = folder / model / "replay.html"
+    command("replay", folder, "--seed", "0", "--model", model, "-o", folder / "replays")
+    page = folder / "replays" / f"replay-gap-0-{model}-astar-4mps.html"
     check_offline(page)
     check(page.stat().st_size < 15e6, f"{model}: {page.stat().st_size / 1e6:.1f} MB")
     with Browser() as browser:
@@ -117,3 +192,8 @@ with tempfile.TemporaryDirectory() as place:
           "the worst run is shown, and came out again as it was")
     for one in ("W-RoI", "O-Full-0.4"):
         check_replay(flown, one)
+    check_panels(flown / "replays/replay-gap-0-O-Full-0.4-astar-4mps.html")
+    command("closedloop", "--scenario", "forest-0.10", "--seeds", "4", "--models", "W-RoI",
+            "--guidance", "straight", "--speed", "10", "--latency-scale", "15", "-o",
+            place / "crash")
+    check_crash(place / "crash")

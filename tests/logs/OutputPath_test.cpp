@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <hagen/logs/CloseWritten.h>
 #include <hagen/logs/OutputPath.h>
 
 #include <fstream>
@@ -20,6 +21,26 @@ TEST(OutputPath, AFileAppearsWhenItIsWhole) {
     EXPECT_FALSE(fs::exists(folder / "a.rawlog"));
     output.commit();
     EXPECT_EQ(test::readFile(folder / "a.rawlog"), "new");
+}
+
+TEST(CloseWritten, TellsWhyAFileCannotBeWritten) {
+    const test::TemporaryFolder folder;
+    const auto refusal = [&](const fs::path& place) {
+        return test::messageOf([&] { writeText("text", place, "named.csv"); });
+    };
+    EXPECT_EQ(refusal(folder.path()), "named.csv: cannot be written: Is a directory");
+    EXPECT_EQ(refusal(folder / "no/a.csv"),
+              "named.csv: cannot be written: No such file or directory");
+    if (fs::exists("/dev/full")) {
+        EXPECT_EQ(refusal("/dev/full"), "named.csv: cannot be written: No space left on device");
+        std::ofstream out("/dev/full");  // full before it is closed
+        out << std::string(100000, 'x') << std::flush;
+        errno = EACCES;  // of something else since
+        EXPECT_EQ(test::messageOf([&] { closeWritten(out, "named.csv"); }),
+                  "named.csv: cannot be written: No space left on device");
+    }
+    EXPECT_EQ(refusal(folder / "a.csv"), "");
+    EXPECT_EQ(test::readFile(folder / "a.csv"), "text");
 }
 
 TEST(OutputPath, WhatExistsIsReplacedOnlyWhereWanted) {

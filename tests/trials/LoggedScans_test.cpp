@@ -137,7 +137,11 @@ TEST_F(LoggedScansTest, TellsWhatIsMissing) {
     EXPECT_NE(messageOf({poleLog(3), posesAt({5, 6}), "", {}})
                   .find("has no pose near any of the 3 scans"),
               std::string::npos);
-    EXPECT_NE(messageOf({poleLog(1), posesAt({10}), "roof", {}}).find("no LiDAR scan of 'roof'"),
+    EXPECT_NE(messageOf({poleLog(5), posesAt({10, 11}), "", {}})
+                  .find("has poses near 2 of the 5 scans alone, fewer than half, of "),
+              std::string::npos);
+    EXPECT_NE(messageOf({poleLog(1), posesAt({10}), "roof", {}})
+                  .find("has no LiDAR scan of 'roof'; there are 'lidar'"),
               std::string::npos);
     mrpt::obs::CObservationComment comment;
     RawlogWriter writer(folder_ / "words.rawlog", true);

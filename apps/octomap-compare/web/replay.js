@@ -11,15 +11,18 @@ function numbers(text) {
   return new Int16Array(bytes.buffer);
 }
 const points = text => Float32Array.from(numbers(text), n => n * data.unit_m);
-const track = points(data.track);
+const track = points(data.track), moments = track.length / 3;
+const speeds = points(data.speeds), clearances = points(data.clearances);
 const goal = points(data.goal);
 const middles = points(data.model.middles), lives = numbers(data.model.lives);
 const cells = lives.length / 2, edge = data.model.edge_m;
-const ends = data.track.length ? (track.length / 3 - 1) * data.control_step_s : 0;
+const ends = Math.max(0, moments - 1) * data.control_step_s;  // later than the last step
 
 // ---- scene
 const colors = {roi: 0xd55e00, rou: 0x9aa5b1, model: 0xe69f00, above: 0xb58a3c, free: 0x009e73, blocked: 0xcc79a7,
-                track: 0x0072b2, path: 0x7a3fb0, command: 0x1d2530};
+                track: 0x0072b2, path: 0x7a3fb0, command: 0x1d2530, scene: 0x6f8a66, ground: 0xb2bbab, mover: 0xb03a3a};
+const kindColors = {tree: 0x6f8a66, canopy: 0xa3b88c, wall: 0x8b8f98, building: 0x8b8f98, vehicle: 0x7488a3,
+                    pole: 0x4c535c, wire: 0x4c535c};
 const view = byId('view');
 let renderer;
 try {
@@ -42,10 +45,66 @@ camera.position.set(-10, -5, 6);
 const controls = new THREE.OrbitControls(camera, renderer.domElement);
 controls.maxDistance = 150;
 
-const grid = new THREE.GridHelper(160, 80, 0x9aa5b1, 0xbcc5ce);
-grid.rotation.x = Math.PI / 2;
-grid.position.set(20, 0, data.ground_m);
-scene.add(grid);
+// ---- what truly stands and moves: shapes once each, and where they are
+const truth = new THREE.Group();
+scene.add(truth);
+const shapes = data.scene.shapes.map(text => {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(
+      Float32Array.from(numbers(text), n => n * data.scene.unit_m), 3));
+  geometry.computeVertexNormals();
+  return geometry;
+});
+const surface = (color, opacity) => new THREE.MeshLambertMaterial(
+    {color, side: THREE.DoubleSide, transparent: opacity < 1, opacity, depthWrite: opacity === 1});
+for (const thing of data.scene.things) {
+  const made = new THREE.InstancedMesh(shapes[thing.shape], surface(kindColors[thing.kind] || colors.scene, 0.6),
+                                       thing.poses.length);
+  thing.poses.forEach((pose, i) => made.setMatrixAt(i, new THREE.Matrix4().set(...pose, 0, 0, 0, 1)));
+  made.frustumCulled = false;
+  truth.add(made);
+}
+const movers = data.scene.movers.map(mover => {
+  const poses = numbers(mover.poses), made = new THREE.Mesh(shapes[mover.shape], surface(colors.mover, 0.85));
+  truth.add(made);
+  const place = (i, k) => poses[4 * i + k] * data.unit_m;
+  const heading = i => poses[4 * i + 3] * data.scene.turn_unit_rad;
+  return {moveTo: when => {
+    const last = poses.length / 4 - 1, rank = Math.max(0, Math.min(last, when / data.scene.mover_step_s));
+    const low = Math.floor(rank), high = Math.min(low + 1, last), share = rank - low;
+    made.position.set(...[0, 1, 2].map(k => (1 - share) * place(low, k) + share * place(high, k)));
+    const turn = heading(high) - heading(low);  // the short way round
+    made.rotation.z = heading(low) + share * Math.atan2(Math.sin(turn), Math.cos(turn));
+  }};
+});
+
+/// The ground: lines from corner to corner, and a surface, a little lower so that returns stay above it.
+function ground() {
+  const {x_m, y_m, step_m, along_x, along_y} = data.scene.ground, heights = points(data.scene.ground.heights);
+  const corners = [], edges = [], faces = [];
+  for (let j = 0; j < along_y; ++j) {
+    for (let i = 0; i < along_x; ++i) {
+      const at = j * along_x + i, right = i + 1 < along_x, up = j + 1 < along_y;
+      corners.push(x_m + i * step_m, y_m + j * step_m, heights[at]);
+      if (right) edges.push(at, at + 1);
+      if (up) edges.push(at, at + along_x);
+      if (right && up) faces.push(at, at + 1, at + along_x, at + 1, at + along_x + 1, at + along_x);
+    }
+  }
+  const geometryOf = index => {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(corners, 3));
+    geometry.setIndex(index);
+    return geometry;
+  };
+  scene.add(new THREE.LineSegments(geometryOf(edges), new THREE.LineBasicMaterial({color: 0xbcc5ce})));
+  const faced = geometryOf(faces);
+  faced.computeVertexNormals();
+  const made = new THREE.Mesh(faced, surface(colors.ground, 1));
+  made.position.z = -0.15;
+  truth.add(made);
+}
+ground();
 
 /// Points whose number changes.
 function cloud(color, size) {
@@ -110,9 +169,9 @@ function vehicle() {
                                    depthWrite: false}));
   group.add(room);
   scene.add(group);
-  return group;
+  return {body: group, room};
 }
-const drone = vehicle();
+const {body: drone, room} = vehicle();
 
 // The model's cells: boxes where they have an edge, else points. Low ones, mostly
 // ground, are paler; those above where one may fly are hidden unless asked for.
@@ -166,7 +225,7 @@ function stepData(index) {
       at += count;
     }
     decoded.set(index, {roi: points(step.roi), rou: points(step.rou), path: points(step.path),
-                        at: points(step.at), free: new Float32Array(apart.free),
+                        carrot: points(step.carrot), free: new Float32Array(apart.free),
                         blocked: new Float32Array(apart.blocked)});
   }
   return decoded.get(index);
@@ -197,7 +256,7 @@ function showStep(index) {
   carrot.visible = seen && layers.path.checked;
   arrow.visible = seen && layers.command.checked;
   if (seen) {
-    carrot.position.set(now.at[3], now.at[4], now.at[5]);
+    carrot.position.set(...now.carrot);
     const command = new THREE.Vector3(...data.steps[index].command_m_s), speed = command.length();
     arrow.visible = arrow.visible && speed > 0.05;
     if (speed > 0.05) {
@@ -208,6 +267,8 @@ function showStep(index) {
 }
 
 // ---- panels
+const wide = window.matchMedia('(min-width: 561px)');
+byId('layers').open = wide.matches;
 const layers = {};
 function layer(name, label, color, objects, hidden) {
   const line = document.createElement('label'), box = document.createElement('input');
@@ -222,6 +283,7 @@ function layer(name, label, color, objects, hidden) {
   box.addEventListener('change', () => { objects.forEach(one => { one.visible = box.checked; }); draw(); });
   layers[name] = box;
 }
+layer('scene', 'true scene', colors.scene, [truth]);
 layer('roi', 'regions of interest', colors.roi, [roi.object]);
 layer('rou', 'rest of the scan', colors.rou, [rou.object]);
 layer('model', edge > 0 ? 'map (' + data.model_name + ')' : 'window (' + data.model_name + ')', colors.model, [model.object]);
@@ -235,6 +297,8 @@ layer('path', 'path and carrot', colors.path, [path.object, carrot]);
 layer('flown', 'way flown', colors.track, [flown.object]);
 layer('command', 'command', colors.command, [arrow]);
 
+byId('ending').textContent = data.ending.charAt(0).toUpperCase() + data.ending.slice(1);
+byId('ending').className = data.outcome === 'success' ? '' : 'alarm';
 byId('note').textContent = data.is_same ? '' :
     'Flown again it came out otherwise than the table tells: another version, or machine?';
 const figures = {};
@@ -255,14 +319,20 @@ for (const event of data.events) {
 
 function showFigures() {
   const step = shown >= 0 ? data.steps[shown] : null;
-  figures.clearance.textContent = step ? (step.clearance_m).toFixed(2) + ' m' : '-';
-  figures.clearance.className = step && step.clearance_m < data.radius_m ? 'alarm' : '';
-  figures.speed.textContent = step ? step.speed_m_s.toFixed(1) + ' m/s' : '-';
+  const moment = Math.min(moments - 1, Math.round(time / data.control_step_s));
+  const clearance = moments > 0 ? clearances[moment] : NaN;
+  figures.clearance.textContent = moments > 0 ? clearance.toFixed(2) + ' m' : '-';
+  figures.clearance.className = clearance < data.radius_m ? 'alarm' : '';
+  figures.speed.textContent = moments > 0 ? speeds[moment].toFixed(1) + ' m/s' : '-';
   figures.latency.textContent = step ? step.latency_ms.toFixed(1) + ' ms' : '-';
   figures['in the model'].textContent = held + (edge > 0 ? ' voxels' : ' points');
   const over = time >= ends;
   figures.state.textContent = over ? data.outcome : step && step.emergency ? 'emergency stop' : 'flying';
   figures.state.className = (over && data.outcome !== 'success') || (step && step.emergency) ? 'alarm' : '';
+  const hit = over && data.outcome === 'collision';
+  room.material.color.setHex(hit ? colors.mover : colors.track);
+  room.material.opacity = hit ? 0.4 : 0.12;
+  document.body.dataset.clearance = clearance.toFixed(2);
 }
 
 // ---- time
@@ -271,8 +341,8 @@ const slider = byId('time'), play = byId('play'), follow = byId('follow');
 slider.max = String(ends);
 
 function positionAt(when) {
-  const rank = Math.max(0, Math.min(track.length / 3 - 1, when / data.control_step_s));
-  const low = Math.floor(rank), high = Math.min(low + 1, track.length / 3 - 1), share = rank - low;
+  const rank = Math.max(0, Math.min(moments - 1, when / data.control_step_s));
+  const low = Math.floor(rank), high = Math.min(low + 1, moments - 1), share = rank - low;
   return new THREE.Vector3(...[0, 1, 2].map(k => (1 - share) * track[3 * low + k] + share * track[3 * high + k]));
 }
 function seek(when) {
@@ -286,6 +356,7 @@ function seek(when) {
     controls.target.copy(position);
   }
   flown.object.geometry.setDrawRange(0, Math.floor(time / data.control_step_s) + 1);
+  for (const mover of movers) mover.moveTo(time);
   showStep(stepAt(time));
   showFigures();
   slider.value = String(time);
@@ -315,17 +386,21 @@ function tick(now) {
   seek(time + passed * Number(byId('rate').value));
   if (time >= ends) pause(); else requestAnimationFrame(tick);
 }
+/// The flight goes on after its last command, to its end, which comes after the last step here. A
+/// command that was still being thought of then was never given.
+const given = data.steps.filter(step => step.time_s < ends).length;
 function toStep(index) {
   pause();
-  const last = data.steps.length - 1;
-  seek(index < 0 || last < 0 ? 0 : data.steps[Math.min(index, last)].time_s + 1e-6);
+  if (index < 0 || given === 0) return seek(0);
+  seek(index < given ? data.steps[index].time_s + 1e-6 : ends);
 }
+const stepBefore = () => time >= ends ? given - 1 : shown - 1;
 play.addEventListener('click', () => playing ? pause() : start());
 slider.addEventListener('input', () => { pause(); seek(Number(slider.value)); });
 follow.addEventListener('change', () => seek(time));
 const keys = {
   ' ': () => playing ? pause() : start(),
-  ArrowRight: () => toStep(shown + 1), ArrowLeft: () => toStep(shown - 1),
+  ArrowRight: () => toStep(shown + 1), ArrowLeft: () => toStep(stepBefore()),
   Home: () => { pause(); seek(0); }, End: () => { pause(); seek(ends); },
   f: () => { follow.checked = !follow.checked; seek(time); }
 };
@@ -350,7 +425,7 @@ function resize() {
 window.addEventListener('resize', resize);
 resize();
 controls.target.set(0, 0, 0);
-// replay.html#t=5 begins at 5 s; else the first plan is shown.
+// The page's address with #t=5 begins at 5 s; else the first plan is shown.
 const asked = window.location.hash.match(/^#t=([0-9.]+)$/);
 seek(asked ? Number(asked[1]) : data.steps.length > 0 ? data.steps[0].time_s : 0);
 controls.update();

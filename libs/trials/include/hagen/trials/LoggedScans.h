@@ -33,7 +33,7 @@ struct LoggedScan {
 class LoggedScans {
  public:
     /// Reads poses and times. Throws std::runtime_error, naming the file, where there are no scans,
-    /// no poses, or none that a scan was taken at; SettingsError where settings do not fit.
+    /// no poses, or fewer than half of the scans have one; SettingsError where settings do not fit.
     explicit LoggedScans(const LogSource& source);
     ~LoggedScans();
 
