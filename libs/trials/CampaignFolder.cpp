@@ -2,7 +2,7 @@
 #include <hagen/logs/OutputPath.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/trials/CampaignFolder.h>
-#include <hagen/trials/TrialScore.h>
+#include <hagen/trials/Statistics.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -146,7 +146,7 @@ std::string measuredRowOf(const Run& run, const TrialMeasurement& measurement) {
         for (const double share : {0.5, 0.95}) {
             row += ",";
             if (found != measurement.stage_ms.end()) {
-                row += shortText(quantileOf(found->second, share), 3);
+                row += shortText(quantile(found->second, share), 3);
             }
         }
     }
