@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "Commands.h"
+#include "FlownRuns.h"
 #include "Replay.h"
 #include "Summary.h"
 
@@ -36,11 +37,9 @@ bool matches(const Run& run, const Flags& flags) {
 }
 
 std::string choiceOf(const Run& run) {
-    const Condition condition{run.setup.speed_m_s, run.setup.planner, run.setup.pose_error,
-                              run.setup.latency_scale, run.setup.brakes_in_known_space};
     return "--scenario " + run.scenario + " --model " + run.setup.model + " --guidance " +
-           run.setup.guidance + "   (" + nameOf(condition) + ": " + nameOf(run.result.outcome) +
-           ")";
+           run.setup.guidance + "   (" + nameOf(conditionOf(run)) + ": " +
+           nameOf(run.result.outcome) + ")";
 }
 
 /// The only run that the flags name. Throws CLI::ValidationError where there is none, or several.
@@ -68,7 +67,7 @@ Run chosen(const std::vector<Run>& runs, const Flags& flags, const fs::path& tab
 int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     const fs::path into = flags.output.empty() ? folder : fs::path(flags.output);
-    const Run wanted = chosen(readRuns(folder / "runs.csv"), flags, folder / "runs.csv");
+    const Run wanted = chosen(readFlownRuns(folder).runs, flags, folder / "runs.csv");
     const LatencyProfile profile = readLatencyProfile(folder / "profile.json");
     fs::create_directories(into);
     OutputPath page(into / "replay.html", OutputPath::Kind::File, flags.overwrite);
