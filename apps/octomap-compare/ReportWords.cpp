@@ -101,7 +101,7 @@ std::string differenceOf(const Pairing& pairing) {
     std::string who = spoken(pairing.first) + " against " +
                       (same_guidance ? pairing.second.model : spoken(pairing.second));
     const std::string place = placeOf(pairing.scenario);
-    return capital(place) + (place.empty() ? "" : ", ") + who + ": " +
+    return capital(place) + (place.empty() ? "" : ", ") + who + ": success " +
            percent((pairing.both + pairing.only_first) / n) + " % against " +
            percent((pairing.both + pairing.only_second) / n) + " % of the same " +
            counted(pairing.pairs(), "course") + ", " + points(pairing.difference) +
@@ -120,7 +120,7 @@ std::string difference(const Pairing& pairing) {
             return "Open: " + differenceOf(pairing) +
                    (pairing.verdict == Verdict::Inferior
                         ? ". With so many comparisons this may be chance."
-                        : ". More courses are needed to exclude a loss of " + marginText() + ".");
+                        : ".");
         default:
             return differenceOf(pairing) + ".";
     }
@@ -222,6 +222,10 @@ std::vector<std::string> verdictOf(const Summary& summary) {
     std::stable_partition(pairings.begin(), pairings.end(),
                           [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
     for (const Pairing& pairing : pairings) words.push_back(difference(pairing));
+    if (!pairings.empty() && answerOf(pairings.back()) == Undecided) {
+        words.push_back("What is open needs more courses to exclude a loss of " + marginText() +
+                        ".");
+    }
     int most_runs = 0;
     for (const Contender& contender : presentIn(summary, reference)) {
         const Cell& cell = *find(summary, "", reference, contender);

@@ -150,12 +150,14 @@ TEST(Verdict, TellsWiresApartFromTheRest) {
     EXPECT_EQ(words[0],
               "W-RoI with A* at 4 m/s arrives less often than W-Full (among wires), by more than "
               "3 points. It loses less than 3 points, if any, to W-Full (where no wires are).");
-    EXPECT_EQ(words[1].find("Where no wires are, W-RoI with A* against W-Full: 100.0 % against "
-                            "99.8 % of the same 400 courses, +0.2 points (95 % interval "),
-              0u)
+    EXPECT_EQ(
+        words[1].find("Where no wires are, W-RoI with A* against W-Full: success 100.0 % against "
+                      "99.8 % of the same 400 courses, +0.2 points (95 % interval "),
+        0u)
         << words[1];
-    EXPECT_EQ(words[2].find("Among wires, W-RoI with A* against W-Full: 75.0 % against 100.0 %"),
-              0u)
+    EXPECT_EQ(
+        words[2].find("Among wires, W-RoI with A* against W-Full: success 75.0 % against 100.0 %"),
+        0u)
         << words[2];
     // Where nobody flew wires, all is where no wires are.
     EXPECT_TRUE(summarize(threeContenders()).without_wires.empty());
@@ -164,14 +166,16 @@ TEST(Verdict, TellsWiresApartFromTheRest) {
 TEST(Verdict, SpeaksOfOneAsOne) {
     const std::vector<std::string> words = verdictOf(summarize(
         {runOf("gap", 0, "W-RoI", "astar", kHit), runOf("gap", 0, "G-Full", "astar", kWon)}));
-    ASSERT_EQ(words.size(), 4u);
+    ASSERT_EQ(words.size(), 5u);
     EXPECT_EQ(words[0], "W-RoI with A* at 4 m/s: nothing is decided yet. Open: G-Full.");
-    EXPECT_EQ(words[1].find("Open: W-RoI with A* against G-Full: 0.0 % against 100.0 % of the same "
-                            "1 course, -100.0 points ("),
+    EXPECT_EQ(words[1].find(
+                  "Open: W-RoI with A* against G-Full: success 0.0 % against 100.0 % of the same "
+                  "1 course, -100.0 points ("),
               0u)
         << words[1];
-    EXPECT_EQ(words[2].find("W-RoI with A*: 1 collision in 1 run;"), 0u) << words[2];
-    EXPECT_NE(words[3].find("0 collisions in 1 run still allows"), std::string::npos);
+    EXPECT_EQ(words[2], "What is open needs more courses to exclude a loss of 3 points.");
+    EXPECT_EQ(words[3].find("W-RoI with A*: 1 collision in 1 run;"), 0u) << words[3];
+    EXPECT_NE(words[4].find("0 collisions in 1 run still allows"), std::string::npos);
 }
 
 TEST(Verdict, CallsNothingWorseThatMayBeChance) {
@@ -186,7 +190,8 @@ TEST(Verdict, CallsNothingWorseThatMayBeChance) {
     EXPECT_EQ(differenceText(pairing).find("Open: "), 0u);
     EXPECT_NE(differenceText(pairing).find("may be chance"), std::string::npos);
     pairing.p_holm = 0.04;
-    EXPECT_EQ(differenceText(pairing).find("W-RoI with A* against G-Full: 90.0 % against 100.0 %"),
+    EXPECT_EQ(differenceText(pairing).find(
+                  "W-RoI with A* against G-Full: success 90.0 % against 100.0 %"),
               0u);
 }
 
