@@ -7,6 +7,7 @@
 
 #include "ChooseRun.h"
 #include "Commands.h"
+#include "FlownRuns.h"
 #include "Replay.h"
 
 namespace hagen {
@@ -20,19 +21,19 @@ struct Flags {
     bool overwrite = false;
 };
 
-Run chosen(const fs::path& table, const RunWanted& wanted) {
-    const std::vector<Run> runs = readRuns(table);
+Run chosen(const fs::path& folder, const RunWanted& wanted) {
+    const std::vector<Run> runs = readFlownRuns(folder).runs;
     try {
         return chooseRun(runs, wanted);
     } catch (const std::invalid_argument& e) {
-        throw CLI::ValidationError(table.string(), e.what());
+        throw CLI::ValidationError((folder / "runs.csv").string(), e.what());
     }
 }
 
 int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     const fs::path into = flags.output.empty() ? folder : fs::path(flags.output);
-    const Run wanted = chosen(folder / "runs.csv", flags.wanted);
+    const Run wanted = chosen(folder, flags.wanted);
     const LatencyProfile profile = readLatencyProfile(folder / "profile.json");
     fs::create_directories(into);
     const std::string name = "replay-" + fileNameOf(wanted);

@@ -57,12 +57,12 @@ std::vector<MemoryCurve> readMemory(const fs::path& file) {
 }
 
 void addWorst(std::size_t count, Report& report) {
-    if (count == 0 || report.runs.empty()) return;
+    if (count == 0 || report.flown.runs.empty()) return;
     if (!report.profile) {
         report.worst_missing = "They cannot be flown again: the folder has no profile.json.";
         return;
     }
-    for (const Run& run : worstRuns(report.runs, count)) {
+    for (const Run& run : worstRuns(report.flown.runs, count)) {
         std::cerr << "flying again: " << run.scenario << ", seed " << run.seed << ", "
                   << run.setup.model << "\n";
         try {
@@ -78,26 +78,13 @@ int run(const Flags& flags) {
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder; give one with a runs.csv");
     }
-    const fs::path journal = folder / "journal";
-    const bool is_unfinished = fs::is_directory(journal) && !fs::is_empty(journal);
-    if (is_unfinished && !fs::exists(folder / "runs.csv")) {
-        throw std::runtime_error(folder.string() +
-                                 ": was stopped before it had a runs.csv; give the same closedloop "
-                                 "command again, and it goes on where it was");
-    }
-    if (is_unfinished) {
-        std::cerr << folder.string()
-                  << ": a closedloop command was stopped here; what it finished is in journal and "
-                     "not in this report until the same command is given again\n";
-    }
     Report report;
-    report.runs = readRuns(folder / "runs.csv");
-    if (report.runs.empty()) {
+    report.flown = readFlownRuns(folder);
+    if (report.flown.runs.empty()) {
         throw std::runtime_error((folder / "runs.csv").string() +
                                  ": has no runs; fly some with octomap-compare closedloop");
     }
-    sortRuns(report.runs);
-    report.summary = summarize(report.runs);
+    report.summary = summarize(report.flown.runs);
     if (fs::exists(folder / "profile.json")) {
         report.profile = readLatencyProfile(folder / "profile.json");
     }
@@ -119,10 +106,17 @@ int run(const Flags& flags) {
         outputs.push_back(std::make_unique<TextOutput>(path, flags.overwrite, std::move(text)));
     };
     write(folder / "report.html", reportPage(report));
-    write(folder / "summary.json", jsonOf(report.summary).dump(2) + "\n");
+    nlohmann::ordered_json summary = jsonOf(report.summary);
+    if (report.flown.planned > 0) {
+        summary["planned_runs"] = report.flown.planned;
+        summary["missing_runs"] = report.flown.missing;
+    }
+    write(folder / "summary.json", summary.dump(2) + "\n");
     write(folder / "summary.csv", csvOf(report.summary));
     if (!flags.markdown.empty()) write(flags.markdown, reportMarkdown(report));
     for (const auto& output : outputs) output->place.commit();
+    const std::string unfinished = unfinishedWords(report.flown);
+    if (!unfinished.empty()) std::cout << unfinished << "\n";
     for (const std::string& words : verdictOf(report.summary)) std::cout << words << "\n";
     std::cout << (folder / "report.html").string() << "\n";
     return 0;

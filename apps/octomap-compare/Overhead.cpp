@@ -1,5 +1,7 @@
 #include "Overhead.h"
 
+#include <hagen/trials/TrialScore.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -29,9 +31,10 @@ struct Box {
     double x0, x1, y0, y1;
 };
 
-/// Start, goal and track, and some room around them.
+/// The whole flight with a margin, and enough to either side to see what it flew around. Marks are
+/// up to 1.5 m about what they mark.
 Box boxOf(const OverheadView& view) {
-    constexpr double kRoom_m = 5;
+    constexpr double kRoom_m = 5, kLeastWidthToHeight = 1.5;
     Box box{view.start_m.x(), view.start_m.x(), view.start_m.y(), view.start_m.y()};
     const auto include = [&](const Eigen::Vector2d& at) {
         box = {std::min(box.x0, at.x()), std::max(box.x1, at.x()), std::min(box.y0, at.y()),
@@ -39,7 +42,11 @@ Box boxOf(const OverheadView& view) {
     };
     include(view.goal_m);
     for (const Eigen::Vector2d& at : view.track_m) include(at);
-    return {box.x0 - kRoom_m, box.x1 + kRoom_m, box.y0 - kRoom_m, box.y1 + kRoom_m};
+    box = {box.x0 - kRoom_m, box.x1 + kRoom_m, box.y0 - kRoom_m, box.y1 + kRoom_m};
+    const double width = box.x1 - box.x0, height = box.y1 - box.y0;
+    const double more_y = std::max(0.0, width / kLeastWidthToHeight - height) / 2;
+    const double more_x = std::max(0.0, height * kLeastWidthToHeight - width) / 2;
+    return {box.x0 - more_x, box.x1 + more_x, box.y0 - more_y, box.y1 + more_y};
 }
 
 /// Cells side by side are one rectangle. SVG's y points down.
@@ -69,6 +76,32 @@ std::string point(const Eigen::Vector2d& at) { return fixed(at.x(), 2) + "," + f
 std::string circle(const Eigen::Vector2d& at, double radius_m, const std::string& style) {
     return "<circle cx=\"" + fixed(at.x(), 2) + "\" cy=\"" + fixed(-at.y(), 2) + "\" r=\"" +
            fixed(radius_m, 2) + "\" " + style + "/>";
+}
+
+std::string startMark(const Eigen::Vector2d& at) { return circle(at, 0.6, "class=\"start\""); }
+
+/// As large as what counts as arrived, and a dot.
+std::string goalMark(const Eigen::Vector2d& at) {
+    return circle(at, TrialJudge::kArrived_m, "class=\"goal\"") +
+           circle(at, 0.25, "class=\"goal-dot\"");
+}
+
+std::string stopMark(const Eigen::Vector2d& at) { return circle(at, 0.25, "class=\"stop\""); }
+
+std::string endMark(const Eigen::Vector2d& at) {
+    return "<rect class=\"end\" x=\"" + fixed(at.x() - 0.55, 2) + "\" y=\"" +
+           fixed(-at.y() - 0.55, 2) + "\" width=\"1.1\" height=\"1.1\"/>";
+}
+
+std::string hitMark(const Eigen::Vector2d& at) {
+    const std::string x = fixed(at.x() - 0.9, 2);
+    return "<path class=\"hit\" d=\"M" + x + " " + fixed(-at.y() - 0.9, 2) + "l1.8 1.8M" + x + " " +
+           fixed(-at.y() + 0.9, 2) + "l1.8 -1.8\"/>";
+}
+
+std::string legendItem(const std::string& mark, const std::string& words) {
+    return "<li><svg class=\"overhead\" viewBox=\"-2 -2 4 4\" aria-hidden=\"true\">" + mark +
+           "</svg>" + words + "</li>";
 }
 
 }  // namespace
@@ -123,18 +156,30 @@ std::string svgOf(const OverheadView& view) {
     for (std::size_t i = 0; i < view.track_m.size(); i += 5) svg += point(view.track_m[i]) + " ";
     if (!view.track_m.empty()) svg += point(view.track_m.back());
     svg += "\"/>";
-    for (const Eigen::Vector2d& at : view.stops_m) svg += circle(at, 0.18, "class=\"stop\"");
-    svg += circle(view.start_m, 0.45, "class=\"start\"");
-    svg += circle(view.goal_m, 1.5, "class=\"goal\"");
+    for (const Eigen::Vector2d& at : view.stops_m) svg += stopMark(at);
+    svg += startMark(view.start_m) + goalMark(view.goal_m);
     const bool is_collision = view.run.result.outcome == Outcome::Collision;
     if (!view.track_m.empty()) {
-        svg += circle(view.track_m.back(), 0.45, is_collision ? "class=\"hit\"" : "class=\"end\"");
+        svg += is_collision ? hitMark(view.track_m.back()) : endMark(view.track_m.back());
     }
     // A scale of 5 m.
     const double x = box.x0 + 1, y = -box.y0 - 1;
     svg += "<path class=\"scale\" d=\"M" + fixed(x, 1) + " " + fixed(y, 1) + "h5\"/><text x=\"" +
            fixed(x, 1) + "\" y=\"" + fixed(y - 0.4, 1) + "\">5 m</text>";
     return svg + "</svg>\n";
+}
+
+std::string overheadLegend() {
+    const Eigen::Vector2d middle(0, 0);
+    return "<ul class=\"legend\">" + legendItem(startMark(middle), "start") +
+           legendItem(goalMark(middle), "goal") +
+           legendItem("<path class=\"track\" d=\"M-2 0h4\"/>", "true path") +
+           legendItem(endMark(middle), "end, no collision") +
+           legendItem(hitMark(middle), "collision") +
+           legendItem(stopMark(middle), "emergency stop") +
+           legendItem("<path class=\"obstacles\" d=\"M-1 -1h2v2h-2z\"/>",
+                      "what the LiDAR saw 0.5 to 4.5 m above the ground") +
+           "</ul>\n";
 }
 
 }  // namespace hagen

@@ -27,6 +27,10 @@ OverheadView viewFromAbove(const Run& run, const LatencyProfile& profile);
 /// The oracle's are left out.
 std::vector<Run> worstRuns(const std::vector<Run>& runs, std::size_t count);
 
+/// The flight from above, whole and with a margin, as SVG in metres.
 std::string svgOf(const OverheadView& view);
+
+/// What its marks mean, as an HTML list.
+std::string overheadLegend();
 
 }  // namespace hagen

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "FlownRuns.h"
 #include "Measured.h"
 #include "Overhead.h"
 #include "Summary.h"
@@ -18,7 +19,7 @@ struct MemoryCurve {
 
 /// All that a report tells of.
 struct Report {
-    std::vector<Run> runs;
+    FlownRuns flown;
     Summary summary;
     std::optional<LatencyProfile> profile;
     std::vector<MemoryCurve> memory;

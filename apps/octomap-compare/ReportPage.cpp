@@ -3,6 +3,7 @@
 
 #include "Report.h"
 #include "ReportWords.h"
+#include "SharedCourses.h"
 #include "SummaryFiles.h"
 #include "Web.h"
 
@@ -97,13 +98,36 @@ void addFlights(const Report& report, std::vector<Section>& sections) {
         sections.push_back(speed);
     }
     Section flight{"How they fly" + at,
-                   {"Over all scenarios that a contender flew, which need not be the same for all. "
-                    "Medians with bootstrap 95 % intervals; the least true clearance is of all "
-                    "runs, the others of successful ones. First reaction: the free way ahead when "
-                    "the vehicle first left its course."},
-                   {flightTable(summary, reference)}};
+                   {"Only courses on which all contenders of a table arrived: medians with "
+                    "bootstrap 95 % intervals. First reaction: the free way ahead when the vehicle "
+                    "first left its course, where all did. The chart has all courses that all "
+                    "flew, whatever came out."},
+                   {}};
+    for (const SharedCourses& shared : sharedCourses(report.flown.runs, summary, reference)) {
+        flight.words.push_back(sharedWords(shared));
+        if (!shared.cells.empty()) flight.tables.push_back(flightTable(shared));
+    }
     flight.charts = {"clearance"};
     sections.push_back(flight);
+}
+
+/// Wires by contender, and W-RoI against W-Full with and without them.
+void addWires(const Report& report, std::vector<Section>& sections) {
+    const Summary& summary = report.summary;
+    const Condition& reference = summary.conditions.front();
+    const Table table = wiresTable(summary, reference);
+    if (table.rows.empty()) return;
+    Section wires{"Wires, and where none are, at " + nameOf(reference),
+                  {"What the filter takes away may be a wire: W-RoI against W-Full, which keeps "
+                   "all points."},
+                  {table}};
+    for (const Pairing& pairing : summary.overall) {
+        if (!(pairing.condition == reference)) continue;
+        for (const Pairing& apart : wiresApart(summary, pairing)) {
+            wires.words.push_back(differenceText(apart));
+        }
+    }
+    sections.push_back(wires);
 }
 
 void addEffort(const Report& report, std::vector<Section>& sections) {
@@ -111,7 +135,8 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
     const Condition& reference = summary.conditions.front();
     Section effort{"Time from sensor to command at " + nameOf(reference),
                    {"From the end of a turn to the command: waiting and all stages. Medians over "
-                    "runs of a run's p50 and p95. A scan that waits when a newer one comes is "
+                    "a contender's own runs of a run's p50 and p95. A scan that waits when a newer "
+                    "one comes is "
                     "dropped."},
                    {effortTable(summary, reference)}};
     effort.charts = {"command"};
@@ -158,11 +183,10 @@ void addWorst(const Report& report, std::vector<Section>& sections) {
     } else {
         worst.words.push_back(
             "Flown again from their seeds: collisions first, then by clearance; one of each "
-            "scenario and contender. Grey: what the LiDAR saw between 0.5 and 4.5 m above the "
-            "ground. Line: the true path from the filled circle towards the open one (the goal). "
-            "Orange dots: emergency stops. Red cross-hatched end: collision.");
+            "scenario and contender.");
+        worst.html = overheadLegend();
     }
-    worst.html = "<div class=\"views\">";
+    worst.html += "<div class=\"views\">";
     for (const OverheadView& view : report.worst) {
         worst.html += "<figure>" + svgOf(view) + "<figcaption>" + htmlText(captionOf(view)) +
                       "</figcaption></figure>\n";
@@ -175,10 +199,18 @@ std::vector<Section> sectionsOf(const Report& report) {
     std::vector<Section> sections;
     Section verdict{"Verdict", verdictOf(report.summary), {}};
     verdict.is_list = true;
+    const std::string unfinished = unfinishedWords(report.flown);
+    if (!unfinished.empty()) verdict.words.insert(verdict.words.begin(), unfinished);
     sections.push_back(verdict);
-    sections.push_back({"What was flown", flownWords(report), {}});
+    Section flown{"What was flown", flownWords(report), {}};
+    if (!unfinished.empty()) {
+        flown.words.push_back(unfinished);
+        flown.tables.push_back(shortfallTable(report.flown));
+    }
+    sections.push_back(flown);
     if (report.summary.conditions.empty()) return sections;
     addOutcomes(report, sections);
+    addWires(report, sections);
     addPairings(report, sections);
     addFlights(report, sections);
     addEffort(report, sections);
@@ -208,27 +240,27 @@ std::string html(const Section& section) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// The distribution of least clearances: quantiles at 0, 0.02, ..., 1.
+/// The distribution of least clearances on courses that all of a guidance flew: quantiles at 0,
+/// 0.02, ..., 1.
 Json clearancesOf(const Report& report) {
-    Json curves = Json::array();
-    for (const Contender& contender : report.summary.contenders) {
-        std::vector<double> values;
-        for (const Run& run : report.runs) {
-            const Condition condition{run.setup.speed_m_s, run.setup.planner, run.setup.pose_error,
-                                      run.setup.latency_scale, run.setup.brakes_in_known_space};
-            if (condition == report.summary.conditions.front() &&
-                contender == Contender{run.setup.model, run.setup.guidance} &&
-                std::isfinite(run.result.min_clearance_m)) {
-                values.push_back(run.result.min_clearance_m);
+    Json groups = Json::array();
+    for (const SharedCourses& shared :
+         sharedCourses(report.flown.runs, report.summary, report.summary.conditions.front())) {
+        if (shared.flown == 0) continue;
+        Json curves = Json::array();
+        for (std::size_t c = 0; c < shared.contenders.size(); ++c) {
+            Json curve = Json::array();
+            for (int i = 0; i <= 50; ++i) {
+                curve.push_back(number(quantile(shared.min_clearances_m[c], i / 50.0)));
             }
+            curves.push_back({{"model", shared.contenders[c].model},
+                              {"guidance", shared.guidance},
+                              {"quantiles_m", curve}});
         }
-        if (values.empty()) continue;
-        Json curve = Json::array();
-        for (int i = 0; i <= 50; ++i) curve.push_back(quantile(values, i / 50.0));
-        curves.push_back(
-            {{"model", contender.model}, {"guidance", contender.guidance}, {"quantiles_m", curve}});
+        groups.push_back(
+            {{"guidance", shared.guidance}, {"courses", shared.flown}, {"curves", curves}});
     }
-    return curves;
+    return groups;
 }
 
 Json stagesJson(const Report& report) {
@@ -283,11 +315,12 @@ std::string reportMarkdown(const Report& report) {
     std::string text = "# Mapped against mapping-free avoidance\n";
     for (const Section& section : sectionsOf(report)) {
         if (section.is_long || (!section.html.empty() && section.tables.empty())) continue;
-        text += "\n## " + section.title + "\n\n";
+        if (text.substr(text.size() - 2) != "\n\n") text += "\n";
+        text += "## " + section.title + "\n\n";
         for (const std::string& words : section.words) {
-            text += (section.is_list ? "- " : "") + words + "\n";
+            text += section.is_list ? "- " + words + "\n" : words + "\n\n";
         }
-        for (const Table& table : section.tables) text += "\n" + markdownOf(table);
+        for (const Table& table : section.tables) text += markdownOf(table) + "\n";
     }
     return text;
 }

@@ -54,87 +54,187 @@ std::string spread(const Spread& of, int decimals) {
     return fixed(of.median, decimals) + " (" + fixed(of.median_interval, decimals) + ")";
 }
 
-std::string sentenceOf(const Pairing& pairing) {
-    const double n = pairing.pairs();
-    const std::string where = pairing.scenario.empty() ? "" : "In " + pairing.scenario + ", ";
-    std::string text = where + nameOf(pairing.first) + " against " + nameOf(pairing.second) +
-                       (pairing.scenario.empty() ? " at " : ", ") + nameOf(pairing.condition) +
-                       ": success " + percent((pairing.both + pairing.only_first) / n) +
-                       " % against " + percent((pairing.both + pairing.only_second) / n) +
-                       " % of the same " + std::to_string(pairing.pairs()) + " courses, " +
-                       points(pairing.difference) + " points (" + pointsOf(pairing.interval) + ")";
-    return text;
-}
-
-/// "Better" and "less" only where McNemar's test, corrected, says so, too.
-std::string verdictWords(const Pairing& pairing) {
-    const std::string margin = fixed(100 * kMargin, 0) + " points";
-    const bool is_certain = pairing.p_holm < 0.05;
-    if (pairing.verdict == Verdict::Inferior) return "inferior by more than " + margin;
-    if (pairing.verdict == Verdict::NotInferior) {
-        return is_certain && pairing.interval.low > 0 ? "better" : "not inferior by " + margin;
-    }
-    if (is_certain && pairing.interval.high < 0) {
-        return "less, but whether by " + margin + " is not decided";
-    }
-    return "not decided: more courses are needed to exclude a loss of " + margin;
-}
-
 std::string spoken(const Contender& contender) {
     return contender.model + (contender.guidance == "astar" ? " with A*" : " flown straight");
 }
 
-/// The answer before the figures.
-std::string headlineOf(const Summary& summary, const Condition& reference,
-                       const std::string& guidance) {
-    std::vector<std::string> of[3];
+/// "3 runs", "1 run".
+std::string counted(int count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& words) {
+    if (words.size() < 2) return join(words, "");
+    return join({words.begin(), words.end() - 1}, ", ") + " and " + words.back();
+}
+
+std::string placeOf(const std::string& scenario) {
+    if (scenario == kAllButWires) return "where no wires are";
+    return scenario == kWires ? "among wires" : scenario.empty() ? "" : "in " + scenario;
+}
+
+std::string capital(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
+        text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    }
+    return text;
+}
+
+enum Answer { MoreOften, LessByMargin, LessOften, LessWithinMargin, WithinMargin, Undecided };
+
+/// "More" and "less" only where the interval and McNemar's test, corrected, both say so.
+Answer answerOf(const Pairing& pairing) {
+    if (pairing.p_holm < 0.05) {
+        if (pairing.interval.low > 0) return MoreOften;
+        if (pairing.interval.high < -kMargin) return LessByMargin;
+        if (pairing.interval.high < 0) {
+            return pairing.interval.low > -kMargin ? LessWithinMargin : LessOften;
+        }
+    }
+    return pairing.verdict == Verdict::NotInferior ? WithinMargin : Undecided;
+}
+
+std::string differenceOf(const Pairing& pairing) {
+    const double n = pairing.pairs();
+    const bool same_guidance = pairing.first.guidance == pairing.second.guidance;
+    std::string who = spoken(pairing.first) + " against " +
+                      (same_guidance ? pairing.second.model : spoken(pairing.second));
+    const std::string place = placeOf(pairing.scenario);
+    return capital(place) + (place.empty() ? "" : ", ") + who + ": success " +
+           percent((pairing.both + pairing.only_first) / n) + " % against " +
+           percent((pairing.both + pairing.only_second) / n) + " % of the same " +
+           counted(pairing.pairs(), "course") + ", " + points(pairing.difference) +
+           " points (95 % interval " + pointsOf(pairing.interval) + "; p " + pText(pairing.p_holm) +
+           ")";
+}
+
+std::string marginText() { return fixed(100 * kMargin, 0) + " points"; }
+
+std::string difference(const Pairing& pairing) {
+    switch (answerOf(pairing)) {
+        case WithinMargin:
+            return differenceOf(pairing) + ". Not inferior: a loss of " + marginText() +
+                   " is excluded.";
+        case Undecided:
+            return "Open: " + differenceOf(pairing) +
+                   (pairing.verdict == Verdict::Inferior
+                        ? ". With so many comparisons this may be chance."
+                        : ".");
+        default:
+            return differenceOf(pairing) + ".";
+    }
+}
+
+/// What the verdict tells of: all scenarios together, but W-RoI against W-Full with wires apart.
+std::vector<Pairing> told(const Summary& summary, const Condition& condition) {
+    std::vector<Pairing> all;
     for (const Pairing& pairing : summary.overall) {
-        if (!(pairing.condition == reference) || pairing.first.guidance != guidance ||
-            pairing.second.model == pairing.first.model || pairing.second.model == "oracle") {
+        if (!(pairing.condition == condition)) continue;
+        const std::vector<Pairing> apart = wiresApart(summary, pairing);
+        if (apart.empty()) {
+            all.push_back(pairing);
+        } else {
+            all.insert(all.end(), apart.begin(), apart.end());
+        }
+    }
+    return all;
+}
+
+/// The answer before the figures.
+std::string headlineOf(const std::vector<Pairing>& pairings, const Condition& reference,
+                       const std::string& guidance) {
+    std::vector<std::string> of[Undecided + 1];
+    for (const Pairing& pairing : pairings) {
+        if (pairing.first.guidance != guidance || pairing.second.model == pairing.first.model ||
+            pairing.second.model == "oracle") {
             continue;
         }
-        of[static_cast<int>(pairing.verdict)].push_back(spoken(pairing.second));
+        const bool same_guidance = pairing.second.guidance == guidance;
+        const std::string place = placeOf(pairing.scenario);
+        of[answerOf(pairing)].push_back(
+            (same_guidance ? pairing.second.model : spoken(pairing.second)) +
+            (place.empty() ? "" : " (" + place + ")"));
     }
-    std::vector<std::string> parts;
-    const char* words[] = {"not inferior to ", "inferior to ", "not decided against "};
-    for (int verdict = 0; verdict < 3; ++verdict) {
-        if (!of[verdict].empty()) parts.push_back(words[verdict] + join(of[verdict], ", "));
+    const std::string margin = marginText();
+    const std::string before[] = {"arrives more often than ", "arrives less often than ",
+                                  "arrives less often than ", "arrives less often than ",
+                                  "loses less than " + margin + ", if any, to "};
+    const std::string after[] = {"", ", by more than " + margin, ", by how much is open",
+                                 ", by less than " + margin, ""};
+    const std::string subject = spoken({"W-RoI", guidance}) + " at " + nameOf(reference);
+    std::string text;
+    for (int answer = MoreOften; answer < Undecided; ++answer) {
+        if (of[answer].empty()) continue;
+        text += (text.empty() ? subject : " It") + " " + before[answer] + listed(of[answer]) +
+                after[answer] + ".";
     }
-    if (parts.empty()) return "";
-    return "Without a map, " + spoken({"W-RoI", guidance}) + " at " + nameOf(reference) + ", is " +
-           join(parts, "; ") + ", by success with a margin of " + fixed(100 * kMargin, 0) +
-           " points.";
+    if (of[Undecided].empty()) return text;
+    if (text.empty()) text = subject + ": nothing is decided yet.";
+    return text + " Open: " + join(of[Undecided], ", ") + ".";
 }
 
 std::string collisionWords(const Cell& cell) {
     const Bounds bounds = wilsonInterval(cell.collisions, cell.runs);
-    return nameOf(cell.contender) + ": " + std::to_string(cell.collisions) + " collisions in " +
-           std::to_string(cell.runs) + " runs; the true share may be up to " +
+    return capital(spoken(cell.contender)) + ": " +
+           (cell.collisions == 0 ? "no collision" : counted(cell.collisions, "collision")) +
+           " in " + counted(cell.runs, "run") + "; the true share may be up to " +
            percent(bounds.high) + " %.";
 }
 
 }  // namespace
 
+std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall) {
+    const auto is_same = [&](const Pairing& one) {
+        return one.condition == overall.condition && one.first == overall.first &&
+               one.second == overall.second;
+    };
+    std::vector<Pairing> apart;
+    for (const Pairing& one : summary.without_wires) {
+        if (is_same(one)) apart.push_back(one);
+    }
+    if (apart.empty()) return apart;
+    for (const Pairing& one : summary.pairings) {
+        if (one.scenario == kWires && is_same(one)) apart.push_back(one);
+    }
+    return apart;
+}
+
+std::string differenceText(const Pairing& pairing) { return difference(pairing); }
+
+std::string unfinishedWords(const FlownRuns& flown) {
+    if (flown.missing == 0) return "";
+    return "Unfinished: " + std::to_string(flown.planned - flown.missing) + " of " +
+           counted(flown.planned, "planned run") +
+           " are flown. All figures may still change; tests and intervals hold at the end of what "
+           "was planned.";
+}
+
 std::vector<std::string> verdictOf(const Summary& summary) {
     if (summary.conditions.empty()) return {"Nothing was flown: the table has no runs."};
     const Condition& reference = summary.conditions.front();
+    std::vector<Pairing> pairings = told(summary, reference);
     std::vector<std::string> words;
     for (const char* guidance : {"astar", "straight"}) {
-        const std::string headline = headlineOf(summary, reference, guidance);
+        const std::string headline = headlineOf(pairings, reference, guidance);
         if (!headline.empty()) words.push_back(headline);
     }
-    for (const Pairing& pairing : summary.overall) {
-        if (!(pairing.condition == reference)) continue;
-        words.push_back(sentenceOf(pairing) + ": " + verdictWords(pairing) + " (p " +
-                        pText(pairing.p_holm) + ").");
+    std::stable_partition(pairings.begin(), pairings.end(),
+                          [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
+    for (const Pairing& pairing : pairings) words.push_back(difference(pairing));
+    if (!pairings.empty() && answerOf(pairings.back()) == Undecided) {
+        words.push_back("What is open needs more courses to exclude a loss of " + marginText() +
+                        ".");
     }
+    int most_runs = 0;
     for (const Contender& contender : presentIn(summary, reference)) {
-        if (contender.model != "W-RoI") continue;
-        words.push_back(collisionWords(*find(summary, "", reference, contender)));
+        const Cell& cell = *find(summary, "", reference, contender);
+        most_runs = std::max(most_runs, cell.runs);
+        if (contender.model == "W-RoI") words.push_back(collisionWords(cell));
     }
-    words.push_back(
-        "None is proof of safety: 0 collisions in 200 runs still allow a true share of " +
-        percent(wilsonInterval(0, 200).high) + " % (Wilson, 95 %).");
+    words.push_back("This is no proof of safety: 0 collisions in " + counted(most_runs, "run") +
+                    (most_runs == 1 ? " still allows" : " still allow") + " a true share of " +
+                    percent(wilsonInterval(0, most_runs).high) + " % (Wilson, 95 %).");
     return words;
 }
 
@@ -145,10 +245,11 @@ std::vector<std::string> flownWords(const Report& report) {
     std::vector<std::string> conditions;
     for (const Condition& condition : summary.conditions) conditions.push_back(nameOf(condition));
     std::set<std::uint64_t> seeds;
-    for (const Run& run : report.runs) seeds.insert(run.seed);
+    for (const Run& run : report.flown.runs) seeds.insert(run.seed);
     std::vector<std::string> words{
-        std::to_string(summary.runs) + " runs through " + std::to_string(summary.scenarios.size()) +
-            " scenarios: " + join(summary.scenarios, ", ") + ".",
+        counted(summary.runs, "run") + " through " +
+            counted(static_cast<int>(summary.scenarios.size()), "scenario") + ": " +
+            join(summary.scenarios, ", ") + ".",
         "Contenders: " + join(names, "; ") + ".", "Conditions: " + join(conditions, "; ") + ".",
         "Settings " + join(summary.settings, ", ") + ", program version " +
             join(summary.versions, ", ") + "."};
@@ -220,9 +321,7 @@ Table speedTable(const Summary& summary) {
                  "the same of the interval's lower bound, m/s"},
                 {}};
     for (const SpeedLimit& limit : summary.speed_limits) {
-        const auto text = [](double speed) {
-            return std::isnan(speed) ? "none flown" : fixed(speed, 1);
-        };
+        const auto text = [](double speed) { return std::isnan(speed) ? "none" : fixed(speed, 1); };
         table.rows.push_back({limit.scenario, nameOf(limit.contender), text(limit.highest_m_s),
                               text(limit.sure_m_s)});
     }
@@ -258,16 +357,52 @@ Table squareTable(const Summary& summary, const Condition& condition) {
     return table;
 }
 
-Table flightTable(const Summary& summary, const Condition& condition) {
-    Table table{{"contender", "runs", "least clearance p5, m", "median, m", "path / oracle's",
+Table flightTable(const SharedCourses& shared) {
+    Table table{{"contender", "courses", "least clearance p5, m", "median, m", "path / oracle's",
                  "time to goal, s", "first reaction, m", "RMS jerk, m/s^3"},
                 {}};
-    for (const Contender& contender : presentIn(summary, condition)) {
-        const Cell& cell = *find(summary, "", condition, contender);
-        table.rows.push_back({nameOf(contender), std::to_string(cell.runs),
+    for (const Cell& cell : shared.cells) {
+        table.rows.push_back({nameOf(cell.contender), std::to_string(cell.runs),
                               fixed(cell.min_clearance_m.p05, 2), spread(cell.min_clearance_m, 2),
                               spread(cell.path_ratio, 3), spread(cell.time_s, 1),
                               spread(cell.first_reaction_m, 1), spread(cell.rms_jerk_m_s3, 1)});
+    }
+    return table;
+}
+
+std::string sharedWords(const SharedCourses& shared) {
+    const std::string guidance = shared.guidance == "astar" ? "With A*" : "Flown straight";
+    const std::size_t count = shared.contenders.size();
+    const std::string who = count == 1   ? nameOf(shared.contenders.front())
+                            : count == 2 ? "both contenders"
+                                         : "all " + std::to_string(count) + " contenders";
+    std::string text = guidance + ": " + counted(shared.flown, "course") +
+                       (shared.flown == 1 ? " was" : " were") + " flown by " + who;
+    if (shared.flown == 0) return text + ", so there is nothing to compare.";
+    if (shared.arrived == 0) return text + "; on none of these all arrived.";
+    return text + "; on " + std::to_string(shared.arrived) + " of these all arrived" +
+           (shared.reacted == shared.arrived
+                ? "."
+                : ", on " + std::to_string(shared.reacted) + " all reacted to something.");
+}
+
+Table wiresTable(const Summary& summary, const Condition& condition) {
+    Table table{{"contender", "runs", "success %", "collision %", "timeout %"}, {}};
+    for (const Contender& contender : presentIn(summary, condition)) {
+        const Cell* cell = find(summary, kWires, condition, contender);
+        if (cell == nullptr) continue;
+        table.rows.push_back(
+            {nameOf(contender), std::to_string(cell->runs), percentOf(cell->successes, cell->runs),
+             percentOf(cell->collisions, cell->runs), percentOf(cell->timeouts, cell->runs)});
+    }
+    return table;
+}
+
+Table shortfallTable(const FlownRuns& flown) {
+    Table table{{"condition", "contender", "runs flown", "planned"}, {}};
+    for (const Shortfall& one : flown.shortfalls) {
+        table.rows.push_back({nameOf(one.condition), nameOf(one.contender),
+                              std::to_string(one.flown), std::to_string(one.planned)});
     }
     return table;
 }

@@ -3,12 +3,23 @@
 #include <vector>
 
 #include "Report.h"
+#include "SharedCourses.h"
 #include "Table.h"
 
 namespace hagen {
 
 /// The verdict in plain words, a sentence or two each.
 std::vector<std::string> verdictOf(const Summary& summary);
+
+/// W-RoI against W-Full where wires were flown: first where no wires are, then among them. Nothing
+/// for any other pairing, and where only wires were flown, or none.
+std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall);
+
+/// By how much the first has more success, with interval and p, and what is open.
+std::string differenceText(const Pairing& pairing);
+
+/// How many of the planned runs are there; empty where all are, or nothing is known of a plan.
+std::string unfinishedWords(const FlownRuns& flown);
 
 /// What was flown, in sentences.
 std::vector<std::string> flownWords(const Report& report);
@@ -24,7 +35,10 @@ Table outcomeTable(const Summary& summary, const Condition& condition);  ///< a 
 Table pairingTable(const std::vector<Pairing>& pairings);
 Table speedTable(const Summary& summary);
 Table squareTable(const Summary& summary, const Condition& condition);  ///< model x guidance
-Table flightTable(const Summary& summary, const Condition& condition);  ///< clearance, path, ...
+Table flightTable(const SharedCourses& shared);                         ///< clearance, path, ...
+std::string sharedWords(const SharedCourses& shared);  ///< how many courses that table is of
+Table wiresTable(const Summary& summary, const Condition& condition);  ///< a row a contender
+Table shortfallTable(const FlownRuns& flown);
 Table effortTable(const Summary& summary, const Condition& condition);  ///< latency, drops, ...
 /// p50, p95 and max of each stage of the models that flew.
 Table stageTable(const Summary& summary, const LatencyProfile& profile);

@@ -12,14 +12,6 @@ namespace {
 
 constexpr const char* kMappingFree = "W-RoI";
 
-Condition conditionOf(const Run& run) {
-    const TrialSetup& setup = run.setup;
-    return {setup.speed_m_s, setup.planner, setup.pose_error, setup.latency_scale,
-            setup.brakes_in_known_space};
-}
-
-Contender contenderOf(const Run& run) { return {run.setup.model, run.setup.guidance}; }
-
 bool isMap(const std::string& model) {
     return model.compare(0, 2, "O-") == 0 || model.compare(0, 2, "G-") == 0;
 }
@@ -50,35 +42,6 @@ Runs ofOutcome(const Runs& runs, Outcome outcome) {
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(chosen),
                  [=](const Run* run) { return run->result.outcome == outcome; });
     return chosen;
-}
-
-Cell cellOf(const std::string& scenario, const Runs& runs) {
-    Cell cell{scenario, conditionOf(*runs[0]), contenderOf(*runs[0])};
-    const Runs won = ofOutcome(runs, Outcome::Success);
-    cell.runs = static_cast<int>(runs.size());
-    cell.successes = static_cast<int>(won.size());
-    cell.collisions = static_cast<int>(ofOutcome(runs, Outcome::Collision).size());
-    cell.timeouts = cell.runs - cell.successes - cell.collisions;
-    cell.min_clearance_m = spreadOf(runs, &TrialResult::min_clearance_m);
-    cell.path_ratio = spreadOf(won, [](const Run& run) {  // a flight ends that far from the goal
-        return run.result.path_m / (run.oracle_path_m - TrialJudge::kArrived_m);
-    });
-    cell.time_s = spreadOf(won, &TrialResult::time_s);
-    cell.first_reaction_m = spreadOf(won, &TrialResult::first_reaction_m);
-    cell.rms_jerk_m_s3 = spreadOf(won, &TrialResult::rms_jerk_m_s3);
-    cell.latency_p50_ms = spreadOf(runs, &TrialResult::latency_p50_ms);
-    cell.latency_p95_ms = spreadOf(runs, &TrialResult::latency_p95_ms);
-    double scans = 0, dropped = 0, stops = 0, path_m = 0;
-    for (const Run* run : runs) {
-        scans += run->result.scans;
-        dropped += run->result.dropped_scans;
-        stops += run->result.emergency_stops;
-        path_m += run->result.path_m;
-        cell.latency_max_ms = std::fmax(cell.latency_max_ms, run->result.latency_max_ms);
-    }
-    cell.dropped_percent = 100 * dropped / scans;
-    cell.stops_per_km = 1000 * stops / path_m;
-    return cell;
 }
 
 /// Runs of a cell by (scenario, seed): the courses that they flew.
@@ -146,6 +109,7 @@ void addPairings(const Flights& flights, Summary& summary) {
             const auto& first = flights.at({condition, comparison.first});
             const auto& second = flights.at({condition, comparison.second});
             Pairing all{"", condition, comparison.first, comparison.second};
+            Pairing without_wires{kAllButWires, condition, comparison.first, comparison.second};
             std::map<std::string, Pairing> by_scenario;
             for (const auto& [course, run] : first) {
                 const auto other = second.find(course);
@@ -157,12 +121,19 @@ void addPairings(const Flights& flights, Summary& summary) {
                         .first->second;
                 count(*run, *other->second, one);
                 count(*run, *other->second, all);
+                if (run->scenario != kWires) count(*run, *other->second, without_wires);
             }
             if (all.pairs() > 0) summary.overall.push_back(all);
             for (const auto& [scenario, one] : by_scenario) summary.pairings.push_back(one);
+            const bool is_of_windows = comparison.second.model == "W-Full";
+            const int others = without_wires.pairs();
+            if (is_of_windows && others > 0 && others < all.pairs()) {
+                summary.without_wires.push_back(without_wires);
+            }
         }
     }
-    for (std::vector<Pairing>* pairings : {&summary.overall, &summary.pairings}) {
+    for (std::vector<Pairing>* pairings :
+         {&summary.overall, &summary.pairings, &summary.without_wires}) {
         for (Pairing& pairing : *pairings) judge(pairing);
         correct(*pairings);
     }
@@ -261,6 +232,43 @@ std::string numberText(double value) {
 }
 
 }  // namespace
+
+Condition conditionOf(const Run& run) {
+    const TrialSetup& setup = run.setup;
+    return {setup.speed_m_s, setup.planner, setup.pose_error, setup.latency_scale,
+            setup.brakes_in_known_space};
+}
+
+Contender contenderOf(const Run& run) { return {run.setup.model, run.setup.guidance}; }
+
+Cell cellOf(const std::string& scenario, const Runs& runs) {
+    Cell cell{scenario, conditionOf(*runs[0]), contenderOf(*runs[0])};
+    const Runs won = ofOutcome(runs, Outcome::Success);
+    cell.runs = static_cast<int>(runs.size());
+    cell.successes = static_cast<int>(won.size());
+    cell.collisions = static_cast<int>(ofOutcome(runs, Outcome::Collision).size());
+    cell.timeouts = cell.runs - cell.successes - cell.collisions;
+    cell.min_clearance_m = spreadOf(runs, &TrialResult::min_clearance_m);
+    cell.path_ratio = spreadOf(won, [](const Run& run) {  // a flight ends that far from the goal
+        return run.result.path_m / (run.oracle_path_m - TrialJudge::kArrived_m);
+    });
+    cell.time_s = spreadOf(won, &TrialResult::time_s);
+    cell.first_reaction_m = spreadOf(won, &TrialResult::first_reaction_m);
+    cell.rms_jerk_m_s3 = spreadOf(won, &TrialResult::rms_jerk_m_s3);
+    cell.latency_p50_ms = spreadOf(runs, &TrialResult::latency_p50_ms);
+    cell.latency_p95_ms = spreadOf(runs, &TrialResult::latency_p95_ms);
+    double scans = 0, dropped = 0, stops = 0, path_m = 0;
+    for (const Run* run : runs) {
+        scans += run->result.scans;
+        dropped += run->result.dropped_scans;
+        stops += run->result.emergency_stops;
+        path_m += run->result.path_m;
+        cell.latency_max_ms = std::fmax(cell.latency_max_ms, run->result.latency_max_ms);
+    }
+    cell.dropped_percent = 100 * dropped / scans;
+    cell.stops_per_km = 1000 * stops / path_m;
+    return cell;
+}
 
 Summary summarize(const std::vector<Run>& runs) {
     Summary summary;

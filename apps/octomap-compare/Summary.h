@@ -59,9 +59,13 @@ struct Cell {
 
 enum class Verdict { NotInferior, Inferior, Open };
 
+/// What is this thin a filter may lose: wires are told of apart.
+constexpr const char* kWires = "wires";
+constexpr const char* kAllButWires = "all but wires";
+
 /// Two contenders that flew the same courses under the same condition.
 struct Pairing {
-    std::string scenario;  ///< empty: all scenarios that both flew
+    std::string scenario;  ///< empty: all scenarios that both flew; kAllButWires
     Condition condition;
     Contender first, second;
     int both = 0, only_first = 0, only_second = 0, neither = 0;  ///< succeeded
@@ -92,6 +96,9 @@ struct Summary {
     std::vector<Cell> cells;             ///< by condition, scenario (all scenarios last), contender
     std::vector<Pairing> overall;        ///< of all scenarios together
     std::vector<Pairing> pairings;       ///< of each scenario
+    /// W-RoI against W-Full in all scenarios but wires, under one guidance; none where wires were
+    /// not flown, for then `overall` tells it.
+    std::vector<Pairing> without_wires;
     std::vector<SpeedLimit> speed_limits;
     std::vector<std::string> settings, versions;  ///< of the runs; one of each if all is well
     int runs = 0;
@@ -100,6 +107,13 @@ struct Summary {
 /// Counts, spreads, paired tests. Under one condition W-RoI is compared with every other model of
 /// the same guidance; with itself under the other guidance; and, straight, with maps under A*.
 Summary summarize(const std::vector<Run>& runs);
+
+/// The condition that a run was flown under, and who flew it.
+Condition conditionOf(const Run& run);
+Contender contenderOf(const Run& run);
+
+/// Counts and spreads of one contender's runs, one at least, under one condition.
+Cell cellOf(const std::string& scenario, const std::vector<const Run*>& runs);
 
 /// Nothing where there is no such cell.
 const Cell* find(const Summary& summary, const std::string& scenario, const Condition& condition,

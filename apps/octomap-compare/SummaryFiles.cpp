@@ -133,6 +133,7 @@ Json jsonOf(const Summary& summary) {
             {"margin", kMargin},
             {"cells", list(summary.cells)},
             {"overall", list(summary.overall)},
+            {"without_wires", list(summary.without_wires)},
             {"pairings", list(summary.pairings)},
             {"speed_limits", list(summary.speed_limits)}};
 }

@@ -29,6 +29,18 @@ std::string htmlText(const std::string& text) {
     return escaped;
 }
 
+namespace {
+
+/// A figure's interval, in brackets at its end, goes below it: tables get half as wide.
+std::string htmlField(const std::string& field) {
+    const std::size_t bracket = field.find(" (");
+    if (bracket == std::string::npos || field.back() != ')') return htmlText(field);
+    return htmlText(field.substr(0, bracket)) + " <small>" + htmlText(field.substr(bracket + 1)) +
+           "</small>";
+}
+
+}  // namespace
+
 std::string htmlOf(const Table& table) {
     std::string html = "<div class=\"scroll\"><table><thead><tr>";
     for (const std::string& name : table.header) html += "<th>" + htmlText(name) + "</th>";
@@ -36,8 +48,8 @@ std::string htmlOf(const Table& table) {
     for (const auto& row : table.rows) {
         html += "<tr>";
         for (std::size_t c = 0; c < row.size(); ++c) {
-            html += (c == 0 ? "<th scope=\"row\">" : "<td>") + htmlText(row[c]) +
-                    (c == 0 ? "</th>" : "</td>");
+            html += (c == 0 ? "<th scope=\"row\">" : "<td>") +
+                    (c == 0 ? htmlText(row[c]) : htmlField(row[c])) + (c == 0 ? "</th>" : "</td>");
         }
         html += "</tr>\n";
     }

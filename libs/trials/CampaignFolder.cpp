@@ -3,7 +3,7 @@
 #include <hagen/logs/OutputPath.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/trials/CampaignFolder.h>
-#include <hagen/trials/TrialScore.h>
+#include <hagen/trials/Statistics.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -83,21 +83,29 @@ ordered_json jsonOf(const CampaignPlan& plan) {
             {"unknown", plan.brakes_in_known_space ? "brake_known" : "optimistic"}};
 }
 
+CampaignPlan planFrom(const ordered_json& noted) {
+    CampaignPlan plan;
+    plan.scenarios = noted.at("scenarios").get<std::vector<std::string>>();
+    plan.first_seed = noted.at("seeds").at(0).get<std::uint64_t>();
+    plan.last_seed = noted.at("seeds").at(1).get<std::uint64_t>();
+    plan.speeds_m_s = noted.at("speeds_m_s").get<std::vector<double>>();
+    plan.models = noted.at("models").get<std::vector<std::string>>();
+    plan.guidances = noted.at("guidances").get<std::vector<std::string>>();
+    plan.planners = noted.at("planners").get<std::vector<std::string>>();
+    plan.pose_errors.clear();
+    for (const auto& error : noted.at("pose_errors")) {
+        plan.pose_errors.push_back(poseErrorFrom(error.get<std::string>()));
+    }
+    plan.latency_scales = noted.at("latency_scales").get<std::vector<double>>();
+    plan.brakes_in_known_space = noted.at("unknown") == "brake_known";
+    return plan;
+}
+
 /// Writes a file under a temporary name, and renames it when it is whole.
 void writeWhole(const fs::path& file, const std::string& text) {
     OutputPath output(file, OutputPath::Kind::File, true);
     writeText(text, output.temporary(), file);
     output.commit();
-}
-
-std::vector<fs::path> journalsIn(const fs::path& folder) {
-    std::vector<fs::path> journals;
-    if (!fs::is_directory(folder / "journal")) return journals;
-    for (const auto& entry : fs::directory_iterator(folder / "journal")) {
-        journals.push_back(entry.path());
-    }
-    std::sort(journals.begin(), journals.end());
-    return journals;
 }
 
 std::vector<std::string> linesOf(const fs::path& file) {
@@ -117,6 +125,45 @@ std::string placeOf(const fs::path& file, std::size_t line) {
 }
 
 }  // namespace
+
+std::vector<fs::path> journalsIn(const fs::path& folder) {
+    std::vector<fs::path> journals;
+    if (!fs::is_directory(folder / "journal")) return journals;
+    for (const auto& entry : fs::directory_iterator(folder / "journal")) {
+        journals.push_back(entry.path());
+    }
+    std::sort(journals.begin(), journals.end());
+    return journals;
+}
+
+std::vector<JournalLine> readJournal(const fs::path& file) {
+    std::vector<JournalLine> whole;
+    const std::vector<std::string> lines = linesOf(file);
+    for (std::size_t line = 0; line < lines.size(); ++line) {
+        const std::size_t tab = lines[line].find('\t');
+        if (tab == std::string::npos || lines[line].back() != ';') {
+            if (line + 1 == lines.size()) break;  // torn: it is flown again
+            throw std::runtime_error(placeOf(file, line) + ": is no line of a journal");
+        }
+        whole.push_back({lines[line].substr(0, tab),
+                         lines[line].substr(tab + 1, lines[line].size() - tab - 2)});
+    }
+    return whole;
+}
+
+std::vector<CampaignPlan> readPlans(const fs::path& folder) {
+    const fs::path file = folder / "campaign.json";
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+    std::vector<CampaignPlan> plans;
+    try {
+        const ordered_json root = ordered_json::parse(in);
+        for (const auto& noted : root.at("flown")) plans.push_back(planFrom(noted));
+    } catch (const std::exception& e) {
+        throw std::runtime_error(file.string() + ": " + e.what());
+    }
+    return plans;
+}
 
 std::string keyOf(const Run& run) {
     const TrialSetup& setup = run.setup;
@@ -144,7 +191,7 @@ std::string measuredRowOf(const Run& run, const TrialMeasurement& measurement) {
         for (const double share : {0.5, 0.95}) {
             row += ",";
             if (found != measurement.stage_ms.end()) {
-                row += shortText(quantileOf(found->second, share), 3);
+                row += shortText(quantile(found->second, share), 3);
             }
         }
     }
@@ -271,15 +318,10 @@ void CampaignFolder::readJournals() {
         int number = 0;
         std::from_chars(name.data(), name.data() + name.size(), number);
         next_journal_ = std::max(next_journal_, number + 1);
-        const std::vector<std::string> lines = linesOf(journal);
+        const std::vector<JournalLine> lines = readJournal(journal);
         for (std::size_t line = 0; line < lines.size(); ++line) {
-            const std::size_t tab = lines[line].find('\t');
-            const bool is_whole = tab != std::string::npos && lines[line].back() == ';';
-            if (!is_whole && line + 1 == lines.size()) break;  // torn: it is flown again
             try {
-                if (!is_whole) throw std::runtime_error("is no line of a journal");
-                keep(lines[line].substr(0, tab),
-                     lines[line].substr(tab + 1, lines[line].size() - tab - 2), journal.string());
+                keep(lines[line].run, lines[line].measured, journal.string());
             } catch (const std::runtime_error& e) {
                 throw std::runtime_error(placeOf(journal, line) + ": " + e.what());
             }

@@ -1,6 +1,6 @@
 #include <hagen/logs/CloseWritten.h>
 #include <hagen/trials/LatencyProfile.h>
-#include <hagen/trials/TrialScore.h>
+#include <hagen/trials/Statistics.h>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -83,7 +83,7 @@ double LatencyProfile::at_ms(const std::string& stage, double share) const {
         throw std::runtime_error("the latency profile has no stage \"" + stage +
                                  "\"; `octomap-compare calibrate` measures all of them");
     }
-    return quantileOf(found->second, share);
+    return quantile(found->second, share);
 }
 
 double LatencyProfile::draw_ms(const std::string& stage, Random& random) const {
@@ -95,7 +95,7 @@ double LatencyProfile::median_ms(const std::string& stage) const { return at_ms(
 std::vector<double> quantilesOf(std::vector<double> measured_ms, int count) {
     std::vector<double> quantiles;
     for (int q = 0; q < count && !measured_ms.empty(); ++q) {
-        quantiles.push_back(quantileOf(measured_ms, static_cast<double>(q) / (count - 1)));
+        quantiles.push_back(quantile(measured_ms, static_cast<double>(q) / (count - 1)));
     }
     return quantiles;
 }

@@ -1,6 +1,7 @@
 #include <hagen/trials/CommandQueue.h>
 #include <hagen/trials/FlightTrace.h>
 #include <hagen/trials/PoseBelief.h>
+#include <hagen/trials/Statistics.h>
 #include <hagen/trials/Trial.h>
 #include <hagen/trials/TrialScore.h>
 #include <hagen/trials/TrialSensor.h>
@@ -213,9 +214,9 @@ class TrialFlight {
         result_.outcome = outcome;
         result_.time_s = time_s;
         result_.rms_jerk_m_s3 = trace_.rmsJerk_m_s3();
-        result_.latency_p50_ms = quantileOf(latency_ms_, 0.5);
-        result_.latency_p95_ms = quantileOf(latency_ms_, 0.95);
-        result_.latency_max_ms = quantileOf(latency_ms_, 1);
+        result_.latency_p50_ms = quantile(latency_ms_, 0.5);
+        result_.latency_p95_ms = quantile(latency_ms_, 0.95);
+        result_.latency_max_ms = quantile(latency_ms_, 1);
         tell(outcome == Outcome::Success     ? "success"
              : outcome == Outcome::Collision ? "collision"
                                              : "timeout");

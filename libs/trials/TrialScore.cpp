@@ -60,13 +60,4 @@ bool leavesCourse(const Eigen::Vector3d& command_m_s, const Eigen::Vector3d& to_
     return command_m_s.dot(to_goal_m) < std::cos(radians(15)) * speed * to_goal_m.norm();
 }
 
-double quantileOf(std::vector<double> values, double share) {
-    if (values.empty()) return kNone;
-    std::sort(values.begin(), values.end());
-    const double at = share * static_cast<double>(values.size() - 1);
-    const auto before = static_cast<std::size_t>(at);
-    const std::size_t after = std::min(before + 1, values.size() - 1);
-    return values[before] + (at - static_cast<double>(before)) * (values[after] - values[before]);
-}
-
 }  // namespace hagen

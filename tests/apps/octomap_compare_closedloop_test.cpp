@@ -147,6 +147,9 @@ TEST(ClosedLoopFlights, KilledInFlightItGoesOnWhereItWas) {
     const std::string kept = readFile(journal);
     ASSERT_NE(kept, "");
     std::ofstream(journal, std::ios::app) << "forest-0.02,10";  // what a torn write leaves
+    const Outcome told = octomapCompare({"report", (folder / "killed").string(), "--worst", "0"});
+    ASSERT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_EQ(told.out.find("Unfinished: "), 0u) << told.out;
     const Outcome resumed = octomapCompare(flying(folder, "killed"));
     ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
     EXPECT_EQ(readFile(folder / "killed/runs.csv"), readFile(folder / "whole/runs.csv"));

@@ -16,6 +16,8 @@
 #include "octomap-compare/Overhead.h"
 #include "octomap-compare/Replay.h"
 #include "octomap-compare/Report.h"
+#include "octomap-compare/ReportWords.h"
+#include "octomap-compare/SharedCourses.h"
 #include "octomap-compare/Summary.h"
 #include "octomap-compare/Table.h"
 #include "octomap-compare/Web.h"
@@ -133,6 +135,117 @@ TEST(Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
     ASSERT_EQ(summary.speed_limits.size(), 1u);
     EXPECT_EQ(summary.speed_limits[0].highest_m_s, 6);
     EXPECT_EQ(summary.speed_limits[0].sure_m_s, 6);  // 100 of 100: 96.3 % and more
+}
+
+TEST(Verdict, TellsWiresApartFromTheRest) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
+        runs.push_back(runOf("gap", seed, "W-Full", "astar", seed == 0 ? kHit : kWon));
+        runs.push_back(runOf("wires", seed, "W-RoI", "astar", seed < 100 ? kHit : kWon));
+        runs.push_back(runOf("wires", seed, "W-Full", "astar", kWon));
+    }
+    const Summary summary = summarize(runs);
+    ASSERT_EQ(summary.without_wires.size(), 1u);
+    EXPECT_EQ(summary.without_wires[0].pairs(), 400);
+    EXPECT_EQ(summary.without_wires[0].verdict, Verdict::NotInferior);
+    const std::vector<std::string> words = verdictOf(summary);
+    EXPECT_EQ(words[0],
+              "W-RoI with A* at 4 m/s arrives less often than W-Full (among wires), by more than "
+              "3 points. It loses less than 3 points, if any, to W-Full (where no wires are).");
+    EXPECT_EQ(
+        words[1].find("Where no wires are, W-RoI with A* against W-Full: success 100.0 % against "
+                      "99.8 % of the same 400 courses, +0.2 points (95 % interval "),
+        0u)
+        << words[1];
+    EXPECT_EQ(
+        words[2].find("Among wires, W-RoI with A* against W-Full: success 75.0 % against 100.0 %"),
+        0u)
+        << words[2];
+    // Where nobody flew wires, all is where no wires are.
+    EXPECT_TRUE(summarize(threeContenders()).without_wires.empty());
+}
+
+TEST(Verdict, SpeaksOfOneAsOne) {
+    const std::vector<std::string> words = verdictOf(summarize(
+        {runOf("gap", 0, "W-RoI", "astar", kHit), runOf("gap", 0, "G-Full", "astar", kWon)}));
+    ASSERT_EQ(words.size(), 5u);
+    EXPECT_EQ(words[0], "W-RoI with A* at 4 m/s: nothing is decided yet. Open: G-Full.");
+    EXPECT_EQ(words[1].find(
+                  "Open: W-RoI with A* against G-Full: success 0.0 % against 100.0 % of the same "
+                  "1 course, -100.0 points ("),
+              0u)
+        << words[1];
+    EXPECT_EQ(words[2], "What is open needs more courses to exclude a loss of 3 points.");
+    EXPECT_EQ(words[3].find("W-RoI with A*: 1 collision in 1 run;"), 0u) << words[3];
+    EXPECT_NE(words[4].find("0 collisions in 1 run still allows"), std::string::npos);
+}
+
+TEST(Verdict, CallsNothingWorseThatMayBeChance) {
+    // The interval excludes 3 points, but among so many comparisons the test does not.
+    Pairing pairing{"", kReference, {"W-RoI", "astar"}, {"G-Full", "astar"}};
+    pairing.both = 90;
+    pairing.only_second = 10;
+    pairing.difference = -0.1;
+    pairing.interval = {-0.17, -0.04};
+    pairing.verdict = Verdict::Inferior;
+    pairing.p_holm = 0.06;
+    EXPECT_EQ(differenceText(pairing).find("Open: "), 0u);
+    EXPECT_NE(differenceText(pairing).find("may be chance"), std::string::npos);
+    pairing.p_holm = 0.04;
+    EXPECT_EQ(differenceText(pairing).find(
+                  "W-RoI with A* against G-Full: success 90.0 % against 100.0 %"),
+              0u);
+}
+
+TEST(SharedCourses, AreThoseOnWhichAllArrived) {
+    std::vector<Row> runs = threeContenders();
+    runs.push_back(runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    for (Row& run : runs) {
+        if (run.setup.model == "W-RoI" && run.seed < 5) run.result.time_s = 100;
+        if (run.seed != 7) run.result.first_reaction_m = static_cast<double>(run.seed);
+    }
+    const Summary summary = summarize(runs);
+    const std::vector<SharedCourses> shared = sharedCourses(runs, summary, kReference);
+    ASSERT_EQ(shared.size(), 2u);
+    EXPECT_EQ(shared[0].guidance, "astar");
+    EXPECT_EQ(shared[0].flown, 10);
+    EXPECT_EQ(shared[0].arrived, 7);  // 3 to 9: the map was late on 0, 1 and 2
+    EXPECT_EQ(shared[0].reacted, 6);
+    ASSERT_EQ(shared[0].cells.size(), 2u);
+    EXPECT_EQ(shared[0].cells[0].contender.model, "W-RoI");
+    for (const Cell& cell : shared[0].cells) {
+        EXPECT_EQ(cell.time_s.count, 7);
+        EXPECT_NEAR(cell.time_s.median, 12, 1e-12);  // of all its own it would be 56
+        EXPECT_EQ(cell.first_reaction_m.count, 6);
+    }
+    EXPECT_EQ(shared[0].min_clearances_m[1].size(), 10u);
+    EXPECT_EQ(sharedWords(shared[0]),
+              "With A*: 10 courses were flown by both contenders; on 7 of these all arrived, on 6 "
+              "all reacted to something.");
+    EXPECT_EQ(shared[1].arrived, 0);
+    EXPECT_TRUE(shared[1].cells.empty());
+    EXPECT_EQ(sharedWords(shared[1]),
+              "Flown straight: 10 courses were flown by W-RoI, straight; on none of these all "
+              "arrived.");
+}
+
+TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
+    OverheadView view{runOf("gap", 0, "W-RoI", "astar", kHit), true, {5, 0}, {45, 0}, {}, {}, {}};
+    view.track_m = {{5, 0}, {20, 30}};
+    const std::string hit = svgOf(view);
+    // 5 m around 5 to 45 and 0 to 30, and half as wide again as high: 60 x 40.
+    EXPECT_NE(hit.find("viewBox=\"-5.0 -35.0 60.0 40.0\""), std::string::npos) << hit;
+    EXPECT_NE(hit.find("class=\"hit\""), std::string::npos);
+    EXPECT_EQ(hit.find("class=\"end\""), std::string::npos);
+    view.run.result.outcome = kLate;
+    EXPECT_NE(svgOf(view).find("class=\"end\""), std::string::npos);
+    view.track_m.clear();  // a straight way is shown with what is beside it
+    EXPECT_NE(svgOf(view).find("viewBox=\"0.0 -16.7 50.0 33.3\""), std::string::npos);
+    for (const char* mark : {"start", "goal", "end", "hit", "stop", "track", "obstacles"}) {
+        EXPECT_NE(overheadLegend().find("class=\"" + std::string(mark) + "\""), std::string::npos)
+            << mark;
+    }
 }
 
 TEST(Summary, OfNothingIsEmpty) {
@@ -380,7 +493,8 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
     writeRuns(threeContenders());
     const test::Outcome outcome = run({"report", folder(), "--markdown", path("a.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("still allow a true share of 1.9 %"), std::string::npos);
+    EXPECT_NE(outcome.out.find("0 collisions in 10 runs still allow a true share of 27.8 %"),
+              std::string::npos);
     std::ifstream in(path("summary.json"));
     const auto json = nlohmann::json::parse(in);
     EXPECT_EQ(json["runs"], 30);
@@ -390,7 +504,7 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
                         "optimistic,W-RoI,astar,10,9,0.9000,0.5958,"),
               std::string::npos);
     const std::string page = test::readFile(path("report.html"));
-    EXPECT_NE(page.find("90.0 (59.6 to 98.2)"), std::string::npos);
+    EXPECT_NE(page.find("90.0 <small>(59.6 to 98.2)</small>"), std::string::npos);
     EXPECT_NE(page.find("no profile.json"), std::string::npos);  // worst runs
     EXPECT_NE(test::readFile(path("a.md")).find("| gap | 90.0 (59.6 to 98.2) |"),
               std::string::npos);
@@ -405,6 +519,47 @@ TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
     const std::string text = test::readFile(path("a.md"));
     EXPECT_NE(text.find("| W-RoI | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"), std::string::npos);
     EXPECT_NE(text.find("| G-Full | 1 | 0.00 | 0.00 | - | 14.00 |"), std::string::npos);
+}
+
+TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
+    // Planned: 2 models, 10 seeds. One is in the table, others in a journal whose end is torn.
+    fs::create_directory(path("journal"));
+    std::string journal;
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+        journal += rowOf(runOf("gap", seed, "W-RoI", "astar", kWon)) + "\tgap;\n";
+    }
+    folder_.write("journal/1.csv", journal + "gap,4,W-");
+    folder_.write("campaign.json", R"({"flown": [{"scenarios": ["gap"], "seeds": [0, 9],
+        "speeds_m_s": [4.0], "models": ["W-RoI", "G-Full"], "guidances": ["astar"],
+        "planners": ["primitives"], "pose_errors": ["none"], "latency_scales": [1.0],
+        "unknown": "optimistic"}]})");
+    const test::Outcome before = run({"report", folder()});  // no runs.csv yet
+    ASSERT_EQ(before.exit_code, 0) << before.err;
+    EXPECT_NE(before.out.find("Unfinished: 3 of 20 planned runs are flown."), std::string::npos);
+    writeRuns({runOf("gap", 0, "W-RoI", "astar", kWon)});
+    const test::Outcome outcome =
+        run({"report", folder(), "--overwrite", "--markdown", path("a.md")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("Unfinished: 4 of 20 planned runs are flown."), std::string::npos);
+    for (const char* name : {"report.html", "a.md"}) {
+        EXPECT_NE(test::readFile(path(name)).find("4 of 20 planned runs"), std::string::npos);
+    }
+    const std::string text = test::readFile(path("a.md"));
+    EXPECT_NE(text.find("| 4 m/s | W-RoI, A* | 4 | 10 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| 4 m/s | G-Full, A* | 0 | 10 |"), std::string::npos);
+    std::ifstream in(path("summary.json"));
+    EXPECT_EQ(nlohmann::json::parse(in)["missing_runs"], 16);
+
+    std::vector<Row> all;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        all.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
+        all.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
+    }
+    writeRuns(all);
+    EXPECT_EQ(run({"report", folder(), "--overwrite"}).out.find("Unfinished"), std::string::npos);
+    folder_.write("campaign.json", "{}");
+    EXPECT_NE(run({"report", folder(), "--overwrite"}).err.find("campaign.json: "),
+              std::string::npos);
 }
 
 TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {

@@ -54,11 +54,20 @@ def check_report(folder):
         with Browser(width, 900) as browser:
             browser.open(page)
             painted = browser.run(PAINTED)
-            check(len(painted) == 9, f"{width} px: all charts are there ({len(painted)})")
+            check(len(painted) == 10, f"{width} px: all charts are there ({len(painted)})")
             check(min(painted) > 300, f"{width} px: no chart is blank ({min(painted)} pixels)")
             overflow = browser.run(
                 "return document.documentElement.scrollWidth - window.innerWidth;")
             check(overflow <= 0, f"{width} px: the page is no wider than the window")
+            wide = browser.run("""
+                return [...document.querySelectorAll('body *')].filter(
+                  element => element.getBoundingClientRect().right > window.innerWidth + 1 &&
+                             !element.closest('.scroll')).map(element => element.tagName);""")
+            check(wide == [], f"{width} px: only boxes of tables scroll sideways {wide[:3]}")
+            hidden = browser.run("""
+                return [...document.querySelectorAll('section .scroll')].filter(
+                  box => box.scrollWidth > box.clientWidth).length;""")
+            check(width < 1280 or hidden == 0, f"{width} px: tables fit ({hidden} do not)")
             check(browser.errors() == [], f"{width} px: no errors")
 
 

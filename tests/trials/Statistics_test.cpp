@@ -168,6 +168,7 @@ TEST(Quantile, LiesBetweenRanks) {
     EXPECT_EQ(quantile({4, 1, 2, 3}, 0.5), 2.5);
     EXPECT_EQ(quantile({4, 1, 2, 3}, 0), 1);
     EXPECT_EQ(quantile({4, 1, 2, 3}, 1), 4);
+    EXPECT_NEAR(quantile({0, 10}, 0.95), 9.5, 1e-12);
     EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
 }
 

@@ -64,12 +64,5 @@ TEST(LeavesCourse, AsideOrSlow) {
     EXPECT_TRUE(leavesCourse(Eigen::Vector3d::Zero(), ahead, 4));
 }
 
-TEST(QuantileOf, GoesStraightBetweenNeighbours) {
-    EXPECT_TRUE(std::isnan(quantileOf({}, 0.5)));
-    EXPECT_EQ(quantileOf({3, 1, 2}, 0.5), 2);
-    EXPECT_EQ(quantileOf({3, 1, 2}, 1), 3);
-    EXPECT_NEAR(quantileOf({0, 10}, 0.95), 9.5, 1e-12);
-}
-
 }  // namespace
 }  // namespace hagen

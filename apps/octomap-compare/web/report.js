@@ -139,17 +139,30 @@ withPlace('speed', place => {
   }
 });
 
+// Curves have no points: the legend shows a piece of the line, dashed as it is.
+const lineLegend = {plugins: {legend: {labels: {
+  pointStyleWidth: 42, boxHeight: 9,
+  generateLabels: chart => Chart.defaults.plugins.legend.labels.generateLabels(chart).map(
+      label => ({...label, lineDash: chart.data.datasets[label.datasetIndex].borderDash || []}))
+}}}};
+
 withPlace('clearance', place => {
-  const datasets = data.clearances.map(curve => ({
-    label: nameOf(curve), borderColor: look(curve).color, backgroundColor: look(curve).color,
-    borderDash: look(curve).dash, pointRadius: 0, borderWidth: 2, pointStyle: 'line',
-    data: curve.quantiles_m.map((x, i) => ({x, y: 100 * i / (curve.quantiles_m.length - 1)}))
-  }));
-  draw(place, 'Least true clearance of a flight: share of runs below it', 340, {
-    type: 'line', data: {datasets},
-    options: {scales: {x: axis('least clearance, m', {type: 'linear', min: 0}),
-                       y: axis('runs, %', {min: 0, max: 100})}}
-  }, true);
+  for (const group of data.clearances) {
+    const datasets = group.curves.map(curve => ({
+      label: nameOf(curve), borderColor: look(curve).color, backgroundColor: look(curve).color,
+      borderDash: look(curve).dash, pointRadius: 0, borderWidth: 2.5, pointStyle: 'line',
+      data: curve.quantiles_m.map((x, i) => ({x, y: 100 * i / (curve.quantiles_m.length - 1)}))
+    }));
+    datasets.push({label: '0.30 m: under it is a collision', borderColor: '#777777', borderDash: [2, 4],
+                   pointRadius: 0, borderWidth: 2, pointStyle: 'line', data: [{x: 0.3, y: 0}, {x: 0.3, y: 100}]});
+    const guidance = group.guidance === 'astar' ? 'with A*' : 'flown ' + group.guidance;
+    draw(place, `Least true clearance of a flight, ${guidance}: share of flights below it, of the same ` +
+                `${group.courses} course${group.courses === 1 ? '' : 's'}`, 340, {
+      type: 'line', data: {datasets},
+      options: {...lineLegend, scales: {x: axis('least clearance, m', {type: 'linear', min: 0}),
+                                        y: axis('runs, %', {min: 0, max: 100})}}
+    }, true);
+  }
 });
 
 withPlace('command', place => {
@@ -191,7 +204,7 @@ withPlace('memory', place => {
     data: curve.megabytes_by_m.map(([x, y]) => ({x, y}))}));
   draw(place, 'Memory of the world model', 320, {
     type: 'line', data: {datasets},
-    options: {scales: {x: axis('flown, m', {type: 'linear'}), y: axis('MB', {type: 'logarithmic'})}}
+    options: {...lineLegend, scales: {x: axis('flown, m', {type: 'linear'}), y: axis('MB', {type: 'logarithmic'})}}
   }, true);
 });
 document.body.dataset.charts = String(document.querySelectorAll('canvas').length);

@@ -94,6 +94,21 @@ class Journal {
     int descriptor_;
 };
 
+/// What a line of a journal holds: rows of runs.csv and measured.csv.
+struct JournalLine {
+    std::string run, measured;
+};
+
+/// The journals of a folder by name; none where it is finished.
+std::vector<std::filesystem::path> journalsIn(const std::filesystem::path& folder);
+
+/// The lines of a journal, which may be being written to: a torn last one is left out. Throws
+/// std::runtime_error, naming file and line, for any other that is not whole.
+std::vector<JournalLine> readJournal(const std::filesystem::path& file);
+
+/// The plans that a folder's campaign.json notes. Throws std::runtime_error, naming it.
+std::vector<CampaignPlan> readPlans(const std::filesystem::path& folder);
+
 /// Joins the folders of shards into a new one, or one of the same settings: runs that several have
 /// are taken once. Returns how many runs there are. Throws std::runtime_error for folders that
 /// hold no finished or unfinished campaign, of other settings, or that contradict one another.

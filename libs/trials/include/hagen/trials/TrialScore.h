@@ -2,7 +2,6 @@
 #include <hagen/trials/Course.h>
 #include <hagen/trials/Trial.h>
 #include <optional>
-#include <vector>
 
 namespace hagen {
 
@@ -41,8 +40,5 @@ double freeWay_m(const Course& course, const Eigen::Vector3d& position_m, double
 /// is slower than 0.7 of `speed_m_s`.
 bool leavesCourse(const Eigen::Vector3d& command_m_s, const Eigen::Vector3d& to_goal_m,
                   double speed_m_s);
-
-/// The value that this share of all lies below, straight between neighbours; NaN of none.
-double quantileOf(std::vector<double> values, double share);
 
 }  // namespace hagen

@@ -1,0 +1,85 @@
+#include "FlownRuns.h"
+
+#include <hagen/trials/CampaignFolder.h>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+
+void addJournal(const fs::path& journal, std::set<std::string>& keys, std::vector<Run>& runs) {
+    int line = 0;
+    for (const JournalLine& written : readJournal(journal)) {
+        ++line;
+        try {
+            const Run run = runOf(written.run);
+            if (keys.insert(keyOf(run)).second) runs.push_back(run);
+        } catch (const std::runtime_error& e) {
+            throw std::runtime_error(journal.string() + ":" + std::to_string(line) + ": " +
+                                     e.what());
+        }
+    }
+}
+
+/// Each planned run once, whatever the number of plans that ask for it.
+std::map<std::string, Run> plannedRuns(const fs::path& folder) {
+    std::map<std::string, Run> planned;
+    for (const CampaignPlan& plan : readPlans(folder)) {
+        try {
+            for (const CourseFlights& flights : flightsOf(plan)) {
+                for (const TrialSetup& setup : flights.setups) {
+                    Run run{};
+                    run.scenario = flights.scenario;
+                    run.seed = flights.seed;
+                    run.setup = setup;
+                    planned.try_emplace(keyOf(run), run);
+                }
+            }
+        } catch (const std::invalid_argument& e) {
+            throw std::runtime_error((folder / "campaign.json").string() + ": " + e.what() +
+                                     "; without this file nothing is told of what was planned");
+        }
+    }
+    return planned;
+}
+
+void compareWithPlan(const fs::path& folder, const std::set<std::string>& keys, FlownRuns& flown) {
+    std::map<std::pair<Condition, Contender>, Shortfall> by_contender;
+    for (const auto& [key, run] : plannedRuns(folder)) {
+        const Condition condition = conditionOf(run);
+        const Contender contender = contenderOf(run);
+        Shortfall& one =
+            by_contender.try_emplace({condition, contender}, Shortfall{condition, contender, 0, 0})
+                .first->second;
+        const bool is_there = keys.count(key) > 0;
+        one.flown += is_there ? 1 : 0;
+        ++one.planned;
+        flown.missing += is_there ? 0 : 1;
+        ++flown.planned;
+    }
+    for (const auto& [key, one] : by_contender) {
+        if (one.flown < one.planned) flown.shortfalls.push_back(one);
+    }
+}
+
+}  // namespace
+
+FlownRuns readFlownRuns(const fs::path& folder) {
+    FlownRuns flown;
+    const std::vector<fs::path> journals = journalsIn(folder);
+    if (journals.empty() || fs::exists(folder / "runs.csv")) {
+        flown.runs = readRuns(folder / "runs.csv");
+    }
+    std::set<std::string> keys;
+    for (const Run& run : flown.runs) keys.insert(keyOf(run));
+    for (const fs::path& journal : journals) addJournal(journal, keys, flown.runs);
+    sortRuns(flown.runs);
+    if (fs::exists(folder / "campaign.json")) compareWithPlan(folder, keys, flown);
+    return flown;
+}
+
+}  // namespace hagen

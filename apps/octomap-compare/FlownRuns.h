@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "Summary.h"
+
+namespace hagen {
+
+/// Planned runs of a contender under a condition that are not all there.
+struct Shortfall {
+    Condition condition;
+    Contender contender;
+    int flown, planned;
+};
+
+/// What a folder of `closedloop` holds of its campaign.
+struct FlownRuns {
+    std::vector<Run> runs;  ///< finished ones, sorted; those still in journals, too
+    int planned = 0;        ///< by campaign.json; 0 where there is none
+    int missing = 0;        ///< of the planned ones
+    std::vector<Shortfall> shortfalls;
+};
+
+/// Reads a folder, also while it is being flown into. Throws std::runtime_error, naming file and
+/// line, for what cannot be read, and where there is neither a runs.csv nor a journal.
+FlownRuns readFlownRuns(const std::filesystem::path& folder);
+
+}  // namespace hagen
