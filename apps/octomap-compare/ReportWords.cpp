@@ -174,12 +174,27 @@ std::string headlineOf(const std::vector<Pairing>& pairings, const Condition& re
     return text + " Open: " + join(of[Undecided], ", ") + ".";
 }
 
-std::string collisionWords(const Cell& cell) {
-    const Bounds bounds = wilsonInterval(cell.collisions, cell.runs);
-    return capital(spoken(cell.contender)) + ": " +
-           (cell.collisions == 0 ? "no collision" : counted(cell.collisions, "collision")) +
-           " in " + counted(cell.runs, "run") + "; the true share may be up to " +
-           percent(bounds.high) + " %.";
+/// Where they were matters more than how many: scenarios are not equally hard.
+std::string collisionWords(const Summary& summary, const Cell& all) {
+    std::vector<std::string> places;
+    for (const std::string& scenario : summary.scenarios) {
+        const Cell* cell = find(summary, scenario, all.condition, all.contender);
+        if (cell == nullptr || cell->collisions == 0) continue;
+        places.push_back(scenario + " " + std::to_string(cell->collisions) + " of " +
+                         std::to_string(cell->runs));
+    }
+    return capital(spoken(all.contender)) + ": " +
+           (places.empty() ? "no collision" : counted(all.collisions, "collision")) + " in " +
+           counted(all.runs, "run") + (places.empty() ? "" : " (" + join(places, ", ") + ")") + ".";
+}
+
+/// The most runs of one contender in one scenario.
+int mostRuns(const Summary& summary, const Condition& condition) {
+    int most = 0;
+    for (const Cell& cell : summary.cells) {
+        if (!cell.scenario.empty() && cell.condition == condition) most = std::max(most, cell.runs);
+    }
+    return most;
 }
 
 }  // namespace
@@ -226,15 +241,15 @@ std::vector<std::string> verdictOf(const Summary& summary) {
         words.push_back("What is open needs more courses to exclude a loss of " + marginText() +
                         ".");
     }
-    int most_runs = 0;
     for (const Contender& contender : presentIn(summary, reference)) {
         const Cell& cell = *find(summary, "", reference, contender);
-        most_runs = std::max(most_runs, cell.runs);
-        if (contender.model == "W-RoI") words.push_back(collisionWords(cell));
+        if (contender.model == "W-RoI") words.push_back(collisionWords(summary, cell));
     }
-    words.push_back("This is no proof of safety: 0 collisions in " + counted(most_runs, "run") +
-                    (most_runs == 1 ? " still allows" : " still allow") + " a true share of " +
-                    percent(wilsonInterval(0, most_runs).high) + " % (Wilson, 95 %).");
+    const int runs = mostRuns(summary, reference);
+    words.push_back("This is no proof of safety: 0 collisions in " + counted(runs, "run") +
+                    " of a scenario" + (runs == 1 ? " still allows" : " still allow") +
+                    " a true share of " + percent(wilsonInterval(0, runs).high) +
+                    " % (Wilson, 95 %).");
     return words;
 }
 

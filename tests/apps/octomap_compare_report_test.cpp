@@ -177,8 +177,8 @@ TEST(Verdict, SpeaksOfOneAsOne) {
               0u)
         << words[1];
     EXPECT_EQ(words[2], "What is open needs more courses to exclude a loss of 3 points.");
-    EXPECT_EQ(words[3].find("W-RoI with A*: 1 collision in 1 run;"), 0u) << words[3];
-    EXPECT_NE(words[4].find("0 collisions in 1 run still allows"), std::string::npos);
+    EXPECT_EQ(words[3].find("W-RoI with A*: 1 collision in 1 run ("), 0u) << words[3];
+    EXPECT_NE(words[4].find("0 collisions in 1 run of a scenario still allows"), std::string::npos);
 }
 
 TEST(Verdict, CallsNothingWorseThatMayBeChance) {
@@ -493,7 +493,8 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
     writeRuns(threeContenders());
     const test::Outcome outcome = run({"report", folder(), "--markdown", path("a.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("0 collisions in 10 runs still allow a true share of 27.8 %"),
+    EXPECT_NE(outcome.out.find(
+                  "0 collisions in 10 runs of a scenario still allow a true share of 27.8 %"),
               std::string::npos);
     std::ifstream in(path("summary.json"));
     const auto json = nlohmann::json::parse(in);
