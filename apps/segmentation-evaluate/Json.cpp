@@ -1,10 +1,9 @@
 #include "Json.h"
 
+#include <hagen/logs/CloseWritten.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 namespace hagen {
 namespace {
@@ -102,11 +101,8 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
     report["methods"] = Json::array();
     for (const SummedMethod& method : summary.methods) report["methods"].push_back(json(method));
 
-    std::ofstream out(file);
     // File names need not be UTF-8, JSON must be.
-    out << report.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    writeText(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", file, file);
 }
 
 }  // namespace hagen
