@@ -25,7 +25,7 @@ struct Section {
 
 Section conditionSection(const Summary& summary, const Condition& condition) {
     return {"Outcomes at " + nameOf(condition),
-            {"Success in percent, with Wilson's 95 % interval."},
+            {"Success in percent (Wilson's 95 % interval; runs)."},
             {successTable(summary, condition)}};
 }
 
@@ -37,7 +37,7 @@ void addOutcomes(const Report& report, std::vector<Section>& sections) {
     sections.push_back(first);
     sections.push_back(
         {"Collisions at " + nameOf(reference),
-         {"Collisions in percent, with Wilson's 95 % interval. A collision is a true "
+         {"Collisions in percent (Wilson's 95 % interval; runs). A collision is a true "
           "clearance under 0.30 m."},
          {collisionTable(summary, reference)}});
     for (std::size_t c = 1; c < summary.conditions.size(); ++c) {
@@ -99,7 +99,8 @@ void addFlights(const Report& report, std::vector<Section>& sections) {
     }
     Section flight{"How they fly" + at,
                    {"Only courses on which all contenders of a table arrived: medians with "
-                    "bootstrap 95 % intervals. First reaction: the free way ahead when the vehicle "
+                    "bootstrap 95 % intervals. Those that flew fewer courses come in with a table "
+                    "of their own. First reaction: the free way ahead when the vehicle "
                     "first left its course, where all did. The chart has all courses that all "
                     "flew, whatever came out."},
                    {}};

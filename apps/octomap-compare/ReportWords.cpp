@@ -126,6 +126,24 @@ std::string difference(const Pairing& pairing) {
     }
 }
 
+/// Where both were flown, if not in all scenarios of the condition: "u-trap and gap".
+std::string scopeOf(const Summary& summary, const Pairing& overall) {
+    std::vector<std::string> names;
+    for (const Pairing& one : summary.pairings) {
+        if (one.condition == overall.condition && one.first == overall.first &&
+            one.second == overall.second) {
+            names.push_back(one.scenario);
+        }
+    }
+    std::set<std::string> flown;
+    for (const Cell& cell : summary.cells) {
+        if (cell.condition == overall.condition && !cell.scenario.empty()) {
+            flown.insert(cell.scenario);
+        }
+    }
+    return names.size() < flown.size() ? listed(names) : "";
+}
+
 /// What the verdict tells of: all scenarios together, but W-RoI against W-Full with wires apart.
 std::vector<Pairing> told(const Summary& summary, const Condition& condition) {
     std::vector<Pairing> all;
@@ -134,6 +152,7 @@ std::vector<Pairing> told(const Summary& summary, const Condition& condition) {
         const std::vector<Pairing> apart = wiresApart(summary, pairing);
         if (apart.empty()) {
             all.push_back(pairing);
+            all.back().scenario = scopeOf(summary, pairing);
         } else {
             all.insert(all.end(), apart.begin(), apart.end());
         }
@@ -220,9 +239,9 @@ std::string differenceText(const Pairing& pairing) { return difference(pairing);
 std::string unfinishedWords(const FlownRuns& flown) {
     if (flown.missing == 0) return "";
     return "Unfinished: " + std::to_string(flown.planned - flown.missing) + " of " +
-           counted(flown.planned, "planned run") +
-           " are flown. All figures may still change; tests and intervals hold at the end of what "
-           "was planned.";
+           counted(flown.planned, "run") +
+           " planned so far are flown. All figures may still change: do not stop early because of "
+           "them.";
 }
 
 std::vector<std::string> verdictOf(const Summary& summary) {
@@ -238,8 +257,7 @@ std::vector<std::string> verdictOf(const Summary& summary) {
                           [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
     for (const Pairing& pairing : pairings) words.push_back(difference(pairing));
     if (!pairings.empty() && answerOf(pairings.back()) == Undecided) {
-        words.push_back("What is open needs more courses to exclude a loss of " + marginText() +
-                        ".");
+        words.push_back("What is open needs more courses to be decided.");
     }
     for (const Contender& contender : presentIn(summary, reference)) {
         const Cell& cell = *find(summary, "", reference, contender);
@@ -269,9 +287,10 @@ std::vector<std::string> flownWords(const Report& report) {
         "Settings " + join(summary.settings, ", ") + ", program version " +
             join(summary.versions, ", ") + "."};
     if (!seeds.empty()) {
-        words.push_back("Seeds " + std::to_string(*seeds.begin()) + " to " +
-                        std::to_string(*seeds.rbegin()) +
-                        "; all contenders fly the same courses, one a seed.");
+        words.push_back(
+            "Seeds " + std::to_string(*seeds.begin()) + " to " + std::to_string(*seeds.rbegin()) +
+            "; a seed makes the same course for every contender, though not all may have "
+            "flown it.");
     }
     if (report.profile) {
         words.push_back("Latencies are drawn from a profile measured on " +
@@ -294,12 +313,12 @@ std::vector<Pairing> lossesOf(const Summary& summary) {
 
 Table successTable(const Summary& summary, const Condition& condition) {
     return matrix(summary, condition,
-                  [](const Cell& cell) { return percentOf(cell.successes, cell.runs); });
+                  [](const Cell& cell) { return percentOfRuns(cell.successes, cell.runs); });
 }
 
 Table collisionTable(const Summary& summary, const Condition& condition) {
     return matrix(summary, condition,
-                  [](const Cell& cell) { return percentOf(cell.collisions, cell.runs); });
+                  [](const Cell& cell) { return percentOfRuns(cell.collisions, cell.runs); });
 }
 
 Table outcomeTable(const Summary& summary, const Condition& condition) {
@@ -394,7 +413,8 @@ std::string sharedWords(const SharedCourses& shared) {
     std::string text = guidance + ": " + counted(shared.flown, "course") +
                        (shared.flown == 1 ? " was" : " were") + " flown by " + who;
     if (shared.flown == 0) return text + ", so there is nothing to compare.";
-    if (shared.arrived == 0) return text + "; on none of these all arrived.";
+    if (shared.arrived == 0)
+        return text + (count == 1 ? "; it arrived on none." : "; on none of these all arrived.");
     return text + "; on " + std::to_string(shared.arrived) + " of these all arrived" +
            (shared.reacted == shared.arrived
                 ? "."

@@ -12,9 +12,21 @@ using CourseKey = std::pair<std::string, std::uint64_t>;
 using ByContender = std::map<Contender, const Run*>;
 
 template <class Holds>
-bool allOf(const ByContender& flights, Holds holds) {
+bool allOf(const std::vector<const Run*>& flights, Holds holds) {
     return std::all_of(flights.begin(), flights.end(),
-                       [&](const auto& flight) { return holds(flight.second->result); });
+                       [&](const Run* run) { return holds(run->result); });
+}
+
+/// A course's flights in the order of the contenders; none where one of them did not fly it.
+std::vector<const Run*> flightsOf(const std::vector<Contender>& contenders,
+                                  const ByContender& flights) {
+    std::vector<const Run*> of;
+    for (const Contender& contender : contenders) {
+        const auto flight = flights.find(contender);
+        if (flight == flights.end()) return {};
+        of.push_back(flight->second);
+    }
+    return of;
 }
 
 SharedCourses sharedBy(const std::vector<Contender>& contenders,
@@ -26,8 +38,9 @@ SharedCourses sharedBy(const std::vector<Contender>& contenders,
     shared.contenders = contenders;
     shared.min_clearances_m.resize(contenders.size());
     std::vector<std::vector<const Run*>> arrived(contenders.size()), reacted(contenders.size());
-    for (const auto& [course, flights] : courses) {
-        if (flights.size() < contenders.size()) continue;
+    for (const auto& [course, by_contender] : courses) {
+        const std::vector<const Run*> flights = flightsOf(contenders, by_contender);
+        if (flights.empty()) continue;
         const bool all_arrived =
             allOf(flights, [](const TrialResult& r) { return r.outcome == Outcome::Success; });
         const bool all_reacted = all_arrived && allOf(flights, [](const TrialResult& r) {
@@ -37,7 +50,7 @@ SharedCourses sharedBy(const std::vector<Contender>& contenders,
         shared.arrived += all_arrived ? 1 : 0;
         shared.reacted += all_reacted ? 1 : 0;
         for (std::size_t c = 0; c < contenders.size(); ++c) {
-            const Run* run = flights.at(contenders[c]);
+            const Run* run = flights[c];
             shared.min_clearances_m[c].push_back(run->result.min_clearance_m);
             if (all_arrived) arrived[c].push_back(run);
             if (all_reacted) reacted[c].push_back(run);
@@ -53,6 +66,33 @@ SharedCourses sharedBy(const std::vector<Contender>& contenders,
     return shared;
 }
 
+std::map<Contender, int> flownBy(const std::map<CourseKey, ByContender>& courses) {
+    std::map<Contender, int> counts;
+    for (const auto& [course, flights] : courses) {
+        for (const auto& [contender, run] : flights) ++counts[contender];
+    }
+    return counts;
+}
+
+/// Numbers of courses that contenders have in common, the largest first; those that differ by less
+/// than a tenth are one.
+std::vector<int> levelsOf(const std::map<Contender, int>& counts) {
+    std::vector<int> sorted;
+    for (const auto& [contender, count] : counts) sorted.push_back(count);
+    std::sort(sorted.rbegin(), sorted.rend());
+    std::vector<int> levels;
+    int most = 0;
+    for (const int count : sorted) {
+        if (10 * count > 9 * most && !levels.empty()) {
+            levels.back() = count;
+        } else {
+            levels.push_back(count);
+            most = count;
+        }
+    }
+    return levels;
+}
+
 }  // namespace
 
 std::vector<SharedCourses> sharedCourses(const std::vector<Run>& runs, const Summary& summary,
@@ -64,14 +104,17 @@ std::vector<SharedCourses> sharedCourses(const std::vector<Run>& runs, const Sum
     }
     std::vector<SharedCourses> all;
     for (const auto& [guidance, courses] : by_guidance) {
-        std::vector<Contender> contenders;
-        for (const Contender& contender : summary.contenders) {
-            const bool is_there = std::any_of(courses.begin(), courses.end(), [&](const auto& c) {
-                return c.second.count(contender) > 0;
-            });
-            if (is_there) contenders.push_back(contender);
+        const std::map<Contender, int> counts = flownBy(courses);
+        for (const int least : levelsOf(counts)) {
+            std::vector<Contender> contenders;
+            for (const Contender& contender : summary.contenders) {
+                const auto count = counts.find(contender);
+                if (count != counts.end() && count->second >= least) {
+                    contenders.push_back(contender);
+                }
+            }
+            all.push_back(sharedBy(contenders, courses, condition));
         }
-        all.push_back(sharedBy(contenders, courses, condition));
     }
     return all;
 }

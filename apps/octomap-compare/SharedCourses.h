@@ -6,7 +6,7 @@
 
 namespace hagen {
 
-/// How the contenders of one guidance flew the very same courses: medians of different courses
+/// How contenders of one guidance flew the very same courses: medians of different courses
 /// would compare courses, not contenders.
 struct SharedCourses {
     Condition condition;
@@ -23,7 +23,8 @@ struct SharedCourses {
     std::vector<Contender> contenders;
 };
 
-/// One for each guidance that was flown under the condition.
+/// For each guidance that was flown under the condition: of the contenders that flew most courses;
+/// then, where others flew fewer by a tenth or more, of these as well, and so on.
 std::vector<SharedCourses> sharedCourses(const std::vector<Run>& runs, const Summary& summary,
                                          const Condition& condition);
 

@@ -91,6 +91,13 @@ std::string percentOf(int successes, int trials) {
            percent(bounds.high) + ")";
 }
 
+std::string percentOfRuns(int successes, int runs) {
+    if (runs == 0) return "-";
+    std::string text = percentOf(successes, runs);
+    text.insert(text.size() - 1, "; " + std::to_string(runs));
+    return text;
+}
+
 std::string pText(double p) { return p < 0.001 ? "<0.001" : fixed(p, 3); }
 
 }  // namespace hagen

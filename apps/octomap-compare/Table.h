@@ -25,6 +25,8 @@ std::string fixed(const Bounds& bounds, int decimals);
 std::string percent(double share);
 /// "97.5 (94.3 to 98.9)" by Wilson; "-" of no trials.
 std::string percentOf(int successes, int trials);
+/// The same with the number of runs: "96.0 (92.3 to 98.0; 200)".
+std::string percentOfRuns(int successes, int runs);
 /// "<0.001", "0.023".
 std::string pText(double p);
 
