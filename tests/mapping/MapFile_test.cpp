@@ -10,6 +10,8 @@
 #include <memory>
 #include <string>
 
+#include "support/Program.h"
+
 namespace {
 
 using namespace hagen;
@@ -17,9 +19,7 @@ namespace fs = std::filesystem;
 
 class MapFile : public testing::Test {
  protected:
-    MapFile() : folder_(fs::path(testing::TempDir()) / "hagen_map_file") {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
+    MapFile() {
         Random random(4);
         MappedScan scan;
         for (int i = 0; i < 400; ++i) {
@@ -31,7 +31,6 @@ class MapFile : public testing::Test {
         }
         for (int i = 0; i < 8; ++i) map_.insert(scan);
     }
-    ~MapFile() override { fs::remove_all(folder_); }
 
     static std::string bytesOf(const fs::path& file) {
         std::ifstream in(file, std::ios::binary);
@@ -63,7 +62,7 @@ class MapFile : public testing::Test {
         return count;
     }
 
-    fs::path folder_;
+    test::TemporaryFolder folder_;  // of its own: tests run side by side
     ScanMap map_{{MapContent::Full, 0.2, 20}};
 };
 
