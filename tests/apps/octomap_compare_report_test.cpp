@@ -400,21 +400,27 @@ TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
     result.outcome = Outcome::Collision;
     const Eigen::Vector3d start_m = course.start_m;
     const double ground_m = course.scene.terrain().height_m(start_m.x(), start_m.y());
-    const std::string ground = endingOf(course, result, {start_m.x(), start_m.y(), ground_m + 0.2});
+    const std::string ground =
+        endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
     EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
     EXPECT_NE(ground.find(" m from it to the vehicle's middle"), std::string::npos);
 
     const SceneMover& person = course.scene.content().movers.front();
     const Eigen::Affine3f pose = poseOf(person, course.scene.terrain(), result.time_s);
     const Eigen::Vector3f above_head = pose * Eigen::Vector3f(0, 0, 2);
-    const std::string moving = endingOf(course, result, above_head.cast<double>());
+    const std::string moving = endingOf(course, result, 4, above_head.cast<double>());
     EXPECT_EQ(moving.rfind("hit something that moves at 2.50 s: 0.2", 0), 0u) << moving;
 
     result.outcome = Outcome::Success;
-    EXPECT_EQ(endingOf(course, result, course.goal_m), "arrived at 2.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, course.goal_m), "arrived at 2.50 s");
     result.outcome = Outcome::Timeout;
-    EXPECT_EQ(endingOf(course, result, start_m), "gave up for lack of progress at 2.50 s");
-    EXPECT_EQ(endingOf(course, result, {1000, 0, 2}), "left the course at 2.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, start_m), "gave up for lack of progress at 2.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, {1000, 0, 2}), "left the course at 2.50 s");
+    // Three times 40 m at 4 m/s and 20 s are 50 s; at 2 m/s they are 80 s.
+    result.time_s = 50.5;
+    EXPECT_EQ(endingOf(course, result, 4, start_m), "ran out of time at 50.50 s");
+    EXPECT_EQ(endingOf(course, result, 2, start_m), "gave up for lack of progress at 50.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, {1000, 0, 2}), "left the course at 50.50 s");
 }
 
 TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
