@@ -45,7 +45,7 @@ int run(const Flags& flags) {
     writeReplayScene(recording, scene.temporary());
     page.commit();
     scene.commit();
-    std::cout << choiceOf(wanted) << "\n"
+    std::cout << choiceOf(wanted, {wanted}) << "\n"
               << recording.ending << "\n"
               << page.path().string() << "\n"
               << scene.path().string() << "\n";

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "octomap-compare/ChooseRun.h"
 #include "octomap-compare/Ending.h"
@@ -457,6 +458,25 @@ TEST(ChooseRun, ListsWhatThereIsInstead) {
     EXPECT_EQ(refusal({}), "has no run of seed 3, nor any other");
 }
 
+TEST(ChooseRun, ListsTheFlagsThatTellRunsApart) {
+    const Row plain = runOf("gap", 1, "W-RoI", "astar", kWon);
+    std::vector<Row> runs(6, plain);
+    runs[1].setup.speed_m_s = 0.1 + 0.2;  // needs all of its digits
+    runs[2].setup.latency_scale = 4;
+    runs[3].setup.planner = "3dvfh";
+    runs[4].setup.pose_error = PoseError::Noise;
+    runs[5].setup.brakes_in_known_space = true;
+    const std::string named = "--scenario gap --model W-RoI --guidance astar --speed ";
+    EXPECT_EQ(choiceOf(plain, {plain}), named + "4   # success");
+    EXPECT_EQ(choiceOf(runs[2], {runs[2]}), named + "4 --latency-scale 4   # success");
+    EXPECT_EQ(choiceOf(plain, {plain, runs[2]}), named + "4 --latency-scale 1   # success");
+    EXPECT_EQ(choiceOf(runs[1], runs),
+              named +
+                  "0.30000000000000004 --planner primitives --pose-error none --latency-scale 1 "
+                  "--unknown optimistic   # success");
+    EXPECT_EQ(choiceOf(runs[5], {plain, runs[5]}), named + "4 --unknown brake-known   # success");
+}
+
 TEST(ChooseRun, TellsWaysOfUnknownSpaceApart) {
     std::vector<Row> runs{runOf("gap", 1, "W-RoI", "astar", kWon),
                           runOf("gap", 1, "W-RoI", "astar", kHit)};
@@ -622,12 +642,30 @@ TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
     expectFailure({}, 2, "no command is given; " + there_are);
 }
 
+TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {
+    std::vector<Row> runs(3, runOf("gap", 1, "W-RoI", "astar", kWon));
+    runs[1].setup.speed_m_s = 6;
+    runs[2].setup.speed_m_s = 6;
+    runs[2].setup.latency_scale = 4;
+    runs[2].setup.brakes_in_known_space = true;
+    writeRuns(runs);
+    const std::string list = run({"replay", folder(), "--seed", "1"}).err;
+    for (const Row& one : runs) {
+        const std::string line = choiceOf(one, runs);
+        ASSERT_NE(list.find("\n  " + line), std::string::npos) << list;
+        std::vector<std::string> arguments{"replay", folder(), "--seed", "1"};
+        std::istringstream words(line);
+        for (std::string word; words >> word && word != "#";) arguments.push_back(word);
+        expectFailure(arguments, 1, "profile.json");  // chosen; it cannot be flown here
+    }
+}
+
 TEST_F(ReportCommand, AReplayNeedsOneRun) {
     writeRuns(threeContenders());
     expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run of seed 77");
     expectFailure({"replay", folder(), "--seed", "1", "--model", "G-Full"}, 2, "no run of seed 1");
     expectFailure({"replay", folder(), "--seed", "1"}, 2,
-                  "--scenario gap --model W-RoI --guidance straight   (4 m/s: timeout)");
+                  "--scenario gap --model W-RoI --guidance straight --speed 4   # timeout\n");
     expectFailure({"replay", folder()}, 2, "--seed is required");
     expectFailure({"replay", folder(), "--seed", "1", "--unknown", "nonsense"}, 2,
                   "{optimistic,brake-known}");
