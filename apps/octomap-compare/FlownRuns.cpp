@@ -1,6 +1,7 @@
 #include "FlownRuns.h"
 
 #include <hagen/trials/CampaignFolder.h>
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -66,11 +67,8 @@ void compareWithPlan(const fs::path& folder, const std::set<std::string>& keys, 
     }
 }
 
-}  // namespace
-
-FlownRuns readFlownRuns(const fs::path& folder) {
+FlownRuns readWith(const std::vector<fs::path>& journals, const fs::path& folder) {
     FlownRuns flown;
-    const std::vector<fs::path> journals = journalsIn(folder);
     if (journals.empty() || fs::exists(folder / "runs.csv")) {
         flown.runs = readRuns(folder / "runs.csv");
     }
@@ -80,6 +78,27 @@ FlownRuns readFlownRuns(const fs::path& folder) {
     sortRuns(flown.runs);
     if (fs::exists(folder / "campaign.json")) compareWithPlan(folder, keys, flown);
     return flown;
+}
+
+bool isOneGone(const std::vector<fs::path>& journals) {
+    return std::any_of(journals.begin(), journals.end(),
+                       [](const fs::path& journal) { return !fs::exists(journal); });
+}
+
+}  // namespace
+
+FlownRuns readFlownRuns(const fs::path& folder) {
+    // A campaign that ends meanwhile writes runs.csv and removes its journals: then all is read
+    // anew, for what stood in them is in the table now.
+    constexpr int kAttempts = 5;
+    for (int attempt = 1;; ++attempt) {
+        const std::vector<fs::path> journals = journalsIn(folder);
+        try {
+            return readWith(journals, folder);
+        } catch (const std::runtime_error&) {
+            if (attempt == kAttempts || !isOneGone(journals)) throw;
+        }
+    }
 }
 
 }  // namespace hagen

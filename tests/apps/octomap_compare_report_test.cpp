@@ -1,6 +1,7 @@
 // What is told of runs: sums with known answers; and the built program's report and replay.
 #include <gtest/gtest.h>
 #include <hagen/simulation/Random.h>
+#include <sys/stat.h>
 
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
@@ -11,6 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "octomap-compare/ChooseRun.h"
 #include "octomap-compare/Ending.h"
@@ -586,6 +588,32 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     EXPECT_EQ(run({"report", folder(), "--overwrite"}).out.find("Unfinished"), std::string::npos);
     folder_.write("campaign.json", "{}");
     EXPECT_NE(run({"report", folder(), "--overwrite"}).err.find("campaign.json: "),
+              std::string::npos);
+}
+
+TEST(FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
+    const test::TemporaryFolder folder;
+    const Row run = runOf("gap", 1, "W-RoI", "astar", kWon);
+    fs::create_directory(folder / "journal");
+    // A pipe holds the reader up between its list of journals and the second of them.
+    ASSERT_EQ(mkfifo((folder / "journal/0.csv").c_str(), 0600), 0);
+    folder.write("journal/1.csv", rowOf(run) + "\tgap;\n");
+    std::thread campaign([&] {
+        const std::ofstream pipe(folder / "journal/0.csv");  // waits for the reader
+        folder.write("runs.csv", runHeader() + "\n" + rowOf(run) + "\n");
+        fs::remove_all(folder / "journal");
+    });
+    FlownRuns flown;
+    EXPECT_NO_THROW(flown = readFlownRuns(folder.path()));
+    campaign.join();
+    EXPECT_EQ(flown.runs.size(), 1u);
+}
+
+TEST(FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "journal");
+    fs::create_symlink("nowhere", folder / "journal/0.csv");
+    EXPECT_NE(test::messageOf([&] { readFlownRuns(folder.path()); }).find("0.csv: cannot be read"),
               std::string::npos);
 }
 
