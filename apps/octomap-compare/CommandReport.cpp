@@ -76,13 +76,15 @@ void addWorst(std::size_t count, Report& report) {
 int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     if (!fs::is_directory(folder)) {
-        throw std::runtime_error(folder.string() + ": no such folder; give one with a runs.csv");
+        throw std::runtime_error(folder.string() +
+                                 ": no such folder; give one of octomap-compare closedloop");
     }
     Report report;
     report.flown = readFlownRuns(folder);
     if (report.flown.runs.empty()) {
-        throw std::runtime_error((folder / "runs.csv").string() +
-                                 ": has no runs; fly some with octomap-compare closedloop");
+        throw std::runtime_error(folder.string() +
+                                 ": no run is finished yet; fly some with octomap-compare "
+                                 "closedloop");
     }
     report.summary = summarize(report.flown.runs);
     if (fs::exists(folder / "profile.json")) {
@@ -128,7 +130,7 @@ void addReport(CLI::App& app, Command& command) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand(
         "report", "what runs tell: report.html, summary.json and summary.csv in their folder");
-    sub->add_option("DIR", flags->folder, "folder of `closedloop`, with its runs.csv")->required();
+    sub->add_option("DIR", flags->folder, "folder of `closedloop`, finished or not")->required();
     sub->add_option("--memory", flags->memory,
                     "CSV of `calibrate --memory`; without: DIR/memory.csv, where there is one");
     sub->add_option("--markdown", flags->markdown, "file for the main tables as Markdown");

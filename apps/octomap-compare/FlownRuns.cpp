@@ -42,7 +42,7 @@ std::map<std::string, Run> plannedRuns(const fs::path& folder) {
             }
         } catch (const std::invalid_argument& e) {
             throw std::runtime_error((folder / "campaign.json").string() + ": " + e.what() +
-                                     "; without this file nothing is told of what was planned");
+                                     "; was it written by another version, or changed by hand?");
         }
     }
     return planned;
@@ -69,9 +69,12 @@ void compareWithPlan(const fs::path& folder, const std::set<std::string>& keys, 
 
 FlownRuns readWith(const std::vector<fs::path>& journals, const fs::path& folder) {
     FlownRuns flown;
-    if (journals.empty() || fs::exists(folder / "runs.csv")) {
-        flown.runs = readRuns(folder / "runs.csv");
+    const bool has_table = fs::exists(folder / "runs.csv");
+    if (!has_table && journals.empty() && !fs::exists(folder / "campaign.json")) {
+        throw std::runtime_error(
+            folder.string() + ": holds no campaign; give a folder of octomap-compare closedloop");
     }
+    if (has_table) flown.runs = readRuns(folder / "runs.csv");
     std::set<std::string> keys;
     for (const Run& run : flown.runs) keys.insert(keyOf(run));
     for (const fs::path& journal : journals) addJournal(journal, keys, flown.runs);

@@ -311,7 +311,7 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
 
 TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     const test::TemporaryFolder folder;
-    writeReplayScene(smallRecording(), folder / "a.3Dscene");
+    writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
     const auto voxels = std::dynamic_pointer_cast<mrpt::opengl::COctoMapVoxels>(
@@ -324,9 +324,11 @@ TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     EXPECT_EQ(roi->size(), 1u);
     ASSERT_NE(scene.getByName("vehicle"), nullptr);
     EXPECT_EQ(scene.getByName("vehicle")->getPoseX(), 6);
-    writeReplayScene(Recording{}, folder / "empty.3Dscene");
-    EXPECT_NE(test::messageOf([&] { writeReplayScene({}, folder / "no/a.3Dscene"); }).find("no/a"),
-              std::string::npos);
+    writeReplayScene(Recording{}, folder / "empty.3Dscene", "empty");
+    // Blamed is the file that was asked for, not its temporary name.
+    EXPECT_EQ(
+        test::messageOf([&] { writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene"); }),
+        "no/a.3Dscene: cannot be written: No such file or directory");
 }
 
 /// A triangle that stands at x = 7 m and one that moves from there to 8 m in a step.
@@ -362,7 +364,7 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     const test::TemporaryFolder folder;
     Recording recording = smallRecording();
     recording.scene = smallScene();
-    writeReplayScene(recording, folder / "a.3Dscene");
+    writeReplayScene(recording, folder / "a.3Dscene", "a");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
     const auto truth =
@@ -627,12 +629,27 @@ TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
 
 TEST_F(ReportCommand, NamesWhatIsMissing) {
     expectFailure({"report", path("nowhere")}, 1, "nowhere: no such folder");
-    expectFailure({"report", folder()}, 1, "runs.csv: cannot be opened");
+    for (const char* command : {"report", "replay"}) {
+        expectFailure(
+            {command, folder(), command == std::string("replay") ? "--seed=1" : "--worst=6"}, 1,
+            folder() + ": holds no campaign; give a folder of octomap-compare");
+    }
     writeRuns({});
-    expectFailure({"report", folder()}, 1, "runs.csv: has no runs");
+    expectFailure({"report", folder()}, 1, folder() + ": no run is finished yet; fly some");
     folder_.write("runs.csv", "");
     expectFailure({"report", folder()}, 1, "runs.csv:1: is empty");
     expectFailure({"report"}, 2, "DIR is required");
+    // A campaign that has only begun, and one with a plan that this version does not know.
+    fs::remove(path("runs.csv"));
+    folder_.write("campaign.json", R"({"flown": []})");
+    expectFailure({"report", folder()}, 1, folder() + ": no run is finished yet");
+    expectFailure({"replay", folder(), "--seed", "1"}, 2,
+                  folder() + ": has no run of seed 1, nor any other");
+    folder_.write("campaign.json", R"({"flown": [{"scenarios": ["moon"], "seeds": [0, 9],
+        "speeds_m_s": [4.0], "models": ["W-RoI"], "guidances": ["astar"],
+        "planners": ["primitives"], "pose_errors": ["none"], "latency_scales": [1.0],
+        "unknown": "optimistic"}]})");
+    expectFailure({"report", folder()}, 1, "was it written by another version");
 }
 
 TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
@@ -659,7 +676,7 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
     expectFailure({"report", folder(), "--markdown", path("no/a.md")}, 1, path("no"));
     if (fs::exists("/proc/version")) {
         fs::remove(path("runs.csv"));
-        expectFailure({"report", "/proc"}, 1, "/proc/runs.csv: cannot be opened");
+        expectFailure({"report", "/proc"}, 1, "/proc: holds no campaign");
     }
 }
 
