@@ -59,7 +59,7 @@ std::vector<MemoryCurve> readMemory(const fs::path& file) {
 void addWorst(std::size_t count, Report& report) {
     if (count == 0 || report.flown.runs.empty()) return;
     if (!report.profile) {
-        report.worst_missing = "They cannot be flown again: the folder has no profile.json.";
+        report.worst_missing = {"They cannot be flown again: the folder has no profile.json."};
         return;
     }
     for (const Run& run : worstRuns(report.flown.runs, count)) {
@@ -68,7 +68,10 @@ void addWorst(std::size_t count, Report& report) {
         try {
             report.worst.push_back(viewFromAbove(run, *report.profile));
         } catch (const std::exception& e) {
-            report.worst_missing = std::string("One cannot be flown again: ") + e.what();
+            report.worst_missing.push_back(run.scenario + ", seed " + std::to_string(run.seed) +
+                                           ", " + nameOf(contenderOf(run)) + ", " +
+                                           nameOf(conditionOf(run)) +
+                                           ", cannot be flown again: " + e.what());
         }
     }
 }

@@ -251,6 +251,19 @@ TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
     }
 }
 
+TEST(Pages, ShowTheWorstRunsThatCanBeFlownBesideThoseThatCannot) {
+    Report report;
+    report.flown.runs = threeContenders();
+    report.summary = summarize(report.flown.runs);
+    report.worst_missing = {"the first cannot", "the second cannot"};
+    EXPECT_EQ(reportPage(report).find(overheadLegend()), std::string::npos);
+    report.worst.push_back({report.flown.runs[0], true, {5, 0}, {45, 0}, {}, {}, {}});
+    const std::string page = reportPage(report);
+    EXPECT_NE(page.find(overheadLegend()), std::string::npos);
+    EXPECT_NE(page.find("Flown again from their seeds"), std::string::npos);
+    EXPECT_NE(page.find("<p>the first cannot</p>\n<p>the second cannot</p>"), std::string::npos);
+}
+
 TEST(Summary, OfNothingIsEmpty) {
     EXPECT_TRUE(summarize({}).cells.empty());
     EXPECT_NE(reportPage(Report{}).find("Nothing was flown"), std::string::npos);
