@@ -1,15 +1,19 @@
 #include "ChooseRun.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
-#include "Summary.h"
-
 namespace hagen {
 namespace {
+
+std::string unknownOf(const Run& run) {
+    return run.setup.brakes_in_known_space ? "brake-known" : "optimistic";
+}
 
 bool matches(const Run& run, const RunWanted& wanted) {
     const auto is = [](const std::string& name, const std::string& value) {
@@ -19,7 +23,7 @@ bool matches(const Run& run, const RunWanted& wanted) {
     return run.seed == wanted.seed && is(wanted.scenario, run.scenario) &&
            is(wanted.model, setup.model) && is(wanted.guidance, setup.guidance) &&
            is(wanted.planner, setup.planner) && is(wanted.pose_error, nameOf(setup.pose_error)) &&
-           is(wanted.unknown, setup.brakes_in_known_space ? "brake-known" : "optimistic") &&
+           is(wanted.unknown, unknownOf(run)) &&
            (wanted.speed_m_s == 0 || wanted.speed_m_s == setup.speed_m_s) &&
            (wanted.latency_scale == 0 || wanted.latency_scale == setup.latency_scale);
 }
@@ -28,18 +32,16 @@ std::string listOf(const std::vector<Run>& runs) {
     constexpr std::size_t kMost = 40;
     std::string list;
     for (std::size_t i = 0; i < std::min(kMost, runs.size()); ++i) {
-        list += "\n  " + choiceOf(runs[i]);
+        list += "\n  " + choiceOf(runs[i], runs);
     }
     if (runs.size() > kMost) list += "\n  ...";
     return list;
 }
 
-/// A number as short as it can be told.
+/// The fewest digits that are read back as the same number.
 std::string shortText(double value) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << value;
-    return text.str();
+    std::array<char, 64> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 std::string joined(const std::set<std::string>& names) {
@@ -75,12 +77,27 @@ std::string overviewOf(const std::vector<Run>& runs) {
 
 }  // namespace
 
-std::string choiceOf(const Run& run) {
-    const Condition condition{run.setup.speed_m_s, run.setup.planner, run.setup.pose_error,
-                              run.setup.latency_scale, run.setup.brakes_in_known_space};
-    return "--scenario " + run.scenario + " --model " + run.setup.model + " --guidance " +
-           run.setup.guidance + "   (" + nameOf(condition) + ": " + nameOf(run.result.outcome) +
-           ")";
+std::string choiceOf(const Run& run, const std::vector<Run>& among) {
+    const TrialSetup &setup = run.setup, usual;
+    std::string flags = "--scenario " + run.scenario + " --model " + setup.model + " --guidance " +
+                        setup.guidance + " --speed " + shortText(setup.speed_m_s);
+    // What is as usual goes without saying, unless others differ in it.
+    const auto add = [&](const std::string& flag, const auto& valueOf, bool is_usual) {
+        const auto differs = [&](const Run& other) { return valueOf(other) != valueOf(run); };
+        if (is_usual && std::none_of(among.begin(), among.end(), differs)) return;
+        flags += " " + flag + " " + valueOf(run);
+    };
+    add(
+        "--planner", [](const Run& one) { return one.setup.planner; },
+        setup.planner == usual.planner);
+    add(
+        "--pose-error", [](const Run& one) { return nameOf(one.setup.pose_error); },
+        setup.pose_error == usual.pose_error);
+    add(
+        "--latency-scale", [](const Run& one) { return shortText(one.setup.latency_scale); },
+        setup.latency_scale == usual.latency_scale);
+    add("--unknown", unknownOf, setup.brakes_in_known_space == usual.brakes_in_known_space);
+    return flags + "   # " + nameOf(run.result.outcome);
 }
 
 std::string fileNameOf(const Run& run) {

@@ -18,9 +18,9 @@ struct RunWanted {
 /// the message lists what there is to choose from.
 Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted);
 
-/// A run, by the flags that name it: "--scenario gap --model W-RoI --guidance astar   (4 m/s:
-/// success)".
-std::string choiceOf(const Run& run);
+/// A run, by the flags that tell it from those of its seed `among` which it is, as a shell takes
+/// them: "--scenario gap --model W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
+std::string choiceOf(const Run& run, const std::vector<Run>& among);
 
 /// A run as a file is called, different of each: "gap-7-W-RoI-astar-4mps"; conditions that are not
 /// the usual ones follow: "-3dvfh-noise-latency4-brake-known".

@@ -26,7 +26,7 @@ Run chosen(const fs::path& folder, const RunWanted& wanted) {
     try {
         return chooseRun(runs, wanted);
     } catch (const std::invalid_argument& e) {
-        throw CLI::ValidationError((folder / "runs.csv").string(), e.what());
+        throw CLI::ValidationError(folder.string(), e.what());
     }
 }
 
@@ -42,10 +42,10 @@ int run(const Flags& flags) {
 
     const Recording recording = record(wanted, profile);
     writeText(replayPage(recording), page.temporary(), page.path());
-    writeReplayScene(recording, scene.temporary());
+    writeReplayScene(recording, scene.temporary(), scene.path());
     page.commit();
     scene.commit();
-    std::cout << choiceOf(wanted) << "\n"
+    std::cout << choiceOf(wanted, {wanted}) << "\n"
               << recording.ending << "\n"
               << page.path().string() << "\n"
               << scene.path().string() << "\n";
@@ -63,7 +63,7 @@ void addReplay(CLI::App& app, Command& command) {
     RunWanted& wanted = flags->wanted;
     CLI::App* sub = app.add_subcommand(
         "replay", "fly one run again: replay-RUN.html, a page, and replay-RUN.3Dscene");
-    sub->add_option("DIR", flags->folder, "folder of `closedloop`, with its runs.csv")->required();
+    sub->add_option("DIR", flags->folder, "folder of `closedloop`, finished or not")->required();
     sub->add_option("--seed", wanted.seed, "seed of the run")->required();
     sub->add_option("--scenario", wanted.scenario, "where several have that seed");
     sub->add_option("--model", wanted.model, "where several flew it");

@@ -59,7 +59,7 @@ std::vector<MemoryCurve> readMemory(const fs::path& file) {
 void addWorst(std::size_t count, Report& report) {
     if (count == 0 || report.flown.runs.empty()) return;
     if (!report.profile) {
-        report.worst_missing = "They cannot be flown again: the folder has no profile.json.";
+        report.worst_missing = {"They cannot be flown again: the folder has no profile.json."};
         return;
     }
     for (const Run& run : worstRuns(report.flown.runs, count)) {
@@ -68,7 +68,10 @@ void addWorst(std::size_t count, Report& report) {
         try {
             report.worst.push_back(viewFromAbove(run, *report.profile));
         } catch (const std::exception& e) {
-            report.worst_missing = std::string("One cannot be flown again: ") + e.what();
+            report.worst_missing.push_back(run.scenario + ", seed " + std::to_string(run.seed) +
+                                           ", " + nameOf(contenderOf(run)) + ", " +
+                                           nameOf(conditionOf(run)) +
+                                           ", cannot be flown again: " + e.what());
         }
     }
 }
@@ -76,13 +79,15 @@ void addWorst(std::size_t count, Report& report) {
 int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     if (!fs::is_directory(folder)) {
-        throw std::runtime_error(folder.string() + ": no such folder; give one with a runs.csv");
+        throw std::runtime_error(folder.string() +
+                                 ": no such folder; give one of octomap-compare closedloop");
     }
     Report report;
     report.flown = readFlownRuns(folder);
     if (report.flown.runs.empty()) {
-        throw std::runtime_error((folder / "runs.csv").string() +
-                                 ": has no runs; fly some with octomap-compare closedloop");
+        throw std::runtime_error(folder.string() +
+                                 ": no run is finished yet; fly some with octomap-compare "
+                                 "closedloop");
     }
     report.summary = summarize(report.flown.runs);
     if (fs::exists(folder / "profile.json")) {
@@ -128,7 +133,7 @@ void addReport(CLI::App& app, Command& command) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand(
         "report", "what runs tell: report.html, summary.json and summary.csv in their folder");
-    sub->add_option("DIR", flags->folder, "folder of `closedloop`, with its runs.csv")->required();
+    sub->add_option("DIR", flags->folder, "folder of `closedloop`, finished or not")->required();
     sub->add_option("--memory", flags->memory,
                     "CSV of `calibrate --memory`; without: DIR/memory.csv, where there is one");
     sub->add_option("--markdown", flags->markdown, "file for the main tables as Markdown");

@@ -61,15 +61,22 @@ std::string wordsFor(Kind kind) {
     }
 }
 
+/// Which of the judge's limits a timeout went beyond.
+std::string wordsForTimeout(const Course& course, const TrialResult& result, double speed_m_s,
+                            const Eigen::Vector3d& end_m) {
+    if (course.bounds_m.exteriorDistance(end_m) > TrialJudge::kOutside_m) return "left the course";
+    if (result.time_s > TrialJudge::longestFlight_s(course, speed_m_s)) return "ran out of time";
+    return "gave up for lack of progress";
+}
+
 }  // namespace
 
-std::string endingOf(const Course& course, const TrialResult& result,
+std::string endingOf(const Course& course, const TrialResult& result, double speed_m_s,
                      const Eigen::Vector3d& end_m) {
     const std::string at = " at " + fixed(result.time_s, 2) + " s";
     if (result.outcome == Outcome::Success) return "arrived" + at;
     if (result.outcome == Outcome::Timeout) {
-        const bool is_outside = course.bounds_m.exteriorDistance(end_m) > TrialJudge::kOutside_m;
-        return (is_outside ? "left the course" : "gave up for lack of progress") + at;
+        return wordsForTimeout(course, result, speed_m_s, end_m) + at;
     }
     const auto clearance_m =
         static_cast<double>(course.distance.at(end_m.cast<float>(), result.time_s));

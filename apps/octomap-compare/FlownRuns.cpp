@@ -1,6 +1,7 @@
 #include "FlownRuns.h"
 
 #include <hagen/trials/CampaignFolder.h>
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -41,7 +42,7 @@ std::map<std::string, Run> plannedRuns(const fs::path& folder) {
             }
         } catch (const std::invalid_argument& e) {
             throw std::runtime_error((folder / "campaign.json").string() + ": " + e.what() +
-                                     "; without this file nothing is told of what was planned");
+                                     "; was it written by another version, or changed by hand?");
         }
     }
     return planned;
@@ -66,20 +67,41 @@ void compareWithPlan(const fs::path& folder, const std::set<std::string>& keys, 
     }
 }
 
-}  // namespace
-
-FlownRuns readFlownRuns(const fs::path& folder) {
+FlownRuns readWith(const std::vector<fs::path>& journals, const fs::path& folder) {
     FlownRuns flown;
-    const std::vector<fs::path> journals = journalsIn(folder);
-    if (journals.empty() || fs::exists(folder / "runs.csv")) {
-        flown.runs = readRuns(folder / "runs.csv");
+    const bool has_table = fs::exists(folder / "runs.csv");
+    if (!has_table && journals.empty() && !fs::exists(folder / "campaign.json")) {
+        throw std::runtime_error(
+            folder.string() + ": holds no campaign; give a folder of octomap-compare closedloop");
     }
+    if (has_table) flown.runs = readRuns(folder / "runs.csv");
     std::set<std::string> keys;
     for (const Run& run : flown.runs) keys.insert(keyOf(run));
     for (const fs::path& journal : journals) addJournal(journal, keys, flown.runs);
     sortRuns(flown.runs);
     if (fs::exists(folder / "campaign.json")) compareWithPlan(folder, keys, flown);
     return flown;
+}
+
+bool isOneGone(const std::vector<fs::path>& journals) {
+    return std::any_of(journals.begin(), journals.end(),
+                       [](const fs::path& journal) { return !fs::exists(journal); });
+}
+
+}  // namespace
+
+FlownRuns readFlownRuns(const fs::path& folder) {
+    // A campaign that ends meanwhile writes runs.csv and removes its journals: then all is read
+    // anew, for what stood in them is in the table now.
+    constexpr int kAttempts = 5;
+    for (int attempt = 1;; ++attempt) {
+        const std::vector<fs::path> journals = journalsIn(folder);
+        try {
+            return readWith(journals, folder);
+        } catch (const std::runtime_error&) {
+            if (attempt == kAttempts || !isOneGone(journals)) throw;
+        }
+    }
 }
 
 }  // namespace hagen

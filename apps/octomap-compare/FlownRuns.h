@@ -22,7 +22,7 @@ struct FlownRuns {
 };
 
 /// Reads a folder, also while it is being flown into. Throws std::runtime_error, naming file and
-/// line, for what cannot be read, and where there is neither a runs.csv nor a journal.
+/// line, for what cannot be read, and where the folder holds no campaign.
 FlownRuns readFlownRuns(const std::filesystem::path& folder);
 
 }  // namespace hagen

@@ -114,7 +114,8 @@ void addTruth(const Reflown& again, Recording& recording) {
         moment.clearance_m = static_cast<double>(again.course.distance.at(
             moment.at_m.cast<float>(), kControlStep_s * static_cast<double>(i)));
     }
-    recording.ending = endingOf(again.course, again.result, recording.track.back().at_m);
+    recording.ending = endingOf(again.course, again.result, recording.run.setup.speed_m_s,
+                                recording.track.back().at_m);
     recording.scene = trueSceneOf(again.course.scene, again.course.bounds_m, again.result.time_s);
 }
 

@@ -114,8 +114,9 @@ CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
 
 }  // namespace
 
-void writeReplayScene(const Recording& recording, const std::filesystem::path& file) {
-    openToWrite(file, file);  // MRPT does not tell why it cannot
+void writeReplayScene(const Recording& recording, const std::filesystem::path& place,
+                      const std::filesystem::path& file) {
+    openToWrite(place, file);  // MRPT does not tell why it cannot
     COpenGLScene scene;
     const auto grid = CGridPlaneXY::Create(-10.0f, 60.0f, -30.0f, 30.0f, 0.0f, 5.0f);
     grid->setLocation(recording.start_m.x(), recording.start_m.y(), recording.ground_m);
@@ -141,7 +142,7 @@ void writeReplayScene(const Recording& recording, const std::filesystem::path& f
         scene.insert(
             sphereAt(recording.track.back().at_m, radius_m, TColor(86, 180, 233), "vehicle"));
     }
-    if (!scene.saveToFile(file.string())) failToWrite(file, 0);
+    if (!scene.saveToFile(place.string())) failToWrite(file, 0);
 }
 
 }  // namespace hagen

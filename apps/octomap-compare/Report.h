@@ -25,7 +25,7 @@ struct Report {
     std::vector<MemoryCurve> memory;
     std::map<std::string, MeasuredRuns> measured;  ///< by model; empty where nobody measured
     std::vector<OverheadView> worst;
-    std::string worst_missing;  ///< why there are none; empty where there are
+    std::vector<std::string> worst_missing;  ///< which cannot be shown, and why
 };
 
 /// One page that needs nothing else: tables and words as HTML, charts by script.

@@ -180,14 +180,13 @@ std::string captionOf(const OverheadView& view) {
 void addWorst(const Report& report, std::vector<Section>& sections) {
     if (report.worst.empty() && report.worst_missing.empty()) return;
     Section worst{"The worst runs, from above", {}, {}};
-    if (!report.worst_missing.empty()) {
-        worst.words.push_back(report.worst_missing);
-    } else {
+    if (!report.worst.empty()) {
         worst.words.push_back(
             "Flown again from their seeds: collisions first, then by clearance; one of each "
             "scenario and contender.");
         worst.html = overheadLegend();
     }
+    worst.words.insert(worst.words.end(), report.worst_missing.begin(), report.worst_missing.end());
     worst.html += "<div class=\"views\">";
     for (const OverheadView& view : report.worst) {
         worst.html += "<figure>" + svgOf(view) + "<figcaption>" + htmlText(captionOf(view)) +

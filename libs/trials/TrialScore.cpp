@@ -17,9 +17,13 @@ double straight_s(const Course& course, double speed_m_s) {
 
 TrialJudge::TrialJudge(const Course& course, double speed_m_s)
     : course_(course),
-      longest_s_(3 * straight_s(course, speed_m_s) + 20),
+      longest_s_(longestFlight_s(course, speed_m_s)),
       longest_stall_s_(straight_s(course, speed_m_s) + 10),
       nearest_m_((course.goal_m - course.start_m).norm()) {}
+
+double TrialJudge::longestFlight_s(const Course& course, double speed_m_s) {
+    return 3 * straight_s(course, speed_m_s) + 20;
+}
 
 std::optional<Outcome> TrialJudge::judge(const Eigen::Vector3d& position_m, double clearance_m,
                                          double collision_m, double time_s) {

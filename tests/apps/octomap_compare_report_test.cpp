@@ -1,6 +1,7 @@
 // What is told of runs: sums with known answers; and the built program's report and replay.
 #include <gtest/gtest.h>
 #include <hagen/simulation/Random.h>
+#include <sys/stat.h>
 
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
@@ -10,6 +11,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
 
 #include "octomap-compare/ChooseRun.h"
 #include "octomap-compare/Ending.h"
@@ -277,6 +280,19 @@ TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
     }
 }
 
+TEST(Pages, ShowTheWorstRunsThatCanBeFlownBesideThoseThatCannot) {
+    Report report;
+    report.flown.runs = threeContenders();
+    report.summary = summarize(report.flown.runs);
+    report.worst_missing = {"the first cannot", "the second cannot"};
+    EXPECT_EQ(reportPage(report).find(overheadLegend()), std::string::npos);
+    report.worst.push_back({report.flown.runs[0], true, {5, 0}, {45, 0}, {}, {}, {}});
+    const std::string page = reportPage(report);
+    EXPECT_NE(page.find(overheadLegend()), std::string::npos);
+    EXPECT_NE(page.find("Flown again from their seeds"), std::string::npos);
+    EXPECT_NE(page.find("<p>the first cannot</p>\n<p>the second cannot</p>"), std::string::npos);
+}
+
 TEST(Summary, OfNothingIsEmpty) {
     EXPECT_TRUE(summarize({}).cells.empty());
     EXPECT_NE(reportPage(Report{}).find("Nothing was flown"), std::string::npos);
@@ -337,7 +353,7 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
 
 TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     const test::TemporaryFolder folder;
-    writeReplayScene(smallRecording(), folder / "a.3Dscene");
+    writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
     const auto voxels = std::dynamic_pointer_cast<mrpt::opengl::COctoMapVoxels>(
@@ -350,9 +366,11 @@ TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     EXPECT_EQ(roi->size(), 1u);
     ASSERT_NE(scene.getByName("vehicle"), nullptr);
     EXPECT_EQ(scene.getByName("vehicle")->getPoseX(), 6);
-    writeReplayScene(Recording{}, folder / "empty.3Dscene");
-    EXPECT_NE(test::messageOf([&] { writeReplayScene({}, folder / "no/a.3Dscene"); }).find("no/a"),
-              std::string::npos);
+    writeReplayScene(Recording{}, folder / "empty.3Dscene", "empty");
+    // Blamed is the file that was asked for, not its temporary name.
+    EXPECT_EQ(
+        test::messageOf([&] { writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene"); }),
+        "no/a.3Dscene: cannot be written: No such file or directory");
 }
 
 /// A triangle that stands at x = 7 m and one that moves from there to 8 m in a step.
@@ -388,7 +406,7 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     const test::TemporaryFolder folder;
     Recording recording = smallRecording();
     recording.scene = smallScene();
-    writeReplayScene(recording, folder / "a.3Dscene");
+    writeReplayScene(recording, folder / "a.3Dscene", "a");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
     const auto truth =
@@ -429,21 +447,27 @@ TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
     result.outcome = Outcome::Collision;
     const Eigen::Vector3d start_m = course.start_m;
     const double ground_m = course.scene.terrain().height_m(start_m.x(), start_m.y());
-    const std::string ground = endingOf(course, result, {start_m.x(), start_m.y(), ground_m + 0.2});
+    const std::string ground =
+        endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
     EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
     EXPECT_NE(ground.find(" m from it to the vehicle's middle"), std::string::npos);
 
     const SceneMover& person = course.scene.content().movers.front();
     const Eigen::Affine3f pose = poseOf(person, course.scene.terrain(), result.time_s);
     const Eigen::Vector3f above_head = pose * Eigen::Vector3f(0, 0, 2);
-    const std::string moving = endingOf(course, result, above_head.cast<double>());
+    const std::string moving = endingOf(course, result, 4, above_head.cast<double>());
     EXPECT_EQ(moving.rfind("hit something that moves at 2.50 s: 0.2", 0), 0u) << moving;
 
     result.outcome = Outcome::Success;
-    EXPECT_EQ(endingOf(course, result, course.goal_m), "arrived at 2.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, course.goal_m), "arrived at 2.50 s");
     result.outcome = Outcome::Timeout;
-    EXPECT_EQ(endingOf(course, result, start_m), "gave up for lack of progress at 2.50 s");
-    EXPECT_EQ(endingOf(course, result, {1000, 0, 2}), "left the course at 2.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, start_m), "gave up for lack of progress at 2.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, {1000, 0, 2}), "left the course at 2.50 s");
+    // Three times 40 m at 4 m/s and 20 s are 50 s; at 2 m/s they are 80 s.
+    result.time_s = 50.5;
+    EXPECT_EQ(endingOf(course, result, 4, start_m), "ran out of time at 50.50 s");
+    EXPECT_EQ(endingOf(course, result, 2, start_m), "gave up for lack of progress at 50.50 s");
+    EXPECT_EQ(endingOf(course, result, 4, {1000, 0, 2}), "left the course at 50.50 s");
 }
 
 TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
@@ -478,6 +502,25 @@ TEST(ChooseRun, ListsWhatThereIsInstead) {
               "has no run of seed 3 with these flags; of that seed are:\n  gap: seed 3, 4 m/s, "
               "O-Full-0.4,W-RoI, astar,straight");
     EXPECT_EQ(refusal({}), "has no run of seed 3, nor any other");
+}
+
+TEST(ChooseRun, ListsTheFlagsThatTellRunsApart) {
+    const Row plain = runOf("gap", 1, "W-RoI", "astar", kWon);
+    std::vector<Row> runs(6, plain);
+    runs[1].setup.speed_m_s = 0.1 + 0.2;  // needs all of its digits
+    runs[2].setup.latency_scale = 4;
+    runs[3].setup.planner = "3dvfh";
+    runs[4].setup.pose_error = PoseError::Noise;
+    runs[5].setup.brakes_in_known_space = true;
+    const std::string named = "--scenario gap --model W-RoI --guidance astar --speed ";
+    EXPECT_EQ(choiceOf(plain, {plain}), named + "4   # success");
+    EXPECT_EQ(choiceOf(runs[2], {runs[2]}), named + "4 --latency-scale 4   # success");
+    EXPECT_EQ(choiceOf(plain, {plain, runs[2]}), named + "4 --latency-scale 1   # success");
+    EXPECT_EQ(choiceOf(runs[1], runs),
+              named +
+                  "0.30000000000000004 --planner primitives --pose-error none --latency-scale 1 "
+                  "--unknown optimistic   # success");
+    EXPECT_EQ(choiceOf(runs[5], {plain, runs[5]}), named + "4 --unknown brake-known   # success");
 }
 
 TEST(ChooseRun, TellsWaysOfUnknownSpaceApart) {
@@ -595,6 +638,32 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
               std::string::npos);
 }
 
+TEST(FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
+    const test::TemporaryFolder folder;
+    const Row run = runOf("gap", 1, "W-RoI", "astar", kWon);
+    fs::create_directory(folder / "journal");
+    // A pipe holds the reader up between its list of journals and the second of them.
+    ASSERT_EQ(mkfifo((folder / "journal/0.csv").c_str(), 0600), 0);
+    folder.write("journal/1.csv", rowOf(run) + "\tgap;\n");
+    std::thread campaign([&] {
+        const std::ofstream pipe(folder / "journal/0.csv");  // waits for the reader
+        folder.write("runs.csv", runHeader() + "\n" + rowOf(run) + "\n");
+        fs::remove_all(folder / "journal");
+    });
+    FlownRuns flown;
+    EXPECT_NO_THROW(flown = readFlownRuns(folder.path()));
+    campaign.join();
+    EXPECT_EQ(flown.runs.size(), 1u);
+}
+
+TEST(FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "journal");
+    fs::create_symlink("nowhere", folder / "journal/0.csv");
+    EXPECT_NE(test::messageOf([&] { readFlownRuns(folder.path()); }).find("0.csv: cannot be read"),
+              std::string::npos);
+}
+
 TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
     writeRuns(threeContenders());
     folder_.write("summary.csv", "mine");
@@ -605,12 +674,27 @@ TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
 
 TEST_F(ReportCommand, NamesWhatIsMissing) {
     expectFailure({"report", path("nowhere")}, 1, "nowhere: no such folder");
-    expectFailure({"report", folder()}, 1, "runs.csv: cannot be opened");
+    for (const char* command : {"report", "replay"}) {
+        expectFailure(
+            {command, folder(), command == std::string("replay") ? "--seed=1" : "--worst=6"}, 1,
+            folder() + ": holds no campaign; give a folder of octomap-compare");
+    }
     writeRuns({});
-    expectFailure({"report", folder()}, 1, "runs.csv: has no runs");
+    expectFailure({"report", folder()}, 1, folder() + ": no run is finished yet; fly some");
     folder_.write("runs.csv", "");
     expectFailure({"report", folder()}, 1, "runs.csv:1: is empty");
     expectFailure({"report"}, 2, "DIR is required");
+    // A campaign that has only begun, and one with a plan that this version does not know.
+    fs::remove(path("runs.csv"));
+    folder_.write("campaign.json", R"({"flown": []})");
+    expectFailure({"report", folder()}, 1, folder() + ": no run is finished yet");
+    expectFailure({"replay", folder(), "--seed", "1"}, 2,
+                  folder() + ": has no run of seed 1, nor any other");
+    folder_.write("campaign.json", R"({"flown": [{"scenarios": ["moon"], "seeds": [0, 9],
+        "speeds_m_s": [4.0], "models": ["W-RoI"], "guidances": ["astar"],
+        "planners": ["primitives"], "pose_errors": ["none"], "latency_scales": [1.0],
+        "unknown": "optimistic"}]})");
+    expectFailure({"report", folder()}, 1, "was it written by another version");
 }
 
 TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
@@ -637,7 +721,7 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
     expectFailure({"report", folder(), "--markdown", path("no/a.md")}, 1, path("no"));
     if (fs::exists("/proc/version")) {
         fs::remove(path("runs.csv"));
-        expectFailure({"report", "/proc"}, 1, "/proc/runs.csv: cannot be opened");
+        expectFailure({"report", "/proc"}, 1, "/proc: holds no campaign");
     }
 }
 
@@ -648,12 +732,30 @@ TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
     expectFailure({}, 2, "no command is given; " + there_are);
 }
 
+TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {
+    std::vector<Row> runs(3, runOf("gap", 1, "W-RoI", "astar", kWon));
+    runs[1].setup.speed_m_s = 6;
+    runs[2].setup.speed_m_s = 6;
+    runs[2].setup.latency_scale = 4;
+    runs[2].setup.brakes_in_known_space = true;
+    writeRuns(runs);
+    const std::string list = run({"replay", folder(), "--seed", "1"}).err;
+    for (const Row& one : runs) {
+        const std::string line = choiceOf(one, runs);
+        ASSERT_NE(list.find("\n  " + line), std::string::npos) << list;
+        std::vector<std::string> arguments{"replay", folder(), "--seed", "1"};
+        std::istringstream words(line);
+        for (std::string word; words >> word && word != "#";) arguments.push_back(word);
+        expectFailure(arguments, 1, "profile.json");  // chosen; it cannot be flown here
+    }
+}
+
 TEST_F(ReportCommand, AReplayNeedsOneRun) {
     writeRuns(threeContenders());
     expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run of seed 77");
     expectFailure({"replay", folder(), "--seed", "1", "--model", "G-Full"}, 2, "no run of seed 1");
     expectFailure({"replay", folder(), "--seed", "1"}, 2,
-                  "--scenario gap --model W-RoI --guidance straight   (4 m/s: timeout)");
+                  "--scenario gap --model W-RoI --guidance straight --speed 4   # timeout\n");
     expectFailure({"replay", folder()}, 2, "--seed is required");
     expectFailure({"replay", folder(), "--seed", "1", "--unknown", "nonsense"}, 2,
                   "{optimistic,brake-known}");

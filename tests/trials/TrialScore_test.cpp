@@ -39,6 +39,7 @@ TEST(TrialJudge, NoFlightIsEndless) {
         EXPECT_EQ(judge.judge({time_s / 4, 0, 2}, 2, 0.3, time_s), std::nullopt) << time_s;
     }
     EXPECT_EQ(judge.judge({12, 0, 2}, 2, 0.3, 35.1), Outcome::Timeout);
+    EXPECT_EQ(TrialJudge::longestFlight_s(course, 4), 35);
 }
 
 TEST(FreeWay, EndsWhereTheRoomDoes) {

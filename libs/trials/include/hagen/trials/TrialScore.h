@@ -19,6 +19,9 @@ class TrialJudge {
 
     TrialJudge(const Course& course, double speed_m_s);
 
+    /// A flight that takes longer is a timeout, even one that comes nearer all the time. [s]
+    static double longestFlight_s(const Course& course, double speed_m_s);
+
     /// The outcome, once there is one.
     std::optional<Outcome> judge(const Eigen::Vector3d& position_m, double clearance_m,
                                  double collision_m, double time_s);
