@@ -1,5 +1,6 @@
 #include "Ending.h"
 
+#include <hagen/range_image/Angle.h>
 #include <hagen/trials/TrialScore.h>
 #include <cmath>
 #include <vector>
@@ -13,7 +14,7 @@ namespace {
 std::vector<Ray> raysAround(const Eigen::Vector3f& at_m) {
     // 1.4 degrees apart: a wire at 0.3 m is met by several.
     constexpr int kRays = 20000;
-    const double golden = 3.141592653589793 * (3 - std::sqrt(5.0));
+    const double golden = kPi * (3 - std::sqrt(5.0));
     std::vector<Ray> rays;
     rays.reserve(kRays);
     for (int i = 0; i < kRays; ++i) {

@@ -49,7 +49,7 @@ struct Cell {
     Contender contender;
     int runs = 0, successes = 0, collisions = 0, timeouts = 0;
     Spread min_clearance_m{};  ///< of all runs; the others below of successful ones
-    Spread path_ratio{};       ///< path over the oracle's path
+    Spread path_ratio{};       ///< way flown over the oracle's way to the goal's sphere
     Spread time_s{}, first_reaction_m{}, rms_jerk_m_s3{};
     Spread latency_p50_ms{}, latency_p95_ms{};  ///< sensor to command, of all runs
     double latency_max_ms = NAN;
