@@ -10,6 +10,7 @@
 #include "Report.h"
 #include "ReportWords.h"
 #include "SummaryFiles.h"
+#include "Verdict.h"
 
 namespace hagen {
 namespace {
@@ -95,9 +96,6 @@ int run(const Flags& flags) {
     }
     const fs::path memory = flags.memory.empty() ? folder / "memory.csv" : fs::path(flags.memory);
     if (!flags.memory.empty() || fs::exists(memory)) report.memory = readMemory(memory);
-    if (fs::exists(folder / "measured.csv")) {
-        report.measured = readMeasured(folder / "measured.csv");
-    }
     // Places first: what cannot be written shall be told before minutes of flying.
     const auto check = [&](const fs::path& path) {
         OutputPath(path, OutputPath::Kind::File, flags.overwrite);

@@ -12,13 +12,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void addJournal(const fs::path& journal, std::set<std::string>& keys, std::vector<Run>& runs) {
+void addJournal(const fs::path& journal, std::set<std::string>& keys, FlownRuns& flown) {
     int line = 0;
     for (const JournalLine& written : readJournal(journal)) {
         ++line;
         try {
             const Run run = runOf(written.run);
-            if (keys.insert(keyOf(run)).second) runs.push_back(run);
+            if (!keys.insert(keyOf(run)).second) continue;
+            flown.runs.push_back(run);
+            addMeasured(measuredHeader(), written.measured, flown.measured);
         } catch (const std::runtime_error& e) {
             throw std::runtime_error(journal.string() + ":" + std::to_string(line) + ": " +
                                      e.what());
@@ -75,9 +77,10 @@ FlownRuns readWith(const std::vector<fs::path>& journals, const fs::path& folder
             folder.string() + ": holds no campaign; give a folder of octomap-compare closedloop");
     }
     if (has_table) flown.runs = readRuns(folder / "runs.csv");
+    if (fs::exists(folder / "measured.csv")) flown.measured = readMeasured(folder / "measured.csv");
     std::set<std::string> keys;
     for (const Run& run : flown.runs) keys.insert(keyOf(run));
-    for (const fs::path& journal : journals) addJournal(journal, keys, flown.runs);
+    for (const fs::path& journal : journals) addJournal(journal, keys, flown);
     sortRuns(flown.runs);
     if (fs::exists(folder / "campaign.json")) compareWithPlan(folder, keys, flown);
     return flown;

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "Measured.h"
 #include "Summary.h"
 
 namespace hagen {
@@ -15,9 +16,10 @@ struct Shortfall {
 
 /// What a folder of `closedloop` holds of its campaign.
 struct FlownRuns {
-    std::vector<Run> runs;  ///< finished ones, sorted; those still in journals, too
-    int planned = 0;        ///< by campaign.json; 0 where there is none
-    int missing = 0;        ///< of the planned ones
+    std::vector<Run> runs;     ///< finished ones, sorted; those still in journals, too
+    MeasuredByModel measured;  ///< what they cost; empty where nobody measured
+    int planned = 0;           ///< by campaign.json; 0 where there is none
+    int missing = 0;           ///< of the planned ones
     std::vector<Shortfall> shortfalls;
 };
 

@@ -29,8 +29,10 @@ void add(const std::string& text, std::vector<double>& values) {
     values.push_back(value);
 }
 
-void addRow(const std::vector<std::string>& names, const std::vector<std::string>& fields,
-            std::map<std::string, MeasuredRuns>& all) {
+}  // namespace
+
+void addMeasured(const std::string& header, const std::string& row, MeasuredByModel& all) {
+    const std::vector<std::string> names = fieldsOf(header), fields = fieldsOf(row);
     if (fields.size() != names.size()) throw std::runtime_error("not as many fields as columns");
     std::string model;
     for (std::size_t c = 0; c < names.size(); ++c) {
@@ -48,21 +50,15 @@ void addRow(const std::vector<std::string>& names, const std::vector<std::string
     }
 }
 
-}  // namespace
-
-std::map<std::string, MeasuredRuns> readMeasured(const std::filesystem::path& file) {
+MeasuredByModel readMeasured(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
-    std::map<std::string, MeasuredRuns> all;
-    std::vector<std::string> names;
-    std::string text;
-    for (int line = 1; std::getline(in, text); ++line) {
+    MeasuredByModel all;
+    std::string header, row;
+    std::getline(in, header);
+    for (int line = 2; std::getline(in, row); ++line) {
         try {
-            if (line == 1) {
-                names = fieldsOf(text);
-            } else {
-                addRow(names, fieldsOf(text), all);
-            }
+            addMeasured(header, row, all);
         } catch (const std::runtime_error& e) {
             throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + e.what());
         }

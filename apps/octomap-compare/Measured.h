@@ -12,8 +12,13 @@ struct MeasuredRuns {
     std::map<std::string, std::vector<double>> p50_ms;  ///< CPU time by stage
 };
 
-/// measured.csv of a campaign, by model. Columns are found by name; fields may be empty. Throws
-/// std::runtime_error, naming file and line, for a line without all columns, or no number.
-std::map<std::string, MeasuredRuns> readMeasured(const std::filesystem::path& file);
+using MeasuredByModel = std::map<std::string, MeasuredRuns>;
+
+/// Adds a row. Columns are found by the header's names; fields may be empty. Throws
+/// std::runtime_error for a row without all columns, or no number.
+void addMeasured(const std::string& header, const std::string& row, MeasuredByModel& all);
+
+/// measured.csv of a campaign. Throws as addMeasured, naming file and line.
+MeasuredByModel readMeasured(const std::filesystem::path& file);
 
 }  // namespace hagen

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "FlownRuns.h"
-#include "Measured.h"
 #include "Overhead.h"
 #include "Summary.h"
 
@@ -23,7 +22,6 @@ struct Report {
     Summary summary;
     std::optional<LatencyProfile> profile;
     std::vector<MemoryCurve> memory;
-    std::map<std::string, MeasuredRuns> measured;  ///< by model; empty where nobody measured
     std::vector<OverheadView> worst;
     std::vector<std::string> worst_missing;  ///< which cannot be shown, and why
 };

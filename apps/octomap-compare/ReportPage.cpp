@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "Report.h"
+#include "ReportTables.h"
 #include "ReportWords.h"
 #include "SharedCourses.h"
 #include "SummaryFiles.h"
+#include "Verdict.h"
 #include "Web.h"
 
 namespace hagen {
@@ -149,12 +151,12 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
         stages.charts = {"stages"};
         sections.push_back(stages);
     }
-    if (!report.measured.empty()) {
+    if (!report.flown.measured.empty()) {
         sections.push_back({"Memory and CPU time, measured while flying",
                             {"On the machine that flew the campaign, perhaps on several cores at a "
                              "time: medians over runs. Flights draw their latencies from the "
                              "profile, not from these. Heap is what a model held at most."},
-                            {measuredTable(report.measured)}});
+                            {measuredTable(report.flown.measured)}});
     }
     if (!report.memory.empty()) {
         Section memory{"Memory against distance",

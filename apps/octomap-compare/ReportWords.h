@@ -4,19 +4,8 @@
 
 #include "Report.h"
 #include "SharedCourses.h"
-#include "Table.h"
 
 namespace hagen {
-
-/// The verdict in plain words, a sentence or two each.
-std::vector<std::string> verdictOf(const Summary& summary);
-
-/// W-RoI against W-Full where wires were flown: first where no wires are, then among them. Nothing
-/// for any other pairing, and where only wires were flown, or none.
-std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall);
-
-/// By how much the first has more success, with interval and p, and what is open.
-std::string differenceText(const Pairing& pairing);
 
 /// How many of the planned runs are there; empty where all are, or nothing is known of a plan.
 std::string unfinishedWords(const FlownRuns& flown);
@@ -24,31 +13,7 @@ std::string unfinishedWords(const FlownRuns& flown);
 /// What was flown, in sentences.
 std::vector<std::string> flownWords(const Report& report);
 
-/// Pairings in single scenarios in which the first has less success, largest loss first.
-std::vector<Pairing> lossesOf(const Summary& summary);
-
-/// Scenarios by contenders, of a condition: share in percent, its interval, and of how many runs.
-Table successTable(const Summary& summary, const Condition& condition);
-Table collisionTable(const Summary& summary, const Condition& condition);
-Table outcomeTable(const Summary& summary, const Condition& condition);  ///< a row a cell
-
-Table pairingTable(const std::vector<Pairing>& pairings);
-Table speedTable(const Summary& summary);
-Table squareTable(const Summary& summary, const Condition& condition);  ///< model x guidance
-Table flightTable(const SharedCourses& shared);                         ///< clearance, path, ...
-std::string sharedWords(const SharedCourses& shared);  ///< how many courses that table is of
-Table wiresTable(const Summary& summary, const Condition& condition);  ///< a row a contender
-Table shortfallTable(const FlownRuns& flown);
-Table effortTable(const Summary& summary, const Condition& condition);  ///< latency, drops, ...
-/// p50, p95 and max of each stage of the models that flew.
-Table stageTable(const Summary& summary, const LatencyProfile& profile);
-/// CPU time and heap of each model, as measured while flying.
-Table measuredTable(const std::map<std::string, MeasuredRuns>& measured);
-Table memoryTable(const std::vector<MemoryCurve>& memory);
-
-/// Stages that a contender's scans go through, in order, by the profile's names; those alone that
-/// the profile has.
-std::vector<std::string> stageNamesOf(const Contender& contender, const std::string& planner,
-                                      const LatencyProfile& profile);
+/// How many courses contenders have in common, and on how many all arrived.
+std::string sharedWords(const SharedCourses& shared);
 
 }  // namespace hagen

@@ -296,6 +296,14 @@ const Cell* find(const Summary& summary, const std::string& scenario, const Cond
     return nullptr;
 }
 
+std::vector<Contender> contendersUnder(const Summary& summary, const Condition& condition) {
+    std::vector<Contender> present;
+    for (const Contender& contender : summary.contenders) {
+        if (find(summary, "", condition, contender) != nullptr) present.push_back(contender);
+    }
+    return present;
+}
+
 std::string nameOf(Verdict verdict) {
     return verdict == Verdict::NotInferior ? "not inferior"
            : verdict == Verdict::Inferior  ? "inferior"

@@ -119,6 +119,9 @@ Cell cellOf(const std::string& scenario, const std::vector<const Run*>& runs);
 const Cell* find(const Summary& summary, const std::string& scenario, const Condition& condition,
                  const Contender& contender);
 
+/// Contenders with runs under a condition, in the summary's order.
+std::vector<Contender> contendersUnder(const Summary& summary, const Condition& condition);
+
 std::string nameOf(Verdict verdict);
 std::string nameOf(const Contender& contender);  ///< "W-RoI, A*"
 /// "4 m/s", and whatever is not as in the reference: planner 3dvfh, pose noise, latency x4, ...

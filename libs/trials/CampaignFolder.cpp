@@ -128,9 +128,11 @@ std::string placeOf(const fs::path& file, std::size_t line) {
 
 std::vector<fs::path> journalsIn(const fs::path& folder) {
     std::vector<fs::path> journals;
-    if (!fs::is_directory(folder / "journal")) return journals;
-    for (const auto& entry : fs::directory_iterator(folder / "journal")) {
-        journals.push_back(entry.path());
+    const fs::path place = folder / "journal";
+    std::error_code error;  // the campaign may end, and remove them, at any time
+    for (const auto& entry : fs::directory_iterator(place, error)) journals.push_back(entry.path());
+    if (error && error != std::errc::no_such_file_or_directory) {
+        throw std::runtime_error(place.string() + ": cannot be read: " + error.message());
     }
     std::sort(journals.begin(), journals.end());
     return journals;

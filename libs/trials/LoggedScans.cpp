@@ -162,6 +162,10 @@ class LoggedScans::Rawlog : public LoggedScans::Log {
 class LoggedScans::Folder : public LoggedScans::Log {
  public:
     explicit Folder(const LogSource& of) : Log(of), folder_(of.log), times_s_(folder_.times()) {
+        if (!isWanted(kLabel)) {
+            throw std::runtime_error(of.log.string() + ": has no LiDAR scan of '" +
+                                     of.sensor_label + "'; a scan folder is all '" + kLabel + "'");
+        }
         for (std::size_t i = times_s_.size(); i < folder_.size(); ++i) {
             times_s_.push_back(kDefaultScanPeriod_s * static_cast<double>(i));
         }
@@ -179,10 +183,11 @@ class LoggedScans::Folder : public LoggedScans::Log {
         Scan scan;
         readScan(folder_.scanFile(next_), scan);
         const auto time = mrpt::Clock::fromDouble(times_s_[next_]);
-        return {next_++, observationOf(scan, "velodyne", time)};
+        return {next_++, observationOf(scan, kLabel, time)};
     }
 
  private:
+    static constexpr const char* kLabel = "velodyne";
     ScanFolder folder_;
     std::vector<double> times_s_;
     std::size_t next_ = 0;

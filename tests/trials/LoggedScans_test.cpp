@@ -143,6 +143,11 @@ TEST_F(LoggedScansTest, TellsWhatIsMissing) {
     EXPECT_NE(messageOf({poleLog(1), posesAt({10}), "roof", {}})
                   .find("has no LiDAR scan of 'roof'; there are 'lidar'"),
               std::string::npos);
+    fs::create_directories(folder_ / "scans/velodyne");
+    folder_.write("scans/velodyne/0.bin", "");
+    EXPECT_NE(messageOf({folder_ / "scans", posesAt({10}), "roof", {}})
+                  .find("has no LiDAR scan of 'roof'; a scan folder is all 'velodyne'"),
+              std::string::npos);
     mrpt::obs::CObservationComment comment;
     RawlogWriter writer(folder_ / "words.rawlog", true);
     writer.write(comment);

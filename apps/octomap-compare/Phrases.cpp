@@ -1,0 +1,42 @@
+#include "Phrases.h"
+
+#include "Table.h"
+
+namespace hagen {
+
+std::string points(double share) {
+    const std::string text = fixed(100 * share, 1);
+    return share > 0 && text != "0.0" ? "+" + text : text;
+}
+
+std::string pointsOf(const Bounds& bounds) {
+    return points(bounds.low) + " to " + points(bounds.high);
+}
+
+std::string join(const std::vector<std::string>& words, const std::string& between) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    if (words.size() < 2) return join(words, "");
+    return join({words.begin(), words.end() - 1}, ", ") + " and " + words.back();
+}
+
+std::string counted(int count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string capital(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
+        text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    }
+    return text;
+}
+
+std::string spoken(const Contender& contender) {
+    return contender.model + (contender.guidance == "astar" ? " with A*" : " flown straight");
+}
+
+}  // namespace hagen

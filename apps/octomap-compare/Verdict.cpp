@@ -1,0 +1,199 @@
+#include "Verdict.h"
+
+#include <algorithm>
+#include <set>
+
+#include "Phrases.h"
+#include "Table.h"
+
+namespace hagen {
+namespace {
+
+std::string placeOf(const std::string& scenario) {
+    if (scenario == kAllButWires) return "where no wires are";
+    return scenario == kWires ? "among wires" : scenario.empty() ? "" : "in " + scenario;
+}
+
+enum Answer { MoreOften, LessByMargin, LessOften, LessWithinMargin, WithinMargin, Undecided };
+
+/// "More" and "less" only where the interval and McNemar's test, corrected, both say so.
+Answer answerOf(const Pairing& pairing) {
+    if (pairing.p_holm < 0.05) {
+        if (pairing.interval.low > 0) return MoreOften;
+        if (pairing.interval.high < -kMargin) return LessByMargin;
+        if (pairing.interval.high < 0) {
+            return pairing.interval.low > -kMargin ? LessWithinMargin : LessOften;
+        }
+    }
+    return pairing.verdict == Verdict::NotInferior ? WithinMargin : Undecided;
+}
+
+std::string differenceOf(const Pairing& pairing) {
+    const double n = pairing.pairs();
+    const bool same_guidance = pairing.first.guidance == pairing.second.guidance;
+    std::string who = spoken(pairing.first) + " against " +
+                      (same_guidance ? pairing.second.model : spoken(pairing.second));
+    const std::string place = placeOf(pairing.scenario);
+    return capital(place) + (place.empty() ? "" : ", ") + who + ": success " +
+           percent((pairing.both + pairing.only_first) / n) + " % against " +
+           percent((pairing.both + pairing.only_second) / n) + " % of the same " +
+           counted(pairing.pairs(), "course") + ", " + points(pairing.difference) +
+           " points (95 % interval " + pointsOf(pairing.interval) + "; p " + pText(pairing.p_holm) +
+           ")";
+}
+
+std::string marginText() { return fixed(100 * kMargin, 0) + " points"; }
+
+std::string difference(const Pairing& pairing) {
+    switch (answerOf(pairing)) {
+        case WithinMargin:
+            return differenceOf(pairing) + ". Not inferior: a loss of " + marginText() +
+                   " is excluded.";
+        case Undecided:
+            return "Open: " + differenceOf(pairing) +
+                   (pairing.verdict == Verdict::Inferior
+                        ? ". With so many comparisons this may be chance."
+                        : ".");
+        default:
+            return differenceOf(pairing) + ".";
+    }
+}
+
+/// Where both were flown, if not in all scenarios of the condition: "u-trap and gap".
+std::string scopeOf(const Summary& summary, const Pairing& overall) {
+    std::vector<std::string> names;
+    for (const Pairing& one : summary.pairings) {
+        if (one.condition == overall.condition && one.first == overall.first &&
+            one.second == overall.second) {
+            names.push_back(one.scenario);
+        }
+    }
+    std::set<std::string> flown;
+    for (const Cell& cell : summary.cells) {
+        if (cell.condition == overall.condition && !cell.scenario.empty()) {
+            flown.insert(cell.scenario);
+        }
+    }
+    return names.size() < flown.size() ? listed(names) : "";
+}
+
+/// What the verdict tells of: all scenarios together, but W-RoI against W-Full with wires apart.
+std::vector<Pairing> told(const Summary& summary, const Condition& condition) {
+    std::vector<Pairing> all;
+    for (const Pairing& pairing : summary.overall) {
+        if (!(pairing.condition == condition)) continue;
+        const std::vector<Pairing> apart = wiresApart(summary, pairing);
+        if (apart.empty()) {
+            all.push_back(pairing);
+            all.back().scenario = scopeOf(summary, pairing);
+        } else {
+            all.insert(all.end(), apart.begin(), apart.end());
+        }
+    }
+    return all;
+}
+
+/// The answer before the figures.
+std::string headlineOf(const std::vector<Pairing>& pairings, const Condition& reference,
+                       const std::string& guidance) {
+    std::vector<std::string> of[Undecided + 1];
+    for (const Pairing& pairing : pairings) {
+        if (pairing.first.guidance != guidance || pairing.second.model == pairing.first.model ||
+            pairing.second.model == "oracle") {
+            continue;
+        }
+        const bool same_guidance = pairing.second.guidance == guidance;
+        const std::string place = placeOf(pairing.scenario);
+        of[answerOf(pairing)].push_back(
+            (same_guidance ? pairing.second.model : spoken(pairing.second)) +
+            (place.empty() ? "" : " (" + place + ")"));
+    }
+    const std::string margin = marginText();
+    const std::string before[] = {"arrives more often than ", "arrives less often than ",
+                                  "arrives less often than ", "arrives less often than ",
+                                  "loses less than " + margin + ", if any, to "};
+    const std::string after[] = {"", ", by more than " + margin, ", by how much is open",
+                                 ", by less than " + margin, ""};
+    const std::string subject = spoken({"W-RoI", guidance}) + " at " + nameOf(reference);
+    std::string text;
+    for (int answer = MoreOften; answer < Undecided; ++answer) {
+        if (of[answer].empty()) continue;
+        text += (text.empty() ? subject : " It") + " " + before[answer] + listed(of[answer]) +
+                after[answer] + ".";
+    }
+    if (of[Undecided].empty()) return text;
+    if (text.empty()) text = subject + ": nothing is decided yet.";
+    return text + " Open: " + join(of[Undecided], ", ") + ".";
+}
+
+/// Where they were matters more than how many: scenarios are not equally hard.
+std::string collisionWords(const Summary& summary, const Cell& all) {
+    std::vector<std::string> places;
+    for (const std::string& scenario : summary.scenarios) {
+        const Cell* cell = find(summary, scenario, all.condition, all.contender);
+        if (cell == nullptr || cell->collisions == 0) continue;
+        places.push_back(scenario + " " + std::to_string(cell->collisions) + " of " +
+                         std::to_string(cell->runs));
+    }
+    return capital(spoken(all.contender)) + ": " +
+           (places.empty() ? "no collision" : counted(all.collisions, "collision")) + " in " +
+           counted(all.runs, "run") + (places.empty() ? "" : " (" + join(places, ", ") + ")") + ".";
+}
+
+/// The most runs of one contender in one scenario.
+int mostRuns(const Summary& summary, const Condition& condition) {
+    int most = 0;
+    for (const Cell& cell : summary.cells) {
+        if (!cell.scenario.empty() && cell.condition == condition) most = std::max(most, cell.runs);
+    }
+    return most;
+}
+
+}  // namespace
+
+std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall) {
+    const auto is_same = [&](const Pairing& one) {
+        return one.condition == overall.condition && one.first == overall.first &&
+               one.second == overall.second;
+    };
+    std::vector<Pairing> apart;
+    for (const Pairing& one : summary.without_wires) {
+        if (is_same(one)) apart.push_back(one);
+    }
+    if (apart.empty()) return apart;
+    for (const Pairing& one : summary.pairings) {
+        if (one.scenario == kWires && is_same(one)) apart.push_back(one);
+    }
+    return apart;
+}
+
+std::string differenceText(const Pairing& pairing) { return difference(pairing); }
+
+std::vector<std::string> verdictOf(const Summary& summary) {
+    if (summary.conditions.empty()) return {"Nothing was flown: the table has no runs."};
+    const Condition& reference = summary.conditions.front();
+    std::vector<Pairing> pairings = told(summary, reference);
+    std::vector<std::string> words;
+    for (const char* guidance : {"astar", "straight"}) {
+        const std::string headline = headlineOf(pairings, reference, guidance);
+        if (!headline.empty()) words.push_back(headline);
+    }
+    std::stable_partition(pairings.begin(), pairings.end(),
+                          [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
+    for (const Pairing& pairing : pairings) words.push_back(difference(pairing));
+    if (!pairings.empty() && answerOf(pairings.back()) == Undecided) {
+        words.push_back("What is open needs more courses to be decided.");
+    }
+    for (const Contender& contender : contendersUnder(summary, reference)) {
+        const Cell& cell = *find(summary, "", reference, contender);
+        if (contender.model == "W-RoI") words.push_back(collisionWords(summary, cell));
+    }
+    const int runs = mostRuns(summary, reference);
+    words.push_back("This is no proof of safety: 0 collisions in " + counted(runs, "run") +
+                    " of a scenario" + (runs == 1 ? " still allows" : " still allow") +
+                    " a true share of " + percent(wilsonInterval(0, runs).high) +
+                    " % (Wilson, 95 %).");
+    return words;
+}
+
+}  // namespace hagen

@@ -1,0 +1,263 @@
+// The report and the replay of the built program; campaigns that are flown meanwhile.
+#include <gtest/gtest.h>
+#include <hagen/trials/CampaignFolder.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "SampleRuns.h"
+#include "octomap-compare/ChooseRun.h"
+#include "octomap-compare/FlownRuns.h"
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+/// A line of a journal.
+std::string lineOf(const Row& run, double peak_model_bytes) {
+    TrialMeasurement measurement;
+    measurement.peak_model_bytes = peak_model_bytes;
+    return rowOf(run) + "\t" + measuredRowOf(run, measurement) + ";\n";
+}
+
+class ReportCommand : public testing::Test {
+ protected:
+    test::Outcome run(const std::vector<std::string>& arguments) {
+        return test::run(HAGEN_OCTOMAP_COMPARE, arguments);
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string folder() const { return folder_.path().string(); }
+    void writeRuns(const std::vector<Row>& runs) {
+        std::string text = runHeader() + "\n";
+        for (const Row& one : runs) text += rowOf(one) + "\n";
+        folder_.write("runs.csv", text);
+    }
+    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
+                       const std::string& message) {
+        const test::Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+        EXPECT_NE((outcome.err + outcome.out).find(message), std::string::npos)
+            << outcome.err << outcome.out;
+        EXPECT_FALSE(fs::exists(path("report.html")));
+        for (const auto& file : fs::directory_iterator(folder_.path())) {
+            EXPECT_NE(file.path().filename().string().substr(0, 7), "replay-") << file.path();
+        }
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
+    writeRuns(threeContenders());
+    const test::Outcome outcome = run({"report", folder(), "--markdown", path("a.md")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(
+                  "0 collisions in 10 runs of a scenario still allow a true share of 27.8 %"),
+              std::string::npos);
+    std::ifstream in(path("summary.json"));
+    const auto json = nlohmann::json::parse(in);
+    EXPECT_EQ(json["runs"], 30);
+    EXPECT_EQ(json["pairings"].size(), 3u);
+    EXPECT_NE(test::readFile(path("summary.csv"))
+                  .find("gap,4.0000,primitives,none,1.0000,"
+                        "optimistic,W-RoI,astar,10,9,0.9000,0.5958,"),
+              std::string::npos);
+    const std::string page = test::readFile(path("report.html"));
+    EXPECT_NE(page.find("90.0 <small>(59.6 to 98.2)</small>"), std::string::npos);
+    EXPECT_NE(page.find("no profile.json"), std::string::npos);  // worst runs
+    EXPECT_NE(test::readFile(path("a.md")).find("| gap | 90.0 (59.6 to 98.2; 10) |"),
+              std::string::npos);
+}
+
+TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
+    writeRuns(threeContenders());
+    folder_.write("measured.csv",
+                  "model,filter_p50_ms,filter_p95_ms,update_p50_ms,peak_model_bytes\n"
+                  "W-RoI,0.8,9,1.25,2000000\nW-RoI,0.6,9,1.75,4000000\nG-Full,,,14,1\n");
+    ASSERT_EQ(run({"report", folder(), "--markdown", path("a.md")}).exit_code, 0);
+    const std::string text = test::readFile(path("a.md"));
+    EXPECT_NE(text.find("| W-RoI | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"), std::string::npos);
+    EXPECT_NE(text.find("| G-Full | 1 | 0.00 | 0.00 | - | 14.00 |"), std::string::npos);
+}
+
+TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
+    // Planned: 2 models, 10 seeds. One is in the table, others in a journal whose end is torn.
+    fs::create_directory(path("journal"));
+    std::string journal;
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+        journal += lineOf(runOf("gap", seed, "W-RoI", "astar", kWon), 1e6 * double(seed));
+    }
+    folder_.write("journal/1.csv", journal + "gap,4,W-");
+    folder_.write("campaign.json", R"({"flown": [{"scenarios": ["gap"], "seeds": [0, 9],
+        "speeds_m_s": [4.0], "models": ["W-RoI", "G-Full"], "guidances": ["astar"],
+        "planners": ["primitives"], "pose_errors": ["none"], "latency_scales": [1.0],
+        "unknown": "optimistic"}]})");
+    const test::Outcome before = run({"report", folder()});  // no runs.csv yet
+    ASSERT_EQ(before.exit_code, 0) << before.err;
+    EXPECT_NE(before.out.find("Unfinished: 3 of 20 runs planned so far are flown."),
+              std::string::npos);
+    writeRuns({runOf("gap", 0, "W-RoI", "astar", kWon)});
+    const test::Outcome outcome =
+        run({"report", folder(), "--overwrite", "--markdown", path("a.md")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("Unfinished: 4 of 20 runs planned so far are flown."),
+              std::string::npos);
+    for (const char* name : {"report.html", "a.md"}) {
+        EXPECT_NE(test::readFile(path(name)).find("4 of 20 runs planned so far"),
+                  std::string::npos);
+    }
+    const std::string text = test::readFile(path("a.md"));
+    EXPECT_NE(text.find("| 4 m/s | W-RoI, A* | 4 | 10 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| 4 m/s | G-Full, A* | 0 | 10 |"), std::string::npos);
+    EXPECT_NE(text.find("| W-RoI | 3 | 2.00 | 3.00 |"), std::string::npos) << text;  // measured
+    std::ifstream in(path("summary.json"));
+    EXPECT_EQ(nlohmann::json::parse(in)["missing_runs"], 16);
+
+    std::vector<Row> all;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        all.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
+        all.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
+    }
+    writeRuns(all);
+    EXPECT_EQ(run({"report", folder(), "--overwrite"}).out.find("Unfinished"), std::string::npos);
+    folder_.write("campaign.json", "{}");
+    EXPECT_NE(run({"report", folder(), "--overwrite"}).err.find("campaign.json: "),
+              std::string::npos);
+}
+
+TEST(FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
+    const test::TemporaryFolder folder;
+    const Row run = runOf("gap", 1, "W-RoI", "astar", kWon);
+    fs::create_directory(folder / "journal");
+    // A pipe holds the reader up between its list of journals and the second of them.
+    ASSERT_EQ(mkfifo((folder / "journal/0.csv").c_str(), 0600), 0);
+    folder.write("journal/1.csv", lineOf(run, 0));
+    std::thread campaign([&] {
+        const std::ofstream pipe(folder / "journal/0.csv");  // waits for the reader
+        folder.write("runs.csv", runHeader() + "\n" + rowOf(run) + "\n");
+        fs::remove_all(folder / "journal");
+    });
+    FlownRuns flown;
+    EXPECT_NO_THROW(flown = readFlownRuns(folder.path()));
+    campaign.join();
+    EXPECT_EQ(flown.runs.size(), 1u);
+}
+
+TEST(FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "journal");
+    fs::create_symlink("nowhere", folder / "journal/0.csv");
+    EXPECT_NE(test::messageOf([&] { readFlownRuns(folder.path()); }).find("0.csv: cannot be read"),
+              std::string::npos);
+}
+
+TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
+    writeRuns(threeContenders());
+    folder_.write("summary.csv", "mine");
+    expectFailure({"report", folder()}, 1, "summary.csv exists; give --overwrite");
+    EXPECT_EQ(test::readFile(path("summary.csv")), "mine");
+    EXPECT_EQ(run({"report", folder(), "--overwrite"}).exit_code, 0);
+}
+
+TEST_F(ReportCommand, NamesWhatIsMissing) {
+    expectFailure({"report", path("nowhere")}, 1, "nowhere: no such folder");
+    for (const char* command : {"report", "replay"}) {
+        expectFailure(
+            {command, folder(), command == std::string("replay") ? "--seed=1" : "--worst=6"}, 1,
+            folder() + ": holds no campaign; give a folder of octomap-compare");
+    }
+    writeRuns({});
+    expectFailure({"report", folder()}, 1, folder() + ": no run is finished yet; fly some");
+    folder_.write("runs.csv", "");
+    expectFailure({"report", folder()}, 1, "runs.csv:1: is empty");
+    expectFailure({"report"}, 2, "DIR is required");
+    // A campaign that has only begun, and one with a plan that this version does not know.
+    fs::remove(path("runs.csv"));
+    folder_.write("campaign.json", R"({"flown": []})");
+    expectFailure({"report", folder()}, 1, folder() + ": no run is finished yet");
+    expectFailure({"replay", folder(), "--seed", "1"}, 2,
+                  folder() + ": has no run of seed 1, nor any other");
+    folder_.write("campaign.json", R"({"flown": [{"scenarios": ["moon"], "seeds": [0, 9],
+        "speeds_m_s": [4.0], "models": ["W-RoI"], "guidances": ["astar"],
+        "planners": ["primitives"], "pose_errors": ["none"], "latency_scales": [1.0],
+        "unknown": "optimistic"}]})");
+    expectFailure({"report", folder()}, 1, "was it written by another version");
+}
+
+TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
+    folder_.write("runs.csv", runHeader() + "\n" + rowOf(threeContenders()[0]) + "\ngap,1\n");
+    expectFailure({"report", folder()}, 1, "runs.csv:3: 2 fields, not 24");
+    writeRuns(threeContenders());
+    folder_.write("memory.csv", "model,path_m,bytes\nW-RoI,far,1\n");
+    expectFailure({"report", folder()}, 1, "memory.csv:2: not model,path_m,bytes");
+    folder_.write("memory.csv", "model,path_m,bytes\n");
+    folder_.write("measured.csv", "model,peak_model_bytes\nW-RoI,2e6\nW-RoI,much\n");
+    expectFailure({"report", folder()}, 1, "measured.csv:3: \"much\" is no number");
+    folder_.write("measured.csv", "model,peak_model_bytes\n");
+    folder_.write("profile.json", "{");
+    expectFailure({"report", folder()}, 1, "profile.json");
+}
+
+TEST_F(ReportCommand, SaysWhereItCannotWrite) {
+    writeRuns(threeContenders());
+    fs::create_directory(path("report.html"));
+    const test::Outcome outcome = run({"report", folder(), "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("report.html"), std::string::npos) << outcome.err;
+    fs::remove(path("report.html"));
+    expectFailure({"report", folder(), "--markdown", path("no/a.md")}, 1, path("no"));
+    if (fs::exists("/proc/version")) {
+        fs::remove(path("runs.csv"));
+        expectFailure({"report", "/proc"}, 1, "/proc: holds no campaign");
+    }
+}
+
+TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
+    const std::string there_are =
+        "there are closedloop, merge, calibrate, openloop, report, replay";
+    expectFailure({"fly"}, 2, "'fly' is no command; " + there_are);
+    expectFailure({}, 2, "no command is given; " + there_are);
+}
+
+TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {
+    std::vector<Row> runs(3, runOf("gap", 1, "W-RoI", "astar", kWon));
+    runs[1].setup.speed_m_s = 6;
+    runs[2].setup.speed_m_s = 6;
+    runs[2].setup.latency_scale = 4;
+    runs[2].setup.brakes_in_known_space = true;
+    writeRuns(runs);
+    const std::string list = run({"replay", folder(), "--seed", "1"}).err;
+    for (const Row& one : runs) {
+        const std::string line = choiceOf(one, runs);
+        ASSERT_NE(list.find("\n  " + line), std::string::npos) << list;
+        std::vector<std::string> arguments{"replay", folder(), "--seed", "1"};
+        std::istringstream words(line);
+        for (std::string word; words >> word && word != "#";) arguments.push_back(word);
+        expectFailure(arguments, 1, "profile.json");  // chosen; it cannot be flown here
+    }
+}
+
+TEST_F(ReportCommand, AReplayNeedsOneRun) {
+    writeRuns(threeContenders());
+    expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run of seed 77");
+    expectFailure({"replay", folder(), "--seed", "1", "--model", "G-Full"}, 2, "no run of seed 1");
+    expectFailure({"replay", folder(), "--seed", "1"}, 2,
+                  "--scenario gap --model W-RoI --guidance straight --speed 4   # timeout\n");
+    expectFailure({"replay", folder()}, 2, "--seed is required");
+    expectFailure({"replay", folder(), "--seed", "1", "--unknown", "nonsense"}, 2,
+                  "{optimistic,brake-known}");
+    for (const char* spelling : {"brake-known", "brake_known"}) {
+        expectFailure({"replay", folder(), "--seed", "1", "--unknown", spelling}, 2,
+                      "no run of seed 1 with these flags");
+    }
+    expectFailure({"replay", folder(), "--seed", "1", "--model", "O-Full-0.4"}, 1, "profile.json");
+}
+
+}  // namespace
+}  // namespace hagen

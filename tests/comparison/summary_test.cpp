@@ -1,0 +1,140 @@
+// Counts, spreads and pairs with known answers.
+#include <gtest/gtest.h>
+
+#include "SampleRuns.h"
+#include "octomap-compare/ReportWords.h"
+#include "octomap-compare/SharedCourses.h"
+#include "octomap-compare/Summary.h"
+
+namespace hagen {
+namespace {
+
+using namespace test;
+
+TEST(Summary, CountsCellsAndSpreads) {
+    const Summary summary = summarize(threeContenders());
+    ASSERT_EQ(summary.contenders.size(), 3u);
+    EXPECT_EQ(nameOf(summary.contenders[0]), "W-RoI, A*");
+    const Cell* cell = find(summary, "gap", kReference, {"W-RoI", "astar"});
+    ASSERT_NE(cell, nullptr);
+    EXPECT_EQ(cell->runs, 10);
+    EXPECT_EQ(cell->successes, 9);
+    EXPECT_EQ(cell->collisions, 1);
+    EXPECT_EQ(cell->timeouts, 0);
+    EXPECT_NEAR(cell->min_clearance_m.median, 0.45, 1e-12);  // 0, 0.1, ..., 0.9
+    EXPECT_NEAR(cell->path_ratio.median, 44 / 38.5, 1e-12);  // 1.5 m before the goal it ends
+    EXPECT_EQ(cell->path_ratio.count, 9);                    // of successful ones alone
+    EXPECT_EQ(cell->first_reaction_m.count, 0);
+    EXPECT_NEAR(cell->dropped_percent, 5, 1e-12);
+    EXPECT_NEAR(cell->stops_per_km, 2 / 0.044, 1e-9);
+    EXPECT_EQ(cell->latency_max_ms, 9);
+    EXPECT_EQ(find(summary, "gap", kReference, {"W-Full", "astar"}), nullptr);
+}
+
+TEST(Summary, PairsRunsThroughTheSameCourse) {
+    std::vector<Row> runs = threeContenders();
+    runs.push_back(runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    const Summary summary = summarize(runs);
+    // A*: against the map and against itself straight; straight: against the map under A*.
+    ASSERT_EQ(summary.pairings.size(), 3u);
+    const Pairing* pairing = nullptr;
+    for (const Pairing& one : summary.pairings) {
+        if (one.first.guidance == "astar" && one.second.model == "O-Full-0.4") pairing = &one;
+    }
+    ASSERT_NE(pairing, nullptr);
+    EXPECT_EQ(pairing->both, 7);
+    EXPECT_EQ(pairing->only_first, 2);
+    EXPECT_EQ(pairing->only_second, 0);
+    EXPECT_EQ(pairing->neither, 1);
+    EXPECT_EQ(pairing->only_first_collided, 1);
+    EXPECT_NEAR(pairing->difference, 0.2, 1e-12);
+    EXPECT_NEAR(pairing->p, 0.5, 1e-12);
+    EXPECT_GE(pairing->p_holm, pairing->p);
+    EXPECT_EQ(pairing->verdict, Verdict::Open);
+}
+
+TEST(Summary, JudgesByTheMargin) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed < 2 ? kHit : kWon));
+        runs.push_back(runOf("gap", seed, "W-Full", "astar", seed == 2 ? kHit : kWon));
+        runs.push_back(runOf("gap", seed, "G-Full", "astar", seed < 100 ? kLate : kWon));
+        runs.push_back(runOf("gap", seed, "W-RoI", "straight", seed < 100 ? kLate : kWon));
+    }
+    for (const Pairing& pairing : summarize(runs).overall) {
+        const bool is_worse =
+            pairing.first.guidance == "straight" && pairing.second.model != "G-Full";
+        EXPECT_EQ(pairing.verdict, is_worse ? Verdict::Inferior : Verdict::NotInferior)
+            << nameOf(pairing.first) << " " << nameOf(pairing.second);
+    }
+}
+
+TEST(Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        for (const double speed_m_s : {4.0, 6.0, 8.0, 10.0}) {
+            const bool fails = speed_m_s == 8 && seed < 6;  // 94 %
+            runs.push_back(
+                runOf("forest-0.10", seed, "W-RoI", "astar", fails ? kHit : kWon, speed_m_s));
+        }
+    }
+    const Summary summary = summarize(runs);
+    ASSERT_EQ(summary.speed_limits.size(), 1u);
+    EXPECT_EQ(summary.speed_limits[0].highest_m_s, 6);
+    EXPECT_EQ(summary.speed_limits[0].sure_m_s, 6);  // 100 of 100: 96.3 % and more
+}
+
+TEST(SharedCourses, AreThoseOnWhichAllArrived) {
+    std::vector<Row> runs = threeContenders();
+    runs.push_back(runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    for (Row& run : runs) {
+        if (run.setup.model == "W-RoI" && run.seed < 5) run.result.time_s = 100;
+        if (run.seed != 7) run.result.first_reaction_m = static_cast<double>(run.seed);
+    }
+    const Summary summary = summarize(runs);
+    const std::vector<SharedCourses> shared = sharedCourses(runs, summary, kReference);
+    ASSERT_EQ(shared.size(), 2u);
+    EXPECT_EQ(shared[0].guidance, "astar");
+    EXPECT_EQ(shared[0].flown, 10);
+    EXPECT_EQ(shared[0].arrived, 7);  // 3 to 9: the map was late on 0, 1 and 2
+    EXPECT_EQ(shared[0].reacted, 6);
+    ASSERT_EQ(shared[0].cells.size(), 2u);
+    EXPECT_EQ(shared[0].cells[0].contender.model, "W-RoI");
+    for (const Cell& cell : shared[0].cells) {
+        EXPECT_EQ(cell.time_s.count, 7);
+        EXPECT_NEAR(cell.time_s.median, 12, 1e-12);  // of all its own it would be 56
+        EXPECT_EQ(cell.first_reaction_m.count, 6);
+    }
+    EXPECT_EQ(shared[0].min_clearances_m[1].size(), 10u);
+    EXPECT_EQ(sharedWords(shared[0]),
+              "With A*: 10 courses were flown by both contenders; on 7 of these all arrived, on 6 "
+              "all reacted to something.");
+    EXPECT_EQ(shared[1].arrived, 0);
+    EXPECT_TRUE(shared[1].cells.empty());
+    EXPECT_EQ(sharedWords(shared[1]),
+              "Flown straight: 10 courses were flown by W-RoI, straight; it arrived on none.");
+}
+
+/// Maps are slow to fly: their few courses must not be all that is told of the others.
+TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
+        if (seed < 19) runs.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
+        if (seed < 4) runs.push_back(runOf("gap", seed, "O-Full-0.4", "astar", kWon));
+    }
+    const std::vector<SharedCourses> shared = sharedCourses(runs, summarize(runs), kReference);
+    ASSERT_EQ(shared.size(), 2u);
+    EXPECT_EQ(shared[0].contenders.size(), 2u);
+    EXPECT_EQ(shared[0].arrived, 19);
+    EXPECT_EQ(shared[1].contenders.size(), 3u);
+    EXPECT_EQ(shared[1].arrived, 4);
+}
+
+TEST(Summary, OfNothingIsEmpty) {
+    EXPECT_TRUE(summarize({}).cells.empty());
+    EXPECT_NE(reportPage(Report{}).find("Nothing was flown"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,89 @@
+// What is said of figures.
+#include <gtest/gtest.h>
+
+#include "SampleRuns.h"
+#include "octomap-compare/Summary.h"
+#include "octomap-compare/Verdict.h"
+
+namespace hagen {
+namespace {
+
+using namespace test;
+
+TEST(Verdict, TellsWiresApartFromTheRest) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
+        runs.push_back(runOf("gap", seed, "W-Full", "astar", seed == 0 ? kHit : kWon));
+        runs.push_back(runOf("wires", seed, "W-RoI", "astar", seed < 100 ? kHit : kWon));
+        runs.push_back(runOf("wires", seed, "W-Full", "astar", kWon));
+    }
+    const Summary summary = summarize(runs);
+    ASSERT_EQ(summary.without_wires.size(), 1u);
+    EXPECT_EQ(summary.without_wires[0].pairs(), 400);
+    EXPECT_EQ(summary.without_wires[0].verdict, Verdict::NotInferior);
+    const std::vector<std::string> words = verdictOf(summary);
+    EXPECT_EQ(words[0],
+              "W-RoI with A* at 4 m/s arrives less often than W-Full (among wires), by more than "
+              "3 points. It loses less than 3 points, if any, to W-Full (where no wires are).");
+    EXPECT_EQ(
+        words[1].find("Where no wires are, W-RoI with A* against W-Full: success 100.0 % against "
+                      "99.8 % of the same 400 courses, +0.2 points (95 % interval "),
+        0u)
+        << words[1];
+    EXPECT_EQ(
+        words[2].find("Among wires, W-RoI with A* against W-Full: success 75.0 % against 100.0 %"),
+        0u)
+        << words[2];
+    // Where nobody flew wires, all is where no wires are.
+    EXPECT_TRUE(summarize(threeContenders()).without_wires.empty());
+}
+
+TEST(Verdict, SpeaksOfOneAsOne) {
+    const std::vector<std::string> words = verdictOf(summarize(
+        {runOf("gap", 0, "W-RoI", "astar", kHit), runOf("gap", 0, "G-Full", "astar", kWon)}));
+    ASSERT_EQ(words.size(), 5u);
+    EXPECT_EQ(words[0], "W-RoI with A* at 4 m/s: nothing is decided yet. Open: G-Full.");
+    EXPECT_EQ(words[1].find(
+                  "Open: W-RoI with A* against G-Full: success 0.0 % against 100.0 % of the same "
+                  "1 course, -100.0 points ("),
+              0u)
+        << words[1];
+    EXPECT_EQ(words[2], "What is open needs more courses to be decided.");
+    EXPECT_EQ(words[3].find("W-RoI with A*: 1 collision in 1 run ("), 0u) << words[3];
+    EXPECT_NE(words[4].find("0 collisions in 1 run of a scenario still allows"), std::string::npos);
+}
+
+TEST(Verdict, CallsNothingWorseThatMayBeChance) {
+    // The interval excludes 3 points, but among so many comparisons the test does not.
+    Pairing pairing{"", kReference, {"W-RoI", "astar"}, {"G-Full", "astar"}};
+    pairing.both = 90;
+    pairing.only_second = 10;
+    pairing.difference = -0.1;
+    pairing.interval = {-0.17, -0.04};
+    pairing.verdict = Verdict::Inferior;
+    pairing.p_holm = 0.06;
+    EXPECT_EQ(differenceText(pairing).find("Open: "), 0u);
+    EXPECT_NE(differenceText(pairing).find("may be chance"), std::string::npos);
+    pairing.p_holm = 0.04;
+    EXPECT_EQ(differenceText(pairing).find(
+                  "W-RoI with A* against G-Full: success 90.0 % against 100.0 %"),
+              0u);
+}
+
+TEST(Verdict, SaysWhereWhatWasNotFlownEverywhere) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        for (const char* scenario : {"gap", "u-trap"}) {
+            runs.push_back(runOf(scenario, seed, "W-RoI", "astar", kWon));
+            runs.push_back(runOf(scenario, seed, "G-Full", "astar", kWon));
+        }
+        runs.push_back(runOf("gap", seed, "O-Full-0.4", "astar", kWon));
+    }
+    const std::string headline = verdictOf(summarize(runs)).front();
+    EXPECT_NE(headline.find("O-Full-0.4 (in gap)"), std::string::npos) << headline;
+    EXPECT_EQ(headline.find("G-Full ("), std::string::npos) << headline;
+}
+
+}  // namespace
+}  // namespace hagen
