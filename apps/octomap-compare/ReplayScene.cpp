@@ -1,5 +1,4 @@
 #include <hagen/logs/CloseWritten.h>
-#include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloud.h>
@@ -60,6 +59,25 @@ CSphere::Ptr sphereAt(const Eigen::Vector3d& at, float radius_m, const TColor& c
     return sphere;
 }
 
+/// Lines along the ground, as its slopes are.
+CSetOfLines::Ptr linesOf(const TrueScene::Ground& ground) {
+    const auto lines = CSetOfLines::Create();
+    const auto corner = [&](int i, int j) {
+        return mrpt::math::TPoint3D(ground.least_m.x() + i * ground.step_m,
+                                    ground.least_m.y() + j * ground.step_m,
+                                    ground.heights_m[std::size_t(j * ground.along_x + i)]);
+    };
+    for (int j = 0; j < ground.along_y; ++j) {
+        for (int i = 0; i < ground.along_x; ++i) {
+            if (i > 0) lines->appendLine({corner(i - 1, j), corner(i, j)});
+            if (j > 0) lines->appendLine({corner(i, j - 1), corner(i, j)});
+        }
+    }
+    lines->setColor_u8(TColor(200, 200, 200));
+    lines->setName("ground");
+    return lines;
+}
+
 CSetOfLines::Ptr trackOf(const std::vector<RecordedMoment>& track) {
     const auto lines = CSetOfLines::Create();
     for (std::size_t i = 1; i < track.size(); ++i) {
@@ -118,10 +136,7 @@ void writeReplayScene(const Recording& recording, const std::filesystem::path& p
                       const std::filesystem::path& file) {
     openToWrite(place, file);  // MRPT does not tell why it cannot
     COpenGLScene scene;
-    const auto grid = CGridPlaneXY::Create(-10.0f, 60.0f, -30.0f, 30.0f, 0.0f, 5.0f);
-    grid->setLocation(recording.start_m.x(), recording.start_m.y(), recording.ground_m);
-    grid->setColor_u8(TColor(200, 200, 200));
-    scene.insert(grid);
+    scene.insert(linesOf(recording.scene.ground));
     if (!recording.scene.shapes.empty()) scene.insert(trueSceneOf(recording));
     const std::vector<Eigen::Vector3f> held_m = lastOf(recording);
     if (recording.model_edge_m > 0) {

@@ -3,6 +3,7 @@
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 
 #include "SampleRuns.h"
@@ -100,6 +101,7 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     const test::TemporaryFolder folder;
     Recording recording = smallRecording();
     recording.scene = smallScene();
+    recording.scene.ground = {{0, 0}, 2, 3, 2, {1.5, 2.5, 3.5, 1.5, 2.5, 3.5}};
     writeReplayScene(recording, folder / "a.3Dscene", "a");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
@@ -107,6 +109,12 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
         std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(scene.getByName("true scene"));
     ASSERT_NE(truth, nullptr);
     EXPECT_EQ(truth->getTrianglesCount(), 2u);
+    // Six corners of a slope: seven lines along it.
+    const auto ground =
+        std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(scene.getByName("ground"));
+    ASSERT_NE(ground, nullptr);
+    EXPECT_EQ(ground->size(), 7u);
+    EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);
 }
 
 TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
