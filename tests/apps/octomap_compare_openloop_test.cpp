@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "support/Program.h"
+#include "support/ProgramTest.h"
 
 namespace hagen {
 namespace {
@@ -15,18 +15,11 @@ namespace fs = std::filesystem;
 const std::string kOrchard = HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog";
 const std::vector<std::string> kModels{"--models", "W-RoI,O-Full-0.4"};
 
-std::vector<std::string> with(std::vector<std::string> arguments,
-                              const std::vector<std::string>& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
-
-class OpenLoopCommand : public testing::Test {
+class OpenLoopCommand : public test::ProgramTest {
  protected:
-    test::Outcome run(std::vector<std::string> arguments) const {
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_OCTOMAP_COMPARE, with({"openloop"}, arguments));
     }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
     /// A log of a few scans in a scene that is light to make, and its poses.
     void simulate(int scans, const std::vector<std::string>& more = {}) const {
         const auto outcome = test::run(
@@ -40,13 +33,6 @@ class OpenLoopCommand : public testing::Test {
         return with({"-i", path("gap.rawlog"), "--poses", path("gap.tum"), "-o", path(out)},
                     kModels);
     }
-    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
-                       const std::string& words) const {
-        const auto outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    }
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(OpenLoopCommand, TheOracleIsRightAndAllHaveDigestedTheSame) {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <set>
 
-#include "support/Program.h"
+#include "support/ProgramTest.h"
 
 namespace hagen {
 namespace {
@@ -15,24 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
 
-class RawlogSegmentOctomap : public testing::Test {
+class RawlogSegmentOctomap : public test::ProgramTest {
  protected:
-    static test::Outcome run(const std::vector<std::string>& arguments) {
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
     }
-    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
-                       const std::string& words) {
-        const std::set<fs::path> before = files();
-        const test::Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-        EXPECT_EQ(outcome.out, "");
-        EXPECT_EQ(files(), before);
-    }
-    std::set<fs::path> files() const {
-        return {fs::recursive_directory_iterator(folder_.path()), {}};
-    }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
     /// A map of the recording, made with these flags.
     octomap::OcTree mapOf(const std::vector<std::string>& flags) {
@@ -47,8 +34,6 @@ class RawlogSegmentOctomap : public testing::Test {
         EXPECT_TRUE(tree.readBinary(path("map.bt")));
         return tree;
     }
-
-    test::TemporaryFolder folder_;
 };
 
 std::vector<octomap::point3d> occupiedOf(const octomap::OcTree& tree) {

@@ -15,7 +15,7 @@
 #include <set>
 
 #include "support/PolesAndWall.h"
-#include "support/Program.h"
+#include "support/ProgramTest.h"
 
 namespace hagen {
 namespace {
@@ -24,27 +24,11 @@ namespace fs = std::filesystem;
 const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
 const std::string kPaper = HAGEN_SOURCE_DIR "/config/paper.yaml";
 
-class RawlogSegment : public testing::Test {
+class RawlogSegment : public test::ProgramTest {
  protected:
-    static test::Outcome run(const std::vector<std::string>& arguments) {
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
     }
-    /// A failure says why on standard error, and nothing on standard output; no output appears.
-    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
-                       const std::string& words) {
-        const std::set<fs::path> before = files();
-        const test::Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-        EXPECT_EQ(outcome.out, "");
-        EXPECT_EQ(files(), before);
-    }
-    std::set<fs::path> files() const {
-        return {fs::recursive_directory_iterator(folder_.path()), {}};
-    }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(RawlogSegment, SegmentsTheRecordingThatComesWithTheProject) {

@@ -16,7 +16,7 @@
 #include <sstream>
 
 #include "rawlog-simulate/SimulatedObservation.h"
-#include "support/Program.h"
+#include "support/ProgramTest.h"
 
 namespace hagen {
 namespace {
@@ -50,35 +50,15 @@ std::vector<double> readNumbers(const fs::path& file) {
     return {std::istream_iterator<double>(in), {}};
 }
 
-class RawlogSimulate : public testing::Test {
+class RawlogSimulate : public test::ProgramTest {
  protected:
-    static test::Outcome run(const std::vector<std::string>& arguments) {
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_RAWLOG_SIMULATE, arguments);
     }
-    static std::vector<std::string> with(std::vector<std::string> arguments,
-                                         const std::vector<std::string>& more) {
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return arguments;
-    }
-    /// A failure says why on standard error, and nothing on standard output; no output appears.
-    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
-                       const std::string& words) {
-        const std::set<fs::path> before = files();
-        const test::Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-        EXPECT_EQ(outcome.out, "");
-        EXPECT_EQ(files(), before);
-    }
-    std::set<fs::path> files() const {
-        return {fs::recursive_directory_iterator(folder_.path()), {}};
-    }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
     const std::vector<std::string> wires_{"--scenario", "wires", "--scans", "3",
                                           "--altitude", "4",     "--seed",  "2",
                                           "--every-s",  "0.5"};
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {

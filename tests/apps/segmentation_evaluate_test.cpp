@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "support/Program.h"
+#include "support/ProgramTest.h"
 #include "support/SimpleScene.h"
 
 namespace hagen {
@@ -35,9 +35,9 @@ std::vector<double> row(const std::string& report, const std::string& name) {
     return {};
 }
 
-class SegmentationEvaluate : public testing::Test {
+class SegmentationEvaluate : public test::ProgramTest {
  protected:
-    static test::Outcome run(const std::vector<std::string>& arguments) {
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_SEGMENTATION_EVALUATE, arguments);
     }
     /// A folder with a scan of a pole on flat ground and its true labels.
@@ -87,13 +87,6 @@ class SegmentationEvaluate : public testing::Test {
         }
         return arguments;
     }
-    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
-                       const std::string& words) {
-        const auto outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    }
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(SegmentationEvaluate, APoleOnFlatGroundIsFoundWhole) {

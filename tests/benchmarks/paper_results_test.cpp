@@ -8,7 +8,7 @@
 #include "paper-results/DataSets.h"
 #include "paper-results/Document.h"
 #include "paper-results/Rows.h"
-#include "support/Program.h"
+#include "support/ProgramTest.h"
 #include "support/SimpleScene.h"
 #include "support/Tables.h"
 
@@ -128,19 +128,11 @@ TEST_F(Flights, ThatWereNotFinishedAreMadeAnew) {
     EXPECT_GT(timeOfScan(), made);
 }
 
-class PaperResults : public testing::Test {
+class PaperResults : public test::ProgramTest {
  protected:
-    test::Outcome run(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.end(),
-                         {"--data", (folder_ / "data").string(), "--quick", "--config", kConfig});
-        return test::run(HAGEN_PAPER_RESULTS, arguments);
-    }
-    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
-                       const std::string& words) const {
-        const auto outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-        EXPECT_TRUE(outcome.out.empty());
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
+        return test::run(HAGEN_PAPER_RESULTS,
+                         with(arguments, {"--data", path("data"), "--quick", "--config", kConfig}));
     }
     /// Recordings of a pole on flat ground, with SemanticKITTI's classes for road and pole.
     std::string labelledPoles() const {
@@ -164,7 +156,6 @@ class PaperResults : public testing::Test {
         }
         return (folder_ / "labelled").string();
     }
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(PaperResults, RefusesWrongUsage) {
