@@ -34,17 +34,6 @@ std::string spread(const Spread& of, int decimals) {
 
 }  // namespace
 
-std::vector<Pairing> lossesOf(const Summary& summary) {
-    std::vector<Pairing> losses;
-    for (const Pairing& pairing : summary.pairings) {
-        if (pairing.difference < 0 && pairing.second.model != "oracle") losses.push_back(pairing);
-    }
-    std::stable_sort(losses.begin(), losses.end(), [](const Pairing& a, const Pairing& b) {
-        return a.difference < b.difference;
-    });
-    return losses;
-}
-
 Table successTable(const Summary& summary, const Condition& condition) {
     return matrix(summary, condition,
                   [](const Cell& cell) { return percentOfRuns(cell.successes, cell.runs); });

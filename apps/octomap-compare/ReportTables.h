@@ -8,9 +8,6 @@
 
 namespace hagen {
 
-/// Pairings in single scenarios in which the first has less success, largest loss first.
-std::vector<Pairing> lossesOf(const Summary& summary);
-
 /// Scenarios by contenders, of a condition: share in percent, its interval, and of how many runs.
 Table successTable(const Summary& summary, const Condition& condition);
 Table collisionTable(const Summary& summary, const Condition& condition);

@@ -93,6 +93,22 @@ std::vector<Pairing> told(const Summary& summary, const Condition& condition) {
     return all;
 }
 
+/// Losses in single scenarios, chance or not, that go under where all scenarios are told together.
+std::vector<Pairing> hiddenIn(const Summary& summary, const std::vector<Pairing>& told) {
+    std::vector<Pairing> hidden;
+    for (const Pairing& loss : lossesOf(summary)) {
+        if (loss.interval.high >= 0 || loss.scenario == kWires) continue;
+        const bool goes_under = std::any_of(told.begin(), told.end(), [&](const Pairing& all) {
+            const Answer answer = answerOf(all);
+            return all.condition == loss.condition && all.first == loss.first &&
+                   all.second == loss.second && all.scenario != kWires &&
+                   (answer == MoreOften || answer == WithinMargin || answer == Undecided);
+        });
+        if (goes_under) hidden.push_back(loss);
+    }
+    return hidden;
+}
+
 /// The answer before the figures.
 std::string headlineOf(const std::vector<Pairing>& pairings, const Condition& reference,
                        const std::string& guidance) {
@@ -167,6 +183,17 @@ std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall) 
     return apart;
 }
 
+std::vector<Pairing> lossesOf(const Summary& summary) {
+    std::vector<Pairing> losses;
+    for (const Pairing& pairing : summary.pairings) {
+        if (pairing.difference < 0 && pairing.second.model != "oracle") losses.push_back(pairing);
+    }
+    std::stable_sort(losses.begin(), losses.end(), [](const Pairing& a, const Pairing& b) {
+        return a.difference < b.difference;
+    });
+    return losses;
+}
+
 std::string differenceText(const Pairing& pairing) { return difference(pairing); }
 
 std::vector<std::string> verdictOf(const Summary& summary) {
@@ -180,8 +207,11 @@ std::vector<std::string> verdictOf(const Summary& summary) {
     }
     std::stable_partition(pairings.begin(), pairings.end(),
                           [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
+    const std::vector<Pairing> hidden = hiddenIn(summary, pairings);
+    pairings.insert(pairings.end(), hidden.begin(), hidden.end());
     for (const Pairing& pairing : pairings) words.push_back(difference(pairing));
-    if (!pairings.empty() && answerOf(pairings.back()) == Undecided) {
+    if (std::any_of(pairings.begin(), pairings.end(),
+                    [](const Pairing& pairing) { return answerOf(pairing) == Undecided; })) {
         words.push_back("What is open needs more courses to be decided.");
     }
     for (const Contender& contender : contendersUnder(summary, reference)) {

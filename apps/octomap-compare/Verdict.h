@@ -13,6 +13,9 @@ std::vector<std::string> verdictOf(const Summary& summary);
 /// for any other pairing, and where only wires were flown, or none.
 std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall);
 
+/// Pairings in single scenarios in which the first has less success, largest loss first.
+std::vector<Pairing> lossesOf(const Summary& summary);
+
 /// By how much the first has more success, with interval and p, and what is open.
 std::string differenceText(const Pairing& pairing);
 

@@ -71,6 +71,29 @@ TEST(Verdict, CallsNothingWorseThatMayBeChance) {
               0u);
 }
 
+TEST(Verdict, TellsLossesThatGoUnderInTheWhole) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        for (const char* scenario : {"gap", "movers"}) {
+            const bool is_gap = scenario == std::string("gap");
+            runs.push_back(
+                runOf(scenario, seed, "W-RoI", "astar", is_gap || seed < 80 ? kWon : kHit));
+            runs.push_back(
+                runOf(scenario, seed, "G-Full", "astar", !is_gap || seed < 78 ? kWon : kLate));
+        }
+    }
+    const std::vector<std::string> words = verdictOf(summarize(runs));
+    EXPECT_EQ(words[0], "W-RoI with A* at 4 m/s: nothing is decided yet. Open: G-Full.");
+    EXPECT_EQ(words[1].find("Open: W-RoI with A* against G-Full: success 90.0 % against 89.0 %"),
+              0u)
+        << words[1];
+    EXPECT_EQ(words[2].find("In movers, W-RoI with A* against G-Full: success 80.0 % against "
+                            "100.0 % of the same 100 courses, -20.0 points"),
+              0u)
+        << words[2];
+    EXPECT_EQ(words[3], "What is open needs more courses to be decided.");
+}
+
 TEST(Verdict, SaysWhereWhatWasNotFlownEverywhere) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
