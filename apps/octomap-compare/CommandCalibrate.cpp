@@ -49,7 +49,9 @@ void writeMemory(const Flags& flags, const std::vector<std::string>& models,
     std::ofstream out = openToWrite(file, flags.memory);
     out << "model,path_m,bytes\n";
     for (const std::string& model : models) {
-        if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+        if (isInterrupted()) {
+            throw std::runtime_error("interrupted; " + flags.memory + " was not written");
+        }
         std::cerr << "memory of " << model << "\n";
         for (const HeapSample& sample : heapAlongFlight(model, flags.path_m)) {
             out << model << "," << std::round(10 * sample.path_m) / 10 << ","

@@ -23,8 +23,8 @@ struct OverheadView {
 /// ground. Throws as flyAgain() does.
 OverheadView viewFromAbove(const Run& run, const LatencyProfile& profile);
 
-/// The runs to look at: collisions first, then by clearance; of a scenario and a contender one.
-/// The oracle's are left out.
+/// The runs to look at: collisions first, then timeouts, by clearance; of a scenario and a
+/// contender one. The oracle's are left out.
 std::vector<Run> worstRuns(const std::vector<Run>& runs, std::size_t count);
 
 /// The flight from above, whole and with a margin, as SVG in metres.

@@ -62,28 +62,33 @@ void addPairings(const Report& report, std::vector<Section>& sections) {
           "interval; McNemar's exact test with Holm's correction. \"Not inferior\": the interval "
           "excludes a loss of " +
           fixed(100 * kMargin, 0) +
-          " points; \"open\": it does not, but holds smaller losses, too."},
+          " points; \"open\": it does not, but holds smaller losses, too. Intervals, and so "
+          "\"not inferior\", are not corrected for the number of comparisons; p is."},
          {pairingTable(summary.overall)}});
     Section each{"The same, in each scenario", {}, {pairingTable(summary.pairings)}};
     each.is_long = true;
     sections.push_back(each);
     const Table square = squareTable(summary, summary.conditions.front());
     if (!square.rows.empty() && square.header.size() > 3) {
-        sections.push_back({"World model by guidance",
-                            {"Success in percent at " + nameOf(summary.conditions.front()) +
-                             ": is it the map, or the search for a way, that helps?"},
-                            {square}});
+        sections.push_back(
+            {"World model by guidance",
+             {"Success in percent (interval; runs) at " + nameOf(summary.conditions.front()) +
+              ": is it the map, or the search for a way, that helps?"},
+             {square}});
     }
     const std::vector<Pairing> losses = lossesOf(summary);
-    const auto certain = std::count_if(
+    const auto significant = std::count_if(
         losses.begin(), losses.end(), [](const Pairing& pairing) { return pairing.p_holm < 0.05; });
-    Section loses{"Where W-RoI loses",
-                  {"Of " + std::to_string(summary.pairings.size()) +
-                   " comparisons in single scenarios, W-RoI has less success in " +
-                   std::to_string(losses.size()) + "; " + std::to_string(certain) +
-                   " of these are certain after Holm's correction (p < 0.05), the others may be "
-                   "chance. Largest loss first."},
-                  {}};
+    const auto compared =
+        std::count_if(summary.pairings.begin(), summary.pairings.end(),
+                      [](const Pairing& pairing) { return pairing.second.model != "oracle"; });
+    Section loses{
+        "Where W-RoI loses",
+        {"Of " + std::to_string(compared) +
+         " comparisons in single scenarios, W-RoI has less success in " +
+         std::to_string(losses.size()) + "; significant after Holm's correction (p < 0.05): " +
+         std::to_string(significant) + ". The others may be chance. Largest loss first."},
+        {}};
     if (!losses.empty()) loses.tables.push_back(pairingTable(losses));
     sections.push_back(loses);
 }
@@ -140,7 +145,8 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
                    {"From the end of a turn to the command: waiting and all stages. Medians over "
                     "a contender's own runs of a run's p50 and p95. A scan that waits when a newer "
                     "one comes is "
-                    "dropped."},
+                    "dropped. Who flew straight flew other scenarios: compare within a guidance "
+                    "alone."},
                    {effortTable(summary, reference)}};
     effort.charts = {"command"};
     sections.push_back(effort);
@@ -160,7 +166,10 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
     }
     if (!report.memory.empty()) {
         Section memory{"Memory against distance",
-                       {"Heap that a model holds along a flight, measured. OctoMaps are not pruned "
+                       {"Heap that a model holds, measured. One flight through forest-0.05 is "
+                        "repeated, each time "
+                        "from where it ended; the grid is allocated for the whole length at once. "
+                        "OctoMaps are not pruned "
                         "in flight, which is quicker; pruned, they would hold about 0.6 of it."},
                        {memoryTable(report.memory)}};
         memory.charts = {"memory"};
@@ -184,7 +193,8 @@ void addWorst(const Report& report, std::vector<Section>& sections) {
     Section worst{"The worst runs, from above", {}, {}};
     if (!report.worst.empty()) {
         worst.words.push_back(
-            "Flown again from their seeds: collisions first, then by clearance; one of each "
+            "Flown again from their seeds: collisions first, then timeouts, by clearance; one of "
+            "each "
             "scenario and contender.");
         worst.html = overheadLegend();
     }

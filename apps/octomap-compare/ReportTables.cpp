@@ -58,28 +58,33 @@ Table outcomeTable(const Summary& summary, const Condition& condition) {
 
 Table pairingTable(const std::vector<Pairing>& pairings) {
     Table table{{"scenario", "condition", "first", "second", "pairs", "only first", "only second",
-                 "difference, points", "p (Holm)", "first is", "collided: only first / second"},
+                 "difference, points", "p (Holm)", "first is",
+                 "collided: only first / second (p, uncorrected)"},
                 {}};
     for (const Pairing& pairing : pairings) {
         table.rows.push_back(
-            {pairing.scenario.empty() ? "all" : pairing.scenario, nameOf(pairing.condition),
-             nameOf(pairing.first), nameOf(pairing.second), std::to_string(pairing.pairs()),
-             std::to_string(pairing.only_first), std::to_string(pairing.only_second),
+            {pairing.scenario.empty() ? "all that both flew" : pairing.scenario,
+             nameOf(pairing.condition), nameOf(pairing.first), nameOf(pairing.second),
+             std::to_string(pairing.pairs()), std::to_string(pairing.only_first),
+             std::to_string(pairing.only_second),
              points(pairing.difference) + " (" + pointsOf(pairing.interval) + ")",
              pText(pairing.p_holm), nameOf(pairing.verdict),
              std::to_string(pairing.only_first_collided) + " / " +
-                 std::to_string(pairing.only_second_collided)});
+                 std::to_string(pairing.only_second_collided) + " (" +
+                 pText(mcNemar(pairing.only_first_collided, pairing.only_second_collided)) + ")"});
     }
     return table;
 }
 
 Table speedTable(const Summary& summary) {
-    Table table{{"scenario", "contender", "highest speed with success >= 95 %, m/s",
-                 "the same of the interval's lower bound, m/s"},
-                {}};
+    Table table{
+        {"scenario", "contender", "flown up to, m/s", "highest speed with success >= 95 %, m/s",
+         "the same of the interval's lower bound, m/s"},
+        {}};
     for (const SpeedLimit& limit : summary.speed_limits) {
         const auto text = [](double speed) { return std::isnan(speed) ? "none" : fixed(speed, 1); };
-        table.rows.push_back({limit.scenario, nameOf(limit.contender), text(limit.highest_m_s),
+        table.rows.push_back({limit.scenario + deviationOf(limit.lowest), nameOf(limit.contender),
+                              fixed(limit.flown_m_s, 1), text(limit.highest_m_s),
                               text(limit.sure_m_s)});
     }
     return table;
@@ -103,7 +108,7 @@ Table squareTable(const Summary& summary, const Condition& condition) {
             std::vector<std::string> row{scenario, model};
             for (const std::string& guidance : guidances) {
                 const Cell* cell = find(summary, scenario, condition, {model, guidance});
-                row.push_back(cell == nullptr ? "" : percentOf(cell->successes, cell->runs));
+                row.push_back(cell == nullptr ? "" : percentOfRuns(cell->successes, cell->runs));
             }
             // A row of one cell compares nothing.
             if (std::count(row.begin(), row.end(), "") + 2 < static_cast<long>(row.size()) - 1) {

@@ -174,7 +174,12 @@ void addSpeedLimits(Summary& summary) {
     }
     for (const auto& [key, cells] : series) {
         if (cells.size() < 2) continue;
-        SpeedLimit limit{std::get<0>(key), std::get<1>(key), NAN, NAN};
+        SpeedLimit limit{std::get<0>(key),
+                         cells.begin()->second->condition,
+                         std::get<1>(key),
+                         cells.rbegin()->first,
+                         NAN,
+                         NAN};
         bool holds = true, surely = true;
         for (const auto& [speed_m_s, cell] : cells) {
             holds = holds && cell->successes >= 0.95 * cell->runs;
@@ -315,7 +320,11 @@ std::string nameOf(const Contender& contender) {
 }
 
 std::string nameOf(const Condition& condition) {
-    std::string name = numberText(condition.speed_m_s) + " m/s";
+    return numberText(condition.speed_m_s) + " m/s" + deviationOf(condition);
+}
+
+std::string deviationOf(const Condition& condition) {
+    std::string name;
     if (condition.planner != "primitives") name += ", planner " + condition.planner;
     if (condition.pose_error != PoseError::None) name += ", pose " + nameOf(condition.pose_error);
     if (condition.latency_scale != 1) name += ", latency x" + numberText(condition.latency_scale);

@@ -81,10 +81,12 @@ struct Pairing {
 /// Less success than this is not inferior: 3 points.
 constexpr double kMargin = 0.03;
 
-/// The success of a contender at several speeds.
+/// The success of a contender at several speeds, all else being the same.
 struct SpeedLimit {
     std::string scenario;
+    Condition lowest;  ///< of the conditions, by speed
     Contender contender;
+    double flown_m_s;    ///< highest there is
     double highest_m_s;  ///< with success >= 95 %, and at all lower speeds; NaN: none
     double sure_m_s;     ///< the same of the interval's lower bound
 };
@@ -126,5 +128,7 @@ std::string nameOf(Verdict verdict);
 std::string nameOf(const Contender& contender);  ///< "W-RoI, A*"
 /// "4 m/s", and whatever is not as in the reference: planner 3dvfh, pose noise, latency x4, ...
 std::string nameOf(const Condition& condition);
+/// That alone: ", planner 3dvfh"; empty for the reference.
+std::string deviationOf(const Condition& condition);
 
 }  // namespace hagen

@@ -83,9 +83,15 @@ Json json(const Pairing& pairing) {
 }
 
 Json json(const SpeedLimit& limit) {
+    const Condition& c = limit.lowest;
     return {{"scenario", limit.scenario},
             {"model", limit.contender.model},
             {"guidance", limit.contender.guidance},
+            {"planner", c.planner},
+            {"pose_error", nameOf(c.pose_error)},
+            {"latency_scale", c.latency_scale},
+            {"unknown", c.brakes_in_known_space ? "brake_known" : "optimistic"},
+            {"flown_m_s", number(limit.flown_m_s)},
             {"highest_m_s", number(limit.highest_m_s)},
             {"surely_m_s", number(limit.sure_m_s)}};
 }

@@ -38,8 +38,8 @@ std::string differenceOf(const Pairing& pairing) {
            percent((pairing.both + pairing.only_first) / n) + " % against " +
            percent((pairing.both + pairing.only_second) / n) + " % of the same " +
            counted(pairing.pairs(), "course") + ", " + points(pairing.difference) +
-           " points (95 % interval " + pointsOf(pairing.interval) + "; p " + pText(pairing.p_holm) +
-           ")";
+           " points (95 % interval " + pointsOf(pairing.interval) + "; p by Holm " +
+           pText(pairing.p_holm) + ")";
 }
 
 std::string marginText() { return fixed(100 * kMargin, 0) + " points"; }
@@ -93,36 +93,52 @@ std::vector<Pairing> told(const Summary& summary, const Condition& condition) {
     return all;
 }
 
-/// Losses in single scenarios, chance or not, that go under where all scenarios are told together.
-std::vector<Pairing> hiddenIn(const Summary& summary, const std::vector<Pairing>& told) {
+/// Losses in single scenarios, chance or not, of which a wider comparison alone is told.
+std::vector<Pairing> hiddenBy(const std::vector<Pairing>& told, const Summary& summary) {
     std::vector<Pairing> hidden;
     for (const Pairing& loss : lossesOf(summary)) {
-        if (loss.interval.high >= 0 || loss.scenario == kWires) continue;
-        const bool goes_under = std::any_of(told.begin(), told.end(), [&](const Pairing& all) {
-            const Answer answer = answerOf(all);
-            return all.condition == loss.condition && all.first == loss.first &&
-                   all.second == loss.second && all.scenario != kWires &&
-                   (answer == MoreOften || answer == WithinMargin || answer == Undecided);
-        });
-        if (goes_under) hidden.push_back(loss);
+        if (loss.interval.high >= 0) continue;
+        bool is_told = false, goes_under = false;
+        for (const Pairing& one : told) {
+            if (!(one.condition == loss.condition && one.first == loss.first &&
+                  one.second == loss.second)) {
+                continue;
+            }
+            is_told = is_told || one.scenario == loss.scenario;
+            // Who is told of such a loss in the whole needs not be told of its parts.
+            goes_under =
+                goes_under || (one.pairs() > loss.pairs() && answerOf(one) != LessByMargin);
+        }
+        if (goes_under && !is_told) hidden.push_back(loss);
     }
     return hidden;
 }
 
+/// Against whom, and where: "G-Full (in movers)".
+std::string rivalOf(const Pairing& pairing) {
+    const bool same_guidance = pairing.second.guidance == pairing.first.guidance;
+    const std::string place = placeOf(pairing.scenario);
+    return (same_guidance ? pairing.second.model : spoken(pairing.second)) +
+           (place.empty() ? "" : " (" + place + ")");
+}
+
 /// The answer before the figures.
-std::string headlineOf(const std::vector<Pairing>& pairings, const Condition& reference,
-                       const std::string& guidance) {
-    std::vector<std::string> of[Undecided + 1];
+std::string headlineOf(const std::vector<Pairing>& pairings, const std::vector<Pairing>& hidden,
+                       const Condition& reference, const std::string& guidance) {
+    std::vector<std::string> of[Undecided + 1], but;
+    bool is_on_the_whole = false;
     for (const Pairing& pairing : pairings) {
         if (pairing.first.guidance != guidance || pairing.second.model == pairing.first.model ||
             pairing.second.model == "oracle") {
             continue;
         }
-        const bool same_guidance = pairing.second.guidance == guidance;
-        const std::string place = placeOf(pairing.scenario);
-        of[answerOf(pairing)].push_back(
-            (same_guidance ? pairing.second.model : spoken(pairing.second)) +
-            (place.empty() ? "" : " (" + place + ")"));
+        of[answerOf(pairing)].push_back(rivalOf(pairing));
+        is_on_the_whole = is_on_the_whole || pairing.scenario.empty();
+    }
+    for (const Pairing& loss : hidden) {
+        if (loss.first.guidance == guidance && answerOf(loss) != Undecided) {
+            but.push_back(rivalOf(loss));
+        }
     }
     const std::string margin = marginText();
     const std::string before[] = {"arrives more often than ", "arrives less often than ",
@@ -134,12 +150,13 @@ std::string headlineOf(const std::vector<Pairing>& pairings, const Condition& re
     std::string text;
     for (int answer = MoreOften; answer < Undecided; ++answer) {
         if (of[answer].empty()) continue;
-        text += (text.empty() ? subject : " It") + " " + before[answer] + listed(of[answer]) +
-                after[answer] + ".";
+        text += (text.empty() ? subject + (is_on_the_whole ? ", on the whole," : "") : " It") +
+                " " + before[answer] + listed(of[answer]) + after[answer] + ".";
     }
-    if (of[Undecided].empty()) return text;
-    if (text.empty()) text = subject + ": nothing is decided yet.";
-    return text + " Open: " + join(of[Undecided], ", ") + ".";
+    if (text.empty() && !of[Undecided].empty()) text = subject + ": nothing is decided yet.";
+    if (!but.empty()) text += " But it arrives less often than " + listed(but) + ".";
+    if (!of[Undecided].empty()) text += " Open: " + join(of[Undecided], ", ") + ".";
+    return text;
 }
 
 /// Where they were matters more than how many: scenarios are not equally hard.
@@ -200,14 +217,14 @@ std::vector<std::string> verdictOf(const Summary& summary) {
     if (summary.conditions.empty()) return {"Nothing was flown: the table has no runs."};
     const Condition& reference = summary.conditions.front();
     std::vector<Pairing> pairings = told(summary, reference);
+    const std::vector<Pairing> hidden = hiddenBy(pairings, summary);
     std::vector<std::string> words;
     for (const char* guidance : {"astar", "straight"}) {
-        const std::string headline = headlineOf(pairings, reference, guidance);
+        const std::string headline = headlineOf(pairings, hidden, reference, guidance);
         if (!headline.empty()) words.push_back(headline);
     }
     std::stable_partition(pairings.begin(), pairings.end(),
                           [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
-    const std::vector<Pairing> hidden = hiddenIn(summary, pairings);
     pairings.insert(pairings.end(), hidden.begin(), hidden.end());
     for (const Pairing& pairing : pairings) words.push_back(difference(pairing));
     if (std::any_of(pairings.begin(), pairings.end(),
@@ -215,8 +232,7 @@ std::vector<std::string> verdictOf(const Summary& summary) {
         words.push_back("What is open needs more courses to be decided.");
     }
     for (const Contender& contender : contendersUnder(summary, reference)) {
-        const Cell& cell = *find(summary, "", reference, contender);
-        if (contender.model == "W-RoI") words.push_back(collisionWords(summary, cell));
+        words.push_back(collisionWords(summary, *find(summary, "", reference, contender)));
     }
     const int runs = mostRuns(summary, reference);
     words.push_back("This is no proof of safety: 0 collisions in " + counted(runs, "run") +

@@ -12,7 +12,7 @@
 #include "SampleRuns.h"
 #include "octomap-compare/ChooseRun.h"
 #include "octomap-compare/FlownRuns.h"
-#include "support/Program.h"
+#include "support/ProgramTest.h"
 
 namespace hagen {
 namespace {
@@ -27,30 +27,17 @@ std::string lineOf(const Row& run, double peak_model_bytes) {
     return rowOf(run) + "\t" + measuredRowOf(run, measurement) + ";\n";
 }
 
-class ReportCommand : public testing::Test {
+class ReportCommand : public test::ProgramTest {
  protected:
-    test::Outcome run(const std::vector<std::string>& arguments) {
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_OCTOMAP_COMPARE, arguments);
     }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
     std::string folder() const { return folder_.path().string(); }
     void writeRuns(const std::vector<Row>& runs) {
         std::string text = runHeader() + "\n";
         for (const Row& one : runs) text += rowOf(one) + "\n";
         folder_.write("runs.csv", text);
     }
-    void expectFailure(const std::vector<std::string>& arguments, int exit_code,
-                       const std::string& message) {
-        const test::Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE((outcome.err + outcome.out).find(message), std::string::npos)
-            << outcome.err << outcome.out;
-        EXPECT_FALSE(fs::exists(path("report.html")));
-        for (const auto& file : fs::directory_iterator(folder_.path())) {
-            EXPECT_NE(file.path().filename().string().substr(0, 7), "replay-") << file.path();
-        }
-    }
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {

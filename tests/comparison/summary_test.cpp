@@ -58,12 +58,13 @@ TEST(Summary, JudgesByTheMargin) {
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed < 2 ? kHit : kWon));
         runs.push_back(runOf("gap", seed, "W-Full", "astar", seed == 2 ? kHit : kWon));
-        runs.push_back(runOf("gap", seed, "G-Full", "astar", seed < 100 ? kLate : kWon));
+        runs.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
         runs.push_back(runOf("gap", seed, "W-RoI", "straight", seed < 100 ? kLate : kWon));
     }
-    for (const Pairing& pairing : summarize(runs).overall) {
-        const bool is_worse =
-            pairing.first.guidance == "straight" && pairing.second.model != "G-Full";
+    const Summary summary = summarize(runs);
+    ASSERT_EQ(summary.overall.size(), 4u);
+    for (const Pairing& pairing : summary.overall) {
+        const bool is_worse = pairing.first.guidance == "straight";
         EXPECT_EQ(pairing.verdict, is_worse ? Verdict::Inferior : Verdict::NotInferior)
             << nameOf(pairing.first) << " " << nameOf(pairing.second);
     }
@@ -82,6 +83,8 @@ TEST(Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
     ASSERT_EQ(summary.speed_limits.size(), 1u);
     EXPECT_EQ(summary.speed_limits[0].highest_m_s, 6);
     EXPECT_EQ(summary.speed_limits[0].sure_m_s, 6);  // 100 of 100: 96.3 % and more
+    EXPECT_EQ(summary.speed_limits[0].flown_m_s, 10);
+    EXPECT_EQ(deviationOf(summary.speed_limits[0].lowest), "");
 }
 
 TEST(SharedCourses, AreThoseOnWhichAllArrived) {

@@ -25,14 +25,14 @@ class ScanMap {
     /// Throws std::invalid_argument for a resolution or a range that is not more than 0.
     explicit ScanMap(const ScanMapOptions& options);
 
-    /// Each voxel once a scan: hit where a hit lies in it, else free where a ray passes; a ray
-    /// that ends in a voxel does not clear it. Leaves only: inner nodes are
-    /// brought up to date when the map is saved.
-    /// Where the tree has a bounding box (octomap's setBBXMin() and so on), nothing outside it.
     ~ScanMap();
     ScanMap(ScanMap&&) noexcept;
     ScanMap& operator=(ScanMap&&) noexcept;
 
+    /// Each voxel once a scan: hit where a hit lies in it, else free where a ray passes; a ray
+    /// that ends in a voxel does not clear it. Leaves only: inner nodes are brought up to date when
+    /// the map is saved. Where the tree has a bounding box (octomap's setBBXMin() and so on),
+    /// nothing outside it.
     /// Throws std::runtime_error, saying where it lies, for a scan that is farther from the map's
     /// origin than an OctoMap reaches: 32768 voxels.
     void insert(const MappedScan& scan);
