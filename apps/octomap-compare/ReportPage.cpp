@@ -62,8 +62,9 @@ void addPairings(const Report& report, std::vector<Section>& sections) {
           "interval; McNemar's exact test with Holm's correction. \"Not inferior\": the interval "
           "excludes a loss of " +
           fixed(100 * kMargin, 0) +
-          " points; \"open\": it does not, but holds smaller losses, too. Intervals, and so "
-          "\"not inferior\", are not corrected for the number of comparisons; p is."},
+          " points; \"open\": it does not, but holds smaller losses, too. \"All\": all "
+          "scenarios that both flew. Intervals, and so \"not inferior\", and the p of collisions "
+          "are not corrected for the number of comparisons; p (Holm) is."},
          {pairingTable(summary.overall)}});
     Section each{"The same, in each scenario", {}, {pairingTable(summary.pairings)}};
     each.is_long = true;

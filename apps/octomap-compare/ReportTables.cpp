@@ -57,16 +57,15 @@ Table outcomeTable(const Summary& summary, const Condition& condition) {
 }
 
 Table pairingTable(const std::vector<Pairing>& pairings) {
-    Table table{{"scenario", "condition", "first", "second", "pairs", "only first", "only second",
-                 "difference, points", "p (Holm)", "first is",
-                 "collided: only first / second (p, uncorrected)"},
-                {}};
+    Table table{
+        {"scenario", "condition", "first", "second", "pairs", "only first", "only second",
+         "difference, points", "p (Holm)", "first is", "only it collided: first / second (p)"},
+        {}};
     for (const Pairing& pairing : pairings) {
         table.rows.push_back(
-            {pairing.scenario.empty() ? "all that both flew" : pairing.scenario,
-             nameOf(pairing.condition), nameOf(pairing.first), nameOf(pairing.second),
-             std::to_string(pairing.pairs()), std::to_string(pairing.only_first),
-             std::to_string(pairing.only_second),
+            {pairing.scenario.empty() ? "all" : pairing.scenario, nameOf(pairing.condition),
+             nameOf(pairing.first), nameOf(pairing.second), std::to_string(pairing.pairs()),
+             std::to_string(pairing.only_first), std::to_string(pairing.only_second),
              points(pairing.difference) + " (" + pointsOf(pairing.interval) + ")",
              pText(pairing.p_holm), nameOf(pairing.verdict),
              std::to_string(pairing.only_first_collided) + " / " +
