@@ -44,29 +44,16 @@ std::string differenceOf(const Pairing& pairing) {
 
 std::string marginText() { return fixed(100 * kMargin, 0) + " points"; }
 
-std::string difference(const Pairing& pairing) {
-    switch (answerOf(pairing)) {
-        case WithinMargin:
-            return differenceOf(pairing) + ". Not inferior: a loss of " + marginText() +
-                   " is excluded.";
-        case Undecided:
-            return "Open: " + differenceOf(pairing) +
-                   (pairing.verdict == Verdict::Inferior
-                        ? ". With so many comparisons this may be chance."
-                        : ".");
-        default:
-            return differenceOf(pairing) + ".";
-    }
+/// Whether both are of the same two contenders under one condition, wherever.
+bool isSameContest(const Pairing& a, const Pairing& b) {
+    return a.condition == b.condition && a.first == b.first && a.second == b.second;
 }
 
 /// Where both were flown, if not in all scenarios of the condition: "u-trap and gap".
 std::string scopeOf(const Summary& summary, const Pairing& overall) {
     std::vector<std::string> names;
     for (const Pairing& one : summary.pairings) {
-        if (one.condition == overall.condition && one.first == overall.first &&
-            one.second == overall.second) {
-            names.push_back(one.scenario);
-        }
+        if (isSameContest(one, overall)) names.push_back(one.scenario);
     }
     std::set<std::string> flown;
     for (const Cell& cell : summary.cells) {
@@ -100,10 +87,7 @@ std::vector<Pairing> hiddenBy(const std::vector<Pairing>& told, const Summary& s
         if (loss.interval.high >= 0) continue;
         bool is_told = false, goes_under = false;
         for (const Pairing& one : told) {
-            if (!(one.condition == loss.condition && one.first == loss.first &&
-                  one.second == loss.second)) {
-                continue;
-            }
+            if (!isSameContest(one, loss)) continue;
             is_told = is_told || one.scenario == loss.scenario;
             // Who is told of such a loss in the whole needs not be told of its parts.
             goes_under =
@@ -185,17 +169,13 @@ int mostRuns(const Summary& summary, const Condition& condition) {
 }  // namespace
 
 std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall) {
-    const auto is_same = [&](const Pairing& one) {
-        return one.condition == overall.condition && one.first == overall.first &&
-               one.second == overall.second;
-    };
     std::vector<Pairing> apart;
     for (const Pairing& one : summary.without_wires) {
-        if (is_same(one)) apart.push_back(one);
+        if (isSameContest(one, overall)) apart.push_back(one);
     }
     if (apart.empty()) return apart;
     for (const Pairing& one : summary.pairings) {
-        if (one.scenario == kWires && is_same(one)) apart.push_back(one);
+        if (one.scenario == kWires && isSameContest(one, overall)) apart.push_back(one);
     }
     return apart;
 }
@@ -211,7 +191,20 @@ std::vector<Pairing> lossesOf(const Summary& summary) {
     return losses;
 }
 
-std::string differenceText(const Pairing& pairing) { return difference(pairing); }
+std::string differenceText(const Pairing& pairing) {
+    switch (answerOf(pairing)) {
+        case WithinMargin:
+            return differenceOf(pairing) + ". Not inferior: a loss of " + marginText() +
+                   " is excluded.";
+        case Undecided:
+            return "Open: " + differenceOf(pairing) +
+                   (pairing.verdict == Verdict::Inferior
+                        ? ". With so many comparisons this may be chance."
+                        : ".");
+        default:
+            return differenceOf(pairing) + ".";
+    }
+}
 
 std::vector<std::string> verdictOf(const Summary& summary) {
     if (summary.conditions.empty()) return {"Nothing was flown: the table has no runs."};
@@ -226,7 +219,7 @@ std::vector<std::string> verdictOf(const Summary& summary) {
     std::stable_partition(pairings.begin(), pairings.end(),
                           [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
     pairings.insert(pairings.end(), hidden.begin(), hidden.end());
-    for (const Pairing& pairing : pairings) words.push_back(difference(pairing));
+    for (const Pairing& pairing : pairings) words.push_back(differenceText(pairing));
     if (std::any_of(pairings.begin(), pairings.end(),
                     [](const Pairing& pairing) { return answerOf(pairing) == Undecided; })) {
         words.push_back("What is open needs more courses to be decided.");

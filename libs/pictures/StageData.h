@@ -22,8 +22,8 @@ struct StageData {
     std::string blocks;
     int column = 0;                       ///< whose components are shown
     int bars = 0;                         ///< maxima in $bars
-    std::vector<double> component_share;  ///< of variance; of those in $elementary, which is
-                                          ///< missing where there are none
+    std::vector<double> component_share;  ///< of variance, 0 to 1, one a component of $elementary;
+                                          ///< empty: that block is missing
     float half_width_m = 0.0f;            ///< of the view from above
 };
 
