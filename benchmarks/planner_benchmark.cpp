@@ -34,7 +34,7 @@ Sum flyForests(test::SmallFlight flight, double density_per_m2, int seeds) {
         const double before_us = cpu_us();
         const test::SmallFlightResult flown = test::fly(world, flight);
         sum.cpu_us += cpu_us() - before_us;
-        const bool collided = flown.least_m < VehicleLimits{}.collision_m;
+        const bool collided = flown.least_m < avoidance::VehicleLimits{}.collision_m;
         sum.collided += collided;
         sum.plans += flown.plans;
         sum.emergencies += flown.emergencies;
@@ -55,8 +55,8 @@ int main(int arguments, char** argument) {
     std::printf(
         "planner    guidance trees/m2  m/s  arrived  collided  least m  time s  path m  "
         "emergencies/km  questions/plan  us/plan\n");
-    for (const std::string& planner : plannerNames()) {
-        for (const std::string& guidance : guidanceNames()) {
+    for (const std::string& planner : avoidance::plannerNames()) {
+        for (const std::string& guidance : avoidance::guidanceNames()) {
             for (double density_per_m2 : {0.02, 0.05, 0.1}) {
                 for (double speed_m_s : {4.0, 6.0, 8.0}) {
                     test::SmallFlight flight;

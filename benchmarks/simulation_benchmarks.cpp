@@ -10,25 +10,28 @@
 namespace {
 
 /// The scene with a ground that is finely meshed farther out.
-hagen::Scene withWideGround(const hagen::Scene& scene) {
+hagen::simulation::Scene withWideGround(const hagen::simulation::Scene& scene) {
     constexpr double kFineLength_m = 85, kFineWidth_m = 65, kReach_m = 140;
-    hagen::SceneContent content = scene.content();
-    hagen::Random random(1);
-    const auto ground = std::find_if(
-        content.objects.begin(), content.objects.end(),
-        [](const hagen::SceneObject& object) { return object.kind == hagen::Kind::Terrain; });
+    hagen::simulation::SceneContent content = scene.content();
+    hagen::simulation::Random random(1);
+    const auto ground = std::find_if(content.objects.begin(), content.objects.end(),
+                                     [](const hagen::simulation::SceneObject& object) {
+                                         return object.kind == hagen::simulation::Kind::Terrain;
+                                     });
     content.shapes.at(ground->shape) =
         content.terrain.mesh(kFineLength_m, kFineWidth_m, kReach_m, random);
-    return hagen::Scene(std::move(content));
+    return hagen::simulation::Scene(std::move(content));
 }
 
-void simulate(benchmark::State& state, const hagen::Scene& scene, const std::string& sensor) {
+void simulate(benchmark::State& state, const hagen::simulation::Scene& scene,
+              const std::string& sensor) {
     const hagen::SensorModel model = hagen::sensorModel(sensor);
-    const hagen::Flight flight(scene.terrain(), scene.path(), {}, 1);
-    hagen::Random random(1);
+    const hagen::simulation::Flight flight(scene.terrain(), scene.path(), {}, 1);
+    hagen::simulation::Random random(1);
     double time_s = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(hagen::simulateScan(scene, model, flight, time_s, random));
+        benchmark::DoNotOptimize(
+            hagen::simulation::simulateScan(scene, model, flight, time_s, random));
         time_s += 0.1;
     }
     state.counters["triangles"] = static_cast<double>(scene.triangles());
@@ -36,30 +39,31 @@ void simulate(benchmark::State& state, const hagen::Scene& scene, const std::str
 
 void makeCourses(benchmark::State& state, const std::string& name) {
     std::uint64_t seed = 1;
-    for (auto _ : state) benchmark::DoNotOptimize(hagen::makeCourse(name, seed++));
+    for (auto _ : state) benchmark::DoNotOptimize(hagen::trials::makeCourse(name, seed++));
 }
 
 /// From start to goal along the straight line, as if nothing stood there.
 void scanCourse(benchmark::State& state, const std::string& name) {
-    const hagen::Course course = hagen::makeCourse(name, 1);
+    const hagen::trials::Course course = hagen::trials::makeCourse(name, 1);
     const hagen::SensorModel model = hagen::sensorModel("VLP-16");
-    hagen::Random random(1);
-    const hagen::PoseAt pose_at = [&](double time_s) {
+    hagen::simulation::Random random(1);
+    const hagen::simulation::PoseAt pose_at = [&](double time_s) {
         const double share = std::fmod(time_s, 10.0) / 10;
-        return hagen::SensorPose{course.start_m + share * (course.goal_m - course.start_m),
-                                 Eigen::Quaterniond::Identity()};
+        return hagen::simulation::SensorPose{
+            course.start_m + share * (course.goal_m - course.start_m),
+            Eigen::Quaterniond::Identity()};
     };
     double time_s = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(hagen::simulateScan(course.scene, model, pose_at, time_s, random,
-                                                     hagen::trialFaults()));
+        benchmark::DoNotOptimize(hagen::simulation::simulateScan(
+            course.scene, model, pose_at, time_s, random, hagen::trials::trialFaults()));
         time_s += 0.7;
     }
 }
 
 void measureDistances(benchmark::State& state, const std::string& name) {
-    const hagen::Course course = hagen::makeCourse(name, 1);
-    hagen::Random random(1);
+    const hagen::trials::Course course = hagen::trials::makeCourse(name, 1);
+    hagen::simulation::Random random(1);
     double time_s = 0;
     for (auto _ : state) {
         const double x_m = random.uniform(0, 40), y_m = random.uniform(-12, 12);
@@ -71,24 +75,26 @@ void measureDistances(benchmark::State& state, const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto add = [](const std::string& name, const auto& makeScene) {
-        const auto run = [=](benchmark::State& state) { simulate(state, makeScene(), "VLP-16"); };
+    const auto add = [](const std::string& name, const auto& simulation::makeScene) {
+        const auto run = [=](benchmark::State& state) {
+            simulate(state, simulation::makeScene(), "VLP-16");
+        };
         benchmark::RegisterBenchmark((name + ", VLP-16").c_str(), run)
             ->Unit(benchmark::kMillisecond);
     };
-    for (const std::string& scenario : hagen::scenarioNames()) {
-        add(scenario, [=] { return hagen::makeScene(scenario, 1); });
+    for (const std::string& scenario : hagen::simulation::scenarioNames()) {
+        add(scenario, [=] { return hagen::simulation::makeScene(scenario, 1); });
     }
     for (const std::string scenario : {"street", "gap", "orchard", "forest-0.10"}) {
         add(scenario + " with a wide ground",
-            [=] { return withWideGround(hagen::makeScene(scenario, 1)); });
+            [=] { return withWideGround(hagen::simulation::makeScene(scenario, 1)); });
     }
     using Run = void (*)(benchmark::State&, const std::string&);
     const auto addCourse = [](const std::string& what, const std::string& course, Run run,
                               benchmark::TimeUnit unit) {
         benchmark::RegisterBenchmark((what + " course " + course).c_str(), run, course)->Unit(unit);
     };
-    for (const std::string& course : hagen::courseNames()) {
+    for (const std::string& course : hagen::trials::courseNames()) {
         addCourse("make", course, makeCourses, benchmark::kMillisecond);
         addCourse("scan on", course, scanCourse, benchmark::kMillisecond);
         addCourse("distance on", course, measureDistances, benchmark::kMicrosecond);

@@ -27,25 +27,26 @@ double heap_MB() {
     return 1e-6 * static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-std::vector<MappedScan> flyThrough(const std::string& scenario, int scans) {
+std::vector<mapping::MappedScan> flyThrough(const std::string& scenario, int scans) {
     const SensorModel sensor = sensorModel("VLP-16");
-    const Scene scene = makeScene(scenario, 1);
-    const Flight flight(scene.terrain(), scene.path(), {}, 1);
-    Settings settings;
-    mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", settings);
+    const simulation::Scene scene = simulation::makeScene(scenario, 1);
+    const simulation::Flight flight(scene.terrain(), scene.path(), {}, 1);
+    observations::Settings settings;
+    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", settings);
     HagenFilter filter(sensor, settings.options);
-    Random random(1, 3);
-    std::vector<MappedScan> mapped;
+    simulation::Random random(1, 3);
+    std::vector<mapping::MappedScan> mapped;
     for (int i = 0; i < scans; ++i) {
         const double time_s = 0.1 * i;
-        SimulatedScan made = simulateScan(scene, sensor, flight, time_s, random);
+        simulation::SimulatedScan made =
+            simulation::simulateScan(scene, sensor, flight, time_s, random);
         const auto& labels = filter.segment(made.scan).returns.label;
-        MappedScan scan;
+        mapping::MappedScan scan;
         scan.time_s = time_s + 0.1;
         scan.origin_m = flight.at(time_s + 0.05).position_m.cast<float>();
         for (std::size_t k = 0; k < made.size(); ++k) {
             if (labels[k] == Label::Unclassified) continue;
-            const SensorPose pose = flight.at(time_s + made.scan.time_s[k]);
+            const simulation::SensorPose pose = flight.at(time_s + made.scan.time_s[k]);
             const Eigen::Vector3d at(made.scan.x_m[k], made.scan.y_m[k], made.scan.z_m[k]);
             scan.points_m.push_back((pose.position_m + pose.attitude * at).cast<float>());
             scan.labels.push_back(labels[k]);
@@ -60,14 +61,15 @@ double quantile(std::vector<double> values, double q) {
     return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
 }
 
-void measure(const std::string& name, const std::vector<MappedScan>& scans) {
+void measure(const std::string& name, const std::vector<mapping::MappedScan>& scans) {
     Eigen::AlignedBox3f bounds;
     for (const auto& scan : scans) bounds.extend(scan.origin_m);
     const Eigen::Vector3f around(10, 10, 2);
     bounds = {bounds.min() - around, bounds.max() + around};
     const double before_MB = heap_MB();
-    const auto model = makeWorldModel(name, {bounds, [](const Eigen::Vector3f&) { return 3.0f; }});
-    Random random(2);
+    const auto model =
+        avoidance::makeWorldModel(name, {bounds, [](const Eigen::Vector3f&) { return 3.0f; }});
+    simulation::Random random(2);
     std::vector<double> update_ms, query_us;
     float sum = 0;
     for (const auto& scan : scans) {
@@ -108,7 +110,7 @@ int main(int argc, char** argv) {
                 points / flight.size(), roi / flight.size());
     std::printf("%-15s %23s %8s %8s %8s\n", "", "update ms p50, p95, max", "query us", "MB",
                 "heap");
-    for (const std::string& name : worldModelNames()) {
+    for (const std::string& name : avoidance::worldModelNames()) {
         bool wanted = argc <= 3;
         for (int i = 3; i < argc; ++i) wanted = wanted || name == argv[i];
         if (wanted) measure(name, flight);

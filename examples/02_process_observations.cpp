@@ -1,7 +1,7 @@
 // The filter as an MRPT observation processor: prints the nearest obstacle of each scan of a
 // rawlog, observation by observation or by sensory frames.
-#include <hagen/observations/ObservationSegmenter.h>
 #include <hagen/logs/RawlogReader.h>
+#include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <cstdio>
@@ -10,8 +10,8 @@
 namespace {
 
 void printNearest(const mrpt::obs::CObservation& observation,
-                  hagen::ObservationSegmenter& segmenter) {
-    hagen::ObservationSegmenter::Output out;
+                  hagen::observations::ObservationSegmenter& segmenter) {
+    hagen::observations::ObservationSegmenter::Output out;
     if (!segmenter.process(observation, out)) return;  // no LiDAR scan
     std::printf("%s: %zu RoI points", observation.sensorLabel.c_str(), out.roi->pointcloud->size());
     float nearest_m = -1.0f;
@@ -30,12 +30,12 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "usage: 02_process_observations LOG.rawlog [SETTINGS.yaml]\n");
         return 2;
     }
-    hagen::Settings settings;
-    if (argc > 2) hagen::mergeSettings(argv[2], settings);
-    hagen::ObservationSegmenter segmenter;
+    hagen::observations::Settings settings;
+    if (argc > 2) hagen::observations::mergeSettings(argv[2], settings);
+    hagen::observations::ObservationSegmenter segmenter;
     segmenter.initialize(settings);
 
-    hagen::RawlogReader reader(argv[1]);
+    hagen::logs::RawlogReader reader(argv[1]);
     while (const auto entry = reader.next()) {
         if (const auto alone = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry)) {
             printNearest(*alone, segmenter);

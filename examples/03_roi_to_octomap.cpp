@@ -14,25 +14,26 @@ int main(int argc, char** argv) try {
         return 2;
     }
     // A pose may come after the scan that it is needed for: they are read first.
-    const hagen::Trajectory vehicle =
-        hagen::posesOfRawlog(hagen::surveyRawlog(argv[1]), argc > 3 ? argv[3] : "").vehicle;
+    const hagen::observations::Trajectory vehicle =
+        hagen::logs::posesOfRawlog(hagen::logs::surveyRawlog(argv[1]), argc > 3 ? argv[3] : "")
+            .vehicle;
 
-    hagen::ObservationSegmenter segmenter;
-    hagen::ScanMap map({hagen::MapContent::RoiAndRays, 0.2, 20});
+    hagen::observations::ObservationSegmenter segmenter;
+    hagen::mapping::ScanMap map({hagen::mapping::MapContent::RoiAndRays, 0.2, 20});
     std::size_t scans = 0, hits = 0;
-    hagen::RawlogReader reader(argv[1]);
+    hagen::logs::RawlogReader reader(argv[1]);
     while (const auto entry = reader.next()) {
         const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry);
-        hagen::ObservationSegmenter::Output out;
+        hagen::observations::ObservationSegmenter::Output out;
         if (!observation || !segmenter.process(*observation, out, vehicle)) continue;
         // Each return by the pose at its own time; none where the vehicle was is not known.
-        const auto mapped = hagen::placeInMap(out, *observation, vehicle);
+        const auto mapped = hagen::logs::placeInMap(out, *observation, vehicle);
         if (!mapped) continue;
         map.insert(*mapped);
         ++scans;
         hits += out.result->returns.roi.size();
     }
-    hagen::saveMap(map.tree(), argv[2]);
+    hagen::mapping::saveMap(map.tree(), argv[2]);
     std::printf("%zu scans with %zu RoI points: %zu nodes in %s\n", scans, hits, map.tree().size(),
                 argv[2]);
     return 0;

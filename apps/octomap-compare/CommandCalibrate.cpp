@@ -1,12 +1,10 @@
 // octomap-compare calibrate: measures what each stage takes on this machine.
-#include <hagen/logs/CloseWritten.h>
-#include <hagen/logs/OutputPath.h>
+#include <hagen/avoidance/WorldModel.h>
+#include <hagen/base/OutputPath.h>
 #include <hagen/trials/Calibration.h>
-#include <hagen/trials/Trial.h>
+#include <hagen/trials/HeapCurves.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -33,7 +31,7 @@ void warnIfBusy() {
     }
 }
 
-void printProfile(const LatencyProfile& profile) {
+void printProfile(const trials::LatencyProfile& profile) {
     std::cout << "stage                          p50 ms    p95 ms    max ms\n" << std::fixed;
     for (const auto& [stage, quantiles] : profile.quantiles_ms) {
         std::cout << std::left << std::setw(27) << stage << std::right << std::setprecision(3);
@@ -44,49 +42,39 @@ void printProfile(const LatencyProfile& profile) {
     }
 }
 
-void writeMemory(const Flags& flags, const std::vector<std::string>& models,
-                 const std::filesystem::path& file) {
-    std::ofstream out = openToWrite(file, flags.memory);
-    out << "model,path_m,bytes\n";
-    for (const std::string& model : models) {
-        if (isInterrupted()) {
-            throw std::runtime_error("interrupted; " + flags.memory + " was not written");
-        }
-        std::cerr << "memory of " << model << "\n";
-        for (const HeapSample& sample : heapAlongFlight(model, flags.path_m)) {
-            out << model << "," << std::round(10 * sample.path_m) / 10 << ","
-                << static_cast<long long>(sample.bytes) << "\n";
-        }
-    }
-    closeWritten(out, flags.memory);
-}
-
 int run(const Flags& flags) {
     std::vector<std::string> models = flags.models;
-    if (models == std::vector<std::string>{"all"}) models = worldModelNames();
-    std::optional<OutputPath> profile_file, memory_file;
+    if (models == std::vector<std::string>{"all"}) models = avoidance::worldModelNames();
+    std::optional<base::OutputPath> profile_file, memory_file;
     if (!flags.file.empty()) {
-        profile_file.emplace(flags.file, OutputPath::Kind::File, flags.overwrites);
+        profile_file.emplace(flags.file, base::kFile, flags.overwrites);
     }
     if (!flags.memory.empty()) {
-        memory_file.emplace(flags.memory, OutputPath::Kind::File, flags.overwrites);
+        memory_file.emplace(flags.memory, base::kFile, flags.overwrites);
     }
     warnIfBusy();
     if (profile_file) {
-        CalibrationOptions options;
+        trials::CalibrationOptions options;
         options.models = models;
         options.courses = flags.is_quick ? 1 : 3;
         options.doing = [](const std::string& model) {
             if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
             std::cerr << "latencies of " << model << "\n";
         };
-        const LatencyProfile profile = calibrate(options);
-        writeLatencyProfile(profile, profile_file->temporary());
+        const trials::LatencyProfile profile = trials::calibrate(options);
+        trials::writeLatencyProfile(profile, profile_file->temporary());
         profile_file->commit();
         printProfile(profile);
     }
     if (memory_file) {
-        writeMemory(flags, models, memory_file->temporary());
+        const auto begin = [&](const std::string& model) {
+            if (isInterrupted()) {
+                throw std::runtime_error("interrupted; " + flags.memory + " was not written");
+            }
+            std::cerr << "memory of " << model << "\n";
+        };
+        trials::writeHeapCurves(models, flags.path_m, begin, memory_file->temporary(),
+                                flags.memory);
         memory_file->commit();
     }
     return 0;
@@ -104,7 +92,7 @@ void addCalibrate(CLI::App& app, Command& command) {
     sub->add_option("--models", flags->models, "world models, or all")
         ->delimiter(',')
         ->check(CLI::IsMember([] {
-            std::vector<std::string> names = worldModelNames();
+            std::vector<std::string> names = avoidance::worldModelNames();
             names.emplace_back("all");
             return names;
         }()));

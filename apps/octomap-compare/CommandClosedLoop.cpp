@@ -10,14 +10,14 @@
 #include <thread>
 
 #include "Commands.h"
-#include "ProgressLine.h"
 #include "common/Interrupt.h"
+#include "common/ProgressLine.h"
 
 namespace hagen {
 namespace {
 
 struct Flags {
-    CampaignPlan plan;
+    trials::CampaignPlan plan;
     std::string seeds, shard = "1/1", unknown = "optimistic", profile, folder;
     std::vector<std::string> pose_errors{"none"};
     int jobs = 0;
@@ -40,8 +40,8 @@ void expandAll(std::vector<std::string>& names, const std::vector<std::string>& 
     if (names == std::vector<std::string>{"all"}) names = all;
 }
 
-std::vector<CourseFlights> flightsFrom(Flags& flags) {
-    CampaignPlan& plan = flags.plan;
+std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
+    trials::CampaignPlan& plan = flags.plan;
     std::tie(plan.first_seed, plan.last_seed) =
         pairFrom("--seeds", flags.seeds, "(\\d{1,18})(?:-(\\d{1,18}))?", "a seed, or two as A-B");
     const auto [number, of] =
@@ -49,37 +49,38 @@ std::vector<CourseFlights> flightsFrom(Flags& flags) {
     plan.brakes_in_known_space = flags.unknown == "brake-known";
     plan.pose_errors.clear();
     for (const std::string& name : flags.pose_errors)
-        plan.pose_errors.push_back(poseErrorFrom(name));
-    expandAll(plan.scenarios, courseNames());
-    expandAll(plan.models, worldModelNames());
-    expandAll(plan.guidances, guidanceNames());
-    expandAll(plan.planners, plannerNames());
+        plan.pose_errors.push_back(trials::poseErrorFrom(name));
+    expandAll(plan.scenarios, trials::courseNames());
+    expandAll(plan.models, avoidance::worldModelNames());
+    expandAll(plan.guidances, avoidance::guidanceNames());
+    expandAll(plan.planners, avoidance::plannerNames());
     try {
-        return flightsOf(plan, {static_cast<int>(number), static_cast<int>(of)});
+        return trials::flightsOf(plan, {static_cast<int>(number), static_cast<int>(of)});
     } catch (const std::invalid_argument& e) {
         throw CLI::ValidationError("closedloop", e.what());
     }
 }
 
-LatencyProfile profileFrom(const std::string& file, const std::vector<CourseFlights>& flights) {
-    const LatencyProfile profile =
-        file.empty() ? standardLatencyProfile() : readLatencyProfile(file);
+trials::LatencyProfile profileFrom(const std::string& file,
+                                   const std::vector<trials::CourseFlights>& flights) {
+    const trials::LatencyProfile profile =
+        file.empty() ? trials::standardLatencyProfile() : trials::readLatencyProfile(file);
     try {
-        checkProfile(profile, flights);
+        trials::checkProfile(profile, flights);
     } catch (const std::runtime_error& e) {
         throw std::runtime_error((file.empty() ? "the standard profile" : file) + ": " + e.what());
     }
     return profile;
 }
 
-void printCells(const std::vector<Run>& runs) {
+void printCells(const std::vector<trials::Run>& runs) {
     struct Cell {
         int runs = 0, outcomes[3] = {0, 0, 0};
     };
     std::map<std::string, Cell> cells;
-    for (const Run& run : runs) {
+    for (const trials::Run& run : runs) {
         std::ostringstream name;
-        const TrialSetup& setup = run.setup;
+        const trials::TrialSetup& setup = run.setup;
         name << std::left << std::setw(12) << run.scenario << " " << std::setw(4) << setup.speed_m_s
              << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner
              << " " << std::setw(6) << nameOf(setup.pose_error) << " x" << std::setw(3)
@@ -101,19 +102,19 @@ void printCells(const std::vector<Run>& runs) {
 }
 
 int run(Flags flags) {
-    const std::vector<CourseFlights> flights = flightsFrom(flags);
-    const LatencyProfile profile = profileFrom(flags.profile, flights);
-    CampaignFolder folder(flags.folder, profile, flags.overwrites);
+    const std::vector<trials::CourseFlights> flights = flightsFrom(flags);
+    const trials::LatencyProfile profile = profileFrom(flags.profile, flights);
+    trials::CampaignFolder folder(flags.folder, profile, flags.overwrites);
     folder.note(flags.plan);
     ProgressLine progress("run");
-    CampaignOptions options;
+    trials::CampaignOptions options;
     options.jobs =
         flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
     options.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
         options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
-    flyCampaign(flights, profile, options, folder);
+    trials::flyCampaign(flights, profile, options, folder);
     if (flags.is_quiet) return 0;
     printCells(folder.runs());
     std::cout << (folder.path() / "runs.csv").string() << "\n";
@@ -124,7 +125,7 @@ void addFlags(CLI::App& app, Flags& flags) {
     const auto list = [&](const char* flag, std::vector<std::string>& names, const char* what) {
         return app.add_option(flag, names, what)->delimiter(',')->capture_default_str();
     };
-    CampaignPlan& plan = flags.plan;
+    trials::CampaignPlan& plan = flags.plan;
     list("--scenario", plan.scenarios, "courses, or all")->required();
     app.add_option("--seeds", flags.seeds, "courses' seeds A-B; the same seeds make the same runs")
         ->required();

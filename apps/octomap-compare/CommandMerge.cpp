@@ -16,8 +16,8 @@ struct Flags {
 };
 
 int run(const Flags& flags) {
-    const std::size_t runs =
-        mergeCampaigns({flags.folders.begin(), flags.folders.end()}, flags.into, flags.overwrites);
+    const std::size_t runs = trials::mergeCampaigns({flags.folders.begin(), flags.folders.end()},
+                                                    flags.into, flags.overwrites);
     std::cout << runs << " runs in " << flags.into << "/runs.csv\n";
     return 0;
 }

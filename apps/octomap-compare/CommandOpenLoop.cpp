@@ -1,22 +1,22 @@
 // octomap-compare openloop: world models digest a recorded log.
-#include <hagen/trials/OpenLoop.h>
+#include <hagen/openloop/OpenLoop.h>
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
+#include <hagen/openloop/OpenLoopFiles.h>
+#include <hagen/openloop/OpenLoopTable.h>
 #include "Commands.h"
-#include "OpenLoopFiles.h"
-#include "OpenLoopTable.h"
-#include "ProgressLine.h"
 #include "common/Interrupt.h"
+#include "common/ProgressLine.h"
 
 namespace hagen {
 namespace {
 
 struct Flags {
-    OpenLoop open_loop;
+    openloop::OpenLoop open_loop;
     std::vector<std::string> configs;
     std::string folder, scenario;
     std::uint64_t seed = 1;
@@ -25,13 +25,13 @@ struct Flags {
 
 /// All; the oracle where there is a scene that it can know.
 std::vector<std::string> standardModels(bool has_scene) {
-    std::vector<std::string> models = worldModelNames();
+    std::vector<std::string> models = avoidance::worldModelNames();
     if (!has_scene) models.erase(std::find(models.begin(), models.end(), "oracle"));
     return models;
 }
 
 /// What a user should know about the figures.
-void tellRemarks(const OpenLoopResult& result) {
+void tellRemarks(const openloop::OpenLoopResult& result) {
     const auto tell = [](std::size_t scans, const std::string& what) {
         if (scans > 0) std::cerr << "octomap-compare: " << scans << " " << what << "\n";
     };
@@ -50,33 +50,35 @@ void tellRemarks(const OpenLoopResult& result) {
 }
 
 int run(Flags flags) {
-    OpenLoop& open_loop = flags.open_loop;
+    openloop::OpenLoop& open_loop = flags.open_loop;
     if (!flags.scenario.empty()) open_loop.scene = {flags.scenario, flags.seed};
     if (open_loop.models.empty()) open_loop.models = standardModels(open_loop.scene.has_value());
-    checkOpenLoop(open_loop);
+    openloop::checkOpenLoop(open_loop);
     for (const std::string& config : flags.configs) {
-        mergeSettings(config, open_loop.source.settings);
+        observations::mergeSettings(config, open_loop.source.settings);
     }
-    OpenLoopFiles files(flags.folder, flags.overwrites);
+    openloop::OpenLoopFiles files(flags.folder, flags.overwrites);
     ProgressLine progress("scan");
-    OpenLoopListener listener;
-    listener.row = [&](const OpenLoopRow& row, const OpenLoopCost& cost) { files.add(row, cost); };
+    openloop::OpenLoopListener listener;
+    listener.row = [&](const openloop::OpenLoopRow& row, const openloop::OpenLoopCost& cost) {
+        files.add(row, cost);
+    };
     listener.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
         listener.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
     try {
-        const OpenLoopResult result = runOpenLoop(open_loop, listener);
+        const openloop::OpenLoopResult result = openloop::runOpenLoop(open_loop, listener);
         files.commit(open_loop, result);
         if (flags.is_quiet) return 0;
         tellRemarks(result);
-        std::cout << tableOf(open_loop, result);
+        std::cout << openloop::tableOf(open_loop, result);
         return 0;
-    } catch (const OpenLoopEnded& ended) {
+    } catch (const openloop::OpenLoopEnded& ended) {
         files.keepPartial(open_loop, ended.result);
         if (!flags.is_quiet) {
             tellRemarks(ended.result);
-            std::cout << tableOf(open_loop, ended.result);
+            std::cout << openloop::tableOf(open_loop, ended.result);
         }
         throw std::runtime_error(std::string(ended.what()) + "; figures of the " +
                                  std::to_string(ended.result.scans) + " scans before it are in " +
@@ -88,7 +90,7 @@ int run(Flags flags) {
 int runChecked(const Flags& flags) {
     try {
         return run(flags);
-    } catch (const SettingsError& e) {
+    } catch (const observations::SettingsError& e) {
         throw CLI::ValidationError("--config", e.what());
     } catch (const std::invalid_argument& e) {
         throw CLI::ValidationError("openloop", e.what());
@@ -99,7 +101,7 @@ int runChecked(const Flags& flags) {
 
 void addOpenLoop(CLI::App& app, Command& command) {
     const auto flags = std::make_shared<Flags>();
-    LogSource& source = flags->open_loop.source;
+    openloop::LogSource& source = flags->open_loop.source;
     CLI::App* sub = app.add_subcommand(
         "openloop", "let all world models digest a recorded log: what they cost, what they know");
     sub->add_option("-i,--input", source.log, "a .rawlog, or a scan folder (KITTI layout)")

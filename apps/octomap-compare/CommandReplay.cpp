@@ -1,14 +1,14 @@
 // octomap-compare replay: one run of a folder, flown again to be looked at.
-#include <hagen/logs/CloseWritten.h>
-#include <hagen/logs/OutputPath.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
-#include "ChooseRun.h"
+#include <hagen/replays/ChooseRun.h>
+#include <hagen/replays/Replay.h>
+#include <hagen/trials/FlownRuns.h>
 #include "Commands.h"
-#include "FlownRuns.h"
-#include "Replay.h"
 
 namespace hagen {
 namespace {
@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 struct Flags {
     std::string folder, output;
-    RunWanted wanted;
+    replays::RunWanted wanted;
     bool overwrite = false;
 };
 
-Run chosen(const fs::path& folder, const RunWanted& wanted) {
-    const std::vector<Run> runs = readFlownRuns(folder).runs;
+trials::Run chosen(const fs::path& folder, const replays::RunWanted& wanted) {
+    const std::vector<trials::Run> runs = trials::readFlownRuns(folder).runs;
     try {
-        return chooseRun(runs, wanted);
+        return replays::chooseRun(runs, wanted);
     } catch (const std::invalid_argument& e) {
         throw CLI::ValidationError(folder.string(), e.what());
     }
@@ -33,19 +33,19 @@ Run chosen(const fs::path& folder, const RunWanted& wanted) {
 int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     const fs::path into = flags.output.empty() ? folder : fs::path(flags.output);
-    const Run wanted = chosen(folder, flags.wanted);
-    const LatencyProfile profile = readLatencyProfile(folder / "profile.json");
+    const trials::Run wanted = chosen(folder, flags.wanted);
+    const trials::LatencyProfile profile = trials::readLatencyProfile(folder / "profile.json");
     fs::create_directories(into);
-    const std::string name = "replay-" + fileNameOf(wanted);
-    OutputPath page(into / (name + ".html"), OutputPath::Kind::File, flags.overwrite);
-    OutputPath scene(into / (name + ".3Dscene"), OutputPath::Kind::File, flags.overwrite);
+    const std::string name = "replay-" + replays::fileNameOf(wanted);
+    base::OutputPath page(into / (name + ".html"), base::kFile, flags.overwrite);
+    base::OutputPath scene(into / (name + ".3Dscene"), base::kFile, flags.overwrite);
 
-    const Recording recording = record(wanted, profile);
-    writeText(replayPage(recording), page.temporary(), page.path());
-    writeReplayScene(recording, scene.temporary(), scene.path());
+    const replays::Recording recording = replays::record(wanted, profile);
+    base::writeText(replays::replayPage(recording), page.temporary(), page.path());
+    replays::writeReplayScene(recording, scene.temporary(), scene.path());
     page.commit();
     scene.commit();
-    std::cout << choiceOf(wanted, {wanted}) << "\n"
+    std::cout << replays::choiceOf(wanted, {wanted}) << "\n"
               << recording.ending << "\n"
               << page.path().string() << "\n"
               << scene.path().string() << "\n";
@@ -60,7 +60,7 @@ int run(const Flags& flags) {
 
 void addReplay(CLI::App& app, Command& command) {
     const auto flags = std::make_shared<Flags>();
-    RunWanted& wanted = flags->wanted;
+    replays::RunWanted& wanted = flags->wanted;
     CLI::App* sub = app.add_subcommand(
         "replay", "fly one run again: replay-RUN.html, a page, and replay-RUN.3Dscene");
     sub->add_option("DIR", flags->folder, "folder of `closedloop`, finished or not")->required();

@@ -33,8 +33,8 @@ Progress::Progress(std::string input, bool quiet)
       start_(std::chrono::steady_clock::now()),
       shown_(start_) {}
 
-hagen::ConversionListener Progress::listener() {
-    hagen::ConversionListener listener;
+hagen::logs::ConversionListener Progress::listener() {
+    hagen::logs::ConversionListener listener;
     listener.unreadable = [this](const std::string& entry, const std::string& why) {
         tell(entry, "kept, but not segmented: " + why);
     };
@@ -42,7 +42,7 @@ hagen::ConversionListener Progress::listener() {
         remark(entry, what);
     };
     if (is_on_terminal_) {
-        listener.progress = [this](const hagen::ConversionReport& report) { show(report); };
+        listener.progress = [this](const hagen::logs::ConversionReport& report) { show(report); };
     }
     return listener;
 }
@@ -61,7 +61,7 @@ void Progress::remark(const std::string& entry, const std::string& remark) {
     }
 }
 
-void Progress::show(const hagen::ConversionReport& report) {
+void Progress::show(const hagen::logs::ConversionReport& report) {
     const auto now = std::chrono::steady_clock::now();
     if (now - shown_ < kBetweenLines) return;
     shown_ = now;

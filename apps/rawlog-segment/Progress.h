@@ -10,7 +10,7 @@ class Progress {
     Progress(std::string input, bool quiet);
 
     /// The listener of a conversion; holds a reference to this object.
-    hagen::ConversionListener listener();
+    hagen::logs::ConversionListener listener();
 
     /// Clears the line, and tells what was held back: the same remark of many scans is printed
     /// where it first comes up, and counted from then on.
@@ -19,7 +19,7 @@ class Progress {
  private:
     void tell(const std::string& entry, const std::string& what);
     void remark(const std::string& entry, const std::string& remark);
-    void show(const hagen::ConversionReport& report);
+    void show(const hagen::logs::ConversionReport& report);
 
     std::string input_;
     bool is_quiet_, is_on_terminal_;

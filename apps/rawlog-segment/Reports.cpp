@@ -8,8 +8,8 @@
 
 namespace {
 
-using hagen::Conversion;
-using hagen::ConversionReport;
+using hagen::logs::Conversion;
+using hagen::logs::ConversionReport;
 
 std::string counted(std::size_t number, const std::string& one, const std::string& many) {
     return std::to_string(number) + " " + (number == 1 ? one : many);
@@ -76,7 +76,7 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
 void printSettingsKeys() {
     using Row = std::array<std::string, 6>;
     std::vector<Row> rows{{"key", "unit", "default", "range", "meaning", "in the paper"}};
-    for (const hagen::SettingsKey& key : hagen::settingsKeys()) {
+    for (const hagen::observations::SettingsKey& key : hagen::observations::settingsKeys()) {
         rows.push_back({key.name, key.unit, key.standard, key.range, key.what, key.symbol});
     }
     std::array<std::size_t, 6> widths{};

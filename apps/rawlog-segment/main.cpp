@@ -18,13 +18,13 @@ using namespace hagen;
 
 constexpr int kFailed = 1, kWrongUsage = 2;
 
-ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
+logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool quiet) {
     Progress progress(conversion.input.string(), quiet);
-    ConversionListener listener = progress.listener();
+    logs::ConversionListener listener = progress.listener();
     listener.keep_going = [] { return !isInterrupted(); };
-    ConversionReport report;
+    logs::ConversionReport report;
     try {
-        report = convert(conversion, listener);
+        report = logs::convert(conversion, listener);
     } catch (...) {
         progress.finish();
         throw;
@@ -45,15 +45,15 @@ ConversionReport convertAloud(const Conversion& conversion, bool quiet) {
 }
 
 /// The settings in force, with a scan folder's own.
-void printSettings(const Conversion& conversion) {
-    Settings settings = conversion.settings;
+void printSettings(const logs::Conversion& conversion) {
+    observations::Settings settings = conversion.settings;
     if (std::filesystem::is_directory(conversion.input)) {
-        const ScanFolder folder(conversion.input);
+        const logs::ScanFolder folder(conversion.input);
         if (std::filesystem::exists(folder.sensorFile())) {
-            mergeSettings(folder.sensorFile(), settings);
+            observations::mergeSettings(folder.sensorFile(), settings);
         }
     }
-    std::cout << dumpSettings(settings);
+    std::cout << observations::dumpSettings(settings);
 }
 
 int fail(int exit_code, const std::string& message) {
@@ -63,7 +63,7 @@ int fail(int exit_code, const std::string& message) {
 
 /// What the command line says.
 struct CommandLine {
-    Conversion conversion;
+    logs::Conversion conversion;
     std::vector<std::string> configs;
     bool is_quiet = false, dumps_settings = false;
 };
@@ -87,7 +87,7 @@ CLI::Validator oneOf(const std::vector<std::pair<std::string, Value>>& values) {
 }
 
 void declare(CLI::App& app, CommandLine& line) {
-    Conversion& conversion = line.conversion;
+    logs::Conversion& conversion = line.conversion;
     const CLI::Validator not_empty(
         [](const std::string& name) { return name.empty() ? "the name is empty" : ""; }, "PATH");
 
@@ -123,8 +123,9 @@ void declare(CLI::App& app, CommandLine& line) {
     app.add_option("--cloud", conversion.cloud_class,
                    "clouds of coordinates (simple), or with "
                    "intensities (xyzi)")
-        ->transform(oneOf<CloudClass>(
-            {{"simple", CloudClass::Simple}, {"xyzi", CloudClass::WithIntensity}}))
+        ->transform(
+            oneOf<observations::CloudClass>({{"simple", observations::CloudClass::Simple},
+                                             {"xyzi", observations::CloudClass::WithIntensity}}))
         ->option_text("simple|xyzi")
         ->needs(rawlog)
         ->group("Output");
@@ -149,16 +150,18 @@ void declare(CLI::App& app, CommandLine& line) {
             ->allow_extra_args(false)
             ->check(CLI::Validator(
                 [](const std::string& name) {
-                    return isMapFile(name) ? "" : name + " does not end in .bt, .ot or .3Dscene";
+                    return mapping::isMapFile(name)
+                               ? ""
+                               : name + " does not end in .bt, .ot or .3Dscene";
                 },
                 "PATH"))
             ->group("Output");
     app.add_option("--octomap-content", conversion.octomap.content,
                    "every return (full), RoI returns alone (roi), or RoI returns, and free space "
                    "from all rays (roi+rays, the default)")
-        ->transform(oneOf<MapContent>({{"full", MapContent::Full},
-                                       {"roi", MapContent::Roi},
-                                       {"roi+rays", MapContent::RoiAndRays}}))
+        ->transform(oneOf<mapping::MapContent>({{"full", mapping::MapContent::Full},
+                                                {"roi", mapping::MapContent::Roi},
+                                                {"roi+rays", mapping::MapContent::RoiAndRays}}))
         ->option_text("full|roi|roi+rays")
         ->needs(octomap)
         ->group("Output");
@@ -198,7 +201,7 @@ void declare(CLI::App& app, CommandLine& line) {
 
 /// What one flag alone cannot tell.
 void check(const CommandLine& line) {
-    const Conversion& conversion = line.conversion;
+    const logs::Conversion& conversion = line.conversion;
     if (line.dumps_settings) return;
     if (conversion.input.empty()) throw CLI::RequiredError("--input");
     if (conversion.rawlog.empty() && conversion.folder.empty() && conversion.pictures.empty() &&
@@ -234,13 +237,13 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
         check(line);
         for (const std::string& config : line.configs) {
-            mergeSettings(config, line.conversion.settings);
+            observations::mergeSettings(config, line.conversion.settings);
         }
         if (line.dumps_settings) {
             printSettings(line.conversion);
         } else {
             catchSignals();
-            const ConversionReport report = convertAloud(line.conversion, line.is_quiet);
+            const logs::ConversionReport report = convertAloud(line.conversion, line.is_quiet);
             if (!line.is_quiet) printSummary(line.conversion, report);
             if (report.scans == 0 && report.unreadable_scans > 0) {
                 return fail(kFailed, "none of the LiDAR scans could be read");
@@ -257,7 +260,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         app.exit(e);
         return kWrongUsage;
-    } catch (const SettingsError& e) {
+    } catch (const observations::SettingsError& e) {
         return fail(kWrongUsage, e.what());
     } catch (const std::filesystem::filesystem_error& e) {
         return fail(kFailed, e.path1().string() + ": " + e.code().message());

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <string>
 
-#include "SimulatedLog.h"
+#include <hagen/simulated_logs/SimulatedLog.h>
 #include "common/Interrupt.h"
 
 namespace {
@@ -16,13 +16,13 @@ using namespace hagen;
 
 constexpr int kFailed = 1, kWrongUsage = 2;
 
-void declare(CLI::App& app, SimulatedLog& log, bool& is_quiet) {
+void declare(CLI::App& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
     const CLI::Validator not_empty(
         [](const std::string& name) { return name.empty() ? "the name is empty" : ""; }, "PATH");
     const CLI::Validator known_scenario(
         [](const std::string& name) {
             std::string known;
-            for (const std::string& scenario : scenarioNames()) {
+            for (const std::string& scenario : simulation::scenarioNames()) {
                 if (scenario == name) return std::string();
                 known += (known.empty() ? "" : ", ") + scenario;
             }
@@ -82,7 +82,7 @@ void declare(CLI::App& app, SimulatedLog& log, bool& is_quiet) {
 }
 
 /// What one flag alone cannot tell.
-void check(const SimulatedLog& log) {
+void check(const simulated_logs::SimulatedLog& log) {
     if (log.rawlog.empty() && log.folder.empty() && log.poses.empty()) {
         throw CLI::RequiredError("an output (-o, --kitti or --poses)");
     }
@@ -93,7 +93,8 @@ void check(const SimulatedLog& log) {
     }
 }
 
-void printSummary(const SimulatedLog& log, const SimulationReport& report) {
+void printSummary(const simulated_logs::SimulatedLog& log,
+                  const simulated_logs::SimulationReport& report) {
     std::cout << report.scans << " scans of " << log.scenario << " with " << report.returns
               << " returns: " << report.roi << " RoI, " << report.rou << " ROU, "
               << report.unclassified << " unclassified\n";
@@ -119,14 +120,15 @@ int main(int argc, char** argv) {
         "Simulates a flight with a LiDAR over a made scene, and writes what it measures with the "
         "truth."};
     app.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
-    SimulatedLog log;
+    simulated_logs::SimulatedLog log;
     bool is_quiet = false;
     declare(app, log, is_quiet);
     try {
         app.parse(argc, argv);
         check(log);
         catchSignals();
-        const SimulationReport report = simulateLog(log, [] { return !isInterrupted(); });
+        const simulated_logs::SimulationReport report =
+            simulated_logs::simulateLog(log, [] { return !isInterrupted(); });
         if (!is_quiet) printSummary(log, report);
         if (std::fflush(stdout) != 0 || !std::cout.flush()) {
             return fail(kFailed, "the summary cannot be printed");

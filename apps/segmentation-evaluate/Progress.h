@@ -9,12 +9,12 @@ namespace hagen {
 /// terminal.
 class Progress {
  public:
-    explicit Progress(const std::vector<ScanSource>& sources);
+    explicit Progress(const std::vector<evaluation::ScanSource>& sources);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void show(const LabelledView& view);
+    void show(const evaluation::LabelledView& view);
 
  private:
     bool is_on_terminal_;

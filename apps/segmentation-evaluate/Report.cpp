@@ -37,14 +37,14 @@ std::string trimmed(std::string line) {
 std::string figure(double value, int digits = 4) {
     return std::isnan(value) ? "-" : format("%.*f", digits, value);
 }
-std::string interval(const Interval& interval) {
+std::string interval(const evaluation::Interval& interval) {
     return std::isnan(interval.low) ? "-" : format("%.3f-%.3f", interval.low, interval.high);
 }
 std::string count(std::int64_t number) { return std::to_string(number); }
 
-std::string figuresOf(const Scores& scores) {
+std::string figuresOf(const evaluation::Scores& scores) {
     std::string text;
-    for (const ClassScore& score : {scores.roi, scores.rou}) {
+    for (const evaluation::ClassScore& score : {scores.roi, scores.rou}) {
         text += right(figure(score.precision()), 11) + right(figure(score.recall()), 8) +
                 right(figure(score.f1()), 8);
     }
@@ -57,21 +57,22 @@ std::size_t widthOf(const std::string& heading, const std::vector<std::string>& 
     return width;
 }
 
-std::vector<std::string> namesOf(const std::vector<SummedMethod>& methods) {
+std::vector<std::string> namesOf(const std::vector<labelled_scans::SummedMethod>& methods) {
     std::vector<std::string> names;
-    for (const SummedMethod& method : methods) names.push_back(method.name);
+    for (const labelled_scans::SummedMethod& method : methods) names.push_back(method.name);
     return names;
 }
 
 /// Scores of each method, over returns or pixels.
-std::string scoreTable(const Summary& summary, SummedScores SummedMethod::*which) {
+std::string scoreTable(const labelled_scans::Summary& summary,
+                       labelled_scans::SummedScores labelled_scans::SummedMethod::*which) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text = left("", width) +
                        "  RoI                        ROU                        " +
                        "95 % interval of F1\n" + left("method", width) +
                        "  precision  recall      F1  precision  recall      F1  RoI          ROU\n";
-    for (const SummedMethod& method : summary.methods) {
-        const SummedGroup& all = (method.*which).all;
+    for (const labelled_scans::SummedMethod& method : summary.methods) {
+        const labelled_scans::SummedGroup& all = (method.*which).all;
         text += left(method.name, width) + figuresOf(all.scores) + "  " +
                 left(interval(all.intervals.roi.f1), 11) + "  " + interval(all.intervals.rou.f1) +
                 "\n";
@@ -79,12 +80,12 @@ std::string scoreTable(const Summary& summary, SummedScores SummedMethod::*which
     return text;
 }
 
-std::string latencyTable(const Summary& summary) {
+std::string latencyTable(const labelled_scans::Summary& summary) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text =
         left("method", width) + "     mean +- sd           p50       p95       p99       max\n";
-    for (const SummedMethod& method : summary.methods) {
-        const Latency& latency = method.latency;
+    for (const labelled_scans::SummedMethod& method : summary.methods) {
+        const evaluation::Latency& latency = method.latency;
         text += left(method.name, width) + right(figure(latency.mean_ms, 3), 9) + " +- " +
                 left(figure(latency.sd_ms, 3), 7);
         for (const double ms : {latency.p50_ms, latency.p95_ms, latency.p99_ms, latency.max_ms}) {
@@ -95,31 +96,32 @@ std::string latencyTable(const Summary& summary) {
     return text;
 }
 
-using Part = std::vector<SummedGroup> SummedScores::*;
+using Part = std::vector<labelled_scans::SummedGroup> labelled_scans::SummedScores::*;
 struct PartName {
     const char* title;
     const char* heading;
     Part part;
 };
 constexpr PartName kParts[] = {
-    {"By range", "range", &SummedScores::by_range},
-    {"By altitude of the sensor", "altitude", &SummedScores::by_altitude},
-    {"By folder", "folder", &SummedScores::by_folder}};
+    {"By range", "range", &labelled_scans::SummedScores::by_range},
+    {"By altitude of the sensor", "altitude", &labelled_scans::SummedScores::by_altitude},
+    {"By folder", "folder", &labelled_scans::SummedScores::by_folder}};
 
-std::vector<std::string> namesOf(const std::vector<SummedGroup>& groups) {
+std::vector<std::string> namesOf(const std::vector<labelled_scans::SummedGroup>& groups) {
     std::vector<std::string> names;
-    for (const SummedGroup& group : groups) names.push_back(group.name);
+    for (const labelled_scans::SummedGroup& group : groups) names.push_back(group.name);
     return names;
 }
 
-std::string partTable(const PartName& part, const std::vector<SummedGroup>& groups) {
+std::string partTable(const PartName& part,
+                      const std::vector<labelled_scans::SummedGroup>& groups) {
     const std::size_t width = widthOf(part.heading, namesOf(groups));
     std::string text =
         "\n" + std::string(part.title) + "\n" + left("", width) + "         returns of   " +
         "          RoI                        ROU\n" + left(part.heading, width) + "  scans" +
         "       RoI       ROU  precision  recall      F1  precision  recall      F1\n";
-    for (const SummedGroup& group : groups) {
-        const Scores& scores = group.scores;
+    for (const labelled_scans::SummedGroup& group : groups) {
+        const evaluation::Scores& scores = group.scores;
         text += left(group.name, width) + right(count(static_cast<std::int64_t>(group.scans)), 7) +
                 right(count(scores.roi.hits + scores.roi.misses), 10) +
                 right(count(scores.rou.hits + scores.rou.misses), 10) + figuresOf(scores) + "\n";
@@ -128,17 +130,17 @@ std::string partTable(const PartName& part, const std::vector<SummedGroup>& grou
 }
 
 /// What the returns of a kind are: RoI or ROU, or both where true labels do not go by kind.
-std::string labelOf(const Scores& scores) {
+std::string labelOf(const evaluation::Scores& scores) {
     const bool is_roi = scores.roi.hits + scores.roi.misses > 0;
     const bool is_rou = scores.rou.hits + scores.rou.misses > 0;
     return is_roi && is_rou ? "both" : is_roi ? "RoI" : "ROU";
 }
 
-std::string kindTable(const std::vector<SummedGroup>& kinds) {
+std::string kindTable(const std::vector<labelled_scans::SummedGroup>& kinds) {
     const std::size_t width = widthOf("kind", namesOf(kinds));
     std::string text = "\nBy kind of object\n" + left("kind", width) +
                        "  is    scans   returns     found  recall  95 % interval\n";
-    for (const SummedGroup& kind : kinds) {
+    for (const labelled_scans::SummedGroup& kind : kinds) {
         const std::int64_t found = kind.scores.roi.hits + kind.scores.rou.hits;
         text += left(kind.name, width) + "  " + left(labelOf(kind.scores), 4) +
                 right(count(static_cast<std::int64_t>(kind.scans)), 7) +
@@ -151,22 +153,22 @@ std::string kindTable(const std::vector<SummedGroup>& kinds) {
 
 /// A row a group, a column a method.
 template <class Cell>
-std::string matrix(const std::string& title, const std::string& heading, const Summary& summary,
-                   Part part, Cell cell) {
+std::string matrix(const std::string& title, const std::string& heading,
+                   const labelled_scans::Summary& summary, Part part, Cell cell) {
     std::vector<std::string> groups;
-    for (const SummedGroup& group : summary.methods.front().returns.*part) {
+    for (const labelled_scans::SummedGroup& group : summary.methods.front().returns.*part) {
         groups.push_back(group.name);
     }
     if (groups.empty()) return "";
     const std::size_t width = widthOf(heading, groups);
     std::string heads = left(heading, width), text = "\n" + title + "\n";
-    for (const SummedMethod& method : summary.methods) {
+    for (const labelled_scans::SummedMethod& method : summary.methods) {
         heads += "  " + left(method.name, 15).substr(0, 15);
     }
     text += trimmed(heads);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::string line = left(groups[g], width);
-        for (const SummedMethod& method : summary.methods) {
+        for (const labelled_scans::SummedMethod& method : summary.methods) {
             line += "  " + left(cell((method.returns.*part)[g].scores), 15);
         }
         text += trimmed(line);
@@ -174,21 +176,22 @@ std::string matrix(const std::string& title, const std::string& heading, const S
     return text;
 }
 
-std::string comparison(const Summary& summary) {
+std::string comparison(const labelled_scans::Summary& summary) {
     std::string text;
-    const auto f1 = [](const Scores& scores) {
+    const auto f1 = [](const evaluation::Scores& scores) {
         return figure(scores.roi.f1(), 3) + " / " + figure(scores.rou.f1(), 3);
     };
     for (const PartName& part : kParts) {
         text += matrix(std::string(part.title) + ": F1 of RoI / ROU", part.heading, summary,
                        part.part, f1);
     }
-    text += matrix("By kind of object: recall", "kind", summary, &SummedScores::by_kind,
-                   [](const Scores& scores) { return figure(scores.correct()); });
+    text +=
+        matrix("By kind of object: recall", "kind", summary, &labelled_scans::SummedScores::by_kind,
+               [](const evaluation::Scores& scores) { return figure(scores.correct()); });
     return text;
 }
 
-std::string partsOf(const SummedScores& scores) {
+std::string partsOf(const labelled_scans::SummedScores& scores) {
     std::string text;
     for (const PartName& part : kParts) {
         if (!(scores.*part.part).empty()) text += partTable(part, scores.*part.part);
@@ -199,18 +202,18 @@ std::string partsOf(const SummedScores& scores) {
 
 }  // namespace
 
-std::string reportOf(const Summary& summary) {
+std::string reportOf(const labelled_scans::Summary& summary) {
     const bool has_pixels = summary.methods.front().pixels.all.scans > 0;
     std::string text =
         format("%zu scans of %zu folder%s, returns up to %g m: %lld\n\n", summary.scans,
                summary.folders.size(), summary.folders.size() == 1 ? "" : "s",
                static_cast<double>(summary.range.max_range_m),
                static_cast<long long>(summary.methods.front().returns.all.scores.returns()));
-    text += scoreTable(summary, &SummedMethod::returns);
+    text += scoreTable(summary, &labelled_scans::SummedMethod::returns);
     if (has_pixels) {
         text += format("\nIn the camera's image, a return a pixel: %lld pixels\n",
                        static_cast<long long>(summary.methods.front().pixels.all.scores.returns()));
-        text += scoreTable(summary, &SummedMethod::pixels);
+        text += scoreTable(summary, &labelled_scans::SummedMethod::pixels);
     }
     text += "\nRun time of the segmentation alone, ms a scan\n" + latencyTable(summary);
     if (summary.methods.size() == 1) return text + partsOf(summary.methods.front().returns);

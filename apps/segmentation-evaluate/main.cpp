@@ -1,6 +1,6 @@
 // Scores the filter on labelled scan folders, with one setting or a sweep of them.
+#include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>
-#include <hagen/logs/OutputPath.h>
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "Charts.h"
-#include "Folders.h"
-#include "Json.h"
-#include "Methods.h"
-#include "Overlay.h"
+#include <hagen/labelled_scans/Charts.h>
+#include <hagen/labelled_scans/LabelledFolders.h>
+#include <hagen/labelled_scans/Methods.h>
+#include <hagen/labelled_scans/Overlay.h>
+#include <hagen/labelled_scans/Summary.h>
+#include <hagen/labelled_scans/SummaryJson.h>
 #include "Progress.h"
 #include "Report.h"
-#include "Summary.h"
 
 namespace {
 
@@ -63,63 +63,68 @@ auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read
     try {
         return read(file);
     } catch (const std::runtime_error& e) {
-        throw SettingsError(e.what());
+        throw observations::SettingsError(e.what());
     }
 }
 
 /// The places to write to, each where it was asked for. Nothing appears before all is written.
 struct Outputs {
     explicit Outputs(const Flags& flags) {
-        checkApart({flags.json, flags.charts, flags.overlay},
-                   {flags.folders.begin(), flags.folders.end()});
-        const auto open = [&](const std::string& path, OutputPath::Kind kind,
-                              std::optional<OutputPath>& output) {
+        base::checkApart({flags.json, flags.charts, flags.overlay},
+                         {flags.folders.begin(), flags.folders.end()});
+        const auto open = [&](const std::string& path, const base::OutputKind& kind,
+                              std::optional<base::OutputPath>& output) {
             if (path.empty()) return;
             output.emplace(path, kind, flags.overwrite);
-            if (kind != OutputPath::Kind::File) fs::create_directory(output->temporary());
+            if (kind.holds != nullptr) fs::create_directory(output->temporary());
         };
-        open(flags.json, OutputPath::Kind::File, json);
-        open(flags.charts, OutputPath::Kind::Charts, charts);
-        open(flags.overlay, OutputPath::Kind::Overlays, overlay);
+        open(flags.json, base::kFile, json);
+        open(flags.charts, labelled_scans::kCharts, charts);
+        open(flags.overlay, labelled_scans::kOverlays, overlay);
     }
     void commit() {
-        for (std::optional<OutputPath>* output : {&json, &charts, &overlay}) {
+        for (std::optional<base::OutputPath>* output : {&json, &charts, &overlay}) {
             if (output->has_value()) (*output)->commit();
         }
     }
-    std::optional<OutputPath> json, charts, overlay;
+    std::optional<base::OutputPath> json, charts, overlay;
 };
 
-int run(const Flags& flags, Summary summary) {
-    for (const std::string& config : flags.configs) mergeSettings(config, summary.settings);
-    MethodRows rows{rowsOf(summary.settings, flags.sweeps), std::nullopt};
+int run(const Flags& flags, labelled_scans::Summary summary) {
+    for (const std::string& config : flags.configs)
+        observations::mergeSettings(config, summary.settings);
+    labelled_scans::MethodRows rows{labelled_scans::rowsOf(summary.settings, flags.sweeps),
+                                    std::nullopt};
     if (flags.with_baselines) rows.baselines = summary.settings;
-    const auto label_map = fromFlag(flags.label_map, readLabelMap);
-    EvaluationOptions options;
+    const auto label_map = fromFlag(flags.label_map, evaluation::readLabelMap);
+    evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
-    options.camera = fromFlag(flags.camera, readCamera);
-    const std::vector<ScanSource> sources = sourcesOf(flags.folders, rows, label_map);
+    options.camera = fromFlag(flags.camera, evaluation::readCamera);
+    const std::vector<evaluation::ScanSource> sources =
+        labelled_scans::sourcesOf(flags.folders, rows, label_map);
     Outputs outputs(flags);
 
-    std::vector<MethodScores> methods;
+    std::vector<evaluation::MethodScores> methods;
     {
         Progress progress(sources);
-        methods = evaluate(sources, options, [&](const LabelledView& view) {
+        methods = evaluation::evaluate(sources, options, [&](const evaluation::LabelledView& view) {
             progress.show(view);
             if (!outputs.overlay) return;
-            drawOverlay(outputs.overlay->temporary(), sources[view.source], view, options);
+            labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source], view,
+                                        options);
         });
     }
 
     summary.folders = flags.folders;
-    for (const ScanSource& source : sources) summary.folder_names.push_back(source.name);
+    for (const evaluation::ScanSource& source : sources)
+        summary.folder_names.push_back(source.name);
     summary.range = options.range;
     summary.label_map = flags.label_map;
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
-    sumUp(methods, rows.filter, summary);
-    if (outputs.json) writeJson(outputs.json->temporary(), summary);
-    if (outputs.charts) drawCharts(outputs.charts->temporary(), summary);
+    labelled_scans::sumUp(methods, rows.filter, summary);
+    if (outputs.json) labelled_scans::writeJson(outputs.json->temporary(), summary);
+    if (outputs.charts) labelled_scans::drawCharts(outputs.charts->temporary(), summary);
     outputs.commit();
     std::cout << reportOf(summary);
     return 0;
@@ -142,7 +147,7 @@ int main(int argc, char** argv) {
     addFlags(app, flags);
     try {
         app.parse(argc, argv);
-        Summary summary;
+        labelled_scans::Summary summary;
         summary.command_line.assign(argv, argv + argc);
         return run(flags, summary);
     } catch (const CLI::Success& e) {
@@ -150,7 +155,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         app.exit(e);
         return 2;
-    } catch (const SettingsError& e) {
+    } catch (const observations::SettingsError& e) {
         std::cerr << "segmentation-evaluate: " << e.what() << "\n";
         return 2;
     } catch (const std::exception& e) {

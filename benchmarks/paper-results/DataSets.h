@@ -4,18 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "rawlog-simulate/SimulatedLog.h"
+#include <hagen/simulated_logs/SimulatedLog.h>
 
 namespace hagen {
 
 /// Labelled scans that have a line or a column of their own.
 struct DataSet {
-    std::string name;                   ///< short
-    std::string about;                  ///< for those who read the document
-    std::string preset;                 ///< settings file of its sensor, in config/
-    std::string folder;                 ///< a folder of scan folders
-    std::string label_map;              ///< in config/, or empty: labels are those of labels/
-    std::vector<SimulatedLog> flights;  ///< what is to be in `folder`; empty: it is a recording
+    std::string name;       ///< short
+    std::string about;      ///< for those who read the document
+    std::string preset;     ///< settings file of its sensor, in config/
+    std::string folder;     ///< a folder of scan folders
+    std::string label_map;  ///< in config/, or empty: labels are those of labels/
+    std::vector<simulated_logs::SimulatedLog>
+        flights;  ///< what is to be in `folder`; empty: it is a recording
     float zone_m = 20, max_range_m = 20;
     bool is_altitude = false;  ///< one of the series over altitudes within the usual zone
     bool has_all_rows = true;  ///< else only the methods side by side, no sweeps or ablations

@@ -15,27 +15,28 @@
 namespace hagen {
 namespace {
 
-using ScoreList = std::vector<ScanScores> MethodScores::*;
+using ScoreList = std::vector<evaluation::ScanScores> evaluation::MethodScores::*;
 using Sets = std::vector<const Measured*>;
 
 /// The scans of a row in several sets, as one; none where a set lacks the row.
-std::vector<ScanScores> scansOf(const Sets& sets, const std::string& row,
-                                ScoreList list = &MethodScores::returns) {
-    std::vector<ScanScores> scans;
+std::vector<evaluation::ScanScores> scansOf(const Sets& sets, const std::string& row,
+                                            ScoreList list = &evaluation::MethodScores::returns) {
+    std::vector<evaluation::ScanScores> scans;
     for (const Measured* set : sets) {
-        const MethodScores* method = set->row(row);
+        const evaluation::MethodScores* method = set->row(row);
         if (method == nullptr) return {};
         scans.insert(scans.end(), (method->*list).begin(), (method->*list).end());
     }
     return scans;
 }
 
-Scores sumOf(const Sets& sets, const std::string& row, ScoreList list = &MethodScores::returns) {
-    return wholeOf(scansOf(sets, row, list)).sum();
+evaluation::Scores sumOf(const Sets& sets, const std::string& row,
+                         ScoreList list = &evaluation::MethodScores::returns) {
+    return evaluation::wholeOf(scansOf(sets, row, list)).sum();
 }
 
 double recallOfKind(const Measured& set, const std::string& row, const std::string& kind) {
-    for (const Group& group : byKind(scansOf({&set}, row))) {
+    for (const evaluation::Group& group : evaluation::byKind(scansOf({&set}, row))) {
         if (group.name == kind) return group.sum().correct();
     }
     return NAN;
@@ -54,7 +55,8 @@ std::vector<std::string> headlineNames(const std::vector<Measured>& all) {
     for (const Measured& measured : all) {
         if (measured.set.has_all_rows) continue;
         std::vector<std::string> names;
-        for (const MethodScores& method : measured.methods) names.push_back(method.name);
+        for (const evaluation::MethodScores& method : measured.methods)
+            names.push_back(method.name);
         return names;
     }
     return {};
@@ -97,13 +99,13 @@ std::string headlineTable(const std::vector<Measured>& all) {
     for (const Measured& measured : all) {
         Best best;
         for (const std::string& name : names) {
-            const Scores scores = sumOf({&measured}, name);
+            const evaluation::Scores scores = sumOf({&measured}, name);
             best.roi = std::fmax(best.roi, scores.roi.f1());
             best.rou = std::fmax(best.rou, scores.rou.f1());
         }
         std::vector<std::string> line{measured.set.name};
         for (const std::string& name : names) {
-            const Scores scores = sumOf({&measured}, name);
+            const evaluation::Scores scores = sumOf({&measured}, name);
             line.push_back(pairCell(scores.roi.f1(), scores.rou.f1(), best.roi, best.rou));
         }
         table.add(line);
@@ -117,7 +119,7 @@ std::string wiresTable(const std::vector<Measured>& all) {
         if (!isWires(measured)) continue;
         Table table({"`wires`, recall within 10 m", "all RoI", "wire", "pole", "precision of RoI"});
         for (const std::string& name : headlineNames(all)) {
-            const Scores scores = sumOf({&measured}, name);
+            const evaluation::Scores scores = sumOf({&measured}, name);
             table.add({name, cell(scores.roi.recall()), cell(recallOfKind(measured, name, "wire")),
                        cell(recallOfKind(measured, name, "pole")), cell(scores.roi.precision())});
         }
@@ -130,9 +132,9 @@ std::string intervalTable(const std::vector<Measured>& all) {
     Table table({"`default`", "F1 of RoI", "95 % interval", "precision", "recall", "F1 of ROU",
                  "95 % interval"});
     for (const Measured& measured : all) {
-        const Group group = wholeOf(scansOf({&measured}, kDefault));
-        const ScoreIntervals intervals = bootstrapIntervals(group.scans);
-        const Scores scores = group.sum();
+        const evaluation::Group group = evaluation::wholeOf(scansOf({&measured}, kDefault));
+        const evaluation::ScoreIntervals intervals = evaluation::bootstrapIntervals(group.scans);
+        const evaluation::Scores scores = group.sum();
         table.add({measured.set.name, cell(scores.roi.f1()), cell(intervals.roi.f1),
                    cell(scores.roi.precision()), cell(scores.roi.recall()), cell(scores.rou.f1()),
                    cell(intervals.rou.f1)});
@@ -144,11 +146,11 @@ std::string intervalTable(const std::vector<Measured>& all) {
 std::string losses(const std::vector<Measured>& all, const std::string& filter) {
     std::string text;
     for (const Measured& measured : all) {
-        const Scores own = sumOf({&measured}, filter);
+        const evaluation::Scores own = sumOf({&measured}, filter);
         std::string better;
         for (const std::string& name : headlineNames(all)) {
             if (name == filter || name == kDefault) continue;  // that is no news
-            const Scores other = sumOf({&measured}, name);
+            const evaluation::Scores other = sumOf({&measured}, name);
             const bool is_roi = other.roi.f1() > own.roi.f1();
             const bool is_rou = other.rou.f1() > own.rou.f1();
             if (!is_roi && !is_rou) continue;
@@ -223,7 +225,7 @@ std::string sweepTable(const std::vector<Measured>& all, const std::vector<Chang
     for (const Change& change : changes) {
         std::vector<std::string> line{change.value};
         for (const auto& [name, sets] : columns) {
-            const ClassScore roi = sumOf(sets, nameOf(kPaper, change), list).roi;
+            const evaluation::ClassScore roi = sumOf(sets, nameOf(kPaper, change), list).roi;
             line.insert(line.end(), {cell(roi.precision()), cell(roi.recall()), cell(roi.f1())});
         }
         table.add(line);
@@ -235,8 +237,8 @@ std::string literalTable(const std::vector<Measured>& all) {
     Table table({"F1 of RoI / ROU", "`seeds: lowest`", "`seeds: top_and_nearest`"});
     for (const Measured& measured : all) {
         if (!measured.set.has_all_rows) continue;
-        const Scores chosen = sumOf({&measured}, kPaper);
-        const Scores literal = sumOf({&measured}, nameOf(kPaper, literalSeeds()));
+        const evaluation::Scores chosen = sumOf({&measured}, kPaper);
+        const evaluation::Scores literal = sumOf({&measured}, nameOf(kPaper, literalSeeds()));
         table.add({measured.set.name, pairCell(chosen.roi.f1(), chosen.rou.f1()),
                    pairCell(literal.roi.f1(), literal.rou.f1())});
     }
@@ -255,12 +257,12 @@ std::string paperSection(const std::vector<Measured>& all) {
            "m. "
            "W is 8, so that PC = 8 smooths nothing.\n\n"
            "Over returns:\n\n" +
-           sweepTable(all, betaSweep(), "beta [deg]", &MethodScores::returns) +
-           sweepTable(all, componentSweep(), "PC", &MethodScores::returns) +
+           sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::returns) +
+           sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::returns) +
            "Over the pixels of a camera that looks ahead (`config/camera_forward.yaml`), as the "
            "paper scores:\n\n" +
-           sweepTable(all, betaSweep(), "beta [deg]", &MethodScores::pixels) +
-           sweepTable(all, componentSweep(), "PC", &MethodScores::pixels) +
+           sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::pixels) +
+           sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::pixels) +
            "The paper's text can be read so that the topmost and the nearest pixel of a column "
            "seed "
            "the region of interest. That reading, beside the one that the filter takes:\n\n" +
@@ -271,10 +273,10 @@ std::string paperSection(const std::vector<Measured>& all) {
 
 /// The methods whose median is below that of a filter.
 std::string fasterThan(const std::string& filter, const Measured& times) {
-    const double own_ms = latencyOf(times.row(filter)->latency_ms).p50_ms;
+    const double own_ms = evaluation::latencyOf(times.row(filter)->latency_ms).p50_ms;
     std::string names;
-    for (const MethodScores& method : times.methods) {
-        const bool is_faster = latencyOf(method.latency_ms).p50_ms < own_ms;
+    for (const evaluation::MethodScores& method : times.methods) {
+        const bool is_faster = evaluation::latencyOf(method.latency_ms).p50_ms < own_ms;
         if (is_faster) names += (names.empty() ? "" : ", ") + method.name;
     }
     return "Faster than `" + filter + "`, by p50: " + (names.empty() ? "none" : names) + ".\n\n";
@@ -282,8 +284,8 @@ std::string fasterThan(const std::string& filter, const Measured& times) {
 
 std::string timeTable(const Measured& times) {
     Table table({"`" + times.set.name + "`", "mean +- sd [ms]", "p50", "p95", "p99"});
-    for (const MethodScores& method : times.methods) {
-        const Latency latency = latencyOf(method.latency_ms);
+    for (const evaluation::MethodScores& method : times.methods) {
+        const evaluation::Latency latency = evaluation::latencyOf(method.latency_ms);
         table.add({method.name, cell(latency.mean_ms, 2) + " +- " + cell(latency.sd_ms, 2),
                    cell(latency.p50_ms, 2), cell(latency.p95_ms, 2), cell(latency.p99_ms, 2)});
     }
@@ -313,7 +315,7 @@ struct Pair {
 
 /// F1 of RoI and ROU; on wires the recall of RoI and of wires, for there a miss is what counts.
 Pair ablationPair(const Measured& set, const std::string& row) {
-    const Scores scores = sumOf({&set}, row);
+    const evaluation::Scores scores = sumOf({&set}, row);
     if (isWires(set)) return {scores.roi.recall(), recallOfKind(set, row, "wire")};
     return {scores.roi.f1(), scores.rou.f1()};
 }

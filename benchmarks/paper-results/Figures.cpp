@@ -34,7 +34,7 @@ bool isDrawn(const std::string& row) {
 std::string header(const std::string& file, int width_px, int height_px) {
     std::ostringstream text;
     text << "set terminal svg size " << width_px << "," << height_px
-         << " font 'sans,14' background '#FFFFFF'\nset output " << gnuplotString(file)
+         << " font 'sans,14' background '#FFFFFF'\nset output " << pictures::gnuplotString(file)
          << "\nset grid y lc rgb '#DDDDDD' lw 1 lt 1\nset tics nomirror out scale 0.5\n"
          << "set border 3 lc rgb '#333333'\n";
     return text.str();
@@ -63,7 +63,8 @@ std::string plot(const std::vector<Line>& lines, const std::string& style) {
         data << "EOD\n";
         command << (l == 0 ? "plot " : ", ") << "$line" << l << " using 1:2 with " << style
                 << " pt " << kShapes[l % kShapes.size()] << " lc rgb '"
-                << kColours[l % kColours.size()] << "' title " << gnuplotString(lines[l].name);
+                << kColours[l % kColours.size()] << "' title "
+                << pictures::gnuplotString(lines[l].name);
     }
     return data.str() + command.str() + "\n";
 }
@@ -76,10 +77,10 @@ std::string scenarioOf(const std::string& folder, bool is_simulated) {
 /// F1 of RoI over the scans of a set; where another scenario begins is told below the axis.
 std::string scanPanel(const Measured& measured) {
     std::vector<Line> lines;
-    for (const MethodScores& method : measured.methods) {
+    for (const evaluation::MethodScores& method : measured.methods) {
         if (!isDrawn(method.name)) continue;
         Line line{method.name, {}};
-        for (const ScanScores& scan : method.returns) {
+        for (const evaluation::ScanScores& scan : method.returns) {
             line.points.push_back({static_cast<double>(line.points.size()), scan.all.roi.f1()});
         }
         lines.push_back(line);
@@ -91,16 +92,17 @@ std::string scanPanel(const Measured& measured) {
         }
     }
     std::string tics, last;
-    const std::vector<ScanScores>& scans = measured.methods.front().returns;
+    const std::vector<evaluation::ScanScores>& scans = measured.methods.front().returns;
     for (std::size_t s = 0; s < scans.size(); ++s) {
         const std::string name =
             scenarioOf(measured.folders[scans[s].folder], !measured.set.flights.empty());
         if (name == last) continue;
         last = name;
-        tics += (tics.empty() ? "" : ", ") + gnuplotString(name) + " " + std::to_string(s);
+        tics +=
+            (tics.empty() ? "" : ", ") + pictures::gnuplotString(name) + " " + std::to_string(s);
     }
-    return "set title " + gnuplotString(measured.set.name) + " noenhanced\nset xtics noenhanced (" +
-           tics + ")\nset yrange [" + number(least) +
+    return "set title " + pictures::gnuplotString(measured.set.name) +
+           " noenhanced\nset xtics noenhanced (" + tics + ")\nset yrange [" + number(least) +
            ":1]\nset xrange [-1:" + std::to_string(scans.size()) + "]\n" +
            plot(lines, "linespoints lw 1 ps 0.4");
 }
@@ -121,12 +123,12 @@ void drawScans(const std::filesystem::path& folder, const std::vector<Measured>&
                          "set multiplot layout " +
                          std::to_string(panels.size()) + ",1\n";
     for (const std::string& panel : panels) script += panel;
-    runGnuplot(script + "unset multiplot\nunset output\n", folder, {file});
+    pictures::runGnuplot(script + "unset multiplot\nunset output\n", folder, {file});
 }
 
 void drawTimes(const std::filesystem::path& folder, const std::vector<Measured>& times) {
     std::vector<Line> lines;
-    for (const MethodScores& method : times.front().methods) {
+    for (const evaluation::MethodScores& method : times.front().methods) {
         if (!isDrawn(method.name)) continue;
         Line line{method.name, {}};
         for (const Measured& measured : times) {
@@ -144,7 +146,7 @@ void drawTimes(const std::filesystem::path& folder, const std::vector<Measured>&
         most = std::max(most, point.x);
     }
     const std::string file = "by_returns.svg";
-    runGnuplot(
+    pictures::runGnuplot(
         header(file, 1100, 480) +
             "set logscale xy\nset xtics (5, 10, 20, 30, 50, 70, 100, 150, 200)\nset xrange [" +
             number(0.9 * least) + ":" + number(1.1 * most) + "]\n" +

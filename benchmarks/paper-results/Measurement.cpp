@@ -8,26 +8,30 @@
 #include <mutex>
 #include <thread>
 
+#include <hagen/labelled_scans/LabelledFolders.h>
 #include "Rows.h"
-#include "segmentation-evaluate/Folders.h"
 
 namespace hagen {
 namespace {
 
-Measured measure(const DataSet& set, const MethodRows& rows, const MeasurementOptions& options,
-                 bool has_camera) {
-    std::optional<LabelMap> label_map;
-    if (!set.label_map.empty()) label_map = readLabelMap(options.config / set.label_map);
-    EvaluationOptions evaluation;
+Measured measure(const DataSet& set, const labelled_scans::MethodRows& rows,
+                 const MeasurementOptions& options, bool has_camera) {
+    std::optional<evaluation::LabelMap> label_map;
+    if (!set.label_map.empty())
+        label_map = evaluation::readLabelMap(options.config / set.label_map);
+    evaluation::EvaluationOptions evaluation;
     evaluation.range.max_range_m = set.max_range_m;
-    if (has_camera) evaluation.camera = readCamera(options.config / "camera_forward.yaml");
-    const std::vector<ScanSource> sources = sourcesOf(scanFolders(set), rows, label_map);
+    if (has_camera)
+        evaluation.camera = evaluation::readCamera(options.config / "camera_forward.yaml");
+    const std::vector<evaluation::ScanSource> sources =
+        labelled_scans::sourcesOf(scanFolders(set), rows, label_map);
 
     Measured measured{set, {}, {}, {}};
-    for (const ScanSource& source : sources) measured.folders.push_back(source.name);
-    measured.methods = evaluate(sources, evaluation, [&](const LabelledView& view) {
-        if (view.method == 0) measured.returns.push_back(view.truth.input.scan.size());
-    });
+    for (const evaluation::ScanSource& source : sources) measured.folders.push_back(source.name);
+    measured.methods =
+        evaluation::evaluate(sources, evaluation, [&](const evaluation::LabelledView& view) {
+            if (view.method == 0) measured.returns.push_back(view.truth.input.scan.size());
+        });
     return measured;
 }
 
@@ -57,14 +61,15 @@ void inParallel(std::size_t count, unsigned jobs, Work work) {
 
 }  // namespace
 
-const MethodScores* Measured::row(const std::string& name) const {
-    const auto found = std::find_if(methods.begin(), methods.end(),
-                                    [&](const MethodScores& m) { return m.name == name; });
+const evaluation::MethodScores* Measured::row(const std::string& name) const {
+    const auto found =
+        std::find_if(methods.begin(), methods.end(),
+                     [&](const evaluation::MethodScores& m) { return m.name == name; });
     return found == methods.end() ? nullptr : &*found;
 }
 
 std::int64_t Measured::scoredReturns() const {
-    return wholeOf(methods.front().returns).sum().returns();
+    return evaluation::wholeOf(methods.front().returns).sum().returns();
 }
 
 std::vector<Measured> measureScores(const std::vector<DataSet>& sets,

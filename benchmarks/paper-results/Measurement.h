@@ -12,12 +12,12 @@ namespace hagen {
 /// What the rows reached on a data set.
 struct Measured {
     DataSet set;
-    std::vector<std::string> folders;   ///< names of its scan folders
-    std::vector<MethodScores> methods;  ///< a row each
-    std::vector<std::size_t> returns;   ///< of each scan
+    std::vector<std::string> folders;               ///< names of its scan folders
+    std::vector<evaluation::MethodScores> methods;  ///< a row each
+    std::vector<std::size_t> returns;               ///< of each scan
 
     /// The row of this name, or nullptr.
-    const MethodScores* row(const std::string& name) const;
+    const evaluation::MethodScores* row(const std::string& name) const;
     /// Scans, and how many of their returns are scored.
     std::size_t scans() const { return returns.size(); }
     std::int64_t scoredReturns() const;

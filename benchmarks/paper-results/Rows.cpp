@@ -17,9 +17,9 @@ std::vector<Change> sweep(const std::string& symbol, const std::string& key,
     return changes;
 }
 
-Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
-    Settings settings;
-    mergeSettings(file, settings);
+observations::Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
+    observations::Settings settings;
+    observations::mergeSettings(file, settings);
     settings.options.zone_m = set.zone_m;
     return settings;
 }
@@ -36,16 +36,17 @@ void checkPaper(const Options& paper, const std::filesystem::path& file) {
                              "zone are to be off");
 }
 
-void addChanges(const std::string& filter, const Settings& settings,
-                const std::vector<Change>& changes, std::vector<SettingsRow>& rows) {
+void addChanges(const std::string& filter, const observations::Settings& settings,
+                const std::vector<Change>& changes,
+                std::vector<labelled_scans::SettingsRow>& rows) {
     for (const Change& change : changes) {
-        SettingsRow row{nameOf(filter, change), settings, "", ""};
+        labelled_scans::SettingsRow row{nameOf(filter, change), settings, "", ""};
         // "zone" and "W" stand for what the settings have there.
         const std::string value = change.value == "zone" ? std::to_string(settings.options.zone_m)
                                   : change.value == "W"
                                       ? std::to_string(settings.options.window_size)
                                       : change.value;
-        setOption(change.key, value, row.settings);
+        observations::setOption(change.key, value, row.settings);
         rows.push_back(row);
     }
 }
@@ -92,25 +93,26 @@ const std::vector<Change>& paperStages() {
     return changes;
 }
 
-MethodRows headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
-    const Settings ours = settingsOf(set, config / set.preset);
-    const Settings paper = settingsOf(set, config / "paper.yaml");
+labelled_scans::MethodRows headlineRowsFor(const DataSet& set,
+                                           const std::filesystem::path& config) {
+    const observations::Settings ours = settingsOf(set, config / set.preset);
+    const observations::Settings paper = settingsOf(set, config / "paper.yaml");
     checkPaper(paper.options, config / "paper.yaml");
     return {{{kDefault, ours, "", ""}, {kPaper, paper, "", ""}}, ours};
 }
 
-MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config) {
-    MethodRows all = headlineRowsFor(set, config);
+labelled_scans::MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config) {
+    labelled_scans::MethodRows all = headlineRowsFor(set, config);
     if (!set.has_all_rows) return all;
-    const Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
+    const observations::Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
     for (const auto& changes : {betaSweep(), componentSweep(), {literalSeeds()}}) {
         addChanges(kPaper, paper, changes, all.filter);
     }
     for (const auto& changes : {ownStagesOfSurface(), ownStages(), paperStages()}) {
         addChanges(kDefault, ours, changes, all.filter);
     }
-    Settings without_surface = ours;
-    setOption(kNoSurface.key, kNoSurface.value, without_surface);
+    observations::Settings without_surface = ours;
+    observations::setOption(kNoSurface.key, kNoSurface.value, without_surface);
     for (const auto& changes : {ownStages(), paperStages()}) {
         addChanges(kWithoutSurface, without_surface, changes, all.filter);
     }

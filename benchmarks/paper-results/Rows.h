@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <hagen/labelled_scans/Methods.h>
 #include "DataSets.h"
-#include "segmentation-evaluate/Methods.h"
 
 namespace hagen {
 
@@ -31,8 +31,8 @@ const std::vector<Change>& paperStages();
 /// The rows for a data set, with the settings files in `config`; baselines included. Throws
 /// std::runtime_error where paper.yaml has a stage of ours on: its figures would not be the
 /// paper's.
-MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config);
+labelled_scans::MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config);
 /// Of these the two filters and the baselines alone.
-MethodRows headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
+labelled_scans::MethodRows headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
 
 }  // namespace hagen

@@ -1,5 +1,5 @@
 // Measures what docs/results.md says, and writes it. Run by scripts/reproduce-paper.
-#include <hagen/logs/OutputPath.h>
+#include <hagen/base/OutputPath.h>
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
@@ -36,10 +36,10 @@ void addFlags(CLI::App& app, Flags& flags) {
 }
 
 int run(const Flags& flags) {
-    OutputPath document(fs::path(flags.output) / "results.md", OutputPath::Kind::File,
-                        flags.overwrite);
-    OutputPath charts(fs::path(flags.output) / "results", OutputPath::Kind::Charts,
-                      flags.overwrite);
+    base::OutputPath document(fs::path(flags.output) / "results.md", base::kFile,
+                              flags.overwrite);
+    base::OutputPath charts(fs::path(flags.output) / "results", labelled_scans::kCharts,
+                            flags.overwrite);
     Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick};
     SimulationSize size{provenance.seeds, 4};
     if (flags.is_quick) {

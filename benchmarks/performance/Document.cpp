@@ -50,7 +50,7 @@ std::string wholeSection(const Performance& p) {
              {std::string("floor"), kMrpt, kPaper, kDefault, std::string("zermas ground fit")}) {
             const TimedRow* row = find(p.rows, sensor, what);
             if (row == nullptr) continue;
-            const Latency& t = row->latency;
+            const evaluation::Latency& t = row->latency;
             table.add({sensor, "`" + what + "`", microseconds(t.p50_ms), microseconds(t.p95_ms),
                        microseconds(t.p99_ms), microseconds(t.max_ms),
                        cell(t.p50_ms / medianOf(p, sensor, kMrpt), 2), cell(t.p99_ms / t.p50_ms, 2),
@@ -134,7 +134,7 @@ std::string flightSection(const Performance& p) {
         std::accumulate(p.table.returns.begin(), p.table.returns.end(), std::size_t{0});
     Table table({"`" + p.table.scenario + "`", "mean +- sd [ms]", "p50", "p95", "p99", "max"});
     for (const auto& method : p.table.methods) {
-        const Latency t = latencyOf(method.runs_ms);
+        const evaluation::Latency t = evaluation::latencyOf(method.runs_ms);
         table.add({method.name, cell(t.mean_ms) + " +- " + cell(t.sd_ms), cell(t.p50_ms),
                    cell(t.p95_ms), cell(t.p99_ms), cell(t.max_ms)});
     }
@@ -229,13 +229,13 @@ void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTi
             script << "EOD\n";
             plot += (m == 0 ? "plot " : ", ") + ("$line" + std::to_string(m)) +
                     " using 1:2 with lines lw 1.5 lc rgb '" + kColours[m % kColours.size()] +
-                    "' title " + gnuplotString(flight.methods[m].name);
+                    "' title " + pictures::gnuplotString(flight.methods[m].name);
         }
-        script << "set title " << gnuplotString(flight.scenario) << " noenhanced\n"
+        script << "set title " << pictures::gnuplotString(flight.scenario) << " noenhanced\n"
                << (&flight == &flights.back() ? "set xlabel 'scan'\n" : "") << plot << "\n";
     }
     script << "unset multiplot\nunset output\n";
-    runGnuplot(script.str(), folder, {"by_flight.svg"});
+    pictures::runGnuplot(script.str(), folder, {"by_flight.svg"});
 }
 
 }  // namespace hagen

@@ -15,7 +15,7 @@ struct Performance {
     std::vector<TimedRow> rows;  ///< of stage-benchmarks
     struct PacketsToLabels {
         std::string settings;
-        Latency latency;
+        evaluation::Latency latency;
     };
     std::vector<PacketsToLabels> packets_to_labels;
     FlightTimes table;               ///< the flight of the table of run times

@@ -6,9 +6,9 @@
 
 #include <chrono>
 
+#include <hagen/labelled_scans/Methods.h>
+#include <hagen/simulated_logs/SimulatedObservation.h>
 #include "StageRows.h"
-#include "rawlog-simulate/SimulatedObservation.h"
-#include "segmentation-evaluate/Methods.h"
 
 namespace hagen {
 namespace {
@@ -28,27 +28,28 @@ double millisecondsOf(Work work) {
 class FlyingLidar {
  public:
     FlyingLidar(const std::string& scenario, std::uint64_t seed)
-        : scene_(makeScene(scenario, seed)),
-          flight_(scene_.terrain(), scene_.path(), FlightSettings(), seed),
+        : scene_(simulation::makeScene(scenario, seed)),
+          flight_(scene_.terrain(), scene_.path(), simulation::FlightSettings(), seed),
           random_(seed, 3) {}
-    SimulatedScan next() {
-        return simulateScan(scene_, sensor_, flight_, kScanPeriod_s * scans_++, random_);
+    simulation::SimulatedScan next() {
+        return simulation::simulateScan(scene_, sensor_, flight_, kScanPeriod_s * scans_++,
+                                        random_);
     }
     const SensorModel& sensor() const { return sensor_; }
 
  private:
     SensorModel sensor_ = sensorModel("VLP-16");
-    Scene scene_;
-    Flight flight_;
-    Random random_;
+    simulation::Scene scene_;
+    simulation::Flight flight_;
+    simulation::Random random_;
     int scans_ = 0;
 };
 
-std::vector<Method> methods() {
-    Settings ours, papers;
+std::vector<evaluation::Method> methods() {
+    observations::Settings ours, papers;
     papers.options = paperOptions();
-    std::vector<Method> all;
-    for (const Method& method : methodsFor(
+    std::vector<evaluation::Method> all;
+    for (const evaluation::Method& method : labelled_scans::methodsFor(
              {{{"hagen, paper", papers, "", ""}, {"hagen, default", ours, "", ""}}, ours}, "")) {
         const bool is_tuned = method.name.find("tuned") != std::string::npos;
         if (!is_tuned) all.push_back(method);
@@ -60,11 +61,11 @@ std::vector<Method> methods() {
 
 FlightTimes timeFlight(const std::string& scenario, std::uint64_t seed, int scans) {
     FlyingLidar lidar(scenario, seed);
-    const std::vector<Method> all = methods();
+    const std::vector<evaluation::Method> all = methods();
     FlightTimes times{scenario, {}, {}};
-    for (const Method& method : all) times.methods.push_back({method.name, {}});
+    for (const evaluation::Method& method : all) times.methods.push_back({method.name, {}});
     for (int scan = 0; scan < scans; ++scan) {
-        const ScanInput input{lidar.next().scan, {}};
+        const evaluation::ScanInput input{lidar.next().scan, {}};
         times.returns.push_back(input.scan.size());
         for (std::size_t m = 0; m < all.size(); ++m) {
             if (scan == 0) all[m].segment(input);  // to warm up
@@ -78,15 +79,16 @@ std::vector<double> packetsToLabels_ms(const Options& options, int runs) {
     FlyingLidar lidar("orchard", 1);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> packets;
     for (int scan = 0; scan < kDistinctScans; ++scan) {
-        packets.push_back(encodeSimulated(lidar.next(), lidar.sensor(), kScanPeriod_s * scan));
+        packets.push_back(
+            simulated_logs::encodeSimulated(lidar.next(), lidar.sensor(), kScanPeriod_s * scan));
     }
-    HagenFilter filter(sensorOf(*packets.front()), options);
+    HagenFilter filter(observations::sensorOf(*packets.front()), options);
     Scan scan;
     std::vector<double> runs_ms;
     for (int run = -kDistinctScans; run < runs; ++run) {  // the first round is to warm up
         const auto& observation = *packets[(run + kDistinctScans) % kDistinctScans];
         const double run_ms = millisecondsOf([&] {
-            decodePackets(observation, scan);
+            observations::decodePackets(observation, scan);
             filter.segment(scan);
         });
         if (run >= 0) runs_ms.push_back(run_ms);

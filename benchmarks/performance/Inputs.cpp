@@ -11,7 +11,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "rawlog-simulate/SimulatedObservation.h"
+#include <hagen/simulated_logs/SimulatedObservation.h>
 
 namespace hagen {
 namespace {
@@ -34,26 +34,28 @@ Scan coordinatesOf(const Scan& scan) {
 Input realVlp16() {
     const char* const file = "/usr/share/mrpt/datasets/test_velodyne_VLP16.rawlog";
     const auto scan =
-        std::dynamic_pointer_cast<CObservationVelodyneScan>(RawlogReader(file).next());
+        std::dynamic_pointer_cast<CObservationVelodyneScan>(logs::RawlogReader(file).next());
     if (!scan) throw std::runtime_error(std::string(file) + ": holds no Velodyne scan");
-    return {"VLP-16", sensorOf(*scan), {scan}, {}};
+    return {"VLP-16", observations::sensorOf(*scan), {scan}, {}};
 }
 
 Input simulatedScans(const std::string& sensor) {
     Input input{sensor + " simulated", sensorModel(sensor), {}, {}};
     for (const char* scenario : {"orchard", "street", "field", "forest-0.05"}) {
-        const Scene scene = makeScene(scenario, kSeed);
-        const Flight flight(scene.terrain(), scene.path(), FlightSettings(), kSeed);
-        Random random(kSeed, 3);
+        const simulation::Scene scene = simulation::makeScene(scenario, kSeed);
+        const simulation::Flight flight(scene.terrain(), scene.path(), simulation::FlightSettings(),
+                                        kSeed);
+        simulation::Random random(kSeed, 3);
         const double start_s = 5;
-        const SimulatedScan scan = simulateScan(scene, input.model, flight, start_s, random);
+        const simulation::SimulatedScan scan =
+            simulation::simulateScan(scene, input.model, flight, start_s, random);
         if (sensor == "HDL-64E") {
             input.points.push_back(coordinatesOf(scan.scan));
         } else {
-            input.packets.push_back(encodeSimulated(scan, input.model, start_s));
+            input.packets.push_back(simulated_logs::encodeSimulated(scan, input.model, start_s));
         }
     }
-    if (!input.packets.empty()) input.model = sensorOf(*input.packets.front());
+    if (!input.packets.empty()) input.model = observations::sensorOf(*input.packets.front());
     return input;
 }
 
@@ -64,11 +66,12 @@ Input gridScan(int beams, int columns) {
                 customSensorModel(elevations_deg),
                 {},
                 {}};
-    const Scene scene = makeScene("orchard", kSeed);
-    const Flight flight(scene.terrain(), scene.path(), FlightSettings(), kSeed);
-    const SensorPose pose = flight.at(5);
+    const simulation::Scene scene = simulation::makeScene("orchard", kSeed);
+    const simulation::Flight flight(scene.terrain(), scene.path(), simulation::FlightSettings(),
+                                    kSeed);
+    const simulation::SensorPose pose = flight.at(5);
     const PixelDirections directions = pixelDirections(input.model, columns);
-    std::vector<Ray> rays;
+    std::vector<simulation::Ray> rays;
     std::vector<Eigen::Vector3f> along;
     for (int column = 0; column < columns; ++column) {
         for (int row = 0; row < beams; ++row) {
@@ -79,9 +82,9 @@ Input gridScan(int beams, int columns) {
                             (pose.attitude * along.back().cast<double>()).cast<float>()});
         }
     }
-    std::vector<RayHit> hits;
+    std::vector<simulation::RayHit> hits;
     scene.during(5, 0.1).cast(rays, input.model.max_range_m, hits);
-    Random random(kSeed, 4);
+    simulation::Random random(kSeed, 4);
     Scan scan;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (!hasValue(hits[i].range_m)) continue;

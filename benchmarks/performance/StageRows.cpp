@@ -154,8 +154,8 @@ const std::vector<StageRow>& ownStages() {
 }  // namespace
 
 Options paperOptions() {
-    Settings settings;
-    mergeSettings(HAGEN_SOURCE_DIR "/config/paper.yaml", settings);
+    observations::Settings settings;
+    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/paper.yaml", settings);
     return settings.options;
 }
 
@@ -172,7 +172,7 @@ Case::Case(const Input& input, std::size_t which, const Options& with)
 
 void readReturns(Case& one) {
     if (one.packets) {
-        decodePackets(*one.packets, one.scan);
+        observations::decodePackets(*one.packets, one.scan);
     } else {
         locateBeams(one.sensor, one.scan);
     }
@@ -185,7 +185,8 @@ const std::vector<StageRow>& stageRows() {
             {"mrpt decode", true, true, [](Case& c) { c.packets->generatePointCloud(); }},
             {"paper pipeline", true, false, wholePipeline},
             {"default pipeline", false, false, wholePipeline},
-            {"zermas ground fit", true, false, [](Case& c) { zermasGroundFit(c.scan, c.sensor); }}};
+            {"zermas ground fit", true, false,
+             [](Case& c) { evaluation::zermasGroundFit(c.scan, c.sensor); }}};
         all.insert(all.end(), papersStages().begin(), papersStages().end());
         all.insert(all.end(), ownStages().begin(), ownStages().end());
         return all;

@@ -27,7 +27,7 @@ std::string tableOf(const std::vector<TimedRow>& rows) {
                           "p95", "p99", "max", "allocations");
             text += line;
         }
-        const Latency& t = row.latency;
+        const evaluation::Latency& t = row.latency;
         std::snprintf(line, sizeof line, "  %-34s %10.1f %10.1f %10.1f %10.1f %12.1f\n",
                       row.what.c_str(), 1e3 * t.p50_ms, 1e3 * t.p95_ms, 1e3 * t.p99_ms,
                       1e3 * t.max_ms, row.allocations);

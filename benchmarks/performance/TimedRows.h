@@ -9,8 +9,8 @@ namespace hagen {
 
 struct TimedRow {
     std::string sensor, what;
-    Latency latency;         ///< of a run: a scan
-    double allocations = 0;  ///< a run, after the first pass over the scans
+    evaluation::Latency latency;  ///< of a run: a scan
+    double allocations = 0;       ///< a run, after the first pass over the scans
 };
 
 /// The row of this name, or nullptr.

@@ -75,27 +75,27 @@ bool isResult(const mrpt::serialization::CSerializable& entry) {
 }
 
 /// What a segmented log holds, the bytes of each entry of its input with the results behind it.
-std::vector<Bytes> groupsOf(const fs::path& segmented) {
-    std::vector<Bytes> groups;
-    RawlogReader reader(segmented);
+std::vector<logs::Bytes> groupsOf(const fs::path& segmented) {
+    std::vector<logs::Bytes> groups;
+    logs::RawlogReader reader(segmented);
     while (const auto entry = reader.next()) {
         if (groups.empty() || !isResult(*entry)) groups.emplace_back();
-        serialise(*entry, groups.back());
+        logs::serialise(*entry, groups.back());
     }
     return groups;
 }
 
 /// Reads a log, every object of it, and writes these bytes in its place.
-void copyThrough(const fs::path& log, const std::vector<Bytes>& groups, const fs::path& out) {
-    RawlogReader reader(log);
-    RawlogWriter writer(out, true);
-    Bytes entries, member, packed;
-    for (const Bytes& group : groups) {
+void copyThrough(const fs::path& log, const std::vector<logs::Bytes>& groups, const fs::path& out) {
+    logs::RawlogReader reader(log);
+    logs::RawlogWriter writer(out, true);
+    logs::Bytes entries, member, packed;
+    for (const logs::Bytes& group : groups) {
         if (!reader.next()) throw std::runtime_error("the log has fewer entries than its copy");
         entries = group;
         writer.gather(entries, member);
         if (member.empty()) continue;
-        packGzipMember(member, packed);
+        logs::packGzipMember(member, packed);
         writer.writeMember(packed);
     }
     if (reader.next()) throw std::runtime_error("the log has results among its own entries");
@@ -115,28 +115,29 @@ double peakMegabytes() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-void measure(Conversion conversion, bool copies_through, int repetitions,
+void measure(logs::Conversion conversion, bool copies_through, int repetitions,
              const std::string& settings, const fs::path& json_lines) {
     const WorkFolder folder;
     conversion.rawlog = folder.path / "segmented.rawlog";
     conversion.overwrite = true;
-    const ConversionReport report = convert(conversion);  // warms up, and says what there is
+    const logs::ConversionReport report =
+        logs::convert(conversion);  // warms up, and says what there is
     if (report.scans == 0) throw std::runtime_error("the log has no LiDAR scan");
     const double peak_megabytes = peakMegabytes();  // before all results are loaded
     const double flight_s = report.scan_reports.back().time_s - report.scan_reports.front().time_s;
 
-    std::vector<Bytes> groups;
+    std::vector<logs::Bytes> groups;
     const fs::path copy = folder.path / "copy.rawlog";
     if (copies_through) groups = groupsOf(conversion.rawlog);
 
     Times converting, copying;
     std::vector<double> labelled_s;
     for (int i = 0; i < repetitions; ++i) {
-        ConversionReport again;
-        converting.add([&] { again = convert(conversion); });
+        logs::ConversionReport again;
+        converting.add([&] { again = logs::convert(conversion); });
         labelled_s.push_back(std::accumulate(
             again.scan_reports.begin(), again.scan_reports.end(), 0.0,
-            [](double sum, const ScanReport& scan) { return sum + scan.latency_ms / 1000; }));
+            [](double sum, const logs::ScanReport& scan) { return sum + scan.latency_ms / 1000; }));
         if (!copies_through) continue;
         copying.add([&] { copyThrough(conversion.input, groups, copy); });
         if (!haveSameBytes(conversion.rawlog, copy)) throw std::runtime_error("the copy differs");
@@ -182,7 +183,7 @@ void measure(Conversion conversion, bool copies_through, int repetitions,
 
 int main(int argc, char** argv) {
     CLI::App app{"Times the conversion of a rawlog, as rawlog-segment does it."};
-    Conversion conversion;
+    logs::Conversion conversion;
     std::vector<std::string> configs;
     bool copies_through = false;
     int repetitions = 5;
@@ -202,7 +203,8 @@ int main(int argc, char** argv) {
     app.add_option("--name", settings, "of the settings, for that line")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     try {
-        for (const std::string& config : configs) mergeSettings(config, conversion.settings);
+        for (const std::string& config : configs)
+            observations::mergeSettings(config, conversion.settings);
         measure(conversion, copies_through, repetitions, settings, json_lines);
     } catch (const std::exception& e) {
         std::cerr << "conversion-benchmark: " << e.what() << "\n";

@@ -1,6 +1,6 @@
 // Times whole flights, and writes docs/performance.md of that and of what stage-benchmarks and
 // conversion-benchmark measured. Run by scripts/measure-performance.
-#include <hagen/logs/OutputPath.h>
+#include <hagen/base/OutputPath.h>
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
@@ -43,7 +43,7 @@ Performance measure(const Flags& flags) {
     for (const auto& [name, options] :
          {std::pair<std::string, Options>{"paper", paperOptions()}, {"default", Options()}}) {
         p.packets_to_labels.push_back(
-            {name, latencyOf(packetsToLabels_ms(options, 10000 / scale))});
+            {name, evaluation::latencyOf(packetsToLabels_ms(options, 10000 / scale))});
     }
     p.table = timeFlight("orchard", 1, 1500 / scale);
     std::cerr << "timed: orchard\n";
@@ -55,10 +55,10 @@ Performance measure(const Flags& flags) {
 }
 
 void run(const Flags& flags) {
-    OutputPath document(fs::path(flags.output) / "performance.md", OutputPath::Kind::File,
-                        flags.overwrite);
-    OutputPath charts(fs::path(flags.output) / "performance", OutputPath::Kind::Charts,
-                      flags.overwrite);
+    base::OutputPath document(fs::path(flags.output) / "performance.md",
+                              base::kFile, flags.overwrite);
+    base::OutputPath charts(fs::path(flags.output) / "performance", labelled_scans::kCharts,
+                            flags.overwrite);
     const Performance performance = measure(flags);
     fs::create_directory(charts.temporary());
     drawFlights(charts.temporary(), performance.chart);

@@ -97,7 +97,7 @@ std::vector<TimedRow> results() {
     for (const auto& row : measured()) {
         if (row->runs_ms.empty()) continue;
         rows.push_back(
-            {row->sensor, row->what, latencyOf(row->runs_ms),
+            {row->sensor, row->what, evaluation::latencyOf(row->runs_ms),
              static_cast<double>(row->allocations) / static_cast<double>(row->runs_ms.size())});
     }
     return rows;

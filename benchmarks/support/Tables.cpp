@@ -36,7 +36,7 @@ std::string cell(double value, int digits) {
     return text;
 }
 
-std::string cell(const Interval& interval) {
+std::string cell(const evaluation::Interval& interval) {
     return std::isnan(interval.low) ? "-" : cell(interval.low) + " to " + cell(interval.high);
 }
 

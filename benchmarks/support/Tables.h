@@ -21,7 +21,7 @@ class Table {
 /// "0.958", and a dash for what is not defined.
 std::string cell(double value, int digits = 3);
 /// "0.951 to 0.964".
-std::string cell(const Interval& interval);
+std::string cell(const evaluation::Interval& interval);
 /// "0.958 / 0.977"; those that reach `best` as it is printed are bold.
 std::string pairCell(double roi, double rou, double best_roi, double best_rou);
 std::string pairCell(double roi, double rou);

@@ -10,10 +10,10 @@ int main() {
     scan.y_m = {0.0f};
     scan.z_m = {0.1f};
     scan.intensity = {0.5f};
-    const auto observation = hagen::observationOf(scan, "lidar", mrpt::Clock::now());
+    const auto observation = hagen::observations::observationOf(scan, "lidar", mrpt::Clock::now());
 
-    hagen::ObservationSegmenter segmenter;
-    hagen::ObservationSegmenter::Output out;
+    hagen::observations::ObservationSegmenter segmenter;
+    hagen::observations::ObservationSegmenter::Output out;
     if (!segmenter.process(*observation, out)) return 1;
     std::printf("%s: %zu points\n", out.roi->sensorLabel.c_str(), out.roi->pointcloud->size());
     return out.roi->pointcloud->size() == 1 ? 0 : 1;

@@ -2,7 +2,7 @@
 
 #include <mrpt/maps/COccupancyGridMap3D.h>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 namespace {
 
@@ -39,7 +39,7 @@ GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m)
 }
 GridModel::~GridModel() = default;
 
-void GridModel::update(const MappedScan& scan) {
+void GridModel::update(const mapping::MappedScan& scan) {
     const mrpt::math::TPoint3D origin = pointOf(scan.origin_m);
     for (const Eigen::Vector3f& point_m : scan.points_m) {
         const Eigen::Vector3f ray = point_m - scan.origin_m;
@@ -91,4 +91,4 @@ std::size_t GridModel::bytes() const {
 
 WorldModel::Obstacles GridModel::obstacles() const { return {obstacles_.middles_m(), edge_m_}; }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -8,7 +8,7 @@ namespace mrpt::maps {
 class COccupancyGridMap3D;
 }
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// MRPT's COccupancyGridMap3D of all points, within the bounds, and a tree of what is occupied in
 /// it.
@@ -19,7 +19,7 @@ class GridModel : public WorldModel {
     GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m);
     ~GridModel() override;
 
-    void update(const MappedScan& scan) override;
+    void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
@@ -36,4 +36,4 @@ class GridModel : public WorldModel {
     VoxelTree obstacles_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 constexpr double kNearGoal_m = 4;  ///< from here on the goal's own height counts
@@ -171,4 +171,4 @@ std::unique_ptr<Guidance> makeGuidance(const std::string& name) {
     throw std::invalid_argument("there is no guidance \"" + name + "\"; there are straight, astar");
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

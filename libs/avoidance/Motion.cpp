@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 constexpr double kStanding_m_s = 0.05;
@@ -73,4 +73,4 @@ double outOfAltitudes(double height_m, const PlanningTask& task) {
     return std::max({0.0, task.lowest_m - altitude_m, altitude_m - task.highest_m});
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

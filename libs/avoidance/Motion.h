@@ -4,7 +4,7 @@
 #include <vector>
 
 // What planners share: where a command leads, and whether the way there is free.
-namespace hagen {
+namespace hagen::avoidance {
 
 constexpr double kLookAhead_s = 1.2;
 
@@ -31,4 +31,4 @@ double speedTowardsGoal(const PlanningTask& task);
 /// How far a height is out of the altitudes allowed [m]; 0 within.
 double outOfAltitudes(double height_m, const PlanningTask& task);
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

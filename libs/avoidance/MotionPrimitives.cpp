@@ -5,7 +5,7 @@
 #include <limits>
 #include "Motion.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 constexpr int kAzimuths = 36;
@@ -141,4 +141,4 @@ Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) c
     return plan;
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

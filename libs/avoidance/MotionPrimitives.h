@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/avoidance/Planner.h>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// "primitives": the cheapest free one of a fixed set of motions.
 class MotionPrimitives : public Planner {
@@ -9,4 +9,4 @@ class MotionPrimitives : public Planner {
     Plan plan(const WorldModel& world, const PlanningTask& task) const override;
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

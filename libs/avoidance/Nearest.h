@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// Points as nanoflann reads them.
 struct TreePoints {
@@ -44,4 +44,4 @@ class Nearest {
     std::size_t counting_ = std::numeric_limits<std::size_t>::max();
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -1,6 +1,6 @@
 #include "OctoMapModel.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 
 namespace {
 
@@ -8,7 +8,7 @@ octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()
 
 }  // namespace
 
-OctoMapModel::OctoMapModel(MapContent content, double resolution_m,
+OctoMapModel::OctoMapModel(mapping::MapContent content, double resolution_m,
                            const Eigen::AlignedBox3f& bounds_m)
     : map_({content, resolution_m}), obstacles_(static_cast<float>(resolution_m)) {
     const Eigen::Vector3f margin = Eigen::Vector3f::Constant(kMapMargin_m);
@@ -20,7 +20,7 @@ OctoMapModel::OctoMapModel(MapContent content, double resolution_m,
     map_.tree().enableChangeDetection(true);
 }
 
-void OctoMapModel::update(const MappedScan& scan) {
+void OctoMapModel::update(const mapping::MappedScan& scan) {
     map_.insert(scan);
     noteChanges();
     std::vector<Eigen::Vector3f> middles_m;
@@ -68,4 +68,4 @@ WorldModel::Obstacles OctoMapModel::obstacles() const {
     return {obstacles_.middles_m(), static_cast<float>(map_.options().resolution_m)};
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

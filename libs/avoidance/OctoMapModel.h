@@ -7,15 +7,16 @@
 
 #include "VoxelTree.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// An OctoMap within the bounds, and a tree of what is occupied in it, kept up to date by the map's
 /// own change detection.
 class OctoMapModel : public WorldModel {
  public:
-    OctoMapModel(MapContent content, double resolution_m, const Eigen::AlignedBox3f& bounds_m);
+    OctoMapModel(mapping::MapContent content, double resolution_m,
+                 const Eigen::AlignedBox3f& bounds_m);
 
-    void update(const MappedScan& scan) override;
+    void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
@@ -26,9 +27,9 @@ class OctoMapModel : public WorldModel {
     using Key = std::array<std::uint16_t, 3>;
     void noteChanges();
 
-    ScanMap map_;
+    mapping::ScanMap map_;
     std::set<Key> occupied_;  ///< in an order that no hash decides
     VoxelTree obstacles_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -7,7 +7,7 @@
 #include <queue>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 using Clearance = std::function<float(const Eigen::Vector3f&)>;
@@ -318,4 +318,4 @@ std::optional<std::vector<Eigen::Vector3d>> findPath(const Clearance& clearance_
     return Search(clearance_m, start_m, goal_m, options).run();
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

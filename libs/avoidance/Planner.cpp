@@ -3,7 +3,7 @@
 #include "MotionPrimitives.h"
 #include "PolarHistogram.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 
 const std::vector<std::string>& plannerNames() {
     static const std::vector<std::string> names{"primitives", "3dvfh"};
@@ -17,4 +17,4 @@ std::unique_ptr<Planner> makePlanner(const std::string& name) {
                                 "\"; there are primitives, 3dvfh");
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -4,7 +4,7 @@
 #include <limits>
 #include "Motion.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 constexpr double kCell_rad = 6 * M_PI / 180;
@@ -143,4 +143,4 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     return plan;
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

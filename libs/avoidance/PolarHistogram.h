@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/avoidance/Planner.h>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// "3dvfh": the cheapest direction of a polar histogram, after 3DVFH+ (Vanneste, Bellekens and
 /// Weyn, 2014). A cell holds how far a ball of the vehicle's room can go its way.
@@ -10,4 +10,4 @@ class PolarHistogram : public Planner {
     Plan plan(const WorldModel& world, const PlanningTask& task) const override;
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 std::size_t SeenDirections::cellOf(const Eigen::Vector3f& direction) {
     Eigen::Index axis;
@@ -28,4 +28,4 @@ bool SeenDirections::isSeen(const Eigen::Vector3f& from_origin_m) const {
     return 100 * from_origin_m.norm() <= static_cast<float>(seen_cm_[cellOf(from_origin_m)]);
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

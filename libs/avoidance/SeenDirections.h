@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// How far was seen from a place: in each cell of about 2 degrees, the farthest return. The cells
 /// are those of a cube's faces around the place, which needs no arctangents.
@@ -23,4 +23,4 @@ class SeenDirections {
     std::vector<std::uint16_t> seen_cm_;  ///< 0: nothing
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 /// Ten bits, with two zeros between one and the next.
@@ -47,4 +47,4 @@ std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_
     return kept_m;
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

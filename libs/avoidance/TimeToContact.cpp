@@ -1,7 +1,7 @@
 #include <hagen/avoidance/Planner.h>
 #include "Motion.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 
 bool mustStop(const WorldModel& world, const PlanningTask& task) {
     thread_local std::vector<Eigen::Vector3f> way_m;
@@ -9,4 +9,4 @@ bool mustStop(const WorldModel& world, const PlanningTask& task) {
     return !freeClearance(world, way_m, task.limits.radius_m);
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -1,6 +1,6 @@
 #include <hagen/avoidance/Vehicle.h>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 Eigen::Vector3d accelerationFor(const VehicleState& state, const Eigen::Vector3d& command_m_s,
                                 const VehicleLimits& limits) {
@@ -16,4 +16,4 @@ VehicleState advance(const VehicleState& state, const Eigen::Vector3d& command_m
             state.velocity_m_s + step_s * acceleration};
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

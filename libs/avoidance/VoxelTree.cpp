@@ -5,7 +5,7 @@
 
 #include "Nearest.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::size_t VoxelTree::bytes() const {
            tree_->voxels.at_m.capacity() * sizeof(Eigen::Vector3f);
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// How far beyond the bounds of a flight maps look for obstacles: what stands there is in the way
 /// of one that goes along the edge.
@@ -31,4 +31,4 @@ class VoxelTree {
     std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -7,7 +7,7 @@
 #include "SeenDirections.h"
 #include "Thinning.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 
 namespace {
 
@@ -45,7 +45,7 @@ struct WindowModel::PastScans {
 WindowModel::WindowModel(bool roi_only) : roi_only_(roi_only) {}
 WindowModel::~WindowModel() = default;
 
-void WindowModel::update(const MappedScan& scan) {
+void WindowModel::update(const mapping::MappedScan& scan) {
     auto past = std::make_unique<PastScans>();
     View view;
     view.origin_m = scan.origin_m;
@@ -122,4 +122,4 @@ WorldModel::Obstacles WindowModel::obstacles() const {
     return obstacles;
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

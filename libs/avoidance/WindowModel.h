@@ -3,7 +3,7 @@
 #include <deque>
 #include <memory>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// No map: the points of the last scans, thinned to one a cube of 10 cm each, three scans in a
 /// tree, so that a new one costs a small tree, questions go through few, and the oldest scan is
@@ -18,7 +18,7 @@ class WindowModel : public WorldModel {
     explicit WindowModel(bool roi_only);
     ~WindowModel() override;
 
-    void update(const MappedScan& scan) override;
+    void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
@@ -34,4 +34,4 @@ class WindowModel : public WorldModel {
     std::deque<std::unique_ptr<PastScans>> past_;  ///< newest first
 };
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -7,7 +7,7 @@
 #include "OctoMapModel.h"
 #include "WindowModel.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 
 namespace {
 
@@ -19,7 +19,7 @@ class OracleModel : public WorldModel {
         if (!true_clearance_m_) throw std::invalid_argument("an oracle needs the true clearance");
     }
 
-    void update(const MappedScan&) override {}
+    void update(const mapping::MappedScan&) override {}
     float clearance_m(const Eigen::Vector3f& point_m) const override {
         return std::clamp(true_clearance_m_(point_m), 0.0f, kReach_m);
     }
@@ -44,7 +44,7 @@ std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting&) {
     return std::make_unique<WindowModel>(kRoiOnly);
 }
 
-template <MapContent kContent, int kResolution_cm>
+template <mapping::MapContent kContent, int kResolution_cm>
 std::unique_ptr<WorldModel> makeOctoMap(const WorldModelSetting& setting) {
     return std::make_unique<OctoMapModel>(kContent, kResolution_cm / 100.0, setting.bounds_m);
 }
@@ -61,12 +61,12 @@ const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
         {"W-RoI", true, makeWindow<true>},
         {"W-Full", false, makeWindow<false>},
-        {"O-Full-0.2", false, makeOctoMap<MapContent::Full, 20>},
-        {"O-Full-0.4", false, makeOctoMap<MapContent::Full, 40>},
-        {"O-RoI-0.2", true, makeOctoMap<MapContent::Roi, 20>},
-        {"O-RoI-0.4", true, makeOctoMap<MapContent::Roi, 40>},
-        {"O-RoI+rays-0.2", true, makeOctoMap<MapContent::RoiAndRays, 20>},
-        {"O-RoI+rays-0.4", true, makeOctoMap<MapContent::RoiAndRays, 40>},
+        {"O-Full-0.2", false, makeOctoMap<mapping::MapContent::Full, 20>},
+        {"O-Full-0.4", false, makeOctoMap<mapping::MapContent::Full, 40>},
+        {"O-RoI-0.2", true, makeOctoMap<mapping::MapContent::Roi, 20>},
+        {"O-RoI-0.4", true, makeOctoMap<mapping::MapContent::Roi, 40>},
+        {"O-RoI+rays-0.2", true, makeOctoMap<mapping::MapContent::RoiAndRays, 20>},
+        {"O-RoI+rays-0.4", true, makeOctoMap<mapping::MapContent::RoiAndRays, 40>},
         {"G-Full", false, makeGrid},
         {"oracle", false, makeOracle},
     };
@@ -100,4 +100,4 @@ std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
     return entryOf(name).make(setting);
 }
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 float radiansOf(float angle_deg) {
@@ -153,4 +153,4 @@ std::vector<std::int32_t> bogoslavskyiClusters(const Scan& scan, const SensorMod
     return numbers;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 using Indices = std::vector<std::int32_t>;
@@ -238,4 +238,4 @@ std::vector<Label> zermasLabels(const Scan& scan, const SensorModel& sensor,
     return labels;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -3,7 +3,7 @@
 #include <hagen/evaluation/Baselines.h>
 #include <sstream>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 Baseline zermas(const std::string& name, const ZermasOptions& options) {
@@ -49,4 +49,4 @@ std::vector<Baseline> baselines(float zone_m) {
             bogoslavskyi("bogoslavskyi tuned", bogoslavskyi_tuned)};
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

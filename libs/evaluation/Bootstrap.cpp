@@ -1,18 +1,10 @@
+#include <hagen/base/Quantile.h>
 #include <hagen/evaluation/Bootstrap.h>
 #include <algorithm>
 #include <random>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
-
-/// The value below which this share of the ascending values lies, between ranks interpolated.
-double quantile(const std::vector<double>& ascending, double share) {
-    const double rank = share * static_cast<double>(ascending.size() - 1);
-    const auto below = static_cast<std::size_t>(rank);
-    const std::size_t above = std::min(below + 1, ascending.size() - 1);
-    const double weight = rank - static_cast<double>(below);
-    return ascending[below] + weight * (ascending[above] - ascending[below]);
-}
 
 template <class Figure>
 Interval intervalOf(const std::vector<Scores>& resamples, double level, Figure figure) {
@@ -25,7 +17,7 @@ Interval intervalOf(const std::vector<Scores>& resamples, double level, Figure f
     if (values.empty()) return {};
     std::sort(values.begin(), values.end());
     const double tail = (1 - level) / 2;
-    return {quantile(values, tail), quantile(values, 1 - tail)};
+    return {base::quantileOfSorted(values, tail), base::quantileOfSorted(values, 1 - tail)};
 }
 
 std::vector<Scores> resamplesOf(const std::vector<Scores>& scans, const BootstrapOptions& options) {
@@ -56,4 +48,4 @@ ScoreIntervals bootstrapIntervals(const std::vector<Scores>& scans,
     return intervals;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

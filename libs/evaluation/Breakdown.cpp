@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 struct Band {
@@ -85,4 +85,4 @@ std::vector<Group> byKind(const std::vector<ScanScores>& scans) {
     return ordered;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -7,7 +7,7 @@
 
 #include "YamlFile.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 double numberOf(const YAML::Node& node, const std::string& key) {
@@ -107,4 +107,4 @@ std::vector<CameraPixel> visibleReturns(const PinholeCamera& camera, const Scan&
     return pixels;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

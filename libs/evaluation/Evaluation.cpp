@@ -2,7 +2,7 @@
 #include <chrono>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 /// The labels that a method finds, and how long it took.
@@ -72,4 +72,4 @@ std::vector<MethodScores> evaluate(const std::vector<ScanSource>& sources,
     return all;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -1,23 +1,18 @@
+#include <hagen/base/NumberText.h>
 #include <hagen/evaluation/LabelMap.h>
-#include <charconv>
 #include <set>
 #include <stdexcept>
 
 #include "YamlFile.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 constexpr const char* kExample = "70: {name: vegetation, label: 2}";
 
 std::uint16_t kindNumber(const std::string& text) {
-    std::uint16_t number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, number);
-    if (error != std::errc() || rest != end || text.empty()) {
-        throw std::invalid_argument("'" + text + "' is no number of a kind (0 to 65535)");
-    }
-    return number;
+    if (const auto number = base::numberFrom<std::uint16_t>(text)) return *number;
+    throw std::invalid_argument("'" + text + "' is no number of a kind (0 to 65535)");
 }
 
 Kind kindOf(const YAML::Node& node) {
@@ -77,4 +72,4 @@ std::vector<Label> labelsOfNumbers(const std::vector<std::uint16_t>& numbers) {
     return labels;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -1,18 +1,9 @@
+#include <hagen/base/Quantile.h>
 #include <hagen/evaluation/Latency.h>
 #include <algorithm>
 #include <numeric>
 
-namespace hagen {
-namespace {
-
-double percentile(const std::vector<double>& ascending, double share) {
-    const auto rank =
-        static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));
-    return ascending[std::max<std::size_t>(rank, 1) - 1];
-}
-
-}  // namespace
-
+namespace hagen::evaluation {
 Latency latencyOf(std::vector<double> runs_ms) {
     Latency latency;
     latency.runs = runs_ms.size();
@@ -23,11 +14,11 @@ Latency latencyOf(std::vector<double> runs_ms) {
     double squares = 0;
     for (const double ms : runs_ms) squares += (ms - latency.mean_ms) * (ms - latency.mean_ms);
     if (runs_ms.size() > 1) latency.sd_ms = std::sqrt(squares / (runs - 1));
-    latency.p50_ms = percentile(runs_ms, 0.50);
-    latency.p95_ms = percentile(runs_ms, 0.95);
-    latency.p99_ms = percentile(runs_ms, 0.99);
+    latency.p50_ms = base::nearestRankOfSorted(runs_ms, 0.50);
+    latency.p95_ms = base::nearestRankOfSorted(runs_ms, 0.95);
+    latency.p99_ms = base::nearestRankOfSorted(runs_ms, 0.99);
     latency.max_ms = runs_ms.back();
     return latency;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -1,20 +1,15 @@
+#include <hagen/base/NumberText.h>
 #include <hagen/evaluation/ScanScores.h>
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 void checkSizes(std::size_t returns, std::size_t labels, const std::string& what) {
     if (labels == returns) return;
     throw std::invalid_argument("has " + std::to_string(labels) + " " + what + " for " +
                                 std::to_string(returns) + " returns");
-}
-
-std::string shortest(float value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 }  // namespace
@@ -29,7 +24,8 @@ std::size_t RangeBands::bandOf(float range_m) const {
 
 std::string RangeBands::nameOf(std::size_t band) const {
     const float from_m = static_cast<float>(band) * width_m;
-    return shortest(from_m) + "-" + shortest(std::min(from_m + width_m, max_range_m)) + " m";
+    return base::shortestText(from_m) + "-" +
+           base::shortestText(std::min(from_m + width_m, max_range_m)) + " m";
 }
 
 ScanScores scoreScan(const TrueScan& scan, const std::vector<Label>& found, const LabelMap& kinds,
@@ -65,4 +61,4 @@ ScanScores scoreScan(const TrueScan& scan, const std::vector<Label>& found, cons
     return scores;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -1,6 +1,6 @@
 #include <hagen/evaluation/Scores.h>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 double ratio(std::int64_t part, std::int64_t whole) {
@@ -41,4 +41,4 @@ void addScore(Label truth, Label found, Scores& scores) {
     addScore(truth == Label::Rou, found == Label::Rou, scores.rou);
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

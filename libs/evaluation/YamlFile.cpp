@@ -3,7 +3,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 namespace fs = std::filesystem;
 
@@ -43,4 +43,4 @@ void forEachYamlEntry(
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

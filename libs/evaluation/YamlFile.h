@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// "file:line: ", for messages.
 std::string yamlPlace(const std::filesystem::path& file, const YAML::Node& node);
@@ -17,4 +17,4 @@ void forEachYamlEntry(
     const std::filesystem::path& file, const std::string& example,
     const std::function<void(const std::string& key, const YAML::Node& value)>& entry);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

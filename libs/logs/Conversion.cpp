@@ -12,7 +12,7 @@
 
 #include "Converter.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,8 +110,8 @@ ConversionReport convertFolder(const Conversion& conversion, const ConversionLis
     for (std::size_t i = times_s.size(); i < folder.size(); ++i) {
         times_s.push_back(kDefaultScanPeriod_s * static_cast<double>(i));
     }
-    Settings settings = conversion.settings;
-    if (fs::exists(folder.sensorFile())) mergeSettings(folder.sensorFile(), settings);
+    observations::Settings settings = conversion.settings;
+    if (fs::exists(folder.sensorFile())) observations::mergeSettings(folder.sensorFile(), settings);
 
     Converter converter(conversion, settings, listener);
     converter.setPoses(posesOfScanFolder(folder, times_s, conversion.poses));
@@ -126,9 +126,11 @@ ConversionReport convertFolder(const Conversion& conversion, const ConversionLis
             entry.number = i;
             entry.fraction = static_cast<double>(i + 1) / static_cast<double>(folder.size());
             if (converter.wantsRawlog()) {
-                entry.object = observationOf(scan, "velodyne", time, conversion.cloud_class);
+                entry.object =
+                    observations::observationOf(scan, "velodyne", time, conversion.cloud_class);
             }
-            converter.add(observationOf(scan, "velodyne", time), entry, folder.name(i));
+            converter.add(observations::observationOf(scan, "velodyne", time), entry,
+                          folder.name(i));
             return true;
         }
         return false;
@@ -146,9 +148,9 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     std::vector<fs::path> outputs = conversion.octomaps;
     outputs.insert(outputs.end(),
                    {conversion.rawlog, conversion.folder, conversion.pictures, conversion.stats});
-    checkApart(outputs, {conversion.input, conversion.poses});
+    base::checkApart(outputs, {conversion.input, conversion.poses});
     return fs::is_directory(conversion.input) ? convertFolder(conversion, listener)
                                               : convertRawlog(conversion, listener);
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

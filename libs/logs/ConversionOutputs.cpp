@@ -1,9 +1,10 @@
 #include "ConversionOutputs.h"
 
+#include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/Statistics.h>
 #include <hagen/pictures/StagePictures.h>
 
-namespace hagen {
+namespace hagen::logs {
 
 namespace fs = std::filesystem;
 
@@ -11,22 +12,22 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
     const bool overwrite = conversion.overwrite;
     if (!conversion.rawlog.empty()) rawlog_.emplace(conversion.rawlog, overwrite);
     if (!conversion.folder.empty()) {
-        folders_.emplace(conversion.folder, OutputPath::Kind::ScanFolders, overwrite);
+        folders_.emplace(conversion.folder, kScanFolders, overwrite);
     }
     if (!conversion.pictures.empty()) {
-        pictures_.emplace(conversion.pictures, OutputPath::Kind::Pictures, overwrite);
+        pictures_.emplace(conversion.pictures, pictures::kStagePictures, overwrite);
     }
     if (!conversion.octomaps.empty()) {
         map_.emplace(conversion.octomaps, conversion.octomap, overwrite);
     }
     if (!conversion.stats.empty()) {
-        stats_.emplace(conversion.stats, OutputPath::Kind::File, overwrite);
+        stats_.emplace(conversion.stats, base::kFile, overwrite);
     }
 }
 
-std::string ConversionOutputs::writeScan(const ObservationSegmenter::Output& segmented,
-                                         const std::string& sensor_label, const std::string& name,
-                                         const Options& options) {
+std::string ConversionOutputs::writeScan(
+    const observations::ObservationSegmenter::Output& segmented, const std::string& sensor_label,
+    const std::string& name, const Options& options) {
     const std::size_t number = scans_[sensor_label]++;
     const std::string own_name = name.empty() ? scanName(number) : name;
     if (folders_) {
@@ -46,9 +47,9 @@ std::string ConversionOutputs::writeScan(const ObservationSegmenter::Output& seg
         fs::create_directory(folder);
         const std::string title =
             conversion_.input.filename().string() + ", " + sensor_label + ", scan " + own_name;
-        drawStages({*segmented.window, *segmented.sensor, options, *segmented.result, title,
-                    conversion_.picture_azimuth_deg},
-                   folder);
+        pictures::drawStages({*segmented.window, *segmented.sensor, options, *segmented.result,
+                              title, conversion_.picture_azimuth_deg},
+                             folder);
     }
     return own_name;
 }
@@ -82,4 +83,4 @@ std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
     return names;
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// The outputs of a conversion that were asked for.
 class ConversionOutputs {
@@ -27,13 +27,13 @@ class ConversionOutputs {
 
     /// Adds a segmented scan of this sensor to folders and pictures; an empty name: the next
     /// number. Returns the name it has there.
-    std::string writeScan(const ObservationSegmenter::Output& segmented,
+    std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const std::string& sensor_label, const std::string& name,
                           const Options& options);
 
     /// Adds a scan to the map, where one is made.
     bool wantsMap() const { return map_.has_value(); }
-    void insertIntoMap(const MappedScan& scan) { map_->insert(scan); }
+    void insertIntoMap(const mapping::MappedScan& scan) { map_->insert(scan); }
 
     void commit(const ConversionReport& report);
     /// Keeps what is there under names that say it is a part, and says which.
@@ -46,9 +46,9 @@ class ConversionOutputs {
     std::optional<RawlogWriter> rawlog_;
     std::optional<SensorFolders> folders_, pictures_;
     std::optional<MapOutput> map_;
-    std::optional<OutputPath> stats_;
+    std::optional<base::OutputPath> stats_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
     std::map<std::string, std::size_t> scans_;                ///< written so far
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

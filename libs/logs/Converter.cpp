@@ -15,13 +15,13 @@
 
 #include "OrderedPipeline.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 using mrpt::obs::CObservation;
 
 /// The report of one scan, but for what only the converter knows of it.
-ScanReport reportOf(const ObservationSegmenter::Output& out) {
+ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     ScanReport report{};
     report.time_s = mrpt::Clock::toDouble(out.roi->timestamp);
     report.returns = out.scan->size();
@@ -41,9 +41,9 @@ ScanReport reportOf(const ObservationSegmenter::Output& out) {
     return report;
 }
 
-std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion,
-                                                    const Settings& settings) {
-    auto segmenter = std::make_unique<ObservationSegmenter>();
+std::unique_ptr<observations::ObservationSegmenter> makeSegmenter(
+    const Conversion& conversion, const observations::Settings& settings) {
+    auto segmenter = std::make_unique<observations::ObservationSegmenter>();
     segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // remarks go to the listener
     segmenter->cloud_class = conversion.cloud_class;
     segmenter->initialize(settings);
@@ -53,7 +53,7 @@ std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion
 }  // namespace
 
 SegmenterPool::Lease SegmenterPool::lease() {
-    const auto giveBack = [this](ObservationSegmenter* segmenter) {
+    const auto giveBack = [this](observations::ObservationSegmenter* segmenter) {
         const std::lock_guard lock(is_used_);
         idle_.emplace_back(segmenter);
     };
@@ -68,7 +68,7 @@ SegmenterPool::Lease SegmenterPool::lease() {
     return Lease(make_().release(), giveBack);
 }
 
-Converter::Converter(const Conversion& conversion, const Settings& settings,
+Converter::Converter(const Conversion& conversion, const observations::Settings& settings,
                      const ConversionListener& listener)
     : conversion_(conversion),
       listener_(listener),
@@ -106,7 +106,7 @@ void Converter::see(const CObservation& observation) {
 }
 
 bool Converter::isWanted(const CObservation& observation) {
-    if (!isLidarScan(observation)) return false;
+    if (!observations::isLidarScan(observation)) return false;
     const std::string& label = observation.sensorLabel;
     const auto& wanted = conversion_.sensor_labels;
     if (wanted.empty()) return true;
@@ -131,17 +131,17 @@ void Converter::segment(ScanOnItsWay& scan) {
     try {
         scan.is_segmented =
             scan.segmenter->process(*scan.observation, scan.segmented, scan.whereabouts, vehicle_);
-    } catch (const SettingsError&) {
+    } catch (const observations::SettingsError&) {
         throw;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& e) {
-        scan.why_not = messageOf(e);
+        scan.why_not = observations::messageOf(e);
         if (scan.why_not.empty()) scan.why_not = "MRPT does not say why";
     }
     if (scan.is_segmented && conversion_.preview && outputs_.wantsRawlog()) {
-        scan.preview =
-            previewOf(*scan.observation, scan.segmented, report_.settings.options.zone_m);
+        scan.preview = observations::previewOf(*scan.observation, scan.segmented,
+                                               report_.settings.options.zone_m);
     }
 }
 
@@ -236,7 +236,8 @@ void Converter::account(EntryOnItsWay& entry) {
     listener_.progress(report_);
 }
 
-void Converter::count(const ObservationSegmenter::Output& out, const ScanReport& scan) {
+void Converter::count(const observations::ObservationSegmenter::Output& out,
+                      const ScanReport& scan) {
     ++report_.scans;
     report_.returns += scan.returns;
     report_.roi += scan.roi;
@@ -329,4 +330,4 @@ void Converter::checkLabels() const {
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -15,34 +15,36 @@
 
 #include "ConversionOutputs.h"
 
-namespace hagen {
+namespace hagen::logs {
 
 /// Segmenters with the same settings, lent out and used again. What one of them says of a scan is
 /// valid while it is lent out.
 class SegmenterPool {
  public:
-    explicit SegmenterPool(std::function<std::unique_ptr<ObservationSegmenter>()> make)
+    explicit SegmenterPool(
+        std::function<std::unique_ptr<observations::ObservationSegmenter>()> make)
         : make_(std::move(make)) {}
 
-    using Lease = std::unique_ptr<ObservationSegmenter, std::function<void(ObservationSegmenter*)>>;
+    using Lease = std::unique_ptr<observations::ObservationSegmenter,
+                                  std::function<void(observations::ObservationSegmenter*)>>;
     Lease lease();  ///< on any thread
 
  private:
-    std::function<std::unique_ptr<ObservationSegmenter>()> make_;
+    std::function<std::unique_ptr<observations::ObservationSegmenter>()> make_;
     std::mutex is_used_;
-    std::vector<std::unique_ptr<ObservationSegmenter>> idle_;
+    std::vector<std::unique_ptr<observations::ObservationSegmenter>> idle_;
 };
 
 /// A LiDAR scan on its way through a conversion.
 struct ScanOnItsWay {
     mrpt::obs::CObservation::ConstPtr observation;
     std::string name;  ///< in its scan folder, if it is from one
-    ObservationSegmenter::Whereabouts whereabouts;
+    observations::ObservationSegmenter::Whereabouts whereabouts;
 
     SegmenterPool::Lease segmenter;  ///< holds what `segmented` points to
     bool is_segmented = false;       ///< `segmented` is about it
     std::string why_not;             ///< it could not be read
-    ObservationSegmenter::Output segmented;
+    observations::ObservationSegmenter::Output segmented;
     mrpt::obs::CObservation::Ptr preview;
 };
 
@@ -60,7 +62,7 @@ struct EntryOnItsWay {
 /// threads, and all that a user sees of it is in the log's order.
 class Converter {
  public:
-    Converter(const Conversion& conversion, const Settings& settings,
+    Converter(const Conversion& conversion, const observations::Settings& settings,
               const ConversionListener& listener);
 
     /// Throws std::runtime_error where an output needs poses, and none are known.
@@ -91,7 +93,7 @@ class Converter {
     void insertIntoMap(const ScanOnItsWay& scan, const std::string& entry);
     void account(ScanOnItsWay& scan, const EntryOnItsWay& entry);
     void account(EntryOnItsWay& entry);
-    void count(const ObservationSegmenter::Output& out, const ScanReport& scan);
+    void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan);
     void tellRemarks(const ScanOnItsWay& scan, const std::string& entry);
     void checkLabels() const;
     template <class Error>
@@ -102,12 +104,13 @@ class Converter {
     std::mutex listens_;           ///< reading asks the listener while it is told of other entries
     bool levels_by_file_ = false;  ///< poses that the user gave win over what the log tells
     bool has_window_;              ///< a scan is segmented after those before it
-    Trajectory vehicle_;
+    observations::Trajectory vehicle_;
     ConversionOutputs outputs_;
-    ObservationSegmenter horizon_;  ///< sees the log in its order, and segments nothing
+    observations::ObservationSegmenter
+        horizon_;  ///< sees the log in its order, and segments nothing
     SegmenterPool segmenters_;
     ConversionReport report_;
     std::set<std::string> other_labels_;  ///< of LiDAR scans that were not wanted
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

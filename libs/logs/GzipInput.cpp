@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 constexpr std::size_t kPackedBytes = 1 << 17, kUnpackedBytes = 1 << 18;
@@ -132,4 +132,4 @@ std::uint64_t GzipInput::getTotalBytesCount() const {
     throw std::logic_error("the unpacked size of a packed input is not known");
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

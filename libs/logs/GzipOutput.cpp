@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 constexpr int kLevel = 1;
@@ -59,4 +59,4 @@ void GzipOutput::close() {
     if (std::fclose(file_.release()) != 0) refuse(path_);
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

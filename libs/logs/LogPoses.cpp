@@ -3,30 +3,31 @@
 
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
 using mrpt::poses::CPose3D;
 using ScanPlaces = std::vector<RawlogSurvey::ScanPlace>;
 
-Trajectory trajectoryOfTum(const fs::path& file) {
-    Trajectory trajectory;
+observations::Trajectory trajectoryOfTum(const fs::path& file) {
+    observations::Trajectory trajectory;
     for (const TimedPose& pose : readTumPoses(file)) {
         trajectory.add(mrpt::Clock::fromDouble(pose.time_s), pose.pose);
     }
     return trajectory;
 }
 
-Trajectory trajectoryOfKitti(const fs::path& file, const std::vector<CPose3D>& sensor_poses,
-                             const ScanPlaces& scans, bool are_all_scans = true) {
+observations::Trajectory trajectoryOfKitti(const fs::path& file,
+                                           const std::vector<CPose3D>& sensor_poses,
+                                           const ScanPlaces& scans, bool are_all_scans = true) {
     const bool fits =
         are_all_scans ? sensor_poses.size() == scans.size() : sensor_poses.size() >= scans.size();
     if (!fits) {
         throw std::runtime_error(file.string() + ": has " + std::to_string(sensor_poses.size()) +
                                  " poses for " + std::to_string(scans.size()) + " scans");
     }
-    Trajectory trajectory;
+    observations::Trajectory trajectory;
     trajectory.has_horizon = false;  // seen from where the first scan was taken, tilted or not
     for (std::size_t i = 0; i < scans.size(); ++i) {
         trajectory.add(scans[i].time, sensor_poses[i] + (-scans[i].sensor_on_vehicle));
@@ -35,7 +36,8 @@ Trajectory trajectoryOfKitti(const fs::path& file, const std::vector<CPose3D>& s
 }
 
 /// The poses of a file of either kind.
-Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& scans, bool are_all_scans) {
+observations::Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& scans,
+                                      bool are_all_scans) {
     return kindOfPoseFile(file) == PoseFileKind::Tum
                ? trajectoryOfTum(file)
                : trajectoryOfKitti(file, readKittiPoses(file), scans, are_all_scans);
@@ -78,4 +80,4 @@ LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& 
             folder.kittiPosesFile().string()};
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace hagen {
+namespace hagen::logs {
 
 namespace {
 
@@ -28,19 +28,20 @@ mrpt::Clock::time_point later(mrpt::Clock::time_point time, double by_s) {
 
 }  // namespace
 
-std::optional<MappedScan> placeInMap(const ObservationSegmenter::Output& segmented,
-                                     const mrpt::obs::CObservation& observation,
-                                     const Trajectory& vehicle) {
+std::optional<mapping::MappedScan> placeInMap(
+    const observations::ObservationSegmenter::Output& segmented,
+    const mrpt::obs::CObservation& observation, const observations::Trajectory& vehicle) {
     if (!segmented.sensor_pose) return std::nullopt;
     const CPose3D sensor_on_vehicle(observation.sensorPose());
     Scan scan = *segmented.scan;
-    const bool moves = !scan.time_s.empty() && deskew(vehicle, observation.timestamp,
-                                                      sensor_on_vehicle, *segmented.sensor, scan);
+    const bool moves =
+        !scan.time_s.empty() && observations::deskew(vehicle, observation.timestamp,
+                                                     sensor_on_vehicle, *segmented.sensor, scan);
     const double duration_s = durationOf(scan);
     const auto middle =
         moves ? vehicle.at(later(observation.timestamp, duration_s / 2)) : std::nullopt;
 
-    MappedScan mapped;
+    mapping::MappedScan mapped;
     mapped.time_s = mrpt::Clock::toDouble(observation.timestamp) + duration_s;
     mapped.origin_m = isometryOf(middle ? *middle + sensor_on_vehicle : *segmented.sensor_pose)
                           .translation()
@@ -56,27 +57,28 @@ std::optional<MappedScan> placeInMap(const ObservationSegmenter::Output& segment
     return mapped;
 }
 
-MapOutput::MapOutput(const std::vector<std::filesystem::path>& files, const ScanMapOptions& options,
-                     bool overwrite)
+MapOutput::MapOutput(const std::vector<std::filesystem::path>& files,
+                     const mapping::ScanMapOptions& options, bool overwrite)
     : map_(options) {
     for (const auto& file : files) {
-        checkMapFile(file);
-        files_.emplace_back(file, OutputPath::Kind::File, overwrite);
+        mapping::checkMapFile(file);
+        files_.emplace_back(file, base::kFile, overwrite);
     }
 }
 
 void MapOutput::write() const {
-    for (const OutputPath& file : files_) saveMap(map_.tree(), file.temporary(), file.path());
+    for (const base::OutputPath& file : files_)
+        mapping::saveMap(map_.tree(), file.temporary(), file.path());
 }
 
 void MapOutput::commit() {
-    for (OutputPath& file : files_) file.commit();
+    for (base::OutputPath& file : files_) file.commit();
 }
 
 std::string MapOutput::keepPartial() {
     std::string names;
-    for (OutputPath& file : files_) names += " " + file.keepPartial().string();
+    for (base::OutputPath& file : files_) names += " " + file.keepPartial().string();
     return names;
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line,
@@ -48,4 +48,4 @@ void checkColumns(const std::filesystem::path& file, const NumberLine& line, std
                std::to_string(line.numbers.size()));
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

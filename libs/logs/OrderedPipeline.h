@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 inline std::size_t coresOfThisMachine() {
     return static_cast<std::size_t>(tbb::info::default_concurrency());
@@ -127,4 +127,4 @@ void runPipeline(const PipelineSteps<Piece>& steps, std::size_t threads) {
     });
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -8,9 +8,9 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include <hagen/logs/CloseWritten.h>
+#include <hagen/base/WriteFile.h>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,7 +81,7 @@ void writeTumPoses(const fs::path& file, const std::vector<TimedPose>& poses) {
         }
         out << "\n";
     }
-    closeWritten(out, file);
+    base::closeWritten(out, file);
 }
 
 std::vector<CPose3D> readKittiPoses(const fs::path& file) {
@@ -98,7 +98,7 @@ void writeKittiPoses(const fs::path& file, const std::vector<CPose3D>& sensor_po
         for (int i = 0; i < 12; ++i) out << (i > 0 ? " " : "") << matrix(i / 4, i % 4);
         out << "\n";
     }
-    closeWritten(out, file);
+    base::closeWritten(out, file);
 }
 
 CPose3D readKittiCalibration(const fs::path& file) {
@@ -116,4 +116,4 @@ CPose3D readKittiCalibration(const fs::path& file) {
                              ": has no line 'Tr:' (the LiDAR seen from the camera)");
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -5,12 +5,12 @@
 #include <fstream>
 #include <string>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 /// Why an entry cannot be read, out of what MRPT says.
 std::string reasonOf(const std::exception& exception) {
-    const std::string text = messageOf(exception);
+    const std::string text = observations::messageOf(exception);
     if (text.find("(EOF?)") != std::string::npos) return "the file ends in the middle of it";
     if (text.find("is not registered") != std::string::npos) {
         return text + " (this program knows the classes of mrpt-obs and mrpt-maps)";
@@ -38,7 +38,7 @@ RawlogReader::RawlogReader(const std::filesystem::path& file)
     : file_(checked(file)),
       stream_(file),
       archive_(mrpt::serialization::archiveUniquePtrFrom(stream_)) {
-    registerMrptClasses();
+    observations::registerMrptClasses();
 }
 
 double RawlogReader::fractionRead() const {
@@ -69,4 +69,4 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     return object;
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

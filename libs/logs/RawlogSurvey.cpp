@@ -11,7 +11,7 @@
 #include <array>
 #include <utility>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 using mrpt::obs::CActionCollection;
@@ -35,13 +35,15 @@ class SummedMovement {
         is_placed_ = true;
     }
     /// What was summed; nothing where nothing moved.
-    Trajectory trajectory() const { return has_moved_ ? trajectory_ : Trajectory(); }
+    observations::Trajectory trajectory() const {
+        return has_moved_ ? trajectory_ : observations::Trajectory();
+    }
 
  private:
     CPose3D pose_;
     bool is_placed_ = false;  ///< pose_ is in the trajectory
     bool has_moved_ = false;
-    Trajectory trajectory_;
+    observations::Trajectory trajectory_;
 };
 
 /// Gathers every source of poses.
@@ -74,7 +76,7 @@ class Surveyor {
         } else if (const auto* odometry =
                        dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
             odometry_[label].add(odometry->timestamp, CPose3D(odometry->odometry));
-        } else if (isLidarScan(observation)) {
+        } else if (observations::isLidarScan(observation)) {
             scans_[label].push_back({observation.timestamp, CPose3D(observation.sensorPose())});
         }
     }
@@ -82,9 +84,11 @@ class Surveyor {
     RawlogSurvey survey() && {
         RawlogSurvey survey;
         survey.scans = std::move(scans_);
-        const std::map<std::string, Trajectory> summed_3d{{"", summed_3d_.trajectory()}};
-        const std::map<std::string, Trajectory> summed_2d{{"", summed_2d_.trajectory()}};
-        using BySensor = std::map<std::string, Trajectory>;
+        const std::map<std::string, observations::Trajectory> summed_3d{
+            {"", summed_3d_.trajectory()}};
+        const std::map<std::string, observations::Trajectory> summed_2d{
+            {"", summed_2d_.trajectory()}};
+        using BySensor = std::map<std::string, observations::Trajectory>;
         const std::array<std::pair<std::string, const BySensor*>, 4> sources{
             {{"CObservationRobotPose", &robot_poses_},
              {"CActionRobotMovement3D", &summed_3d},
@@ -103,7 +107,7 @@ class Surveyor {
     }
 
  private:
-    std::map<std::string, Trajectory> robot_poses_, odometry_;  ///< by sensor label
+    std::map<std::string, observations::Trajectory> robot_poses_, odometry_;  ///< by sensor label
     SummedMovement summed_3d_, summed_2d_;
     std::map<std::string, std::vector<RawlogSurvey::ScanPlace>> scans_;
 };
@@ -135,4 +139,4 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
     return survey;
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

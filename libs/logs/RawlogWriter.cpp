@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 /// A member this large packs as well as a whole file; a scan with its clouds fills one.
@@ -42,7 +42,7 @@ void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes) {
 }
 
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, bool overwrite)
-    : path_(file, OutputPath::Kind::File, overwrite), file_(path_.temporary()) {}
+    : path_(file, base::kFile, overwrite), file_(path_.temporary()) {}
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& entry) {
     entry_.clear();
@@ -86,4 +86,4 @@ std::filesystem::path RawlogWriter::keepPartial() {
     return path_.keepPartial();
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

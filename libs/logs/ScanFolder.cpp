@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
-#include <hagen/logs/CloseWritten.h>
+#include <hagen/base/WriteFile.h>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,7 +38,7 @@ void writeRecords(const fs::path& file, const std::vector<Record>& records) {
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(records.data()),
               static_cast<std::streamsize>(records.size() * sizeof(Record)));
-    closeWritten(out, file);
+    base::closeWritten(out, file);
 }
 
 /// The numbers of a file with a line a scan; empty where there is no such file.
@@ -56,6 +57,16 @@ std::vector<double> aNumberAScan(const fs::path& file, const std::string& unit, 
 }
 
 }  // namespace
+
+const base::OutputKind kScanFolders{
+    "a scan folder", [](const fs::path& within) {
+        static const std::set<std::string> kFiles{"times.txt",  "poses.txt",     "poses.tum",
+                                                  "kinds.yaml", "altitudes.txt", "sensor.yaml"};
+        const fs::path folder = within.parent_path().filename();
+        return (folder == "velodyne" && within.extension() == ".bin") ||
+               ((folder == "labels" || folder == "semantic") && within.extension() == ".label") ||
+               kFiles.count(within.filename().string()) > 0;
+    }};
 
 ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
     const fs::path scans = folder_ / "velodyne";
@@ -129,4 +140,4 @@ void writeLabels(const fs::path& file, const std::vector<Label>& labels,
     writeRecords(file, entries);
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

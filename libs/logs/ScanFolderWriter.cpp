@@ -6,9 +6,9 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include <hagen/logs/CloseWritten.h>
+#include <hagen/base/WriteFile.h>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,7 +22,7 @@ void writeSensor(const fs::path& file, const SensorModel& sensor) {
     }
     out << "]\n  min_range_m: " << sensor.min_range_m << "\n  max_range_m: " << sensor.max_range_m
         << "\n";
-    closeWritten(out, file);
+    base::closeWritten(out, file);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void ScanFolderWriter::finish() const {
     std::ofstream out(file);
     out << std::fixed << std::setprecision(9);
     for (const double time_s : times_s_) out << time_s << "\n";
-    closeWritten(out, file);
+    base::closeWritten(out, file);
     if (poses_.empty()) return;
     if (have_horizon_) writeTumPoses(folder_ / "poses.tum", poses_);
     if (poses_.size() < times_s_.size()) return;
@@ -70,4 +70,4 @@ void ScanFolderWriter::finish() const {
     writeKittiPoses(folder_ / "poses.txt", sensor_poses);
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,7 +19,7 @@ std::string fileName(const std::string& sensor_label) {
 
 }  // namespace
 
-SensorFolders::SensorFolders(const fs::path& folder, OutputPath::Kind kind, bool overwrite)
+SensorFolders::SensorFolders(const fs::path& folder, const base::OutputKind& kind, bool overwrite)
     : path_(folder, kind, overwrite) {
     fs::create_directory(path_.temporary());
 }
@@ -53,4 +53,4 @@ fs::path SensorFolders::keepPartial() {
     return path_.keepPartial();
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -1,3 +1,4 @@
+#include <hagen/base/Quantile.h>
 #include <hagen/logs/Statistics.h>
 #include <hagen/segmentation/OptionKeys.h>
 
@@ -7,14 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include <hagen/logs/CloseWritten.h>
+#include <hagen/base/WriteFile.h>
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json settingsOf(const Settings& settings) {
+Json settingsOf(const observations::Settings& settings) {
     Json json;
     for (const OptionKey& key : optionKeys()) {
         const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
@@ -25,23 +26,15 @@ Json settingsOf(const Settings& settings) {
     return json;
 }
 
-/// The smallest latency that a share of the scans does not exceed; as evaluation/Latency.h has it,
-/// a library that this one does without.
-double percentile(const std::vector<double>& ascending, double share) {
-    const auto rank =
-        static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));
-    return ascending[std::max<std::size_t>(rank, 1) - 1];
-}
-
 Json latencyOf(const std::vector<ScanReport>& scans) {
     if (scans.empty()) return nullptr;
     std::vector<double> latencies_ms;
     for (const ScanReport& scan : scans) latencies_ms.push_back(scan.latency_ms);
     std::sort(latencies_ms.begin(), latencies_ms.end());
     return {{"scans", scans.size()},
-            {"p50", percentile(latencies_ms, 0.50)},
-            {"p95", percentile(latencies_ms, 0.95)},
-            {"p99", percentile(latencies_ms, 0.99)},
+            {"p50", base::nearestRankOfSorted(latencies_ms, 0.50)},
+            {"p95", base::nearestRankOfSorted(latencies_ms, 0.95)},
+            {"p99", base::nearestRankOfSorted(latencies_ms, 0.99)},
             {"max", latencies_ms.back()}};
 }
 
@@ -102,7 +95,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
         out << (i == 0 ? "\n  " : ",\n  ") << dumped(lineOf(report.scan_reports[i]), -1);
     }
     out << "]\n}\n";
-    closeWritten(out, file);
+    base::closeWritten(out, file);
 }
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::mapping {
 
 /// A set of the keys of a box, a bit each: what octomap's own set of keys is for, many times as
 /// fast where keys lie close together.
@@ -52,4 +52,4 @@ class KeyBox {
     std::vector<std::uint64_t> words_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::mapping

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::mapping {
 
 namespace {
 
@@ -100,4 +100,4 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& 
     if (!out.flush()) failToWrite(named);
 }
 
-}  // namespace hagen
+}  // namespace hagen::mapping

@@ -6,7 +6,7 @@
 
 #include "KeyBox.h"
 
-namespace hagen {
+namespace hagen::mapping {
 
 namespace {
 
@@ -122,4 +122,4 @@ void ScanMap::insert(const MappedScan& scan) {
     for (const auto& key : walk.voxels().occupied) update(key, true);
 }
 
-}  // namespace hagen
+}  // namespace hagen::mapping

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 constexpr double kKnotSpacing_s = 1e-3;
@@ -63,4 +63,4 @@ bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
     return true;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationIMU;
@@ -62,4 +62,4 @@ std::optional<CPose3D> Horizon::at(mrpt::Clock::time_point time) const {
     return vehicle_;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

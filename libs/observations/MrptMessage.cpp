@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace hagen {
+namespace hagen::observations {
 
 std::string messageOf(const std::exception& exception) {
     std::string text = exception.what();
@@ -21,4 +21,4 @@ std::string messageOf(const std::exception& exception) {
     return is_text ? text : "";
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationPointCloud;
@@ -45,7 +45,7 @@ bool isSame(const Settings::Sensor& a, const Settings::Sensor& b) {
 }
 
 /// The sensor of the settings: made anew, which allocates, only where they are not the last ones.
-void sensorOf(const Settings& settings, ObservedScan& observed) {
+void takeConfiguredSensor(const Settings& settings, ObservedScan& observed) {
     struct Last {
         std::optional<Settings::Sensor> settings;
         SensorModel sensor;
@@ -69,7 +69,7 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
             if (size == cloud.x.size()) continue;
             throw std::runtime_error("the arrays of its point cloud differ in size");
         }
-        sensorOf(settings, observed);
+        takeConfiguredSensor(settings, observed);
         assignPoints(cloud.x, cloud.y, cloud.z, observed.scan);
         std::transform(
             cloud.intensity.begin(), cloud.intensity.end(), observed.scan.intensity.begin(),
@@ -101,7 +101,7 @@ void readCloud(const CObservationPointCloud& observation, const Settings& settin
     observation.load();
     if (!observation.pointcloud) throw std::runtime_error("the observation holds no point cloud");
     const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
-    sensorOf(settings, observed);
+    takeConfiguredSensor(settings, observed);
     assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
                  cloud.getPointsBufferRef_z(), observed.scan);
     if (const auto* with_intensity = dynamic_cast<const IntensityCloud*>(&cloud)) {
@@ -170,4 +170,4 @@ CObservationPointCloud::Ptr observationOf(const Scan& scan, const std::string& l
     return observation;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

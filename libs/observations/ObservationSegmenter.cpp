@@ -1,17 +1,16 @@
+#include <hagen/base/ProcessCost.h>
 #include <hagen/observations/Deskew.h>
 #include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/core/initializer.h>
 
-#include <ctime>
+namespace hagen::observations {
 
-namespace hagen {
-
-IMPLEMENTS_MRPT_OBJECT(ObservationSegmenter, mrpt::rtti::CObject, hagen)
+IMPLEMENTS_MRPT_OBJECT(ObservationSegmenter, mrpt::rtti::CObject, hagen::observations)
 
 MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses(); }
 
 void registerHagenClasses() {
-    mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen));
+    mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
 }
 
 namespace {
@@ -36,12 +35,6 @@ CObservationPointCloud::Ptr partOf(const mrpt::obs::CObservation& observation,
 
 void append(const std::string& remark, std::string& remarks) {
     remarks += (remarks.empty() ? "" : "; ") + remark;
-}
-
-std::chrono::nanoseconds threadCpuTime() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
 }
 
 }  // namespace
@@ -137,9 +130,9 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
 
     std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
                                                              "process.segment");
-    const auto cpu_start = threadCpuTime();
+    const auto cpu_start = base::threadCpuTime();
     const SegmentationResult& result = lidar.filter.segment(window, whereabouts.attitude);
-    const auto filter_cpu_time = threadCpuTime() - cpu_start;
+    const auto filter_cpu_time = base::threadCpuTime() - cpu_start;
     segmenting.reset();
     const auto labelled = std::chrono::steady_clock::now();
 
@@ -161,4 +154,4 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     return true;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -1,7 +1,7 @@
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/RoiPointCloudFilter.h>
 
-namespace hagen {
+namespace hagen::observations {
 
 RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
                                          const mrpt::poses::CPose3D& sensor_pose)
@@ -31,4 +31,4 @@ void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

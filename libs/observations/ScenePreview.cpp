@@ -7,7 +7,7 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/stock_objects.h>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 // Apart for the colour-blind too, and both apart from the viewer's grey.
@@ -66,4 +66,4 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     return preview;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

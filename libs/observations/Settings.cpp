@@ -1,9 +1,9 @@
 #include <yaml-cpp/yaml.h>
 
+#include <hagen/base/NumberText.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iomanip>
 #include <map>
@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,14 +21,6 @@ constexpr int kMostIncludes = 8;  // deep enough for any sane set of files; stop
 std::string at(const fs::path& file, const YAML::Node& node) {
     const YAML::Mark mark = node.Mark();
     return file.string() + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
-}
-
-/// The shortest text that reads back as the same number.
-template <class Number>
-std::string number(Number value) {
-    char text[64];
-    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-    return {text, end};
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
@@ -65,7 +57,7 @@ Number parseNumber(const YAML::Node& node, const std::string& key, double least,
     }
     if (!(value >= least && value <= most)) {  // NaN too
         throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
-                            number(least) + " and " + number(most));
+                            base::shortestText(least) + " and " + base::shortestText(most));
     }
     return static_cast<Number>(value);
 }
@@ -111,9 +103,9 @@ const std::vector<SettingsKey>& sensorKeys() {
          "the sensor of clouds; packets tell theirs", ""},
         {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
          "the beams of a custom sensor, lowest first", ""},
-        {"min_range_m", "m", "the model's", "0 ... " + number(kMostRange_m),
+        {"min_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
          "nearer returns are unclassified", ""},
-        {"max_range_m", "m", "the model's", "0 ... " + number(kMostRange_m),
+        {"max_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
          "farther returns are unclassified", ""}};
     return keys;
 }
@@ -262,9 +254,9 @@ SensorModel Settings::sensorModel() const {
     model.min_range_m = sensor.min_range_m.value_or(model.min_range_m);
     model.max_range_m = sensor.max_range_m.value_or(model.max_range_m);
     if (!(model.min_range_m < model.max_range_m)) {
-        throw SettingsError("sensor.min_range_m (" + number(model.min_range_m) +
-                            ") is not below sensor.max_range_m (" + number(model.max_range_m) +
-                            ")");
+        throw SettingsError("sensor.min_range_m (" + base::shortestText(model.min_range_m) +
+                            ") is not below sensor.max_range_m (" +
+                            base::shortestText(model.max_range_m) + ")");
     }
     return model;
 }
@@ -298,10 +290,11 @@ std::string dumpSettings(const Settings& settings) {
     std::map<std::string, std::string> values;
     if (sensor.model) values["model"] = *sensor.model;
     std::vector<std::string> elevations;
-    for (const double elevation : sensor.elevations_deg) elevations.push_back(number(elevation));
+    for (const double elevation : sensor.elevations_deg)
+        elevations.push_back(base::shortestText(elevation));
     if (!elevations.empty()) values["elevations_deg"] = "[" + joined(elevations, ", ") + "]";
     const auto limit = [&](const char* key, std::optional<float> value) {
-        if (value) values[key] = number(*value);
+        if (value) values[key] = base::shortestText(*value);
     };
     limit("min_range_m", sensor.min_range_m);
     limit("max_range_m", sensor.max_range_m);
@@ -341,4 +334,4 @@ void setOption(const std::string& key, const std::string& value, Settings& setti
     parseOption(*option, YAML::Node(value), settings.options);
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

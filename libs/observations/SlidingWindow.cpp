@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 template <class T>
@@ -56,4 +56,4 @@ const Scan& SlidingWindow::add(const Scan& newest, const mrpt::poses::CPose3D& s
     return window_;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace hagen {
+namespace hagen::observations {
 
 Trajectory::Trajectory() {
     poses_.setInterpolationMethod(mrpt::poses::imLinear2Neig);
@@ -20,4 +20,4 @@ std::optional<mrpt::poses::CPose3D> Trajectory::at(mrpt::Clock::time_point time)
     return is_valid ? std::optional(pose) : std::nullopt;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -12,7 +12,7 @@
 
 #include "VelodyneReturns.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
@@ -245,4 +245,4 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
     return unsound_blocks;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

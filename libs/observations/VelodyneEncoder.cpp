@@ -4,7 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
@@ -119,4 +119,4 @@ CObservationVelodyneScan::Ptr encodeScan(const VelodyneModel& model, const Firin
     return scan;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -3,7 +3,7 @@
 #include <mutex>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::observations {
 
 using mrpt::obs::VelodyneCalibration;
 
@@ -79,4 +79,4 @@ SensorModel sensorOf(const VelodyneCalibration& calibration, const std::string& 
     return sensor;
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations

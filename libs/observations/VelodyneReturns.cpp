@@ -10,7 +10,7 @@
 
 #ifndef HAGEN_OBSERVATIONS_VELODYNE_RETURNS_ONCE
 #define HAGEN_OBSERVATIONS_VELODYNE_RETURNS_ONCE
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 /// Whether readings of the block may lie beyond the turn's ends, of which both are behind.
@@ -20,11 +20,11 @@ bool passesBehind(const VelodyneBlock& block, const PlacesInBlock& places) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace hagen {
+namespace hagen::observations {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -158,11 +158,11 @@ void locate(const VelodyneBlock* blocks, std::size_t block_count, const PlacesIn
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hagen
+}  // namespace hagen::observations
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 HWY_EXPORT(count);
@@ -179,5 +179,5 @@ void locateReturns(const std::vector<VelodyneBlock>& blocks, const PlacesInBlock
     HWY_DYNAMIC_DISPATCH(locate)(blocks.data(), blocks.size(), places, returns);
 }
 
-}  // namespace hagen
+}  // namespace hagen::observations
 #endif

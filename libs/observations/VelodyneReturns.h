@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// A block holds so many returns.
 constexpr std::size_t kReturnsOfBlock = 32;
@@ -55,4 +55,4 @@ constexpr std::size_t kSpareReturns = 8;
 void locateReturns(const std::vector<VelodyneBlock>& blocks, const PlacesInBlock& places,
                    const ReturnArrays& returns);
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -10,7 +10,7 @@
 #include <memory>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::pictures {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     if (status != 0) throw std::runtime_error("gnuplot failed: " + complaint);
 }
 
-}  // namespace hagen
+}  // namespace hagen::pictures

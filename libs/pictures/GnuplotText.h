@@ -3,7 +3,7 @@
 #include <locale>
 #include <sstream>
 
-namespace hagen {
+namespace hagen::pictures {
 
 /// Colours that the colour-blind tell apart (Okabe and Ito); an obstacle takes the one of its
 /// number, the nearest the first. ROU and empty pixels are pale beside all of them.
@@ -21,4 +21,4 @@ inline std::ostringstream plainText() {
     return text;
 }
 
-}  // namespace hagen
+}  // namespace hagen::pictures

@@ -9,7 +9,7 @@
 
 #include "GnuplotText.h"
 
-namespace hagen {
+namespace hagen::pictures {
 namespace {
 
 constexpr int kMostBars = 60;
@@ -258,4 +258,4 @@ class Blocks {
 
 StageData stageDataOf(const StageView& view) { return Blocks(view).write(); }
 
-}  // namespace hagen
+}  // namespace hagen::pictures

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::pictures {
 
 /// What a scan's stages made, as gnuplot's data blocks:
 ///
@@ -29,4 +29,4 @@ struct StageData {
 
 StageData stageDataOf(const StageView& view);
 
-}  // namespace hagen
+}  // namespace hagen::pictures

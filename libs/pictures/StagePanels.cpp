@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::pictures {
 namespace {
 
 /// Perceptually uniform: viridis for depths, cividis for angles.
@@ -328,4 +328,4 @@ void Panels::zoomDepth(const Box& box, const std::string& block) {
     text_ << "unset colorbox\n" << imageOf(block) << "\n";
 }
 
-}  // namespace hagen
+}  // namespace hagen::pictures

@@ -6,7 +6,7 @@
 #include "GnuplotText.h"
 #include "StageData.h"
 
-namespace hagen {
+namespace hagen::pictures {
 
 /// A place in a picture, in pixels from its lower left corner.
 struct Box {
@@ -80,4 +80,4 @@ class Panels {
     std::ostringstream text_ = plainText();
 };
 
-}  // namespace hagen
+}  // namespace hagen::pictures

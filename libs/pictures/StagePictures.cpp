@@ -4,7 +4,7 @@
 #include "StageData.h"
 #include "StagePanels.h"
 
-namespace hagen {
+namespace hagen::pictures {
 namespace {
 
 constexpr int kWidth_px = Panels::kWidth_px;
@@ -102,6 +102,12 @@ const std::vector<std::string>& stagePictures() {
     return kNames;
 }
 
+const base::OutputKind kStagePictures{
+    "a folder of pictures", [](const std::filesystem::path& within) {
+        const auto& pictures = stagePictures();
+        return std::find(pictures.begin(), pictures.end(), within.filename()) != pictures.end();
+    }};
+
 void drawStages(const StageView& view, const std::filesystem::path& folder) {
     const StageData data = stageDataOf(view);
     Panels panels(view, data);
@@ -116,4 +122,4 @@ void drawStages(const StageView& view, const std::filesystem::path& folder) {
     runGnuplot(panels.script(), folder, stagePictures());
 }
 
-}  // namespace hagen
+}  // namespace hagen::pictures

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 void throwError(void*, RTCError, const char* message) {
@@ -25,4 +25,4 @@ void attach(RTCScene scene, RTCGeometry geometry) {
     rtcReleaseGeometry(geometry);
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

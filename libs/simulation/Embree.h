@@ -3,7 +3,7 @@
 #include <memory>
 #include <type_traits>
 
-namespace hagen {
+namespace hagen::simulation {
 
 struct ReleaseDevice {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -21,4 +21,4 @@ DevicePtr makeEmbreeDevice();
 /// Adds a geometry, and gives it away.
 void attach(RTCScene scene, RTCGeometry geometry);
 
-}  // namespace hagen
+}  // namespace hagen::simulation

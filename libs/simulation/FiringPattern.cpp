@@ -1,7 +1,7 @@
 #include <hagen/simulation/Lidar.h>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::simulation {
 
 FiringPattern firingPattern(const SensorModel& sensor) {
     FiringPattern pattern;
@@ -24,4 +24,4 @@ FiringPattern firingPattern(const SensorModel& sensor) {
     return pattern;
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
@@ -103,4 +103,4 @@ SensorPose Flight::at(double time_s) const {
                 Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX())};
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -1,7 +1,7 @@
 #include <hagen/simulation/Kind.h>
 #include <array>
 
-namespace hagen {
+namespace hagen::simulation {
 
 const std::vector<Kind>& allKinds() {
     static const std::vector<Kind> kinds{Kind::Terrain, Kind::Canopy,   Kind::Tree,    Kind::Pole,
@@ -31,4 +31,4 @@ Label labelOf(Kind kind) {
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector3f;
@@ -336,4 +336,4 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
     return simulateScan(scene, sensor, pose_at, time_s, random, faults);
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

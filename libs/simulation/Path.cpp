@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 /// Where along the path a way ends: on which part, and how far on that.
@@ -53,4 +53,4 @@ double Path::distance_m(double x_m, double y_m) const {
     return std::abs(std::hypot(beyond_m, y_m) - radius_m);
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

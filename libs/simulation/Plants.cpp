@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector3d;
@@ -172,4 +172,4 @@ Shape makeTuft(Random& random) {
     return shape;
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

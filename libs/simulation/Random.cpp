@@ -2,7 +2,7 @@
 #include <hagen/simulation/Random.h>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 
 Random::Random(std::uint64_t seed, std::uint64_t stream)
     : engine_(seed * 0x9e3779b97f4a7c15u + stream * 0xd1b54a32d192ed03u + 1) {}
@@ -27,4 +27,4 @@ int Random::poisson(double mean) {
     return events;
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector2d;
@@ -450,4 +450,4 @@ Scene makeScene(const std::string& name, std::uint64_t seed) {
     throw std::invalid_argument("unknown scenario '" + name + "'; known are " + known);
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

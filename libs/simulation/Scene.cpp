@@ -6,7 +6,7 @@
 
 #include "Embree.h"
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector3f;
@@ -152,8 +152,8 @@ struct Scene::World {
         scene.reset(rtcNewScene(device.get()));
         for (const SceneObject& object : content.objects) {
             attach(scene.get(),
-                   hagen::instanceOf(device.get(), shapes.at(object.shape).get(), {object.pose}));
-            instances.push_back(hagen::instanceOf(object.kind, object.number, object.pose));
+                   instanceOf(device.get(), shapes.at(object.shape).get(), {object.pose}));
+            instances.push_back(instanceOf(object.kind, object.number, object.pose));
         }
         rtcCommitScene(scene.get());
     }
@@ -212,4 +212,4 @@ void Scene::Snapshot::cast(const std::vector<Ray>& rays, float max_range_m,
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

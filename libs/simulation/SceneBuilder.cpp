@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::simulation {
 
 SceneBuilder::SceneBuilder(const TerrainForm& form, const Path& path, const GroundExtent& extent,
                            const Random& random)
@@ -112,4 +112,4 @@ void SceneBuilder::scatter(double per_m2, const std::function<void(double, doubl
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -7,7 +7,7 @@
 
 #include "Embree.h"
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector3f;
@@ -244,4 +244,4 @@ float SceneDistance::at(const Eigen::Vector3f& point_m, double time_s) const {
     return nearest_m;
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

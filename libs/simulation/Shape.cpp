@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 
 using Eigen::Vector3f;
 
@@ -87,4 +87,4 @@ void Shape::append(const Shape& other, const Eigen::Affine3f& pose) {
     for (const std::uint32_t segment : other.segments) segments.push_back(first_knot + segment);
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

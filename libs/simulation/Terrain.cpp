@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 constexpr double kCell_m = 0.6;  // of the mesh's middle
@@ -102,4 +102,4 @@ Shape Terrain::mesh(double half_length_m, double half_width_m, double reach_m,
     return shape;
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

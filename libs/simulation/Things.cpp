@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector2d;
@@ -174,4 +174,4 @@ void addWireLine(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& 
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -1,3 +1,4 @@
+#include <hagen/base/ProcessCost.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/Trial.h>
 
@@ -8,7 +9,7 @@
 
 #include "Stopwatch.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 const std::array<const char*, 3> kCourses{"forest-0.05", "forest-0.10", "u-trap"};
@@ -35,7 +36,7 @@ std::string today() {
 
 /// A flight's scans, and the way flown when each was taken.
 struct RecordedScans {
-    std::vector<MappedScan> scans;
+    std::vector<mapping::MappedScan> scans;
     std::vector<double> path_m;
     double length_m = 0;
 };
@@ -44,7 +45,7 @@ RecordedScans recordFlight(const Course& course) {
     RecordedScans recorded;
     TrialListener listener;
     Eigen::Vector3d last = course.start_m;
-    listener.moved = [&](double, const VehicleState& state) {
+    listener.moved = [&](double, const avoidance::VehicleState& state) {
         recorded.length_m += (state.position_m - last).norm();
         last = state.position_m;
     };
@@ -56,7 +57,7 @@ RecordedScans recordFlight(const Course& course) {
     return recorded;
 }
 
-void moveAlongX(MappedScan& scan, float by_m) {
+void moveAlongX(mapping::MappedScan& scan, float by_m) {
     scan.origin_m.x() += by_m;
     for (Eigen::Vector3f& point : scan.points_m) point.x() += by_m;
 }
@@ -66,11 +67,11 @@ void moveAlongX(MappedScan& scan, float by_m) {
 LatencyProfile constantProfile(double latency_ms) {
     LatencyProfile profile;
     TrialSetup setup;
-    for (const std::string& model : worldModelNames()) {
+    for (const std::string& model : avoidance::worldModelNames()) {
         setup.model = model;
-        for (const std::string& guidance : guidanceNames()) {
+        for (const std::string& guidance : avoidance::guidanceNames()) {
             setup.guidance = guidance;
-            for (const std::string& planner : plannerNames()) {
+            for (const std::string& planner : avoidance::plannerNames()) {
                 setup.planner = planner;
                 for (const std::string& stage : stagesOf(setup)) {
                     profile.quantiles_ms[stage] = {latency_ms};
@@ -92,9 +93,9 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
             const Course course =
                 makeCourse(kCourses[static_cast<std::size_t>(seed) % kCourses.size()],
                            static_cast<std::uint64_t>(seed));
-            for (const std::string& guidance : guidanceNames()) {
+            for (const std::string& guidance : avoidance::guidanceNames()) {
                 setup.guidance = guidance;
-                for (const std::string& planner : plannerNames()) {
+                for (const std::string& planner : avoidance::plannerNames()) {
                     setup.planner = planner;
                     runTrial(course, setup, nominal, &measurement);
                 }
@@ -115,19 +116,21 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m)
     constexpr double kEvery_m = 10;
     const Course course = makeCourse(kCourses[0], 0);
     RecordedScans recorded = recordFlight(course);
-    WorldModelSetting setting;
+    avoidance::WorldModelSetting setting;
     setting.bounds_m = course.bounds_m.cast<float>();
     setting.bounds_m.max().x() += static_cast<float>(path_m);
-    setting.true_clearance_m = [](const Eigen::Vector3f&) { return WorldModel::kReach_m; };
-    const double before = heapBytes();
-    const auto world = makeWorldModel(model, setting);
-    std::vector<HeapSample> samples{{0, heapBytes() - before}};
+    setting.true_clearance_m = [](const Eigen::Vector3f&) {
+        return avoidance::WorldModel::kReach_m;
+    };
+    const double before = base::heapBytes();
+    const auto world = avoidance::makeWorldModel(model, setting);
+    std::vector<HeapSample> samples{{0, base::heapBytes() - before}};
     double held = samples[0].bytes;
     for (double lap_m = 0; lap_m < path_m; lap_m += recorded.length_m) {
         for (std::size_t i = 0; i < recorded.scans.size(); ++i) {
-            const double at_m = lap_m + recorded.path_m[i], heap = heapBytes();
+            const double at_m = lap_m + recorded.path_m[i], heap = base::heapBytes();
             world->update(recorded.scans[i]);
-            held += heapBytes() - heap;
+            held += base::heapBytes() - heap;
             if (at_m <= path_m && at_m >= samples.back().path_m + kEvery_m) {
                 samples.push_back({at_m, held});
             }
@@ -137,4 +140,4 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m)
     return samples;
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

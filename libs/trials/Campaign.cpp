@@ -14,7 +14,7 @@
 #include <new>
 #include <thread>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 /// What the processes of a campaign tell one another, in memory that they share.
@@ -86,7 +86,7 @@ class Worker {
         run.settings_hash = folder_.settingsHash();
         run.version = HAGEN_VERSION;
         TrialListener listener;
-        listener.moved = [this](double, const VehicleState&) { stopIfTold(); };
+        listener.moved = [this](double, const avoidance::VehicleState&) { stopIfTold(); };
         for (const TrialSetup& setup : flights.setups) {
             run.setup = setup;
             tell(keyOf(run));
@@ -245,4 +245,4 @@ std::size_t flyCampaign(const std::vector<CourseFlights>& flights, const Latency
     return all;
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

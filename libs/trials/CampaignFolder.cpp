@@ -1,6 +1,7 @@
 #include <fcntl.h>
-#include <hagen/logs/CloseWritten.h>
-#include <hagen/logs/OutputPath.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/Quantile.h>
+#include <hagen/base/WriteFile.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/Statistics.h>
@@ -19,7 +20,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +51,7 @@ std::string hashOf(const std::string& text) {
 }
 
 ordered_json vehicleJson() {
-    const VehicleLimits limits;
+    const avoidance::VehicleLimits limits;
     return {{"acceleration_m_s2", limits.acceleration_m_s2},
             {"actuation_delay_s", limits.actuation_delay_s},
             {"radius_m", limits.radius_m},
@@ -66,7 +67,8 @@ constexpr int kRevision = 3;
 /// Hash of all that makes a run what it is, but for what its own row tells.
 std::string hashOfSettings(const LatencyProfile& profile) {
     return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +
-                  vehicleJson().dump() + "\n" + dumpSettings(Settings{}) + "\n" + textOf(profile));
+                  vehicleJson().dump() + "\n" +
+                  observations::dumpSettings(observations::Settings{}) + "\n" + textOf(profile));
 }
 
 ordered_json jsonOf(const CampaignPlan& plan) {
@@ -103,8 +105,8 @@ CampaignPlan planFrom(const ordered_json& noted) {
 
 /// Writes a file under a temporary name, and renames it when it is whole.
 void writeWhole(const fs::path& file, const std::string& text) {
-    OutputPath output(file, OutputPath::Kind::File, true);
-    writeText(text, output.temporary(), file);
+    base::OutputPath output(file, base::kFile, true);
+    base::writeText(text, output.temporary(), file);
     output.commit();
 }
 
@@ -193,7 +195,7 @@ std::string measuredRowOf(const Run& run, const TrialMeasurement& measurement) {
         for (const double share : {0.5, 0.95}) {
             row += ",";
             if (found != measurement.stage_ms.end()) {
-                row += shortText(quantile(found->second, share), 3);
+                row += shortText(base::quantile(found->second, share), 3);
             }
         }
     }
@@ -239,7 +241,7 @@ void CampaignFolder::open(bool overwrite) {
     }
     if (is_new || overwrite) {
         writeDescription();
-        OutputPath profile(folder_ / "profile.json", OutputPath::Kind::File, true);
+        base::OutputPath profile(folder_ / "profile.json", base::kFile, true);
         writeLatencyProfile(profile_, profile.temporary());
         profile.commit();
         return;
@@ -271,7 +273,7 @@ void CampaignFolder::writeDescription() {
     root["profile"] = {
         {"machine", profile_.machine}, {"made_by", profile_.made_by}, {"date", profile_.date}};
     root["vehicle"] = vehicleJson();
-    root["filter"] = dumpSettings(Settings{});
+    root["filter"] = observations::dumpSettings(observations::Settings{});
     root["flown"] = ordered_json::array();
     for (const std::string& plan : flown_) root["flown"].push_back(ordered_json::parse(plan));
     writeWhole(folder_ / "campaign.json", root.dump(2) + "\n");
@@ -418,4 +420,4 @@ std::size_t mergeCampaigns(const std::vector<fs::path>& folders, const fs::path&
     return merged.size();
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

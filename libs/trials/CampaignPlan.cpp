@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 void checkNames(const std::string& what, const std::vector<std::string>& names,
@@ -27,9 +27,9 @@ void checkPositive(const std::string& what, const std::vector<double>& values) {
 
 void check(const CampaignPlan& plan, const Shard& shard) {
     checkNames("scenario", plan.scenarios, courseNames());
-    checkNames("model", plan.models, worldModelNames());
-    checkNames("guidance", plan.guidances, guidanceNames());
-    checkNames("planner", plan.planners, plannerNames());
+    checkNames("model", plan.models, avoidance::worldModelNames());
+    checkNames("guidance", plan.guidances, avoidance::guidanceNames());
+    checkNames("planner", plan.planners, avoidance::plannerNames());
     checkPositive("speed", plan.speeds_m_s);
     checkPositive("latency scale", plan.latency_scales);
     if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
@@ -90,4 +90,4 @@ void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -7,7 +7,7 @@
 
 #include "CourseScenes.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using Eigen::Vector3d;
@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 using Clearance = std::function<float(const Vector3f&)>;
 
 /// Where one may fly, seen from above, and from the lowest ground there to over the highest.
-Eigen::AlignedBox3d boundsOver(const Terrain& terrain) {
+Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     constexpr double kLeft_m = -6, kRight_m = 46, kHalfWidth_m = 15;
     constexpr double kBelow_m = 1, kAbove_m = 6;
     Eigen::AlignedBox3d bounds;
@@ -66,24 +66,24 @@ std::optional<double> oraclePath_m(const Course& course) {
         if (height_m < kLowest_m || height_m > kHighest_m) return 0.0f;
         return course.distance.toStanding(at);
     };
-    PathSearchOptions options;
+    avoidance::PathSearchOptions options;
     options.bounds_m = course.bounds_m;
     options.least_clearance_m = options.wanted_clearance_m = kCourseClearance_m;
-    const auto path = findPath(clearance_m, course.start_m, course.goal_m, options);
+    const auto path = avoidance::findPath(clearance_m, course.start_m, course.goal_m, options);
     if (!path) return std::nullopt;
     return cutLength_m(clearance_m, *path);
 }
 
-Course courseThrough(const CourseSort& sort, std::uint64_t seed, const Scene& scene) {
+Course courseThrough(const CourseSort& sort, std::uint64_t seed, const simulation::Scene& scene) {
     const auto above = [&](const Eigen::Vector2d& at) {
         return Vector3d(at.x(), at.y(), scene.terrain().height_m(at.x(), at.y()) + sort.altitude_m);
     };
     const Eigen::AlignedBox3d bounds_m = boundsOver(scene.terrain());
-    const auto reach_m = static_cast<double>(WorldModel::kReach_m);
+    const auto reach_m = static_cast<double>(avoidance::WorldModel::kReach_m);
     return {sort.name,
             seed,
             scene,
-            SceneDistance(scene, bounds_m, reach_m),
+            simulation::SceneDistance(scene, bounds_m, reach_m),
             above(kCourseStart_m),
             above(kCourseGoal_m),
             sort.altitude_m,
@@ -115,7 +115,8 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
     constexpr std::uint64_t kFirstStream = 100, kMostAttempts = 50;
     const CourseSort& sort = sortNamed(scenario);
     for (std::uint64_t attempt = 0; attempt < kMostAttempts; ++attempt) {
-        Course course = courseThrough(sort, seed, sort.make(Random(seed, kFirstStream + attempt)));
+        Course course =
+            courseThrough(sort, seed, sort.make(simulation::Random(seed, kFirstStream + attempt)));
         if (const std::optional<double> length_m = oraclePath_m(course)) {
             course.oracle_path_m = *length_m;
             return course;
@@ -126,8 +127,8 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
                              " has a path; take another seed");
 }
 
-LidarFaults trialFaults() {
-    LidarFaults faults;
+simulation::LidarFaults trialFaults() {
+    simulation::LidarFaults faults;
     faults.least_noise_m = 0.02;
     faults.lost = 0.01;
     faults.mixed = 0;
@@ -136,4 +137,4 @@ LidarFaults trialFaults() {
     return faults;
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -6,29 +6,30 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using Eigen::Vector2d;
 using Shapes = std::vector<std::size_t>;
 
 /// Only what is flown over is meshed finely, so that scenes are made, and scanned, quickly.
-constexpr GroundExtent kGround{48, 20, 90};
+constexpr simulation::GroundExtent kGround{48, 20, 90};
 
-SceneBuilder groundOf(double slope_deg, double bump_m, double grass_m, const Random& random) {
-    TerrainForm form;
+simulation::SceneBuilder groundOf(double slope_deg, double bump_m, double grass_m,
+                                  const simulation::Random& random) {
+    simulation::TerrainForm form;
     form.max_slope_rad = radians(slope_deg);
     form.bump_m = bump_m;
     form.roughness_m = 0.025;
     form.grass_m = grass_m;
-    return SceneBuilder(form, kGround, random);
+    return simulation::SceneBuilder(form, kGround, random);
 }
 
-double anyYaw(Random& random) { return random.uniform(0, 2 * kPi); }
+double anyYaw(simulation::Random& random) { return random.uniform(0, 2 * kPi); }
 
-double anySign(Random& random) { return random.chance(0.5) ? 1.0 : -1.0; }
+double anySign(simulation::Random& random) { return random.chance(0.5) ? 1.0 : -1.0; }
 
-Vector2d anywhere(Random& random) {
+Vector2d anywhere(simulation::Random& random) {
     const double x_m = random.uniform(kCourseField_m.min().x(), kCourseField_m.max().x());
     const double y_m = random.uniform(kCourseField_m.min().y(), kCourseField_m.max().y());
     return {x_m, y_m};
@@ -42,14 +43,14 @@ bool leavesEndsFree(const Vector2d& at_m, double radius_m) {
 
 /// Calls put(place) at random places of a density over the field (a Poisson process).
 template <class Put>
-void scatter(SceneBuilder& builder, double per_m2, const Put& put) {
+void scatter(simulation::SceneBuilder& builder, double per_m2, const Put& put) {
     const int count = builder.random().poisson(per_m2 * kCourseField_m.volume());
     for (int i = 0; i < count; ++i) put(anywhere(builder.random()));
 }
 
 /// A tree of a wood, of fewer and larger leaves than those of the scenarios.
-TreeForm lightTree(Random& random) {
-    TreeForm form;
+simulation::TreeForm lightTree(simulation::Random& random) {
+    simulation::TreeForm form;
     form.height_m = random.uniform(5.5, 9.0);
     form.crown_base_m = random.uniform(2.4, 4.0);
     form.crown_radius_m = random.uniform(0.9, 1.5);
@@ -63,35 +64,36 @@ TreeForm lightTree(Random& random) {
 
 constexpr double kWidestTree_m = 1.9;  // crown and clumps of leaves, at the largest scale
 
-Shapes addTrees(SceneBuilder& builder, int count) {
-    return builder.addShapes(count, [](Random& r) { return makeTree(lightTree(r), r); });
+Shapes addTrees(simulation::SceneBuilder& builder, int count) {
+    return builder.addShapes(
+        count, [](simulation::Random& r) { return simulation::makeTree(lightTree(r), r); });
 }
 
 /// Trees anywhere that `mayStand` allows.
 template <class MayStand>
-void scatterTrees(SceneBuilder& builder, double per_m2, const MayStand& mayStand) {
+void scatterTrees(simulation::SceneBuilder& builder, double per_m2, const MayStand& mayStand) {
     const Shapes trees = addTrees(builder, 6);
     scatter(builder, per_m2, [&](const Vector2d& at) {
         const double size = builder.random().uniform(0.8, 1.15);
         if (!leavesEndsFree(at, kWidestTree_m) || !mayStand(at)) return;
-        builder.placeAnyOf(Kind::Tree, trees, at.x(), at.y(), {size, size, size});
+        builder.placeAnyOf(simulation::Kind::Tree, trees, at.x(), at.y(), {size, size, size});
     });
 }
 
-void scatterTrees(SceneBuilder& builder, double per_m2) {
+void scatterTrees(simulation::SceneBuilder& builder, double per_m2) {
     scatterTrees(builder, per_m2, [](const Vector2d&) { return true; });
 }
 
-void scatterTufts(SceneBuilder& builder, double per_m2, double tallest_m) {
-    const Shapes tufts = builder.addShapes(3, makeTuft);
+void scatterTufts(simulation::SceneBuilder& builder, double per_m2, double tallest_m) {
+    const Shapes tufts = builder.addShapes(3, simulation::makeTuft);
     scatter(builder, per_m2, [&](const Vector2d& at) {
         const double height_m = builder.random().uniform(0.1, tallest_m);
-        builder.placeAnyOf(Kind::Canopy, tufts, at.x(), at.y(), {1, 1, height_m});
+        builder.placeAnyOf(simulation::Kind::Canopy, tufts, at.x(), at.y(), {1, 1, height_m});
     });
 }
 
-Scene makeForest(double per_m2, const Random& random) {
-    SceneBuilder builder = groundOf(4, 0.05, 0.12, random);
+simulation::Scene makeForest(double per_m2, const simulation::Random& random) {
+    simulation::SceneBuilder builder = groundOf(4, 0.05, 0.12, random);
     scatterTrees(builder, per_m2);
     scatterTufts(builder, 0.02, 0.35);
     return builder.build();
@@ -99,11 +101,11 @@ Scene makeForest(double per_m2, const Random& random) {
 
 /// Rows 4 m apart, a tree every 3 m, at an angle to the way: the flight has to change rows where a
 /// tree is missing.
-Scene makeOrchard(Random random) {
-    SceneBuilder builder = groundOf(3, 0.04, 0.15, random);
-    Random& r = builder.random();
-    const Shapes trees = builder.addShapes(5, [](Random& own) {
-        TreeForm form;
+simulation::Scene makeOrchard(simulation::Random random) {
+    simulation::SceneBuilder builder = groundOf(3, 0.04, 0.15, random);
+    simulation::Random& r = builder.random();
+    const Shapes trees = builder.addShapes(5, [](simulation::Random& own) {
+        simulation::TreeForm form;
         form.height_m = own.uniform(3.8, 4.6);
         form.crown_base_m = own.uniform(0.6, 1.0);
         form.crown_radius_m = own.uniform(0.8, 1.1);
@@ -112,7 +114,7 @@ Scene makeOrchard(Random random) {
         form.leaf_area_m2 = own.uniform(7, 10);
         form.branches = 9;
         form.low_branches = own.below(2);
-        return makeTree(form, own);
+        return simulation::makeTree(form, own);
     });
     constexpr double kRow_m = 4, kTree_m = 3, kMissing = 0.15;
     const double yaw = anySign(r) * radians(r.uniform(10, 30)), aside_m = r.uniform(0, kRow_m);
@@ -125,7 +127,7 @@ Scene makeOrchard(Random random) {
             const double size = r.uniform(0.9, 1.05);
             if (r.chance(kMissing) || !kCourseField_m.contains(at)) continue;
             if (!leavesEndsFree(at, 1.6)) continue;
-            builder.placeAnyOf(Kind::Tree, trees, at.x(), at.y(), {size, size, size});
+            builder.placeAnyOf(simulation::Kind::Tree, trees, at.x(), at.y(), {size, size, size});
         }
     }
     scatterTufts(builder, 0.02, 0.25);
@@ -136,17 +138,18 @@ constexpr double kWallHeight_m = 6;  // higher than one may fly
 constexpr double kBesideField_m = 19;
 
 /// A wall across the field, with a gap that is not straight ahead; few trees.
-Scene makeGap(const Random& random) {
-    SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
-    Random& r = builder.random();
+simulation::Scene makeGap(const simulation::Random& random) {
+    simulation::SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
+    simulation::Random& r = builder.random();
     const double side = anySign(r), x_m = r.uniform(14, 26), skew = r.uniform(-0.2, 0.2);
     const double y_m = side * r.uniform(1.5, 9);
     const double gap_m = r.uniform(1.6, 2.4), thickness_m = r.uniform(0.15, 0.4);
     const Vector2d middle(x_m, y_m), along(std::sin(skew), std::cos(skew));
-    addWall(builder, middle + gap_m / 2 * along,
-            middle + (kBesideField_m - y_m) / along.y() * along, kWallHeight_m, thickness_m);
-    addWall(builder, middle - (kBesideField_m + y_m) / along.y() * along,
-            middle - gap_m / 2 * along, kWallHeight_m, thickness_m);
+    simulation::addWall(builder, middle + gap_m / 2 * along,
+                        middle + (kBesideField_m - y_m) / along.y() * along, kWallHeight_m,
+                        thickness_m);
+    simulation::addWall(builder, middle - (kBesideField_m + y_m) / along.y() * along,
+                        middle - gap_m / 2 * along, kWallHeight_m, thickness_m);
     scatterTrees(builder, 0.006, [&](const Vector2d& at) {
         return (at - middle).norm() > 5 && std::abs(at.x() - x_m) > 2.5;
     });
@@ -155,42 +158,43 @@ Scene makeGap(const Random& random) {
 }
 
 /// Three walls, open towards the start; the way out leads back and around.
-Scene makeTrap(const Random& random) {
-    SceneBuilder builder = groundOf(2, 0.03, 0.12, random);
-    Random& r = builder.random();
+simulation::Scene makeTrap(const simulation::Random& random) {
+    simulation::SceneBuilder builder = groundOf(2, 0.03, 0.12, random);
+    simulation::Random& r = builder.random();
     const double x_m = r.uniform(23, 28), y_m = r.uniform(-1.5, 1.5);
     const double yaw = kPi + r.uniform(-0.25, 0.25);
     const double width_m = r.uniform(9, 11), depth_m = r.uniform(8, 10);
     const Vector2d back(x_m, y_m), out(std::cos(yaw), std::sin(yaw)), side(-out.y(), out.x());
     const Vector2d left = back + width_m / 2 * side, right = back - width_m / 2 * side;
-    addWall(builder, left, right, kWallHeight_m, 0.3);
-    addWall(builder, left, left + depth_m * out, kWallHeight_m, 0.3);
-    addWall(builder, right, right + depth_m * out, kWallHeight_m, 0.3);
+    simulation::addWall(builder, left, right, kWallHeight_m, 0.3);
+    simulation::addWall(builder, left, left + depth_m * out, kWallHeight_m, 0.3);
+    simulation::addWall(builder, right, right + depth_m * out, kWallHeight_m, 0.3);
     const Vector2d middle = back + depth_m / 2 * out;
     scatterTrees(builder, 0.01, [&](const Vector2d& at) { return (at - middle).norm() > 10; });
     scatterTufts(builder, 0.02, 0.3);
     return builder.build();
 }
 
-Scene makeTerrain(const Random& random) {
-    SceneBuilder builder = groundOf(15, 0.06, 0.15, random);
-    Random& r = builder.random();
+simulation::Scene makeTerrain(const simulation::Random& random) {
+    simulation::SceneBuilder builder = groundOf(15, 0.06, 0.15, random);
+    simulation::Random& r = builder.random();
     scatterTrees(builder, 0.03);
-    const Shapes rocks = builder.addShapes(4, makeRock);
+    const Shapes rocks = builder.addShapes(4, simulation::makeRock);
     scatter(builder, 0.012, [&](const Vector2d& at) {
         const double size = r.uniform(0.5, 2.2), wide = r.uniform(0.7, 1.3);
         const double high = r.uniform(0.5, 1.0);
         if (!leavesEndsFree(at, 0.7 * size)) return;
-        builder.placeAnyOf(Kind::Wall, rocks, at.x(), at.y(), {size, size * wide, size * high});
+        builder.placeAnyOf(simulation::Kind::Wall, rocks, at.x(), at.y(),
+                           {size, size * wide, size * high});
     });
     scatterTufts(builder, 0.02, 0.35);
     return builder.build();
 }
 
 /// Lines of poles across the way. Of each one wire is about as high as one flies, others above.
-Scene makeWires(const Random& random) {
-    SceneBuilder builder = groundOf(3, 0.04, 0.12, random);
-    Random& r = builder.random();
+simulation::Scene makeWires(const simulation::Random& random) {
+    simulation::SceneBuilder builder = groundOf(3, 0.04, 0.12, random);
+    simulation::Random& r = builder.random();
     for (double x_m = 8; x_m <= 34; x_m += 8.5) {
         const double at_m = x_m + r.uniform(-2, 2), skew_m = r.uniform(-4, 4);
         const double span_m = r.uniform(9, 14), first_m = r.uniform(-26, -18);
@@ -200,7 +204,8 @@ Scene makeWires(const Random& random) {
         heights_m.push_back(heights_m[0] + r.uniform(0.8, 1.6));
         if (r.chance(0.5)) heights_m.push_back(heights_m[1] + r.uniform(0.8, 1.6));
         const double sideways_m = r.uniform(0.05, 0.3);
-        addWireLine(builder, from, from + length_m * step, span_m, heights_m, sideways_m);
+        simulation::addWireLine(builder, from, from + length_m * step, span_m, heights_m,
+                                sideways_m);
     }
     scatterTrees(builder, 0.006);
     scatterTufts(builder, 0.02, 0.3);
@@ -211,11 +216,11 @@ constexpr double kLongestMover_m = 2.3;  // half of it: a car's
 
 /// Adds movers whose circles cross the way, but not where it begins or ends.
 template <class ShapeOf>
-void addMovers(SceneBuilder& builder, int count, const SceneMover& least, const SceneMover& most,
-               const ShapeOf& shapeOf) {
-    Random& r = builder.random();
+void addMovers(simulation::SceneBuilder& builder, int count, const simulation::SceneMover& least,
+               const simulation::SceneMover& most, const ShapeOf& shapeOf) {
+    simulation::Random& r = builder.random();
     for (int made = 0; made < count;) {
-        SceneMover mover;
+        simulation::SceneMover mover;
         const double x_m = r.uniform(2, 38), y_m = r.uniform(-4, 4);
         mover.middle_m = {x_m, y_m};
         mover.radius_m = r.uniform(least.radius_m, most.radius_m);
@@ -236,19 +241,19 @@ void addMovers(SceneBuilder& builder, int count, const SceneMover& least, const 
     }
 }
 
-SceneMover moverOf(double radius_m, double speed_m_s, double above_ground_m) {
-    SceneMover mover;
+simulation::SceneMover moverOf(double radius_m, double speed_m_s, double above_ground_m) {
+    simulation::SceneMover mover;
     mover.radius_m = radius_m;
     mover.speed_m_s = speed_m_s;
     mover.above_ground_m = above_ground_m;
     return mover;
 }
 
-Scene makeMovers(const Random& random) {
-    SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
-    const std::size_t person = builder.addShape(makePerson());
-    const std::size_t drone = builder.addShape(makeDrone());
-    const Shapes cars = builder.addShapes(2, makeCar);
+simulation::Scene makeMovers(const simulation::Random& random) {
+    simulation::SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
+    const std::size_t person = builder.addShape(simulation::makePerson());
+    const std::size_t drone = builder.addShape(simulation::makeDrone());
+    const Shapes cars = builder.addShapes(2, simulation::makeCar);
     addMovers(builder, 3, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
     addMovers(builder, 1, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
               [&] { return builder.oneOf(cars); });
@@ -259,42 +264,42 @@ Scene makeMovers(const Random& random) {
 }
 
 /// Garden walls that reach into the street from both sides.
-void addGardenWalls(SceneBuilder& builder) {
-    Random& r = builder.random();
+void addGardenWalls(simulation::SceneBuilder& builder) {
+    simulation::Random& r = builder.random();
     for (const double side : {-1.0, 1.0}) {
         for (double x_m = 6; x_m < 38; x_m += r.uniform(7, 12)) {
             const double inner_m = r.uniform(3.5, 8), skew_m = r.uniform(-1, 1);
             const double height_m = r.uniform(1.5, 3.5);
-            addWall(builder, {x_m, side * inner_m}, {x_m + skew_m, side * kBesideField_m}, height_m,
-                    0.25);
+            simulation::addWall(builder, {x_m, side * inner_m},
+                                {x_m + skew_m, side * kBesideField_m}, height_m, 0.25);
         }
     }
 }
 
 /// Parked cars, also in the middle, where one flies as high as they are; lamps, trees, walls.
-Scene makeStreet(const Random& random) {
-    SceneBuilder builder = groundOf(2, 0.02, 0.08, random);
-    Random& r = builder.random();
-    const Shapes cars = builder.addShapes(5, makeCar);
+simulation::Scene makeStreet(const simulation::Random& random) {
+    simulation::SceneBuilder builder = groundOf(2, 0.02, 0.08, random);
+    simulation::Random& r = builder.random();
+    const Shapes cars = builder.addShapes(5, simulation::makeCar);
     for (const double lane_m : {-7.0, -2.6, 0.0, 2.6, 7.0}) {
         for (double x_m = -4; x_m <= 46; x_m += 6.2) {
             const double dx_m = r.uniform(-0.8, 0.8), dy_m = 0.3 * r.normal();
             const double yaw = (r.chance(0.5) ? 0.0 : kPi) + 0.05 * r.normal();
             const Vector2d at(x_m + dx_m, lane_m + dy_m);
             if (r.chance(0.55) || !leavesEndsFree(at, 2.4)) continue;
-            builder.place(Kind::Vehicle, builder.oneOf(cars), at.x(), at.y(), yaw);
+            builder.place(simulation::Kind::Vehicle, builder.oneOf(cars), at.x(), at.y(), yaw);
         }
     }
     addGardenWalls(builder);
-    const std::size_t lamp = builder.addShape(makeRod(6.5, 0.08));
+    const std::size_t lamp = builder.addShape(simulation::makeRod(6.5, 0.08));
     const Shapes trees = addTrees(builder, 4);
     for (double x_m = -4; x_m <= 46; x_m += 10) {
         for (const double y_m : {-4.8, 4.8}) {
             const Vector2d at(x_m + r.uniform(-3, 3), y_m + 0.2 * r.normal());
             const bool is_tree = r.chance(0.5);
             if (!leavesEndsFree(at, is_tree ? kWidestTree_m : 0.1)) continue;
-            if (is_tree) builder.placeAnyOf(Kind::Tree, trees, at.x(), at.y());
-            if (!is_tree) builder.place(Kind::Pole, lamp, at.x(), at.y(), 0);
+            if (is_tree) builder.placeAnyOf(simulation::Kind::Tree, trees, at.x(), at.y());
+            if (!is_tree) builder.place(simulation::Kind::Pole, lamp, at.x(), at.y(), 0);
         }
     }
     return builder.build();
@@ -304,17 +309,17 @@ Scene makeStreet(const Random& random) {
 
 const std::vector<CourseSort>& courseSorts() {
     static const std::vector<CourseSort> sorts{
-        {"forest-0.02", 2, [](Random random) { return makeForest(0.02, random); }},
-        {"forest-0.05", 2, [](Random random) { return makeForest(0.05, random); }},
-        {"forest-0.10", 2, [](Random random) { return makeForest(0.10, random); }},
-        {"orchard", 2.5, [](Random random) { return makeOrchard(random); }},
-        {"gap", 2, [](Random random) { return makeGap(random); }},
-        {"u-trap", 2, [](Random random) { return makeTrap(random); }},
-        {"terrain", 2, [](Random random) { return makeTerrain(random); }},
-        {"wires", 2, [](Random random) { return makeWires(random); }},
-        {"movers", 1.5, [](Random random) { return makeMovers(random); }},
-        {"street", 1.5, [](Random random) { return makeStreet(random); }}};
+        {"forest-0.02", 2, [](simulation::Random random) { return makeForest(0.02, random); }},
+        {"forest-0.05", 2, [](simulation::Random random) { return makeForest(0.05, random); }},
+        {"forest-0.10", 2, [](simulation::Random random) { return makeForest(0.10, random); }},
+        {"orchard", 2.5, [](simulation::Random random) { return makeOrchard(random); }},
+        {"gap", 2, [](simulation::Random random) { return makeGap(random); }},
+        {"u-trap", 2, [](simulation::Random random) { return makeTrap(random); }},
+        {"terrain", 2, [](simulation::Random random) { return makeTerrain(random); }},
+        {"wires", 2, [](simulation::Random random) { return makeWires(random); }},
+        {"movers", 1.5, [](simulation::Random random) { return makeMovers(random); }},
+        {"street", 1.5, [](simulation::Random random) { return makeStreet(random); }}};
     return sorts;
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -1,4 +1,5 @@
-#include <hagen/logs/CloseWritten.h>
+#include <hagen/base/Quantile.h>
+#include <hagen/base/WriteFile.h>
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/Statistics.h>
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using nlohmann::json;
@@ -22,9 +23,9 @@ std::vector<double> quantilesFrom(const json& value) {
     const std::string rule = "must be numbers of at least 0 [ms] that do not fall, one or more";
     if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
-    for (const json& quantile : value) {
-        if (!quantile.is_number()) throw std::runtime_error(rule);
-        quantiles.push_back(toMicroseconds(quantile.get<double>()));
+    for (const json& entry : value) {
+        if (!entry.is_number()) throw std::runtime_error(rule);
+        quantiles.push_back(toMicroseconds(entry.get<double>()));
     }
     const bool is_finite = std::all_of(quantiles.begin(), quantiles.end(),
                                        [](double q) { return std::isfinite(q) && q >= 0; });
@@ -83,10 +84,10 @@ double LatencyProfile::at_ms(const std::string& stage, double share) const {
         throw std::runtime_error("the latency profile has no stage \"" + stage +
                                  "\"; `octomap-compare calibrate` measures all of them");
     }
-    return quantile(found->second, share);
+    return base::quantile(found->second, share);
 }
 
-double LatencyProfile::draw_ms(const std::string& stage, Random& random) const {
+double LatencyProfile::draw_ms(const std::string& stage, simulation::Random& random) const {
     return at_ms(stage, random.uniform());
 }
 
@@ -95,7 +96,7 @@ double LatencyProfile::median_ms(const std::string& stage) const { return at_ms(
 std::vector<double> quantilesOf(std::vector<double> measured_ms, int count) {
     std::vector<double> quantiles;
     for (int q = 0; q < count && !measured_ms.empty(); ++q) {
-        quantiles.push_back(quantile(measured_ms, static_cast<double>(q) / (count - 1)));
+        quantiles.push_back(base::quantile(measured_ms, static_cast<double>(q) / (count - 1)));
     }
     return quantiles;
 }
@@ -116,7 +117,7 @@ LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
 }
 
 void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file) {
-    writeText(textOf(profile), file, file);
+    base::writeText(textOf(profile), file, file);
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

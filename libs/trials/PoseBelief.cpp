@@ -5,14 +5,14 @@
 
 #include "Streams.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 constexpr double kKnot_s = 0.1;
 constexpr double kNoise_m = 0.05, kNoise_rad = radians(0.5);
 constexpr double kDrift = 0.01;
 
-Eigen::Vector3d normals(double deviation, Random& random) {
+Eigen::Vector3d normals(double deviation, simulation::Random& random) {
     Eigen::Vector3d drawn;
     for (int axis = 0; axis < 3; ++axis) drawn[axis] = deviation * random.normal();
     return drawn;
@@ -51,8 +51,8 @@ Eigen::Vector3d PoseBelief::offset_m(const FlightTrace& trace, double time_s) {
     return Eigen::Vector3d::Zero();
 }
 
-SensorPose PoseBelief::at(const FlightTrace& trace, double time_s) {
-    SensorPose pose = trace.at(time_s);
+simulation::SensorPose PoseBelief::at(const FlightTrace& trace, double time_s) {
+    simulation::SensorPose pose = trace.at(time_s);
     pose.position_m += offset_m(trace, time_s);
     if (error_ == PoseError::Noise) {
         pose.attitude = rotationOf(knotAt(time_s).rotation_rad) * pose.attitude;
@@ -60,4 +60,4 @@ SensorPose PoseBelief::at(const FlightTrace& trace, double time_s) {
     return pose;
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -1,46 +1,28 @@
+#include <hagen/base/NumberText.h>
 #include <hagen/trials/RunTable.h>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <tuple>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
-std::string fixedText(double value, int decimals) {
+std::string measureText(double value, int decimals) {
     if (std::isnan(value)) return "";
-    std::array<char, 400> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                   std::chars_format::fixed, decimals);
-    const std::string written(text.data(), end.ptr);
-    // No minus where nothing but zeros is left.
-    const bool is_zero = written.find_first_not_of("-0.") == std::string::npos;
-    return is_zero && written[0] == '-' ? written.substr(1) : written;
-}
-
-/// The fewest digits that are read back as the same number.
-std::string shortText(double value) {
-    std::array<char, 400> text;
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+    return base::fixedText(value, decimals);
 }
 
 template <class Number>
-Number numberFrom(const std::string& text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || text.empty()) {
-        throw std::runtime_error("\"" + text + "\" is no number");
-    }
-    return value;
+Number parsed(const std::string& text) {
+    if (const auto value = base::numberFrom<Number>(text)) return *value;
+    throw std::runtime_error("\"" + text + "\" is no number");
 }
 
-double measureFrom(const std::string& text) {
-    return text.empty() ? NAN : numberFrom<double>(text);
-}
+double measureFrom(const std::string& text) { return text.empty() ? NAN : parsed<double>(text); }
 
 template <class Value, std::size_t count>
 Value wordFrom(const std::string& text, const std::array<const char*, count>& words) {
@@ -65,19 +47,22 @@ struct Column {
 
 /// A measure that need not be there.
 Column measure(const char* name, double TrialResult::*field, int decimals) {
-    return {name, [=](const Run& run) { return fixedText(run.result.*field, decimals); },
+    return {name, [=](const Run& run) { return measureText(run.result.*field, decimals); },
             [=](const std::string& text, Run& run) { run.result.*field = measureFrom(text); }};
 }
 
 Column count(const char* name, int TrialResult::*field) {
     return {name, [=](const Run& run) { return std::to_string(run.result.*field); },
-            [=](const std::string& text, Run& run) { run.result.*field = numberFrom<int>(text); }};
+            [=](const std::string& text, Run& run) {
+                run.result.*field = parsed<int>(text);
+            }};
 }
 
 Column setting(const char* name, double TrialSetup::*field) {
-    return {
-        name, [=](const Run& run) { return shortText(run.setup.*field); },
-        [=](const std::string& text, Run& run) { run.setup.*field = numberFrom<double>(text); }};
+    return {name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
+            [=](const std::string& text, Run& run) {
+                run.setup.*field = parsed<double>(text);
+            }};
 }
 
 Column setting(const char* name, std::string TrialSetup::*field) {
@@ -94,7 +79,9 @@ const std::vector<Column>& columns() {
     static const std::vector<Column> all{
         word("scenario", &Run::scenario),
         {"seed", [](const Run& run) { return std::to_string(run.seed); },
-         [](const std::string& text, Run& run) { run.seed = numberFrom<std::uint64_t>(text); }},
+         [](const std::string& text, Run& run) {
+             run.seed = parsed<std::uint64_t>(text);
+         }},
         setting("model", &TrialSetup::model),
         setting("guidance", &TrialSetup::guidance),
         setting("speed", &TrialSetup::speed_m_s),
@@ -116,7 +103,7 @@ const std::vector<Column>& columns() {
          [](const std::string& text, Run& run) {
              run.setup.brakes_in_known_space = wordFrom<int>(text, kUnknowns) == 1;
          }},
-        {"oracle_path_m", [](const Run& run) { return fixedText(run.oracle_path_m, 3); },
+        {"oracle_path_m", [](const Run& run) { return measureText(run.oracle_path_m, 3); },
          [](const std::string& text, Run& run) { run.oracle_path_m = measureFrom(text); }},
         measure("first_reaction_m", &TrialResult::first_reaction_m, 3),
         measure("rms_jerk_m_s3", &TrialResult::rms_jerk_m_s3, 3),
@@ -229,4 +216,4 @@ void sortRuns(std::vector<Run>& runs) {
                      [&](const Run& a, const Run& b) { return key(a) < key(b); });
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

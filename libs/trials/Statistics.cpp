@@ -1,3 +1,4 @@
+#include <hagen/base/Quantile.h>
 #include <hagen/simulation/Random.h>
 #include <hagen/trials/Statistics.h>
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 /// The standard normal deviate of a two-sided level: where the distribution function is
@@ -94,25 +95,16 @@ std::vector<double> holm(const std::vector<double>& p) {
     return adjusted;
 }
 
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return NAN;
-    std::sort(values.begin(), values.end());
-    const double rank = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(rank);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] + (rank - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
 Bounds medianInterval(const std::vector<double>& values, int resamples, std::uint64_t seed,
                       double level) {
     if (values.empty() || resamples < 1) return {NAN, NAN};
-    Random random(seed);
+    simulation::Random random(seed);
     std::vector<double> medians(static_cast<std::size_t>(resamples)), drawn(values.size());
     for (double& median : medians) {
         for (double& value : drawn) value = values[random.below(static_cast<int>(values.size()))];
         median = medianOf(drawn);
     }
-    return {quantile(medians, (1 - level) / 2), quantile(medians, (1 + level) / 2)};
+    return {base::quantile(medians, (1 - level) / 2), base::quantile(medians, (1 + level) / 2)};
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -1,25 +1,11 @@
 #pragma once
+#include <hagen/base/ProcessCost.h>
 #include <hagen/trials/Trial.h>
-#include <malloc.h>
-#include <time.h>
 
 #include <algorithm>
 #include <string>
 
-namespace hagen {
-
-/// CPU time of this thread [ms].
-inline double cpuTime_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-/// What the heap holds, of all threads [bytes].
-inline double heapBytes() {
-    const struct mallinfo2 info = mallinfo2();
-    return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
-}
+namespace hagen::trials {
 
 /// Takes down what stages cost, where somebody wants to know.
 class Stopwatch {
@@ -38,10 +24,10 @@ class Stopwatch {
     template <class Call>
     void weigh(const std::string& stage, double path_m, Call call) {
         if (measurement_ == nullptr) return call();
-        const double before = heapBytes(), start_ms = cpuTime_ms();
+        const double before = base::heapBytes(), start_ms = base::threadCpuTime_ms();
         call();
-        const double taken_ms = cpuTime_ms() - start_ms;
-        held_bytes_ += heapBytes() - before;
+        const double taken_ms = base::threadCpuTime_ms() - start_ms;
+        held_bytes_ += base::heapBytes() - before;
         if (!stage.empty()) measurement_->stage_ms[stage].push_back(taken_ms);
         measurement_->peak_model_bytes = std::max(measurement_->peak_model_bytes, held_bytes_);
         measurement_->model_bytes_by_path_m.emplace_back(path_m, held_bytes_);
@@ -51,12 +37,12 @@ class Stopwatch {
     struct Timer {
         TrialMeasurement& measurement;
         const std::string& stage;
-        double start_ms = cpuTime_ms();
-        ~Timer() { measurement.stage_ms[stage].push_back(cpuTime_ms() - start_ms); }
+        double start_ms = base::threadCpuTime_ms();
+        ~Timer() { measurement.stage_ms[stage].push_back(base::threadCpuTime_ms() - start_ms); }
     };
 
     TrialMeasurement* measurement_;
     double held_bytes_ = 0;
 };
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -1,3 +1,4 @@
+#include <hagen/base/Quantile.h>
 #include <hagen/trials/CommandQueue.h>
 #include <hagen/trials/FlightTrace.h>
 #include <hagen/trials/PoseBelief.h>
@@ -15,7 +16,7 @@
 #include "Stopwatch.h"
 #include "Streams.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 constexpr int kStepsPerTurn = 5;
@@ -29,7 +30,8 @@ class Latencies {
         // Streams are counted from the last, so that models with and without the filter share them.
         const std::vector<std::string> names = stagesOf(setup);
         for (std::size_t i = 0; i < names.size(); ++i) {
-            stages_.push_back({names[i], Random(course.seed, stream(names.size() - i))});
+            stages_.push_back(
+                {names[i], simulation::Random(course.seed, stream(names.size() - i))});
         }
     }
     double draw_s() {
@@ -47,7 +49,7 @@ class Latencies {
  private:
     struct Stage {
         std::string name;
-        Random random;
+        simulation::Random random;
     };
     static std::uint64_t stream(std::uint64_t stage) { return streams::kLatency + stage; }
 
@@ -72,22 +74,22 @@ class TrialFlight {
           sensor_(course),
           belief_(setup.pose_error, course.seed),
           latencies_(course, setup, profile),
-          guidance_(makeGuidance(setup.guidance)),
-          planner_(makePlanner(setup.planner)),
+          guidance_(avoidance::makeGuidance(setup.guidance)),
+          planner_(avoidance::makePlanner(setup.planner)),
           state_{course.start_m, Eigen::Vector3d::Zero()},
           trace_(state_) {
-        WorldModelSetting world;
+        avoidance::WorldModelSetting world;
         world.bounds_m = course.bounds_m.cast<float>();
         world.true_clearance_m = [this](const Eigen::Vector3f& believed_m) {
             return course_.distance.at(believed_m - scan_offset_m_, scan_s_);
         };
-        stopwatch_.weigh("", 0, [&] { world_ = makeWorldModel(setup.model, world); });
+        stopwatch_.weigh("", 0, [&] { world_ = avoidance::makeWorldModel(setup.model, world); });
     }
 
     TrialResult fly() {
         TrialJudge judge(course_, setup_.speed_m_s);
         for (int step = 0;; ++step) {
-            const double time_s = kControlStep_s * step;
+            const double time_s = avoidance::kControlStep_s * step;
             const auto clearance_m =
                 static_cast<double>(course_.distance.at(state_.position_m.cast<float>(), time_s));
             result_.min_clearance_m = std::min(result_.min_clearance_m, clearance_m);
@@ -96,7 +98,7 @@ class TrialFlight {
                 judge.judge(state_.position_m, clearance_m, setup_.limits.collision_m, time_s);
             if (outcome) return finish(*outcome, time_s);
             if (step > 0 && step % kStepsPerTurn == 0) receive(step / kStepsPerTurn - 1);
-            if (waiting_ && free_s_ < time_s + kControlStep_s) think(time_s);
+            if (waiting_ && free_s_ < time_s + avoidance::kControlStep_s) think(time_s);
             move(time_s);
         }
     }
@@ -119,28 +121,30 @@ class TrialFlight {
         const double arrived_s = TrialSensor::kTurn_s * (turn + 1);
         latency_ms_.push_back(1e3 * (free_s_ - arrived_s));
 
-        const SimulatedScan measured = sensor_.measure(turn, trace_);
+        const simulation::SimulatedScan measured = sensor_.measure(turn, trace_);
         const auto& labels = stopwatch_.time(
             "filter", [&]() -> const auto& {
                 return sensor_.segment(turn, measured, trace_, belief_);
             });
-        const MappedScan scan = sensor_.place(turn, measured, labels, trace_, belief_);
+        const mapping::MappedScan scan = sensor_.place(turn, measured, labels, trace_, belief_);
         scan_s_ = scan.time_s;
         scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
         const std::string prefix = setup_.model + "/";
         const std::string planner = prefix + setup_.guidance + "+" + setup_.planner;
         stopwatch_.weigh(prefix + "update", trace_.way_m(time_s), [&] { world_->update(scan); });
 
-        const VehicleState now = commands_.advanced(state_, time_s, start_s, setup_.limits);
-        VehicleState believed = now;
+        const avoidance::VehicleState now =
+            commands_.advanced(state_, time_s, start_s, setup_.limits);
+        avoidance::VehicleState believed = now;
         believed.position_m += belief_.offset_m(trace_, start_s);
         const double followed_s = start_s + expected_s + setup_.limits.actuation_delay_s;
-        const VehicleState then = commands_.advanced(believed, start_s, followed_s, setup_.limits);
+        const avoidance::VehicleState then =
+            commands_.advanced(believed, start_s, followed_s, setup_.limits);
         const double ground_m = believed.position_m.z() - altimeter_m(turn, now.position_m);
-        const Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
+        const avoidance::Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
             return guidance_->carrot(*world_, guidanceTask(then, ground_m));
         });
-        const Plan plan = stopwatch_.time(
+        const avoidance::Plan plan = stopwatch_.time(
             planner, [&] { return planner_->plan(*world_, planningTask(then, carrot, ground_m)); });
         commands_.add(free_s_ + setup_.limits.actuation_delay_s, plan.command_m_s);
         takeDown(plan, now, start_s);
@@ -153,24 +157,27 @@ class TrialFlight {
     void move(double time_s) {
         const Eigen::Vector3d before_m_s = state_.velocity_m_s;
         commands_.forgetBefore(time_s);
-        state_ = commands_.advanced(state_, time_s, time_s + kControlStep_s, setup_.limits);
+        state_ =
+            commands_.advanced(state_, time_s, time_s + avoidance::kControlStep_s, setup_.limits);
         result_.path_m += (state_.position_m - trace_.at(time_s).position_m).norm();
-        trace_.add(state_, (state_.velocity_m_s - before_m_s) / kControlStep_s);
+        trace_.add(state_, (state_.velocity_m_s - before_m_s) / avoidance::kControlStep_s);
     }
 
-    double clearance_m(const VehicleState& state, double time_s) const {
+    double clearance_m(const avoidance::VehicleState& state, double time_s) const {
         return static_cast<double>(course_.distance.at(state.position_m.cast<float>(), time_s));
     }
 
     /// Height above the ground, as measured.
     double altimeter_m(int turn, const Eigen::Vector3d& at) const {
         constexpr double kNoise_m = 0.02;
-        Random random(course_.seed, streams::kAltimeter + static_cast<std::uint64_t>(turn));
+        simulation::Random random(course_.seed,
+                                  streams::kAltimeter + static_cast<std::uint64_t>(turn));
         return at.z() - groundHeight_m(course_, at) + kNoise_m * random.normal();
     }
 
-    GuidanceTask guidanceTask(const VehicleState& state, double ground_m) const {
-        GuidanceTask task;
+    avoidance::GuidanceTask guidanceTask(const avoidance::VehicleState& state,
+                                         double ground_m) const {
+        avoidance::GuidanceTask task;
         task.position_m = state.position_m;
         task.goal_m = course_.goal_m;
         task.ground_m = ground_m;
@@ -180,9 +187,9 @@ class TrialFlight {
         return task;
     }
 
-    PlanningTask planningTask(const VehicleState& state, const Carrot& carrot,
-                              double ground_m) const {
-        PlanningTask task;
+    avoidance::PlanningTask planningTask(const avoidance::VehicleState& state,
+                                         const avoidance::Carrot& carrot, double ground_m) const {
+        avoidance::PlanningTask task;
         task.start = state;
         task.carrot_m = carrot.at_m;
         task.beyond_carrot_m = carrot.beyond_m;
@@ -196,7 +203,7 @@ class TrialFlight {
         return task;
     }
 
-    void takeDown(const Plan& plan, const VehicleState& now, double time_s) {
+    void takeDown(const avoidance::Plan& plan, const avoidance::VehicleState& now, double time_s) {
         if (plan.is_emergency && !in_emergency_) {
             ++result_.emergency_stops;
             tell("emergency stop");
@@ -214,9 +221,9 @@ class TrialFlight {
         result_.outcome = outcome;
         result_.time_s = time_s;
         result_.rms_jerk_m_s3 = trace_.rmsJerk_m_s3();
-        result_.latency_p50_ms = quantile(latency_ms_, 0.5);
-        result_.latency_p95_ms = quantile(latency_ms_, 0.95);
-        result_.latency_max_ms = quantile(latency_ms_, 1);
+        result_.latency_p50_ms = base::quantile(latency_ms_, 0.5);
+        result_.latency_p95_ms = base::quantile(latency_ms_, 0.95);
+        result_.latency_max_ms = base::quantile(latency_ms_, 1);
         tell(outcome == Outcome::Success     ? "success"
              : outcome == Outcome::Collision ? "collision"
                                              : "timeout");
@@ -234,11 +241,11 @@ class TrialFlight {
     TrialSensor sensor_;
     PoseBelief belief_;
     Latencies latencies_;
-    std::unique_ptr<WorldModel> world_;
-    std::unique_ptr<Guidance> guidance_;
-    std::unique_ptr<Planner> planner_;
+    std::unique_ptr<avoidance::WorldModel> world_;
+    std::unique_ptr<avoidance::Guidance> guidance_;
+    std::unique_ptr<avoidance::Planner> planner_;
 
-    VehicleState state_;  ///< true
+    avoidance::VehicleState state_;  ///< true
     FlightTrace trace_;
     CommandQueue commands_;
     std::optional<int> waiting_;  ///< the newest turn that nothing was planned on
@@ -265,7 +272,7 @@ class TrialFlight {
 
 std::vector<std::string> stagesOf(const TrialSetup& setup) {
     std::vector<std::string> stages;
-    if (needsLabels(setup.model)) stages.push_back("filter");
+    if (avoidance::needsLabels(setup.model)) stages.push_back("filter");
     const std::string prefix = setup.model + "/";
     for (const std::string& part :
          {std::string("update"), setup.guidance, setup.guidance + "+" + setup.planner}) {
@@ -279,4 +286,4 @@ TrialResult runTrial(const Course& course, const TrialSetup& setup, const Latenc
     return TrialFlight(course, setup, profile, measurement, listener).fly();
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

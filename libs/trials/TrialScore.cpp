@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -64,4 +64,4 @@ bool leavesCourse(const Eigen::Vector3d& command_m_s, const Eigen::Vector3d& to_
     return command_m_s.dot(to_goal_m) < std::cos(radians(15)) * speed * to_goal_m.norm();
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -6,12 +6,13 @@
 
 #include "Streams.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 HagenFilter standardFilter() {
-    const Settings settings;  // those of config/vlp16.yaml hold where no file was read
-    return filterFor(settings.sensorModel(), settings.options);
+    const observations::Settings
+        settings;  // those of config/vlp16.yaml hold where no file was read
+    return observations::filterFor(settings.sensorModel(), settings.options);
 }
 
 /// The inverse of levelFromSensor(): roll and pitch of an attitude without its heading.
@@ -26,7 +27,7 @@ class TurnTransforms {
  public:
     TurnTransforms(double start_s, const FlightTrace& trace, PoseBelief& belief) {
         for (int step = 0; step <= kSteps + 1; ++step) {
-            const SensorPose pose = belief.at(trace, start_s + step * kStep_s);
+            const simulation::SensorPose pose = belief.at(trace, start_s + step * kStep_s);
             Eigen::Matrix<float, 3, 4> matrix;
             matrix << pose.attitude.toRotationMatrix().cast<float>(), pose.position_m.cast<float>();
             poses_[step] = matrix;
@@ -52,26 +53,27 @@ class TurnTransforms {
 
 TrialSensor::TrialSensor(const Course& course) : course_(course), filter_(standardFilter()) {}
 
-SimulatedScan TrialSensor::measure(int number, const FlightTrace& trace) const {
-    Random random(course_.seed, streams::kScan + static_cast<std::uint64_t>(number));
+simulation::SimulatedScan TrialSensor::measure(int number, const FlightTrace& trace) const {
+    simulation::Random random(course_.seed, streams::kScan + static_cast<std::uint64_t>(number));
     const auto pose_at = [&](double time_s) { return trace.at(time_s); };
-    return simulateScan(course_.scene, filter_.sensor(), pose_at, kTurn_s * number, random,
-                        trialFaults());
+    return simulation::simulateScan(course_.scene, filter_.sensor(), pose_at, kTurn_s * number,
+                                    random, trialFaults());
 }
 
-const std::vector<Label>& TrialSensor::segment(int number, const SimulatedScan& measured,
+const std::vector<Label>& TrialSensor::segment(int number,
+                                               const simulation::SimulatedScan& measured,
                                                const FlightTrace& trace, PoseBelief& belief) {
-    const SensorPose middle = belief.at(trace, kTurn_s * (number + 0.5));
+    const simulation::SensorPose middle = belief.at(trace, kTurn_s * (number + 0.5));
     return filter_.segment(measured.scan, tiltOf(middle.attitude)).returns.label;
 }
 
-MappedScan TrialSensor::place(int number, const SimulatedScan& measured,
-                              const std::vector<Label>& labels, const FlightTrace& trace,
-                              PoseBelief& belief) const {
+mapping::MappedScan TrialSensor::place(int number, const simulation::SimulatedScan& measured,
+                                       const std::vector<Label>& labels, const FlightTrace& trace,
+                                       PoseBelief& belief) const {
     const double start_s = kTurn_s * number;
     const TurnTransforms transforms(start_s, trace, belief);
     const Scan& scan = measured.scan;
-    MappedScan placed;
+    mapping::MappedScan placed;
     placed.time_s = start_s + kTurn_s;
     placed.origin_m = belief.at(trace, start_s + 0.5 * kTurn_s).position_m.cast<float>();
     placed.points_m.reserve(scan.size());
@@ -85,4 +87,4 @@ MappedScan TrialSensor::place(int number, const SimulatedScan& measured,
     return placed;
 }
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -25,10 +25,11 @@ test::SimpleScene street() {
 
 /// Scans of the same sensor, as it goes on.
 std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& model_name) {
-    const VelodyneModel& model = velodyneModel(model_name);
+    const observations::VelodyneModel& model = observations::velodyneModel(model_name);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans;
     for (int i = 0; i < 4; ++i) {
-        scans.push_back(encodeScan(model, test::fireAt(street(), model, {0.5 * i, 0, 2})));
+        scans.push_back(
+            observations::encodeScan(model, test::fireAt(street(), model, {0.5 * i, 0, 2})));
     }
     return scans;
 }
@@ -36,13 +37,13 @@ std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& m
 void expectNoAllocations(const std::string& model, const Options& options,
                          const std::optional<Attitude>& attitude) {
     const auto scans = drive(model);
-    HagenFilter filter(sensorOf(*scans.front()), options);
+    HagenFilter filter(observations::sensorOf(*scans.front()), options);
     Scan scan;
     std::size_t before = 0, roi = 0;
     for (int round = 0; round < 3; ++round) {
         if (round == 1) before = allocations();
         for (const auto& observation : scans) {
-            decodePackets(*observation, scan);
+            observations::decodePackets(*observation, scan);
             roi += filter.segment(scan, attitude).returns.roi.size();
         }
     }

@@ -59,7 +59,7 @@ TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
     ASSERT_EQ(
         run({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")}).exit_code,
         0);
-    RawlogReader reader(path("out.rawlog"));
+    logs::RawlogReader reader(path("out.rawlog"));
     ASSERT_NE(reader.next(), nullptr);
     std::size_t points = 0;
     for (const char* suffix : {"_roi", "_non_roi"}) {
@@ -71,7 +71,7 @@ TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
     }
     EXPECT_EQ(points, 22591u);
     EXPECT_EQ(reader.next(), nullptr);
-    const ScanFolder scans(path("scans"));
+    const logs::ScanFolder scans(path("scans"));
     EXPECT_EQ(fs::file_size(scans.scanFile(0)), 22591u * 16);
     EXPECT_EQ(fs::file_size(scans.labelFile(0)), 22591u * 4);
 }
@@ -92,7 +92,7 @@ TEST_F(RawlogSegment, AScanFolderGivesLabelsUnderItsOwnNames) {
     ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
     const auto outcome = run({"-i", path("scans"), "--kitti", path("again"), "-c", kPaper});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const ScanFolder scans(path("again"));
+    const logs::ScanFolder scans(path("again"));
     ASSERT_EQ(scans.size(), 10u);
     EXPECT_EQ(fs::file_size(scans.labelFile(3)) * 4, fs::file_size(scans.scanFile(3)));
 }
@@ -174,7 +174,7 @@ TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
     const auto outcome = run({"-i", log, "-o", path("out.rawlog")});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.err.find("no LiDAR scan"), std::string::npos) << outcome.err;
-    RawlogReader in(log), out(path("out.rawlog"));
+    logs::RawlogReader in(log), out(path("out.rawlog"));
     while (in.next()) ASSERT_NE(out.next(), nullptr);
     EXPECT_EQ(out.next(), nullptr);
 }
@@ -239,7 +239,7 @@ TEST_F(RawlogSegment, ConvertsAPartOfALog) {
     EXPECT_NE(outcome.out.find("2 LiDAR scans in 4 entries (3 to 6 of the input"),
               std::string::npos)
         << outcome.out;
-    RawlogReader reader(path("out.rawlog"));
+    logs::RawlogReader reader(path("out.rawlog"));
     while (reader.next()) {
     }
     EXPECT_EQ(reader.entries(), 8u);
@@ -263,8 +263,8 @@ TEST_F(RawlogSegment, PosesTravelWithTheScansAndDriveAWindow) {
     EXPECT_EQ(outcome.err, "");
     EXPECT_NE(outcome.out.find("poses of 10 of 10 scans: " + tum.string()), std::string::npos)
         << outcome.out;
-    const auto a = readLabels(path("a/labels/000009.label"));
-    const auto b = readLabels(path("b/labels/000009.label"));
+    const auto a = logs::readLabels(path("a/labels/000009.label"));
+    const auto b = logs::readLabels(path("b/labels/000009.label"));
     ASSERT_EQ(a.size(), b.size());
     std::size_t differing = 0;
     for (std::size_t i = 0; i < a.size(); ++i) differing += a[i] != b[i];
@@ -277,7 +277,7 @@ TEST_F(RawlogSegment, PosesTravelWithTheScansAndDriveAWindow) {
     const auto still = folder_.write("still.tum", poses);
     ASSERT_EQ(
         run({"-i", kRecording, "--kitti", path("c"), "-c", window, "--poses", still}).exit_code, 0);
-    const auto c = readLabels(path("c/labels/000009.label"));
+    const auto c = logs::readLabels(path("c/labels/000009.label"));
     ASSERT_EQ(a.size(), c.size());
     differing = 0;
     for (std::size_t i = 0; i < a.size(); ++i) differing += a[i] != c[i];
@@ -321,9 +321,9 @@ TEST_F(RawlogSegment, ZeroPacketsAndPointsThatAreNotFiniteLoseNothing) {
     scan.x_m = {5, nan, inf, 0};
     scan.y_m = scan.z_m = {0, 1, 1, 0};
     scan.intensity = {0, 0, 0, 0};
-    RawlogWriter writer(path("in.rawlog"), false);
+    logs::RawlogWriter writer(path("in.rawlog"), false);
     writer.write(*empty);
-    writer.write(*observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)));
+    writer.write(*observations::observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)));
     writer.commit();
     const auto outcome =
         run({"-i", path("in.rawlog"), "-o", path("out.rawlog"), "--kitti", path("scans")});
@@ -332,7 +332,7 @@ TEST_F(RawlogSegment, ZeroPacketsAndPointsThatAreNotFiniteLoseNothing) {
         << outcome.err;
     EXPECT_NE(outcome.out.find("2 LiDAR scans in 2 entries, 4 returns"), std::string::npos)
         << outcome.out;
-    const auto labels = readLabels(path("scans/cloud/labels/000000.label"));
+    const auto labels = logs::readLabels(path("scans/cloud/labels/000000.label"));
     EXPECT_EQ(std::vector<std::uint16_t>(labels.begin() + 1, labels.end()),
               (std::vector<std::uint16_t>{0, 0, 0}));
 }
@@ -411,7 +411,7 @@ TEST_F(RawlogSegment, FailsWhereTheOutputExists) {
 TEST_F(RawlogSegment, FailsWhereNoScanCanBeReadAndSaysWhyEvenWhenQuiet) {
     const auto scan = test::polesAndWallScan(0);
     scan->scan_packets[0].velodyne_model_ID = 0x99;
-    RawlogWriter writer(path("in.rawlog"), false);
+    logs::RawlogWriter writer(path("in.rawlog"), false);
     writer.write(*scan);
     writer.commit();
     const auto outcome = run({"-q", "-i", path("in.rawlog"), "-o", path("out.rawlog")});
@@ -481,7 +481,7 @@ TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
     EXPECT_NE(outcome.err.find("cut.rawlog: entry"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("out.partial.rawlog"), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(path("out.rawlog")));
-    RawlogReader reader(path("out.partial.rawlog"));
+    logs::RawlogReader reader(path("out.partial.rawlog"));
     while (reader.next()) {
     }
     EXPECT_GE(reader.entries(), 12u);
@@ -544,7 +544,7 @@ TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
         EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
         EXPECT_NE(outcome.err.find("interrupted; the "), std::string::npos) << outcome.err;
         EXPECT_FALSE(fs::exists(path("out.rawlog")));
-        RawlogReader reader(path("out.partial.rawlog"));
+        logs::RawlogReader reader(path("out.partial.rawlog"));
         while (reader.next()) {
         }
         EXPECT_GT(reader.entries(), 4u);
@@ -560,10 +560,10 @@ TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
 TEST_F(RawlogSegment, ThePublishedFilterLabelsTheRecordingAsBefore) {
     const auto outcome = run({"-i", kRecording, "--kitti", path("scans"), "-c", kPaper});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const ScanFolder scans(path("scans"));
+    const logs::ScanFolder scans(path("scans"));
     std::size_t returns = 0, roi = 0;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-        const auto labels = readLabels(scans.labelFile(i));
+        const auto labels = logs::readLabels(scans.labelFile(i));
         returns += labels.size();
         roi += static_cast<std::size_t>(std::count(labels.begin(), labels.end(), 2));
     }
@@ -572,7 +572,7 @@ TEST_F(RawlogSegment, ThePublishedFilterLabelsTheRecordingAsBefore) {
 }
 
 TEST(PolesAndWall, TheRecordingIsWhatItsGeneratorMakes) {
-    RawlogReader reader(kRecording);
+    logs::RawlogReader reader(kRecording);
     for (int scan = 0; scan < test::kPolesAndWallScans; ++scan) {
         ASSERT_NE(reader.next(), nullptr);
         const auto recorded =

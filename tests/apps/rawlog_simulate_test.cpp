@@ -15,7 +15,7 @@
 #include <set>
 #include <sstream>
 
-#include "rawlog-simulate/SimulatedObservation.h"
+#include <hagen/simulated_logs/SimulatedObservation.h>
 #include "support/ProgramTest.h"
 
 namespace hagen {
@@ -34,7 +34,7 @@ struct LogContent {
 };
 LogContent readLog(const fs::path& file) {
     LogContent content;
-    RawlogReader reader(file);
+    logs::RawlogReader reader(file);
     while (const auto entry = reader.next()) {
         if (auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(entry)) {
             content.scans.push_back(scan);
@@ -69,29 +69,33 @@ TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
     EXPECT_NE(outcome.out.find("3 scans of wires"), std::string::npos) << outcome.out;
 
     const LogContent log = readLog(path("a.rawlog"));
-    const ScanFolder folder(path("a"));
+    const logs::ScanFolder folder(path("a"));
     ASSERT_EQ(log.scans.size(), 3u);
     ASSERT_EQ(folder.size(), 3u);
     std::set<int> kinds;
     for (std::size_t n = 0; n < 3; ++n) {
         Scan decoded, read;
-        decodePackets(*log.scans[n], decoded);
-        readScan(folder.scanFile(n), read);
+        observations::decodePackets(*log.scans[n], decoded);
+        logs::readScan(folder.scanFile(n), read);
         EXPECT_EQ(decoded.x_m, read.x_m);
         EXPECT_EQ(decoded.y_m, read.y_m);
         EXPECT_EQ(decoded.z_m, read.z_m);
-        const auto labels = readLabels(folder.labelFile(n));
-        const auto semantic = readLabels(folder_ / ("a/semantic/" + folder.name(n) + ".label"));
+        const auto labels = logs::readLabels(folder.labelFile(n));
+        const auto semantic =
+            logs::readLabels(folder_ / ("a/semantic/" + folder.name(n) + ".label"));
         ASSERT_EQ(labels.size(), read.size());
         ASSERT_EQ(semantic.size(), read.size());
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            ASSERT_EQ(labels[i], static_cast<int>(labelOf(static_cast<Kind>(semantic[i]))));
+            ASSERT_EQ(
+                labels[i],
+                static_cast<int>(simulation::labelOf(static_cast<simulation::Kind>(semantic[i]))));
             kinds.insert(semantic[i]);
         }
     }
-    for (const Kind kind :
-         {Kind::Terrain, Kind::Canopy, Kind::Tree, Kind::Pole, Kind::Wire, Kind::Airframe}) {
-        EXPECT_EQ(kinds.count(static_cast<int>(kind)), 1u) << nameOf(kind);
+    for (const simulation::Kind kind :
+         {simulation::Kind::Terrain, simulation::Kind::Canopy, simulation::Kind::Tree,
+          simulation::Kind::Pole, simulation::Kind::Wire, simulation::Kind::Airframe}) {
+        EXPECT_EQ(kinds.count(static_cast<int>(kind)), 1u) << simulation::nameOf(kind);
     }
     EXPECT_EQ(folder.times(), (std::vector<double>{0, 0.5, 1.0}));
     const std::vector<double> altitudes_m = readNumbers(folder_ / "a/altitudes.txt");
@@ -101,14 +105,14 @@ TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
               std::string::npos);
     EXPECT_NE(test::readFile(folder_ / "a/kinds.yaml").find("2: {name: canopy, label: 1}"),
               std::string::npos);
-    EXPECT_EQ(readTumPoses(folder.tumFile()).size(), 3u);
-    EXPECT_EQ(readTumPoses(path("a.tum")).size(), log.poses.size());
+    EXPECT_EQ(logs::readTumPoses(folder.tumFile()).size(), 3u);
+    EXPECT_EQ(logs::readTumPoses(path("a.tum")).size(), log.poses.size());
 }
 
 TEST_F(RawlogSimulate, PosesReachOverTheWholeOfEachScan) {
     ASSERT_EQ(run(with(wires_, {"-o", path("a.rawlog")})).exit_code, 0);
     const LogContent log = readLog(path("a.rawlog"));
-    Trajectory trajectory;
+    observations::Trajectory trajectory;
     for (const auto& pose : log.poses) trajectory.add(pose->timestamp, pose->pose.mean);
     EXPECT_EQ(trajectory.size(), log.poses.size());  // none twice
     for (const auto& scan : log.scans) {
@@ -135,7 +139,7 @@ TEST_F(RawlogSimulate, ASensorWithoutPacketsGoesIntoAFolder) {
                   .out,
               "");
     Scan scan;
-    readScan(ScanFolder(path("a")).scanFile(0), scan);
+    logs::readScan(logs::ScanFolder(path("a")).scanFile(0), scan);
     EXPECT_GT(scan.size(), 50000u);
 }
 
@@ -173,8 +177,8 @@ TEST_F(RawlogSimulate, TheCommandOfTheDemoRecordingStillMakesIt) {
     for (std::size_t n = 0; n < 30; ++n) {
         EXPECT_EQ(made.scans[n]->timestamp, kept.scans[n]->timestamp);
         Scan kept_scan, made_scan;
-        decodePackets(*kept.scans[n], kept_scan);
-        decodePackets(*made.scans[n], made_scan);
+        observations::decodePackets(*kept.scans[n], kept_scan);
+        observations::decodePackets(*made.scans[n], made_scan);
         kept_returns += static_cast<double>(kept_scan.size());
         made_returns += static_cast<double>(made_scan.size());
     }
@@ -245,8 +249,8 @@ TEST_F(RawlogSimulate, KeepsWhatIsDoneWhenItIsInterrupted) {
                  fs::exists(path("a.tum")));
     const LogContent log = readLog(path("a.partial.rawlog"));
     EXPECT_GT(log.scans.size(), 1u);
-    EXPECT_EQ(ScanFolder(path("a.partial")).times().size(), log.scans.size());
-    EXPECT_EQ(readTumPoses(path("a.partial.tum")).size(), log.poses.size());
+    EXPECT_EQ(logs::ScanFolder(path("a.partial")).times().size(), log.scans.size());
+    EXPECT_EQ(logs::readTumPoses(path("a.partial.tum")).size(), log.poses.size());
 }
 
 TEST_F(RawlogSimulate, SaysWhenTheDiskIsFull) {
@@ -258,12 +262,15 @@ class EachPacketSensor : public testing::TestWithParam<const char*> {};
 
 TEST_P(EachPacketSensor, PacketsGiveTheSimulatedReturnsInTheirOrder) {
     const SensorModel sensor = sensorModel(GetParam());
-    const Scene scene = makeScene("wires", 3);
-    const Flight flight(scene.terrain(), scene.path(), {}, 3);
-    Random random(3);
-    const SimulatedScan made = simulateScan(scene, sensor, flight, 1.0, random);
+    const simulation::Scene scene = simulation::makeScene("wires", 3);
+    const simulation::Flight flight(scene.terrain(), scene.path(), {}, 3);
+    simulation::Random random(3);
+    const simulation::SimulatedScan made =
+        simulation::simulateScan(scene, sensor, flight, 1.0, random);
     Scan decoded;
-    ASSERT_EQ(decodePackets(*encodeSimulated(made, sensor, 1.0), decoded), 0u);
+    ASSERT_EQ(
+        observations::decodePackets(*simulated_logs::encodeSimulated(made, sensor, 1.0), decoded),
+        0u);
     ASSERT_EQ(decoded.size(), made.size());
     for (std::size_t i = 0; i < made.size(); ++i) {
         ASSERT_NEAR(decoded.range_m[i], made.scan.range_m[i], 0.0011f) << i;

@@ -50,7 +50,7 @@ class SegmentationEvaluate : public test::ProgramTest {
         truth.label = labelled.truth;
         truth.component.assign(truth.label.size(), 0);
         fs::create_directories(folder_ / name);
-        ScanFolderWriter writer(folder_ / name);
+        logs::ScanFolderWriter writer(folder_ / name);
         writer.write("000000", labelled.scan, truth, sensor, 0.0);
         writer.finish();
         return (folder_ / name).string();
@@ -59,7 +59,7 @@ class SegmentationEvaluate : public test::ProgramTest {
     std::string poleWithKinds() const {
         const std::string pole = labelledPole();
         fs::create_directories(folder_ / "pole/semantic");
-        const auto truth = readLabels(folder_ / "pole/labels/000000.label");
+        const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
         std::vector<std::uint32_t> kinds;
         for (const auto label : truth) kinds.push_back(label == 2 ? 4 : label);
         folder_.write("pole/semantic/000000.label",

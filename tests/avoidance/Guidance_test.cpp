@@ -3,7 +3,7 @@
 
 #include "support/SolidWorld.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 using test::SolidWorld;
@@ -123,4 +123,4 @@ TEST(Guidance, UnknownNamesAreToldWithTheKnown) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::avoidance

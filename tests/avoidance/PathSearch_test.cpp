@@ -9,7 +9,7 @@
 #include "support/Random.h"
 #include "support/SolidWorld.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 using test::SolidWorld;
@@ -288,4 +288,4 @@ TEST(PathSearch, CostsWhatAPlainDijkstraFinds) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -4,7 +4,7 @@
 #include "support/Random.h"
 #include "support/SmallFlight.h"
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 using test::fly;
@@ -264,4 +264,4 @@ TEST(MustStop, WhenGoingOnForAPeriodLeavesTooLittleRoom) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::avoidance

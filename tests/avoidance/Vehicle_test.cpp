@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <hagen/avoidance/Vehicle.h>
 
-namespace hagen {
+namespace hagen::avoidance {
 namespace {
 
 TEST(Vehicle, AcceleratesTowardsTheCommandWithinItsLimits) {
@@ -31,4 +31,4 @@ TEST(Vehicle, AStepOfNothingChangesNothing) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::avoidance

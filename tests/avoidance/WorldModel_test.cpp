@@ -42,7 +42,7 @@ float edgeOf(const std::string& name) {
     return name.find("0.4") != std::string::npos ? 0.4f : 0.2f;
 }
 
-MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi) {
+mapping::MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi) {
     return {0, kOrigin, points, std::vector<Label>(points.size(), label)};
 }
 
@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3f> board() {
 }
 
 /// Few points all around, so that no ray clears another's end.
-std::vector<Eigen::Vector3f> sparsePoints(Random& random, int count) {
+std::vector<Eigen::Vector3f> sparsePoints(simulation::Random& random, int count) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < count; ++i) {
         const double x = random.uniform(-5, 8);
@@ -84,7 +84,7 @@ float nearestOf(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3
 
 TEST(WorldModel, ClearanceIsThatOfThePoints) {
     for (const std::string& name : modelsThatLearn()) {
-        Random random(7);
+        simulation::Random random(7);
         const auto points = sparsePoints(random, 60);
         const auto model = makeWorldModel(name, setting());
         model->update(scanOf(points));
@@ -108,12 +108,12 @@ TEST(WorldModel, ClearanceIsThatOfThePoints) {
 /// dynamicEDT3D measures from middle to middle of voxels, and cuts at a whole number of them.
 TEST(WorldModel, AMapsClearanceIsThatOfADistanceTransform) {
     constexpr float kEdge_m = 0.2f;
-    ScanMap map({MapContent::Full, kEdge_m, 20});
+    mapping::ScanMap map({mapping::MapContent::Full, kEdge_m, 20});
     DynamicEDTOctomap distances(WorldModel::kReach_m, &map.tree(), {-7, -7, -3}, {11, 7, 5}, false);
     const auto model = makeWorldModel("O-Full-0.2", setting());
-    Random random(11);
+    simulation::Random random(11);
     for (int scan = 0; scan < 3; ++scan) {
-        const MappedScan seen = scanOf(sparsePoints(random, 300));
+        const mapping::MappedScan seen = scanOf(sparsePoints(random, 300));
         map.insert(seen);
         distances.update();
         model->update(seen);
@@ -233,7 +233,7 @@ TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
 
 TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
     for (const std::string& name : modelsThatLearn()) {
-        Random random(8);
+        simulation::Random random(8);
         const auto model = makeWorldModel(name, setting());
         for (int scan = 0; scan < 3; ++scan) model->update(scanOf(sparsePoints(random, 40)));
         for (int i = 0; i < 200; ++i) {
@@ -251,7 +251,7 @@ TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
 /// nearer than the truth, and by no more than a cube's diagonal farther.
 TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
     constexpr float kEdge_m = 0.1f;
-    Random random(10);
+    simulation::Random random(10);
     for (int round = 0; round < 20; ++round) {
         std::vector<Eigen::Vector3f> points;
         for (int i = 0; i < 400; ++i) {
@@ -289,7 +289,7 @@ TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
 
 /// Three scans share a tree; the oldest is forgotten by itself, whichever it shares with.
 TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
-    Random random(9);
+    simulation::Random random(9);
     const auto model = makeWorldModel("W-Full", setting());
     std::vector<std::vector<Eigen::Vector3f>> past;
     for (int number = 0; number < 25; ++number) {
@@ -342,7 +342,7 @@ std::size_t heap() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 
 TEST(WorldModel, BytesAreThoseOfTheHeap) {
     for (const std::string& name : modelsThatLearn()) {
-        Random random(5);
+        simulation::Random random(5);
         const auto first = makeWorldModel(name, setting());
         first->update(scanOf(sparsePoints(random, 3000)));  // what is kept for all models is there
         const std::size_t before = heap();

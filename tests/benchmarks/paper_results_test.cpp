@@ -30,24 +30,24 @@ TEST(Tables, BoldIsWhatIsPrintedAsTheBest) {
     EXPECT_EQ(boldAbove(0.9581, 0.9579), "0.958");  // the same as it is printed
     EXPECT_EQ(boldAbove(0.959, 0.958), "**0.959**");
     EXPECT_EQ(boldAbove(0.957, 0.958), "0.957");
-    EXPECT_EQ(cell(Interval{0.9511, 0.9639}), "0.951 to 0.964");
-    EXPECT_EQ(cell(Interval{}), "-");
+    EXPECT_EQ(cell(evaluation::Interval{0.9511, 0.9639}), "0.951 to 0.964");
+    EXPECT_EQ(cell(evaluation::Interval{}), "-");
 }
 
 TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
     DataSet set;
     set.preset = "vlp16.yaml";
     set.zone_m = 40;
-    const MethodRows rows = rowsFor(set, kConfig);
+    const labelled_scans::MethodRows rows = rowsFor(set, kConfig);
     std::set<std::string> names;
     const auto options = [&](const std::string& name) {
-        for (const SettingsRow& row : rows.filter) {
+        for (const labelled_scans::SettingsRow& row : rows.filter) {
             if (row.name == name) return row.settings.options;
         }
         ADD_FAILURE() << "no row " << name;
         return Options{};
     };
-    for (const SettingsRow& row : rows.filter) {
+    for (const labelled_scans::SettingsRow& row : rows.filter) {
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
         EXPECT_EQ(row.settings.options.zone_m, 40) << row.name;
     }
@@ -84,7 +84,7 @@ TEST(Rows, ThePapersHaveNoneOfOurStages) {
 TEST(DataSets, AreFlightsOfTheSeedsAsked) {
     for (const DataSet& set : dataSets("", "data", {{101, 102}, 3})) {
         ASSERT_FALSE(set.flights.empty()) << set.name;
-        for (const SimulatedLog& flight : set.flights) {
+        for (const simulated_logs::SimulatedLog& flight : set.flights) {
             EXPECT_TRUE(flight.seed == 101 || flight.seed == 102);
             EXPECT_EQ(flight.scans, 3);
             EXPECT_EQ(flight.tilt_sd_deg, 4);
@@ -147,7 +147,7 @@ class PaperResults : public test::ProgramTest {
         for (const Label label : truth.label) classes.push_back(label == Label::Roi ? 80 : 40);
         for (const char* name : {"labelled/beams16/00", "labelled/beams64/00"}) {
             fs::create_directories(folder_ / name / "semantic");
-            ScanFolderWriter writer(folder_ / name);
+            logs::ScanFolderWriter writer(folder_ / name);
             writer.write("000000", labelled.scan, truth, sensor, 0.0);
             writer.finish();
             folder_.write(

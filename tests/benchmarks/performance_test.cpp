@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TimedRow rowOf(const std::string& sensor, const std::string& what, double median_ms) {
-    TimedRow row{sensor, what, latencyOf(std::vector<double>(10, median_ms)), 0.5};
+    TimedRow row{sensor, what, evaluation::latencyOf(std::vector<double>(10, median_ms)), 0.5};
     return row;
 }
 
@@ -83,7 +83,7 @@ Performance small() {
         p.rows.push_back(rowOf(sensor, "default pipeline", 0.375));
         p.rows.push_back(rowOf(sensor, "1 depth image", 0.0042));
     }
-    p.packets_to_labels = {{"paper", latencyOf({1, 2, 3})}};
+    p.packets_to_labels = {{"paper", evaluation::latencyOf({1, 2, 3})}};
     p.table = {"orchard", {100, 300}, {{"a method", {1, 3}}}};
     p.chart = {p.table};
     return p;

@@ -4,14 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "octomap-compare/Summary.h"
+#include <hagen/reports/Summary.h>
 
 namespace hagen::test {
 
-using Row = hagen::Run;  // a test has a Run() of its own
+using Row = hagen::trials::Run;  // a test has a Run() of its own
 
 inline Row runOf(const std::string& scenario, std::uint64_t seed, const std::string& model,
-                 const std::string& guidance, hagen::Outcome outcome, double speed_m_s = 4) {
+                 const std::string& guidance, hagen::trials::Outcome outcome,
+                 double speed_m_s = 4) {
     Row run{};
     run.scenario = scenario;
     run.seed = seed;
@@ -30,17 +31,18 @@ inline Row runOf(const std::string& scenario, std::uint64_t seed, const std::str
     return run;
 }
 
-inline constexpr auto kWon = hagen::Outcome::Success, kHit = hagen::Outcome::Collision,
-                      kLate = hagen::Outcome::Timeout;
-inline const Condition kReference{4, "primitives", PoseError::None, 1, false};
+inline constexpr auto kWon = hagen::trials::Outcome::Success,
+                      kHit = hagen::trials::Outcome::Collision,
+                      kLate = hagen::trials::Outcome::Timeout;
+inline const trials::Condition kReference{4, "primitives", trials::PoseError::None, 1, false};
 
 /// Seeds 0..9: W-RoI wins all but 0 (hit); O-Full-0.4 all but 0, 1, 2 (late); W-RoI straight none.
 inline std::vector<Row> threeContenders() {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-        runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed == 0 ? kHit : kWon));
-        runs.push_back(runOf("gap", seed, "O-Full-0.4", "astar", seed < 3 ? kLate : kWon));
-        runs.push_back(runOf("gap", seed, "W-RoI", "straight", kLate));
+        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", seed == 0 ? kHit : kWon));
+        runs.push_back(trials::runOf("gap", seed, "O-Full-0.4", "astar", seed < 3 ? kLate : kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-RoI", "straight", kLate));
     }
     return runs;
 }

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
+#include <hagen/replays/ChooseRun.h>
 #include "SampleRuns.h"
-#include "octomap-compare/ChooseRun.h"
 
 namespace hagen {
 namespace {
@@ -11,24 +11,24 @@ namespace {
 using namespace test;
 
 TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
-    Row run = runOf("forest-0.10", 7, "O-RoI+rays-0.4", "astar", kWon);
-    EXPECT_EQ(fileNameOf(run), "forest-0.10-7-O-RoI+rays-0.4-astar-4mps");
+    Row run = trials::runOf("forest-0.10", 7, "O-RoI+rays-0.4", "astar", kWon);
+    EXPECT_EQ(replays::fileNameOf(run), "forest-0.10-7-O-RoI+rays-0.4-astar-4mps");
     run.setup.speed_m_s = 2.5;
     run.setup.planner = "3dvfh";
-    run.setup.pose_error = PoseError::Noise;
+    run.setup.pose_error = trials::PoseError::Noise;
     run.setup.latency_scale = 4;
     run.setup.brakes_in_known_space = true;
-    EXPECT_EQ(fileNameOf(run),
+    EXPECT_EQ(replays::fileNameOf(run),
               "forest-0.10-7-O-RoI+rays-0.4-astar-2.5mps-3dvfh-noise-latency4-brake-known");
 }
 
 TEST(ChooseRun, ListsWhatThereIsInstead) {
     const std::vector<Row> runs = threeContenders();
-    RunWanted wanted;
+    replays::RunWanted wanted;
     wanted.seed = 77;
     const auto refusal = [&wanted](const std::vector<Row>& among) -> std::string {
         try {
-            return chooseRun(among, wanted).scenario;
+            return replays::chooseRun(among, wanted).scenario;
         } catch (const std::invalid_argument& e) {
             return e.what();
         }
@@ -45,34 +45,36 @@ TEST(ChooseRun, ListsWhatThereIsInstead) {
 }
 
 TEST(ChooseRun, ListsTheFlagsThatTellRunsApart) {
-    const Row plain = runOf("gap", 1, "W-RoI", "astar", kWon);
+    const Row plain = trials::runOf("gap", 1, "W-RoI", "astar", kWon);
     std::vector<Row> runs(6, plain);
     runs[1].setup.speed_m_s = 0.1 + 0.2;  // needs all of its digits
     runs[2].setup.latency_scale = 4;
     runs[3].setup.planner = "3dvfh";
-    runs[4].setup.pose_error = PoseError::Noise;
+    runs[4].setup.pose_error = trials::PoseError::Noise;
     runs[5].setup.brakes_in_known_space = true;
     const std::string named = "--scenario gap --model W-RoI --guidance astar --speed ";
-    EXPECT_EQ(choiceOf(plain, {plain}), named + "4   # success");
-    EXPECT_EQ(choiceOf(runs[2], {runs[2]}), named + "4 --latency-scale 4   # success");
-    EXPECT_EQ(choiceOf(plain, {plain, runs[2]}), named + "4 --latency-scale 1   # success");
-    EXPECT_EQ(choiceOf(runs[1], runs),
+    EXPECT_EQ(replays::choiceOf(plain, {plain}), named + "4   # success");
+    EXPECT_EQ(replays::choiceOf(runs[2], {runs[2]}), named + "4 --latency-scale 4   # success");
+    EXPECT_EQ(replays::choiceOf(plain, {plain, runs[2]}),
+              named + "4 --latency-scale 1   # success");
+    EXPECT_EQ(replays::choiceOf(runs[1], runs),
               named +
                   "0.30000000000000004 --planner primitives --pose-error none --latency-scale 1 "
                   "--unknown optimistic   # success");
-    EXPECT_EQ(choiceOf(runs[5], {plain, runs[5]}), named + "4 --unknown brake-known   # success");
+    EXPECT_EQ(replays::choiceOf(runs[5], {plain, runs[5]}),
+              named + "4 --unknown brake-known   # success");
 }
 
 TEST(ChooseRun, TellsWaysOfUnknownSpaceApart) {
-    std::vector<Row> runs{runOf("gap", 1, "W-RoI", "astar", kWon),
-                          runOf("gap", 1, "W-RoI", "astar", kHit)};
+    std::vector<Row> runs{trials::runOf("gap", 1, "W-RoI", "astar", kWon),
+                          trials::runOf("gap", 1, "W-RoI", "astar", kHit)};
     runs[1].setup.brakes_in_known_space = true;
-    RunWanted wanted;
+    replays::RunWanted wanted;
     wanted.seed = 1;
     wanted.unknown = "brake-known";
-    EXPECT_TRUE(chooseRun(runs, wanted).setup.brakes_in_known_space);
+    EXPECT_TRUE(replays::chooseRun(runs, wanted).setup.brakes_in_known_space);
     wanted.unknown = "optimistic";
-    EXPECT_FALSE(chooseRun(runs, wanted).setup.brakes_in_known_space);
+    EXPECT_FALSE(replays::chooseRun(runs, wanted).setup.brakes_in_known_space);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 
+#include <hagen/replays/Ending.h>
+#include <hagen/replays/Replay.h>
 #include "SampleRuns.h"
-#include "octomap-compare/Ending.h"
-#include "octomap-compare/Replay.h"
 #include "support/Program.h"
 
 namespace hagen {
@@ -16,14 +16,14 @@ namespace {
 
 using namespace test;
 
-Recording smallRecording() {
-    Recording recording;
-    recording.run = runOf("gap", 1, "O-Full-0.4", "astar", kWon);
+replays::Recording smallRecording() {
+    replays::Recording recording;
+    recording.run = trials::runOf("gap", 1, "O-Full-0.4", "astar", kWon);
     recording.is_same = true;
     recording.ending = "arrived at 9.00 s";
     recording.start_m = {5, 0, 2};
     recording.goal_m = {45, 0, 2};
-    RecordedStep step{};
+    replays::RecordedStep step{};
     step.roi_m = {{6, 0, 2}};
     step.rou_m = {{7, 0, 0}, {8, 0, 0}};
     step.motions = {{{{5, 0, 2}, {6, 0, 2}}, false}};
@@ -35,7 +35,7 @@ Recording smallRecording() {
 }
 
 TEST(Replay, APageHoldsCentimetresFromTheStart) {
-    const std::string page = replayPage(smallRecording());
+    const std::string page = replays::replayPage(smallRecording());
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
     EXPECT_NE(page.find("\"track\":\"ZADIACwB\""), std::string::npos);
     EXPECT_NE(page.find("\"clearances\":\"MgA=\""), std::string::npos);  // 50: 32 00
@@ -43,12 +43,12 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
     EXPECT_NE(page.find("\"way_sizes\":[-2]"), std::string::npos);  // not free
     EXPECT_NE(page.find("<title>gap, seed 1, O-Full-0.4, A*, 4.0 m/s: success</title>"),
               std::string::npos);
-    EXPECT_NE(replayPage(Recording{}).find("\"steps\":[]"), std::string::npos);
+    EXPECT_NE(replays::replayPage(replays::Recording{}).find("\"steps\":[]"), std::string::npos);
 }
 
 TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     const test::TemporaryFolder folder;
-    writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
+    replays::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
     const auto voxels = std::dynamic_pointer_cast<mrpt::opengl::COctoMapVoxels>(
@@ -61,30 +61,30 @@ TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     EXPECT_EQ(roi->size(), 1u);
     ASSERT_NE(scene.getByName("vehicle"), nullptr);
     EXPECT_EQ(scene.getByName("vehicle")->getPoseX(), 6);
-    writeReplayScene(Recording{}, folder / "empty.3Dscene", "empty");
+    replays::writeReplayScene(replays::Recording{}, folder / "empty.3Dscene", "empty");
     // Blamed is the file that was asked for, not its temporary name.
-    EXPECT_EQ(
-        test::messageOf([&] { writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene"); }),
-        "no/a.3Dscene: cannot be written: No such file or directory");
+    EXPECT_EQ(test::messageOf(
+                  [&] { replays::writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene"); }),
+              "no/a.3Dscene: cannot be written: No such file or directory");
 }
 
 /// A triangle that stands at x = 7 m and one that moves from there to 8 m in a step.
-TrueScene smallScene() {
-    TrueScene scene;
-    Shape triangle;
+replays::TrueScene smallScene() {
+    replays::TrueScene scene;
+    simulation::Shape triangle;
     triangle.addTriangle({0, 0, 0}, {0.005f, 0, 0}, {0, 0, 0.01f});
     scene.shapes = {triangle};
     const Eigen::Affine3f here(Eigen::Translation3f(7, 0, 2)), there(Eigen::Translation3f(8, 0, 2));
-    scene.objects = {{Kind::Tree, 1, 0, here}};
+    scene.objects = {{simulation::Kind::Tree, 1, 0, here}};
     scene.movers = {{0, {here, there}}};
     scene.ground = {{0, 0}, 2, 1, 1, {1.5}};
     return scene;
 }
 
 TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
-    Recording recording = smallRecording();
+    replays::Recording recording = smallRecording();
     recording.scene = smallScene();
-    const std::string page = replayPage(recording);
+    const std::string page = replays::replayPage(recording);
     // Half centimetres: nine numbers, of which the fourth is 1 and the ninth 2.
     EXPECT_NE(page.find("\"shapes\":[\"AAAAAAAAAQAAAAAAAAAAAAIA\"]"), std::string::npos);
     EXPECT_NE(
@@ -99,10 +99,10 @@ TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
 
 TEST(Replay, ASceneHoldsWhatTrulyStands) {
     const test::TemporaryFolder folder;
-    Recording recording = smallRecording();
+    replays::Recording recording = smallRecording();
     recording.scene = smallScene();
     recording.scene.ground = {{0, 0}, 2, 3, 2, {1.5, 2.5, 3.5, 1.5, 2.5, 3.5}};
-    writeReplayScene(recording, folder / "a.3Dscene", "a");
+    replays::writeReplayScene(recording, folder / "a.3Dscene", "a");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
     const auto truth =
@@ -117,59 +117,62 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);
 }
 
-TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
-    const Course course = makeCourse("movers", 3);
-    const SceneContent& content = course.scene.content();
-    const TrueScene seen = trueSceneOf(course.scene, course.bounds_m, 3);
+TEST(replays::TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
+    const trials::Course course = trials::makeCourse("movers", 3);
+    const simulation::SceneContent& content = course.scene.content();
+    const replays::TrueScene seen = replays::trueSceneOf(course.scene, course.bounds_m, 3);
     EXPECT_EQ(seen.objects.size() + 1, content.objects.size());
-    for (const SceneObject& object : seen.objects) {
-        EXPECT_NE(object.kind, Kind::Terrain);
+    for (const simulation::SceneObject& object : seen.objects) {
+        EXPECT_NE(object.kind, simulation::Kind::Terrain);
         EXPECT_FALSE(seen.shapes[object.shape].triangles.empty());
     }
     ASSERT_EQ(seen.movers.size(), content.movers.size());
     for (std::size_t i = 0; i < seen.movers.size(); ++i) {
         EXPECT_FALSE(seen.shapes[seen.movers[i].shape].triangles.empty());  // rods, too
         for (const double time_s : {0.0, 1.3, 2.99, 3.0}) {
-            const Eigen::Affine3f truly = poseOf(content.movers[i], content.terrain, time_s);
-            const Eigen::Affine3f drawn = poseAt(seen.movers[i], time_s);
+            const Eigen::Affine3f truly =
+                simulation::poseOf(content.movers[i], content.terrain, time_s);
+            const Eigen::Affine3f drawn = replays::poseAt(seen.movers[i], time_s);
             EXPECT_LT((truly.translation() - drawn.translation()).norm(), 0.03f) << time_s;
             EXPECT_TRUE(truly.linear().isApprox(drawn.linear(), 0.01f)) << time_s;
         }
     }
-    const TrueScene::Ground& ground = seen.ground;
+    const replays::TrueScene::Ground& ground = seen.ground;
     ASSERT_EQ(ground.heights_m.size(), std::size_t(ground.along_x * ground.along_y));
     EXPECT_EQ(ground.heights_m[std::size_t(3 * ground.along_x + 5)],
               content.terrain.height_m(ground.least_m.x() + 10, ground.least_m.y() + 6));
 }
 
 TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
-    const Course course = makeCourse("movers", 3);
-    TrialResult result{};
+    const trials::Course course = trials::makeCourse("movers", 3);
+    trials::TrialResult result{};
     result.time_s = 2.5;
     result.outcome = kHit;
     const Eigen::Vector3d start_m = course.start_m;
     const double ground_m = course.scene.terrain().height_m(start_m.x(), start_m.y());
     const std::string ground =
-        endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
+        replays::endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
     EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
     EXPECT_NE(ground.find(" m from it to the vehicle's middle"), std::string::npos);
 
-    const SceneMover& person = course.scene.content().movers.front();
-    const Eigen::Affine3f pose = poseOf(person, course.scene.terrain(), result.time_s);
+    const simulation::SceneMover& person = course.scene.content().movers.front();
+    const Eigen::Affine3f pose = simulation::poseOf(person, course.scene.terrain(), result.time_s);
     const Eigen::Vector3f above_head = pose * Eigen::Vector3f(0, 0, 2);
-    const std::string moving = endingOf(course, result, 4, above_head.cast<double>());
+    const std::string moving = replays::endingOf(course, result, 4, above_head.cast<double>());
     EXPECT_EQ(moving.rfind("hit something that moves at 2.50 s: 0.2", 0), 0u) << moving;
 
     result.outcome = kWon;
-    EXPECT_EQ(endingOf(course, result, 4, course.goal_m), "arrived at 2.50 s");
+    EXPECT_EQ(replays::endingOf(course, result, 4, course.goal_m), "arrived at 2.50 s");
     result.outcome = kLate;
-    EXPECT_EQ(endingOf(course, result, 4, start_m), "gave up for lack of progress at 2.50 s");
-    EXPECT_EQ(endingOf(course, result, 4, {1000, 0, 2}), "left the course at 2.50 s");
+    EXPECT_EQ(replays::endingOf(course, result, 4, start_m),
+              "gave up for lack of progress at 2.50 s");
+    EXPECT_EQ(replays::endingOf(course, result, 4, {1000, 0, 2}), "left the course at 2.50 s");
     // Three times 40 m at 4 m/s and 20 s are 50 s; at 2 m/s they are 80 s.
     result.time_s = 50.5;
-    EXPECT_EQ(endingOf(course, result, 4, start_m), "ran out of time at 50.50 s");
-    EXPECT_EQ(endingOf(course, result, 2, start_m), "gave up for lack of progress at 50.50 s");
-    EXPECT_EQ(endingOf(course, result, 4, {1000, 0, 2}), "left the course at 50.50 s");
+    EXPECT_EQ(replays::endingOf(course, result, 4, start_m), "ran out of time at 50.50 s");
+    EXPECT_EQ(replays::endingOf(course, result, 2, start_m),
+              "gave up for lack of progress at 50.50 s");
+    EXPECT_EQ(replays::endingOf(course, result, 4, {1000, 0, 2}), "left the course at 50.50 s");
 }
 
 }  // namespace

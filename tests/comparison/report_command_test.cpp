@@ -9,9 +9,9 @@
 #include <sstream>
 #include <thread>
 
+#include <hagen/replays/ChooseRun.h>
+#include <hagen/trials/FlownRuns.h>
 #include "SampleRuns.h"
-#include "octomap-compare/ChooseRun.h"
-#include "octomap-compare/FlownRuns.h"
 #include "support/ProgramTest.h"
 
 namespace hagen {
@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 /// A line of a journal.
 std::string lineOf(const Row& run, double peak_model_bytes) {
-    TrialMeasurement measurement;
+    trials::TrialMeasurement measurement;
     measurement.peak_model_bytes = peak_model_bytes;
-    return rowOf(run) + "\t" + measuredRowOf(run, measurement) + ";\n";
+    return trials::rowOf(run) + "\t" + trials::measuredRowOf(run, measurement) + ";\n";
 }
 
 class ReportCommand : public test::ProgramTest {
@@ -34,8 +34,8 @@ class ReportCommand : public test::ProgramTest {
     }
     std::string folder() const { return folder_.path().string(); }
     void writeRuns(const std::vector<Row>& runs) {
-        std::string text = runHeader() + "\n";
-        for (const Row& one : runs) text += rowOf(one) + "\n";
+        std::string text = trials::runHeader() + "\n";
+        for (const Row& one : runs) text += trials::rowOf(one) + "\n";
         folder_.write("runs.csv", text);
     }
 };
@@ -78,7 +78,7 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     fs::create_directory(path("journal"));
     std::string journal;
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
-        journal += lineOf(runOf("gap", seed, "W-RoI", "astar", kWon), 1e6 * double(seed));
+        journal += lineOf(trials::runOf("gap", seed, "W-RoI", "astar", kWon), 1e6 * double(seed));
     }
     folder_.write("journal/1.csv", journal + "gap,4,W-");
     folder_.write("campaign.json", R"({"flown": [{"scenarios": ["gap"], "seeds": [0, 9],
@@ -89,7 +89,7 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     ASSERT_EQ(before.exit_code, 0) << before.err;
     EXPECT_NE(before.out.find("Unfinished: 3 of 20 runs planned so far are flown."),
               std::string::npos);
-    writeRuns({runOf("gap", 0, "W-RoI", "astar", kWon)});
+    writeRuns({trials::runOf("gap", 0, "W-RoI", "astar", kWon)});
     const test::Outcome outcome =
         run({"report", folder(), "--overwrite", "--markdown", path("a.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -108,8 +108,8 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
 
     std::vector<Row> all;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-        all.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
-        all.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
+        all.push_back(trials::runOf("gap", seed, "W-RoI", "astar", kWon));
+        all.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
     }
     writeRuns(all);
     EXPECT_EQ(run({"report", folder(), "--overwrite"}).out.find("Unfinished"), std::string::npos);
@@ -118,29 +118,31 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
               std::string::npos);
 }
 
-TEST(FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
+TEST(trials::FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
     const test::TemporaryFolder folder;
-    const Row run = runOf("gap", 1, "W-RoI", "astar", kWon);
+    const Row run = trials::runOf("gap", 1, "W-RoI", "astar", kWon);
     fs::create_directory(folder / "journal");
     // A pipe holds the reader up between its list of journals and the second of them.
     ASSERT_EQ(mkfifo((folder / "journal/0.csv").c_str(), 0600), 0);
     folder.write("journal/1.csv", lineOf(run, 0));
     std::thread campaign([&] {
         const std::ofstream pipe(folder / "journal/0.csv");  // waits for the reader
-        folder.write("runs.csv", runHeader() + "\n" + rowOf(run) + "\n");
+        folder.write("runs.csv", trials::runHeader() + "\n" + trials::rowOf(run) + "\n");
         fs::remove_all(folder / "journal");
     });
-    FlownRuns flown;
-    EXPECT_NO_THROW(flown = readFlownRuns(folder.path()));
+    trials::FlownRuns flown;
+    EXPECT_NO_THROW(flown = trials::readFlownRuns(folder.path()));
     campaign.join();
     EXPECT_EQ(flown.runs.size(), 1u);
 }
 
-TEST(FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
+TEST(trials::FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
     const test::TemporaryFolder folder;
     fs::create_directory(folder / "journal");
     fs::create_symlink("nowhere", folder / "journal/0.csv");
-    EXPECT_NE(test::messageOf([&] { readFlownRuns(folder.path()); }).find("0.csv: cannot be read"),
+    EXPECT_NE(test::messageOf([&] {
+                  trials::readFlownRuns(folder.path());
+              }).find("0.csv: cannot be read"),
               std::string::npos);
 }
 
@@ -178,7 +180,8 @@ TEST_F(ReportCommand, NamesWhatIsMissing) {
 }
 
 TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
-    folder_.write("runs.csv", runHeader() + "\n" + rowOf(threeContenders()[0]) + "\ngap,1\n");
+    folder_.write("runs.csv",
+                  trials::runHeader() + "\n" + trials::rowOf(threeContenders()[0]) + "\ngap,1\n");
     expectFailure({"report", folder()}, 1, "runs.csv:3: 2 fields, not 24");
     writeRuns(threeContenders());
     folder_.write("memory.csv", "model,path_m,bytes\nW-RoI,far,1\n");
@@ -213,7 +216,7 @@ TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
 }
 
 TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {
-    std::vector<Row> runs(3, runOf("gap", 1, "W-RoI", "astar", kWon));
+    std::vector<Row> runs(3, trials::runOf("gap", 1, "W-RoI", "astar", kWon));
     runs[1].setup.speed_m_s = 6;
     runs[2].setup.speed_m_s = 6;
     runs[2].setup.latency_scale = 4;
@@ -221,7 +224,7 @@ TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {
     writeRuns(runs);
     const std::string list = run({"replay", folder(), "--seed", "1"}).err;
     for (const Row& one : runs) {
-        const std::string line = choiceOf(one, runs);
+        const std::string line = replays::choiceOf(one, runs);
         ASSERT_NE(list.find("\n  " + line), std::string::npos) << list;
         std::vector<std::string> arguments{"replay", folder(), "--seed", "1"};
         std::istringstream words(line);

@@ -1,21 +1,21 @@
 // Counts, spreads and pairs with known answers.
 #include <gtest/gtest.h>
 
+#include <hagen/reports/ReportWords.h>
+#include <hagen/reports/SharedCourses.h>
+#include <hagen/reports/Summary.h>
 #include "SampleRuns.h"
-#include "octomap-compare/ReportWords.h"
-#include "octomap-compare/SharedCourses.h"
-#include "octomap-compare/Summary.h"
 
 namespace hagen {
 namespace {
 
 using namespace test;
 
-TEST(Summary, CountsCellsAndSpreads) {
-    const Summary summary = summarize(threeContenders());
+TEST(reports::Summary, CountsCellsAndSpreads) {
+    const reports::Summary summary = reports::summarize(threeContenders());
     ASSERT_EQ(summary.contenders.size(), 3u);
-    EXPECT_EQ(nameOf(summary.contenders[0]), "W-RoI, A*");
-    const Cell* cell = find(summary, "gap", kReference, {"W-RoI", "astar"});
+    EXPECT_EQ(reports::nameOf(summary.contenders[0]), "W-RoI, A*");
+    const reports::Cell* cell = reports::find(summary, "gap", kReference, {"W-RoI", "astar"});
     ASSERT_NE(cell, nullptr);
     EXPECT_EQ(cell->runs, 10);
     EXPECT_EQ(cell->successes, 9);
@@ -28,17 +28,17 @@ TEST(Summary, CountsCellsAndSpreads) {
     EXPECT_NEAR(cell->dropped_percent, 5, 1e-12);
     EXPECT_NEAR(cell->stops_per_km, 2 / 0.044, 1e-9);
     EXPECT_EQ(cell->latency_max_ms, 9);
-    EXPECT_EQ(find(summary, "gap", kReference, {"W-Full", "astar"}), nullptr);
+    EXPECT_EQ(reports::find(summary, "gap", kReference, {"W-Full", "astar"}), nullptr);
 }
 
-TEST(Summary, PairsRunsThroughTheSameCourse) {
+TEST(reports::Summary, PairsRunsThroughTheSameCourse) {
     std::vector<Row> runs = threeContenders();
-    runs.push_back(runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
-    const Summary summary = summarize(runs);
+    runs.push_back(trials::runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    const reports::Summary summary = reports::summarize(runs);
     // A*: against the map and against itself straight; straight: against the map under A*.
     ASSERT_EQ(summary.pairings.size(), 3u);
-    const Pairing* pairing = nullptr;
-    for (const Pairing& one : summary.pairings) {
+    const reports::Pairing* pairing = nullptr;
+    for (const reports::Pairing& one : summary.pairings) {
         if (one.first.guidance == "astar" && one.second.model == "O-Full-0.4") pairing = &one;
     }
     ASSERT_NE(pairing, nullptr);
@@ -50,52 +50,54 @@ TEST(Summary, PairsRunsThroughTheSameCourse) {
     EXPECT_NEAR(pairing->difference, 0.2, 1e-12);
     EXPECT_NEAR(pairing->p, 0.5, 1e-12);
     EXPECT_GE(pairing->p_holm, pairing->p);
-    EXPECT_EQ(pairing->verdict, Verdict::Open);
+    EXPECT_EQ(pairing->verdict, reports::Verdict::Open);
 }
 
-TEST(Summary, JudgesByTheMargin) {
+TEST(reports::Summary, JudgesByTheMargin) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-        runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed < 2 ? kHit : kWon));
-        runs.push_back(runOf("gap", seed, "W-Full", "astar", seed == 2 ? kHit : kWon));
-        runs.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
-        runs.push_back(runOf("gap", seed, "W-RoI", "straight", seed < 100 ? kLate : kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", seed < 2 ? kHit : kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-Full", "astar", seed == 2 ? kHit : kWon));
+        runs.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-RoI", "straight", seed < 100 ? kLate : kWon));
     }
-    const Summary summary = summarize(runs);
+    const reports::Summary summary = reports::summarize(runs);
     ASSERT_EQ(summary.overall.size(), 4u);
-    for (const Pairing& pairing : summary.overall) {
+    for (const reports::Pairing& pairing : summary.overall) {
         const bool is_worse = pairing.first.guidance == "straight";
-        EXPECT_EQ(pairing.verdict, is_worse ? Verdict::Inferior : Verdict::NotInferior)
-            << nameOf(pairing.first) << " " << nameOf(pairing.second);
+        EXPECT_EQ(pairing.verdict,
+                  is_worse ? reports::Verdict::Inferior : reports::Verdict::NotInferior)
+            << reports::nameOf(pairing.first) << " " << reports::nameOf(pairing.second);
     }
 }
 
-TEST(Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
+TEST(reports::Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         for (const double speed_m_s : {4.0, 6.0, 8.0, 10.0}) {
             const bool fails = speed_m_s == 8 && seed < 6;  // 94 %
-            runs.push_back(
-                runOf("forest-0.10", seed, "W-RoI", "astar", fails ? kHit : kWon, speed_m_s));
+            runs.push_back(trials::runOf("forest-0.10", seed, "W-RoI", "astar", fails ? kHit : kWon,
+                                         speed_m_s));
         }
     }
-    const Summary summary = summarize(runs);
+    const reports::Summary summary = reports::summarize(runs);
     ASSERT_EQ(summary.speed_limits.size(), 1u);
     EXPECT_EQ(summary.speed_limits[0].highest_m_s, 6);
     EXPECT_EQ(summary.speed_limits[0].sure_m_s, 6);  // 100 of 100: 96.3 % and more
     EXPECT_EQ(summary.speed_limits[0].flown_m_s, 10);
-    EXPECT_EQ(deviationOf(summary.speed_limits[0].lowest), "");
+    EXPECT_EQ(trials::deviationOf(summary.speed_limits[0].lowest), "");
 }
 
-TEST(SharedCourses, AreThoseOnWhichAllArrived) {
+TEST(reports::SharedCourses, AreThoseOnWhichAllArrived) {
     std::vector<Row> runs = threeContenders();
-    runs.push_back(runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    runs.push_back(trials::runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
     for (Row& run : runs) {
         if (run.setup.model == "W-RoI" && run.seed < 5) run.result.time_s = 100;
         if (run.seed != 7) run.result.first_reaction_m = static_cast<double>(run.seed);
     }
-    const Summary summary = summarize(runs);
-    const std::vector<SharedCourses> shared = sharedCourses(runs, summary, kReference);
+    const reports::Summary summary = reports::summarize(runs);
+    const std::vector<reports::SharedCourses> shared =
+        reports::sharedCourses(runs, summary, kReference);
     ASSERT_EQ(shared.size(), 2u);
     EXPECT_EQ(shared[0].guidance, "astar");
     EXPECT_EQ(shared[0].flown, 10);
@@ -103,30 +105,31 @@ TEST(SharedCourses, AreThoseOnWhichAllArrived) {
     EXPECT_EQ(shared[0].reacted, 6);
     ASSERT_EQ(shared[0].cells.size(), 2u);
     EXPECT_EQ(shared[0].cells[0].contender.model, "W-RoI");
-    for (const Cell& cell : shared[0].cells) {
+    for (const reports::Cell& cell : shared[0].cells) {
         EXPECT_EQ(cell.time_s.count, 7);
         EXPECT_NEAR(cell.time_s.median, 12, 1e-12);  // of all its own it would be 56
         EXPECT_EQ(cell.first_reaction_m.count, 6);
     }
     EXPECT_EQ(shared[0].min_clearances_m[1].size(), 10u);
-    EXPECT_EQ(sharedWords(shared[0]),
+    EXPECT_EQ(reports::sharedWords(shared[0]),
               "With A*: 10 courses were flown by both contenders; on 7 of these all arrived, on 6 "
               "all reacted to something.");
     EXPECT_EQ(shared[1].arrived, 0);
     EXPECT_TRUE(shared[1].cells.empty());
-    EXPECT_EQ(sharedWords(shared[1]),
+    EXPECT_EQ(reports::sharedWords(shared[1]),
               "Flown straight: 10 courses were flown by W-RoI, straight; it arrived on none.");
 }
 
 /// Maps are slow to fly: their few courses must not be all that is told of the others.
-TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
+TEST(reports::SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        runs.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
-        if (seed < 19) runs.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
-        if (seed < 4) runs.push_back(runOf("gap", seed, "O-Full-0.4", "astar", kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", kWon));
+        if (seed < 19) runs.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
+        if (seed < 4) runs.push_back(trials::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
     }
-    const std::vector<SharedCourses> shared = sharedCourses(runs, summarize(runs), kReference);
+    const std::vector<reports::SharedCourses> shared =
+        reports::sharedCourses(runs, reports::summarize(runs), kReference);
     ASSERT_EQ(shared.size(), 2u);
     EXPECT_EQ(shared[0].contenders.size(), 2u);
     EXPECT_EQ(shared[0].arrived, 19);
@@ -134,9 +137,9 @@ TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
     EXPECT_EQ(shared[1].arrived, 4);
 }
 
-TEST(Summary, OfNothingIsEmpty) {
-    EXPECT_TRUE(summarize({}).cells.empty());
-    EXPECT_NE(reportPage(Report{}).find("Nothing was flown"), std::string::npos);
+TEST(reports::Summary, OfNothingIsEmpty) {
+    EXPECT_TRUE(reports::summarize({}).cells.empty());
+    EXPECT_NE(reports::reportPage(reports::Report{}).find("Nothing was flown"), std::string::npos);
 }
 
 }  // namespace

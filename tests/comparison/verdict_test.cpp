@@ -1,28 +1,28 @@
 // What is said of figures.
 #include <gtest/gtest.h>
 
+#include <hagen/reports/Summary.h>
+#include <hagen/reports/Verdict.h>
 #include "SampleRuns.h"
-#include "octomap-compare/Summary.h"
-#include "octomap-compare/Verdict.h"
 
 namespace hagen {
 namespace {
 
 using namespace test;
 
-TEST(Verdict, TellsWiresApartFromTheRest) {
+TEST(reports::Verdict, TellsWiresApartFromTheRest) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-        runs.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
-        runs.push_back(runOf("gap", seed, "W-Full", "astar", seed == 0 ? kHit : kWon));
-        runs.push_back(runOf("wires", seed, "W-RoI", "astar", seed < 100 ? kHit : kWon));
-        runs.push_back(runOf("wires", seed, "W-Full", "astar", kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-Full", "astar", seed == 0 ? kHit : kWon));
+        runs.push_back(trials::runOf("wires", seed, "W-RoI", "astar", seed < 100 ? kHit : kWon));
+        runs.push_back(trials::runOf("wires", seed, "W-Full", "astar", kWon));
     }
-    const Summary summary = summarize(runs);
+    const reports::Summary summary = reports::summarize(runs);
     ASSERT_EQ(summary.without_wires.size(), 1u);
     EXPECT_EQ(summary.without_wires[0].pairs(), 400);
-    EXPECT_EQ(summary.without_wires[0].verdict, Verdict::NotInferior);
-    const std::vector<std::string> words = verdictOf(summary);
+    EXPECT_EQ(summary.without_wires[0].verdict, reports::Verdict::NotInferior);
+    const std::vector<std::string> words = reports::verdictOf(summary);
     EXPECT_EQ(words[0],
               "W-RoI with A* at 4 m/s arrives less often than W-Full (among wires), by more than "
               "3 points. It loses less than 3 points, if any, to W-Full (where no wires are).");
@@ -36,14 +36,15 @@ TEST(Verdict, TellsWiresApartFromTheRest) {
         0u)
         << words[2];
     // Where nobody flew wires, all is where no wires are.
-    EXPECT_TRUE(summarize({runOf("gap", 0, "W-RoI", "astar", kWon),
-                           runOf("gap", 0, "W-Full", "astar", kWon)})
+    EXPECT_TRUE(reports::summarize({trials::runOf("gap", 0, "W-RoI", "astar", kWon),
+                                    trials::runOf("gap", 0, "W-Full", "astar", kWon)})
                     .without_wires.empty());
 }
 
-TEST(Verdict, SpeaksOfOneAsOne) {
-    const std::vector<std::string> words = verdictOf(summarize(
-        {runOf("gap", 0, "W-RoI", "astar", kHit), runOf("gap", 0, "G-Full", "astar", kWon)}));
+TEST(reports::Verdict, SpeaksOfOneAsOne) {
+    const std::vector<std::string> words =
+        reports::verdictOf(reports::summarize({trials::runOf("gap", 0, "W-RoI", "astar", kHit),
+                                               trials::runOf("gap", 0, "G-Full", "astar", kWon)}));
     ASSERT_EQ(words.size(), 6u);
     EXPECT_EQ(words[0], "W-RoI with A* at 4 m/s: nothing is decided yet. Open: G-Full.");
     EXPECT_EQ(words[1].find(
@@ -57,35 +58,35 @@ TEST(Verdict, SpeaksOfOneAsOne) {
     EXPECT_NE(words[5].find("0 collisions in 1 run of a scenario still allows"), std::string::npos);
 }
 
-TEST(Verdict, CallsNothingWorseThatMayBeChance) {
+TEST(reports::Verdict, CallsNothingWorseThatMayBeChance) {
     // The interval excludes 3 points, but among so many comparisons the test does not.
-    Pairing pairing{"", kReference, {"W-RoI", "astar"}, {"G-Full", "astar"}};
+    reports::Pairing pairing{"", kReference, {"W-RoI", "astar"}, {"G-Full", "astar"}};
     pairing.both = 90;
     pairing.only_second = 10;
     pairing.difference = -0.1;
     pairing.interval = {-0.17, -0.04};
-    pairing.verdict = Verdict::Inferior;
+    pairing.verdict = reports::Verdict::Inferior;
     pairing.p_holm = 0.06;
-    EXPECT_EQ(differenceText(pairing).find("Open: "), 0u);
-    EXPECT_NE(differenceText(pairing).find("may be chance"), std::string::npos);
+    EXPECT_EQ(reports::differenceText(pairing).find("Open: "), 0u);
+    EXPECT_NE(reports::differenceText(pairing).find("may be chance"), std::string::npos);
     pairing.p_holm = 0.04;
-    EXPECT_EQ(differenceText(pairing).find(
+    EXPECT_EQ(reports::differenceText(pairing).find(
                   "W-RoI with A* against G-Full: success 90.0 % against 100.0 %"),
               0u);
 }
 
-TEST(Verdict, TellsLossesThatGoUnderInTheWhole) {
+TEST(reports::Verdict, TellsLossesThatGoUnderInTheWhole) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         for (const char* scenario : {"gap", "movers"}) {
             const bool is_gap = scenario == std::string("gap");
             runs.push_back(
-                runOf(scenario, seed, "W-RoI", "astar", is_gap || seed < 80 ? kWon : kHit));
-            runs.push_back(
-                runOf(scenario, seed, "G-Full", "astar", !is_gap || seed < 78 ? kWon : kLate));
+                trials::runOf(scenario, seed, "W-RoI", "astar", is_gap || seed < 80 ? kWon : kHit));
+            runs.push_back(trials::runOf(scenario, seed, "G-Full", "astar",
+                                         !is_gap || seed < 78 ? kWon : kLate));
         }
     }
-    const std::vector<std::string> words = verdictOf(summarize(runs));
+    const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
     EXPECT_EQ(words[0],
               "W-RoI with A* at 4 m/s: nothing is decided yet. But it arrives less often than "
               "G-Full (in movers). Open: G-Full.");
@@ -100,17 +101,17 @@ TEST(Verdict, TellsLossesThatGoUnderInTheWhole) {
 }
 
 /// 45 of 200 lost in one of ten scenarios are no 3 points of the whole.
-TEST(Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
+TEST(reports::Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
     std::vector<Row> runs;
     for (const char* scenario : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "wires"}) {
         const bool is_wires = scenario == std::string("wires");
         for (std::uint64_t seed = 0; seed < 200; ++seed) {
-            runs.push_back(
-                runOf(scenario, seed, "W-RoI", "astar", is_wires && seed < 45 ? kHit : kWon));
-            runs.push_back(runOf(scenario, seed, "G-Full", "astar", kWon));
+            runs.push_back(trials::runOf(scenario, seed, "W-RoI", "astar",
+                                         is_wires && seed < 45 ? kHit : kWon));
+            runs.push_back(trials::runOf(scenario, seed, "G-Full", "astar", kWon));
         }
     }
-    const std::vector<std::string> words = verdictOf(summarize(runs));
+    const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
     EXPECT_EQ(words[0],
               "W-RoI with A* at 4 m/s, on the whole, arrives less often than G-Full, by less than "
               "3 points. But it arrives less often than G-Full (among wires).");
@@ -118,27 +119,27 @@ TEST(Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
         << words[2];
 }
 
-TEST(Verdict, TellsOfOneScenarioOnce) {
+TEST(reports::Verdict, TellsOfOneScenarioOnce) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-        runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed < 5 ? kHit : kWon));
-        runs.push_back(runOf("gap", seed, "G-Full", "astar", kWon));
+        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", seed < 5 ? kHit : kWon));
+        runs.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
     }
-    const std::vector<std::string> words = verdictOf(summarize(runs));
+    const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
     EXPECT_EQ(words[1].find("Open: W-RoI with A* against G-Full"), 0u) << words[1];
     EXPECT_EQ(words[2], "What is open needs more courses to be decided.");
 }
 
-TEST(Verdict, SaysWhereWhatWasNotFlownEverywhere) {
+TEST(reports::Verdict, SaysWhereWhatWasNotFlownEverywhere) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         for (const char* scenario : {"gap", "u-trap"}) {
-            runs.push_back(runOf(scenario, seed, "W-RoI", "astar", kWon));
-            runs.push_back(runOf(scenario, seed, "G-Full", "astar", kWon));
+            runs.push_back(trials::runOf(scenario, seed, "W-RoI", "astar", kWon));
+            runs.push_back(trials::runOf(scenario, seed, "G-Full", "astar", kWon));
         }
-        runs.push_back(runOf("gap", seed, "O-Full-0.4", "astar", kWon));
+        runs.push_back(trials::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
     }
-    const std::string headline = verdictOf(summarize(runs)).front();
+    const std::string headline = reports::verdictOf(reports::summarize(runs)).front();
     EXPECT_NE(headline.find("O-Full-0.4 (in gap)"), std::string::npos) << headline;
     EXPECT_EQ(headline.find("G-Full ("), std::string::npos) << headline;
 }

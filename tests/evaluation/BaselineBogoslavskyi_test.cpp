@@ -9,7 +9,7 @@
 #include "support/Random.h"
 #include "support/SimpleScene.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 using test::LabelledScan;
@@ -172,4 +172,4 @@ TEST(BogoslavskyiClusters, NumbersRoiReturnsAlone) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

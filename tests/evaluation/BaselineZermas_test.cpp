@@ -10,7 +10,7 @@
 #include "support/Random.h"
 #include "support/SimpleScene.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 using test::LabelledScan;
@@ -239,4 +239,4 @@ TEST(ScanLineRuns, AgreesWithBruteForce) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -5,7 +5,7 @@
 
 #include "support/BaselineRules.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 TEST(Baselines, KeepToTheRules) {
@@ -27,4 +27,4 @@ TEST(Baselines, HaveNamesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

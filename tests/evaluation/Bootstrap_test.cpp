@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 /// Scans of one RoI return each, of which every second is found.
@@ -62,4 +62,4 @@ TEST(Bootstrap, NoIntervalOfNothing) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <hagen/evaluation/Breakdown.h>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 Scores roi(std::int64_t hits, std::int64_t misses) {
@@ -69,4 +69,4 @@ TEST(Breakdown, KindsAreThoseOfAnyScan) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -7,7 +7,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 /// 9 x 7 pixels, 90 degrees wide: a return 45 degrees to the left is in the first column.
@@ -124,4 +124,4 @@ TEST(CameraFile, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -5,7 +5,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 constexpr auto G = Label::Rou, O = Label::Roi;
@@ -92,4 +92,4 @@ TEST(Evaluation, RefusesNoSourceAndSourcesThatDiffer) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -3,7 +3,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST_F(LabelMapFile, NamesClassesThatAreMissing) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

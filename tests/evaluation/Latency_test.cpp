@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 TEST(Latency, ByHand) {
@@ -35,4 +35,4 @@ TEST(Latency, OfNoRunAndOfOne) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

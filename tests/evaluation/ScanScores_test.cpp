@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 constexpr auto U = Label::Unclassified, G = Label::Rou, O = Label::Roi;
@@ -77,4 +77,4 @@ TEST(ScanScores, RefusesWhatDoesNotFitTheScan) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 constexpr auto U = Label::Unclassified, G = Label::Rou, O = Label::Roi;
@@ -47,4 +47,4 @@ TEST(Scores, NothingToScoreIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -18,7 +18,7 @@
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -196,8 +196,8 @@ TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
     from_folder.folder = folder_ / "labels";
     from_folder.settings.sensor.model = "HDL-64E";
     convert(from_folder);
-    Settings written;
-    mergeSettings(folder_ / "labels/sensor.yaml", written);
+    observations::Settings written;
+    observations::mergeSettings(folder_ / "labels/sensor.yaml", written);
     EXPECT_EQ(written.sensorModel().rows(), 32);
 }
 
@@ -434,7 +434,7 @@ TEST_P(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
     scan.x_m = {5, 6};
     scan.y_m = scan.z_m = {0, 1};
     scan.intensity = {0, 1};
-    const auto cloud = observationOf(scan, "lidar", mrpt::Clock::fromDouble(1.0));
+    const auto cloud = observations::observationOf(scan, "lidar", mrpt::Clock::fromDouble(1.0));
     fs::create_directory(folder_ / "in_Images");
     mrpt::io::setLazyLoadPathBase((folder_ / "in_Images").string() + "/");
     cloud->setAsExternalStorage("cloud.bin",
@@ -471,15 +471,15 @@ TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) 
     scan.x_m = {5, 6};
     scan.y_m = scan.z_m = {0, 1};
     scan.intensity = {0, 1};
-    writeLog({pose(), observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)), scanFrom(0),
-              pose(), pose(), pose()});
+    writeLog({pose(), observations::observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)),
+              scanFrom(0), pose(), pose(), pose()});
     Conversion unfit = conversion();
     unfit.settings.sensor.model = "HDL-64E";
     unfit.settings.options.window_size = 20;
     std::size_t entries = 0;
     ConversionListener listener;
     listener.progress = [&](const ConversionReport& report) { entries = report.entries; };
-    EXPECT_THROW(convert(unfit, listener), SettingsError);
+    EXPECT_THROW(convert(unfit, listener), observations::SettingsError);
     EXPECT_EQ(entries, 2u);
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
     EXPECT_FALSE(fs::exists(folder_ / "out.partial.rawlog"));
@@ -491,7 +491,7 @@ TEST_P(ConversionTest, ABreakAfterAFailureIsNotWhatIsTold) {
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() - 10));
     Conversion unfit = conversion();
     unfit.settings.options.window_size = 20;
-    EXPECT_THROW(convert(unfit), SettingsError);
+    EXPECT_THROW(convert(unfit), observations::SettingsError);
 }
 
 TEST_P(ConversionTest, ALogOfSmallEntriesTakesLittleMoreThanTheyDo) {
@@ -577,4 +577,4 @@ TEST(ConversionThreads, NothingThatIsSeenDependsOnTheirNumber) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -7,7 +7,7 @@
 #include "support/Program.h"
 #include "support/Random.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -148,4 +148,4 @@ TEST_F(PoseFile, BesideACalibrationPosesAreTheCamerasAsKittiHasThem) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -13,7 +13,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -165,4 +165,4 @@ TEST_F(RawlogSurveyTest, EndsWhenItIsToldTo) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::logs

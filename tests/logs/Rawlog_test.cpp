@@ -12,7 +12,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -255,4 +255,4 @@ TEST(Rawlog, APartIsWholeAndReadable) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -7,7 +7,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,8 +48,8 @@ TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
     EXPECT_EQ(scan.z_m, threePoints().z_m);
     EXPECT_EQ(scan.intensity, threePoints().intensity);
 
-    Settings settings;
-    mergeSettings(read.sensorFile(), settings);
+    observations::Settings settings;
+    observations::mergeSettings(read.sensorFile(), settings);
     EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
     EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
 }
@@ -100,4 +100,4 @@ TEST(ScanFolderWriter, NamesAFileThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -7,7 +7,7 @@
 #include "support/Program.h"
 #include "support/Random.h"
 
-namespace hagen {
+namespace hagen::logs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST_F(ScanFolderTest, TimesThatDoNotFitAreNamedByLine) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 class MapFile : public testing::Test {
  protected:
     MapFile() {
-        Random random(4);
+        simulation::Random random(4);
         MappedScan scan;
         for (int i = 0; i < 400; ++i) {
             const double x = random.uniform(-4, 4);

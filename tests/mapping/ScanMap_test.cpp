@@ -57,7 +57,7 @@ State stateAt(const ScanMap& map, const Eigen::Vector3d& p) {
     return map.tree().isNodeOccupied(node) ? State::Occupied : State::Free;
 }
 
-MappedScan randomScan(Random& random, int points) {
+MappedScan randomScan(simulation::Random& random, int points) {
     MappedScan scan;
     scan.origin_m = {0.03f, 0.05f, 0.07f};
     for (int i = 0; i < points; ++i) {
@@ -122,7 +122,7 @@ void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
 }
 
 TEST(ScanMap, VoxelsAreAsDefined) {
-    Random random(1);
+    simulation::Random random(1);
     for (const MapContent content : {MapContent::Full, MapContent::Roi, MapContent::RoiAndRays}) {
         for (int i = 0; i < 2; ++i) {
             expectAsDefined({content, 0.2, 20}, randomScan(random, 40));

@@ -6,7 +6,7 @@
 
 #include "support/SimpleFirings.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -113,4 +113,4 @@ TEST(Deskew, LeavesAScanAloneWherePosesDoNotReachToItsEnd) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

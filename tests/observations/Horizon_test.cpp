@@ -10,7 +10,7 @@
 
 #include "../support/SimpleScene.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationIMU;
@@ -156,4 +156,4 @@ TEST(Horizon, ATrajectoryCountsOnlyWhereItHasOne) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

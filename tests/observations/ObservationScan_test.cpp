@@ -7,7 +7,7 @@
 
 #include "support/SimpleFirings.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationPointCloud;
@@ -172,4 +172,4 @@ TEST(ObservationScan, RefusesAVelodyneCloudWhoseArraysDifferInSize) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -11,7 +11,7 @@
 #include "support/Captures.h"
 #include "support/SimpleFirings.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
@@ -263,4 +263,4 @@ TEST(ObservationSegmenter, TakesTimesWhenAskedTo) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -6,7 +6,7 @@
 
 #include "support/SimpleScene.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -76,4 +76,4 @@ TEST(RoiPointCloudFilter, RefusesSettingsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -8,7 +8,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 namespace fs = std::filesystem;
@@ -270,4 +270,4 @@ TEST(Settings, TheTableHasEveryKeyWithItsDefault) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

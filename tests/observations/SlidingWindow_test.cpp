@@ -7,7 +7,7 @@
 
 #include "support/SimpleScene.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -95,4 +95,4 @@ TEST(SlidingWindow, HoldsAtLeastOneScan) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

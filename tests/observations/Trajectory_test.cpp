@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <hagen/observations/Trajectory.h>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -50,4 +50,4 @@ TEST(Trajectory, AGapOfMoreThanAFifthOfASecondIsNotBridged) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -13,7 +13,7 @@
 #include "support/Program.h"
 #include "support/Random.h"
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
@@ -362,4 +362,4 @@ TEST(VelodyneDecoder, TheSensorHasTheObservationsRangeLimits) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

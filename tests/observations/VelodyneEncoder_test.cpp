@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
@@ -84,4 +84,4 @@ TEST(VelodyneEncoder, FiringsOfAnotherSensorAreRefused) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

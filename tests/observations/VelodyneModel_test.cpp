@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::observations {
 namespace {
 
 using mrpt::obs::VelodyneCalibration;
@@ -61,4 +61,4 @@ TEST(VelodyneModel, OtherModelsAreNotKnown) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -9,7 +9,7 @@
 #include "support/BaselineRules.h"
 #include "support/PointScan.h"
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 const SensorModel kSensor = sensorModel("VLP-16");
@@ -113,4 +113,4 @@ TEST(PclEuclidean, KeepsToTheRulesOfBaselines) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::evaluation

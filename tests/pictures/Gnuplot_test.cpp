@@ -3,7 +3,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::pictures {
 namespace {
 
 /// What gnuplot writes into an SVG for this text.
@@ -33,4 +33,4 @@ TEST(Gnuplot, AnSvgThatBreaksOffIsNamed) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::pictures

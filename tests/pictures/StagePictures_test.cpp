@@ -10,7 +10,7 @@
 #include "support/Program.h"
 #include "support/SimpleScene.h"
 
-namespace hagen {
+namespace hagen::pictures {
 namespace {
 
 using test::SimpleScene;
@@ -327,4 +327,4 @@ TEST(StagePictures, WhatGnuplotComplainsOfIsPassedOn) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::pictures

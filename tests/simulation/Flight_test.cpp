@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 Terrain rolling() {
@@ -112,4 +112,4 @@ TEST(FlightTest, TheSeedTellsHowItSways) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -3,7 +3,7 @@
 
 #include <set>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 TEST(KindTest, EveryKindHasANumberAndANameOfItsOwn) {
@@ -30,4 +30,4 @@ TEST(KindTest, GroundIsRouAndObstaclesAreRoiAndTheVehicleItselfIsNeither) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

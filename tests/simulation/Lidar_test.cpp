@@ -9,7 +9,7 @@
 
 #include "simulation/SimpleContent.h"
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using test::emptyContent;
@@ -306,4 +306,4 @@ TEST(LidarTest, AnotherSensorIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 TEST(PathTest, StartsInTheMiddleOfTheSouthernStraightAndComesBack) {
@@ -40,4 +40,4 @@ TEST(PathTest, DistanceIsThatToTheNearestPlaceOnIt) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

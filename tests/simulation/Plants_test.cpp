@@ -5,7 +5,7 @@
 
 #include "simulation/SimpleContent.h"
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 /// Share of level rays across a shape, at some height and within a half width, that pass it.
@@ -87,4 +87,4 @@ TEST(PlantsTest, CropAndTuftsAreAMetreHigh) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 struct Moments {
@@ -65,4 +65,4 @@ TEST(RandomTest, BelowStaysBelow) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 std::set<Kind> kindsOf(const Scene& scene) {
@@ -132,4 +132,4 @@ TEST(ScenariosTest, AnUnknownOneIsRefusedAndTheKnownOnesNamed) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

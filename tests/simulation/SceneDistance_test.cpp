@@ -5,7 +5,7 @@
 
 #include "simulation/SimpleContent.h"
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector3f;
@@ -167,4 +167,4 @@ TEST(SceneDistanceTest, ShapesThatStandScaledAreMeasuredScaled) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

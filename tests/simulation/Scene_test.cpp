@@ -6,7 +6,7 @@
 
 #include "simulation/SimpleContent.h"
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 using Eigen::Vector3f;
@@ -143,4 +143,4 @@ TEST(SceneTest, CopiesAndSnapshotsOutliveTheSceneTheyComeFrom) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

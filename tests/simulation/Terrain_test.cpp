@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::simulation {
 namespace {
 
 double steepest(const Terrain& terrain) {
@@ -87,4 +87,4 @@ TEST(TerrainTest, TheMeshIsTheGroundWithItsRoughness) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::simulation

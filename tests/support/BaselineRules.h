@@ -9,7 +9,7 @@ namespace hagen::test {
 
 /// What every baseline keeps to, whatever its method: a label a return, by range as the filter has
 /// it, the same each time, and nothing for nothing.
-inline void expectBaselineRules(const Baseline& baseline, float zone_m) {
+inline void expectBaselineRules(const evaluation::Baseline& baseline, float zone_m) {
     SCOPED_TRACE(baseline.name);
     EXPECT_FALSE(baseline.source.empty());
     EXPECT_FALSE(baseline.parameters.empty());

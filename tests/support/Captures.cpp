@@ -12,7 +12,8 @@ using mrpt::obs::CObservationVelodyneScan;
 
 CObservationVelodyneScan::Ptr realVlp16Scan() {
     if (realScan().empty()) return nullptr;
-    return std::dynamic_pointer_cast<CObservationVelodyneScan>(RawlogReader(realScan()).next());
+    return std::dynamic_pointer_cast<CObservationVelodyneScan>(
+        logs::RawlogReader(realScan()).next());
 }
 
 CObservationVelodyneScan::Ptr readCapture(const std::filesystem::path& pcap,

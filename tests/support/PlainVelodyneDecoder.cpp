@@ -62,7 +62,7 @@ class AzimuthTable {
  public:
     AzimuthTable() {
         for (int reading = 0; reading < kTurn; ++reading) {
-            const double clockwise_rad = radians(azimuthOfReadingDeg(reading));
+            const double clockwise_rad = radians(observations::azimuthOfReadingDeg(reading));
             entries_[reading] = {static_cast<float>(std::sin(clockwise_rad)),
                                  static_cast<float>(std::cos(clockwise_rad)),
                                  static_cast<float>(-clockwise_rad)};
@@ -84,7 +84,7 @@ class AzimuthTable {
 };
 
 const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observation,
-                                         const VelodyneModel& model) {
+                                         const observations::VelodyneModel& model) {
     const bool has_own =
         observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
     return has_own ? observation.calibration
@@ -118,7 +118,7 @@ struct Laser {
 };
 
 std::vector<Laser> lasersOf(const VelodyneCalibration& calibration) {
-    const std::vector<std::uint8_t> rows = rowsOfLasers(calibration);
+    const std::vector<std::uint8_t> rows = observations::rowsOfLasers(calibration);
     std::vector<Laser> lasers;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& correction = calibration.laser_corrections[i];
@@ -153,8 +153,8 @@ void appendReturn(const Laser& laser, double reading, unsigned distance, Scan& s
 std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& scan) {
     scan.clear();
     if (observation.scan_packets.empty()) return 0;
-    const VelodyneModel& model =
-        *findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
+    const observations::VelodyneModel& model =
+        *observations::findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
     const std::vector<Laser> lasers = lasersOf(calibrationOf(observation, model));
     const int turn = turnOfBlocks(observation);
     const unsigned first_us = Packet(observation.scan_packets.front()).time_us();

@@ -33,10 +33,10 @@ mrpt::obs::CObservationRobotPose::Ptr polesAndWallPose(int scan) {
 }
 
 mrpt::obs::CObservationVelodyneScan::Ptr polesAndWallScan(int scan) {
-    const VelodyneModel& model = velodyneModel("VLP-16");
-    auto observation =
-        encodeScan(model, fireAt(polesAndWall(), model, {kStep_m * scan, 0, kAltitude_m},
-                                 {kStep_m / kPeriod_s, 0, 0}));
+    const observations::VelodyneModel& model = observations::velodyneModel("VLP-16");
+    auto observation = observations::encodeScan(
+        model, fireAt(polesAndWall(), model, {kStep_m * scan, 0, kAltitude_m},
+                      {kStep_m / kPeriod_s, 0, 0}));
     observation->sensorLabel = "lidar";
     observation->timestamp = timeOf(scan);
     return observation;

@@ -6,13 +6,13 @@
 
 namespace hagen::test {
 
-Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
-               const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
-               double range_limit_m) {
+observations::Firings fireAt(const SimpleScene& scene, const observations::VelodyneModel& model,
+                             const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
+                             double range_limit_m) {
     const SensorModel sensor = sensorModel(model.name);
-    const std::vector<std::uint8_t> rows =
-        rowsOfLasers(mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration));
-    Firings firings;
+    const std::vector<std::uint8_t> rows = observations::rowsOfLasers(
+        mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration));
+    observations::Firings firings;
     firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 turns a second
     const int count = static_cast<int>(std::round(360.0 / firings.azimuth_step_deg));
     firings.range_m.setConstant(model.lasers, count, kNoValue);
@@ -21,7 +21,8 @@ Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
         const double time_s = 1e-6 * model.firing_period_us * firing;
         const Eigen::Vector3d from_m = position_m + time_s * velocity_m_s;
         for (int laser = 0; laser < model.lasers; ++laser) {
-            const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
+            const double azimuth_rad =
+                -radians(observations::firingAzimuthDeg(model, firings, laser, firing));
             const double elevation_rad = static_cast<double>(sensor.elevations_rad[rows[laser]]);
             const Hit hit = castRay(scene, from_m, directionOf(azimuth_rad, elevation_rad));
             if (!(hit.range_m < range_limit_m)) continue;
@@ -35,8 +36,8 @@ Firings fireAt(const SimpleScene& scene, const VelodyneModel& model,
 mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label) {
     SimpleScene scene;
     scene.poles.push_back({12, 2, 0.15, 8});
-    const VelodyneModel& model = velodyneModel("VLP-16");
-    auto scan = encodeScan(model, fireAt(scene, model, {x_m, 0, 2}));
+    const observations::VelodyneModel& model = observations::velodyneModel("VLP-16");
+    auto scan = observations::encodeScan(model, fireAt(scene, model, {x_m, 0, 2}));
     scan->sensorLabel = label;
     scan->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
     return scan;

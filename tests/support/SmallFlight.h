@@ -28,43 +28,46 @@ struct SmallFlightResult {
     double least_m = 1000, time_s = 0, path_m = 0;
     int plans = 0, emergencies = 0;
     long asked = 0;
-    VehicleState end;
+    avoidance::VehicleState end;
 };
 
 /// Plans at 10 Hz for the state when the command will be followed, moves at 50 Hz. Ends within 1 m
 /// of the goal, or after the longest time.
 inline SmallFlightResult fly(const SolidWorld& world, const SmallFlight& flight) {
-    const auto planner = makePlanner(flight.planner);
-    const auto guidance = makeGuidance(flight.guidance);
-    const VehicleLimits limits;
-    const int delay = static_cast<int>(std::lround(flight.latency_s / kControlStep_s));
+    const auto planner = avoidance::makePlanner(flight.planner);
+    const auto guidance = avoidance::makeGuidance(flight.guidance);
+    const avoidance::VehicleLimits limits;
+    const int delay = static_cast<int>(std::lround(flight.latency_s / avoidance::kControlStep_s));
     std::deque<Eigen::Vector3d> pending(static_cast<std::size_t>(delay), Eigen::Vector3d::Zero());
     SmallFlightResult result;
-    VehicleState state{flight.start_m, {0, 0, 0}};
+    avoidance::VehicleState state{flight.start_m, {0, 0, 0}};
     Eigen::Vector3d command_m_s(0, 0, 0);
-    for (int step = 0; step * kControlStep_s < flight.longest_s; ++step) {
-        result.time_s = step * kControlStep_s;
+    for (int step = 0; step * avoidance::kControlStep_s < flight.longest_s; ++step) {
+        result.time_s = step * avoidance::kControlStep_s;
         if (step % 5 == 0) {
             flight.moves(result.time_s);
-            VehicleState then = state;
-            for (const auto& sent : pending) then = advance(then, sent, kControlStep_s, limits);
-            GuidanceTask guided{state.position_m, flight.goal_m, flight.ground_m, 2, 1, 4.5,
-                                flight.bounds_m,  limits};
-            const Carrot carrot = guidance->carrot(world, guided);
-            PlanningTask task;
+            avoidance::VehicleState then = state;
+            for (const auto& sent : pending)
+                then = avoidance::advance(then, sent, avoidance::kControlStep_s, limits);
+            avoidance::GuidanceTask guided{
+                state.position_m, flight.goal_m, flight.ground_m, 2, 1, 4.5,
+                flight.bounds_m,  limits};
+            const avoidance::Carrot carrot = guidance->carrot(world, guided);
+            avoidance::PlanningTask task;
             task.start = then;
             task.carrot_m = carrot.at_m;
             task.beyond_carrot_m = carrot.beyond_m;
             task.speed_m_s = flight.speed_m_s;
             task.ground_m = flight.ground_m;
             task.brakes_in_known_space = flight.brakes_in_known_space;
-            const Plan plan = planner->plan(world, task);
+            const avoidance::Plan plan = planner->plan(world, task);
             command_m_s = plan.command_m_s;
             ++result.plans;
             result.emergencies += plan.is_emergency;
         }
         pending.push_back(command_m_s);
-        const VehicleState next = advance(state, pending.front(), kControlStep_s, limits);
+        const avoidance::VehicleState next =
+            avoidance::advance(state, pending.front(), avoidance::kControlStep_s, limits);
         pending.pop_front();
         result.path_m += (next.position_m - state.position_m).norm();
         state = next;

@@ -6,7 +6,7 @@
 namespace hagen::test {
 
 /// A world of simple solids whose distances are exact: what a model with perfect knowledge tells.
-class SolidWorld : public WorldModel {
+class SolidWorld : public avoidance::WorldModel {
  public:
     SolidWorld& sphere(const Eigen::Vector3f& middle_m, float radius_m) {
         spheres_.push_back({middle_m, radius_m});
@@ -31,7 +31,7 @@ class SolidWorld : public WorldModel {
         return *this;
     }
 
-    void update(const MappedScan&) override {}
+    void update(const mapping::MappedScan&) override {}
 
     float clearance_m(const Eigen::Vector3f& point_m) const override {
         ++asked;

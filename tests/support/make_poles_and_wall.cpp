@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        hagen::RawlogWriter writer(argv[1], true);
+        hagen::logs::RawlogWriter writer(argv[1], true);
         for (int scan = 0; scan < hagen::test::kPolesAndWallScans; ++scan) {
             writer.write(*hagen::test::polesAndWallPose(scan));
             writer.write(*hagen::test::polesAndWallScan(scan));

@@ -7,7 +7,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +237,4 @@ TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 #include <hagen/trials/CommandQueue.h>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 TEST(CommandQueue, AVehicleWithoutCommandsStandsStill) {
     const CommandQueue commands;
-    const VehicleState state =
-        commands.advanced({{1, 2, 3}, Eigen::Vector3d::Zero()}, 0, 1, VehicleLimits{});
+    const avoidance::VehicleState state =
+        commands.advanced({{1, 2, 3}, Eigen::Vector3d::Zero()}, 0, 1, avoidance::VehicleLimits{});
     EXPECT_EQ(state.position_m, Eigen::Vector3d(1, 2, 3));
     EXPECT_EQ(state.velocity_m_s, Eigen::Vector3d::Zero());
 }
@@ -19,11 +19,13 @@ TEST(CommandQueue, ACommandIsFollowedFromItsTimeOnAndNotBefore) {
     EXPECT_EQ(commands.at(0.1), Eigen::Vector3d::Zero());
     EXPECT_EQ(commands.at(0.2), Eigen::Vector3d(4, 0, 0));
     EXPECT_EQ(commands.at(0.6), Eigen::Vector3d::Zero());
-    const VehicleLimits limits;
-    const VehicleState before = commands.advanced(VehicleState{}, 0, 0.113, limits);
+    const avoidance::VehicleLimits limits;
+    const avoidance::VehicleState before =
+        commands.advanced(avoidance::VehicleState{}, 0, 0.113, limits);
     EXPECT_EQ(before.velocity_m_s.x(), 0);
     // Saturated: 5 m/s^2 for 0.2 s, of which every millisecond counts.
-    const VehicleState after = commands.advanced(VehicleState{}, 0, 0.313, limits);
+    const avoidance::VehicleState after =
+        commands.advanced(avoidance::VehicleState{}, 0, 0.313, limits);
     EXPECT_NEAR(after.velocity_m_s.x(), 1.0, 1e-12);
     EXPECT_NEAR(after.position_m.x(), 0.5 * 5 * 0.04, 1e-12);
 }
@@ -36,12 +38,12 @@ TEST(CommandQueue, ForgettingChangesNothingAfterwards) {
         commands->add(0.3, {0, 0, 1});
     }
     some.forgetBefore(0.25);
-    const VehicleLimits limits;
-    const VehicleState a = all.advanced(VehicleState{}, 0.25, 0.7, limits);
-    const VehicleState b = some.advanced(VehicleState{}, 0.25, 0.7, limits);
+    const avoidance::VehicleLimits limits;
+    const avoidance::VehicleState a = all.advanced(avoidance::VehicleState{}, 0.25, 0.7, limits);
+    const avoidance::VehicleState b = some.advanced(avoidance::VehicleState{}, 0.25, 0.7, limits);
     EXPECT_EQ(a.position_m, b.position_m);
     EXPECT_EQ(a.velocity_m_s, b.velocity_m_s);
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

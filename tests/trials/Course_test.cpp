@@ -8,7 +8,7 @@
 #include <queue>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using Eigen::Vector3d;
@@ -37,34 +37,35 @@ float leastClearanceStraight_m(const Course& course) {
     return least_m;
 }
 
-int count(const Course& course, Kind kind) {
+int count(const Course& course, simulation::Kind kind) {
     const auto& objects = course.scene.content().objects;
-    return static_cast<int>(std::count_if(objects.begin(), objects.end(),
-                                          [&](const SceneObject& o) { return o.kind == kind; }));
+    return static_cast<int>(
+        std::count_if(objects.begin(), objects.end(),
+                      [&](const simulation::SceneObject& o) { return o.kind == kind; }));
 }
 
-SimulatedScan scanAtStart(const Course& course, double time_s = 0) {
-    const PoseAt pose_at = [&](double) {
-        return SensorPose{course.start_m, Eigen::Quaterniond::Identity()};
+simulation::SimulatedScan scanAtStart(const Course& course, double time_s = 0) {
+    const simulation::PoseAt pose_at = [&](double) {
+        return simulation::SensorPose{course.start_m, Eigen::Quaterniond::Identity()};
     };
-    Random random(1);
-    return simulateScan(course.scene, sensorModel("VLP-16"), pose_at, time_s, random,
-                        trialFaults());
+    simulation::Random random(1);
+    return simulation::simulateScan(course.scene, sensorModel("VLP-16"), pose_at, time_s, random,
+                                    trialFaults());
 }
 
 /// The nearest that stands on the ground or moves, by rays in all directions.
 double nearestThing_m(const Course& course, const Vector3f& from, double time_s) {
-    std::vector<Ray> rays;
-    Random random(3);
+    std::vector<simulation::Ray> rays;
+    simulation::Random random(3);
     for (int i = 0; i < 4000; ++i) {
         const double a = random.normal(), b = random.normal(), d = random.normal();
         rays.push_back({from, Vector3d(a, b, d).normalized().cast<float>(), 0});
     }
-    std::vector<RayHit> hits;
+    std::vector<simulation::RayHit> hits;
     course.scene.during(time_s, 1e-6).cast(rays, 100, hits);
     double nearest_m = 100;
-    for (const RayHit& hit : hits) {
-        if (labelOf(hit.kind) != Label::Roi) continue;
+    for (const simulation::RayHit& hit : hits) {
+        if (simulation::labelOf(hit.kind) != Label::Roi) continue;
         nearest_m = std::min(nearest_m, static_cast<double>(hit.range_m));
     }
     return nearest_m;
@@ -107,7 +108,7 @@ TEST_P(EachCourse, HasAPathThatIsNoShorterThanTheStraightWayAndNotMuchLonger) {
 TEST_P(EachCourse, IsTheSameForTheSameSeedAndAnotherForAnother) {
     const Course& first = course(GetParam(), 1);
     const Course again = makeCourse(GetParam(), 1);
-    const SimulatedScan scan = scanAtStart(first), same = scanAtStart(again);
+    const simulation::SimulatedScan scan = scanAtStart(first), same = scanAtStart(again);
     EXPECT_EQ(scan.scan.x_m, same.scan.x_m);
     EXPECT_EQ(scan.scan.range_m, same.scan.range_m);
     EXPECT_EQ(scan.object, same.object);
@@ -137,7 +138,7 @@ TEST(CourseTest, AForestHasAsManyTreesAsItsDensitySays) {
         const double expected = per_m2 * 56 * 34;  // less those at the ends: 3.9 m about each
         double mean = 0;
         for (std::uint64_t seed = 1; seed <= 3; ++seed)
-            mean += count(course(name, seed), Kind::Tree) / 3.0;
+            mean += count(course(name, seed), simulation::Kind::Tree) / 3.0;
         EXPECT_NEAR(mean, expected - per_m2 * 2 * kPi * 3.9 * 3.9, 2.5 * std::sqrt(expected / 3))
             << name;
     }
@@ -202,14 +203,15 @@ TEST(CourseTest, WiresCrossTheStraightWayAboutAsHighAsOneFlies) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("wires", seed);
         EXPECT_LT(leastClearanceStraight_m(c), 0.65) << "seed " << seed;
-        std::vector<RayHit> hits;
-        std::vector<Ray> rays;  // a fence of rays, up from below the way
+        std::vector<simulation::RayHit> hits;
+        std::vector<simulation::Ray> rays;  // a fence of rays, up from below the way
         for (double x_m = 2; x_m < 40; x_m += 0.01) {
             rays.push_back({above(c, x_m, 0, 1.2), Vector3f::UnitZ(), 0, 2.0f});
         }
         c.scene.during(0, 0.1).cast(rays, 2.0f, hits);
-        const auto wires = std::count_if(hits.begin(), hits.end(),
-                                         [](const RayHit& hit) { return hit.kind == Kind::Wire; });
+        const auto wires = std::count_if(
+            hits.begin(), hits.end(),
+            [](const simulation::RayHit& hit) { return hit.kind == simulation::Kind::Wire; });
         EXPECT_GT(wires, 2) << "seed " << seed;
         EXPECT_LT(wires, 4 * 3 * 4) << "seed " << seed;  // 24 mm each
     }
@@ -219,9 +221,9 @@ TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("movers", seed);
         ASSERT_EQ(c.scene.content().movers.size(), 6u);
-        for (const SceneMover& mover : c.scene.content().movers) {
+        for (const simulation::SceneMover& mover : c.scene.content().movers) {
             const auto at = [&](double time_s) {
-                return Eigen::Vector2d(poseOf(mover, c.scene.terrain(), time_s)
+                return Eigen::Vector2d(simulation::poseOf(mover, c.scene.terrain(), time_s)
                                            .translation()
                                            .head<2>()
                                            .cast<double>());
@@ -261,9 +263,10 @@ TEST(CourseTest, AnUnknownNameIsToldWithThoseKnown) {
 }
 
 TEST(CourseTest, TrialsAreFlownWithoutDustAndAirframe) {
-    const SimulatedScan scan = scanAtStart(course("street", 1));
-    for (const Kind kind : scan.kind) ASSERT_TRUE(kind != Kind::Dust && kind != Kind::Airframe);
+    const simulation::SimulatedScan scan = scanAtStart(course("street", 1));
+    for (const simulation::Kind kind : scan.kind)
+        ASSERT_TRUE(kind != simulation::Kind::Dust && kind != simulation::Kind::Airframe);
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -3,15 +3,15 @@
 #include <hagen/trials/FlightTrace.h>
 #include <hagen/trials/PoseBelief.h>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 /// A second at this acceleration along x, from rest.
 FlightTrace accelerating(double acceleration_m_s2) {
-    VehicleState state;
+    avoidance::VehicleState state;
     FlightTrace trace(state);
     for (int step = 1; step <= 50; ++step) {
-        const double time_s = step * kControlStep_s;
+        const double time_s = step * avoidance::kControlStep_s;
         state.position_m.x() = 0.5 * acceleration_m_s2 * time_s * time_s;
         state.velocity_m_s.x() = acceleration_m_s2 * time_s;
         trace.add(state, {acceleration_m_s2, 0, 0});
@@ -37,7 +37,7 @@ TEST(FlightTrace, BetweenSamplesItGoesStraightAndBeyondThemItStays) {
 }
 
 TEST(FlightTrace, JerkIsThatOfTheSmoothedAcceleration) {
-    EXPECT_EQ(FlightTrace(VehicleState{}).rmsJerk_m_s3(), 0);
+    EXPECT_EQ(FlightTrace(avoidance::VehicleState{}).rmsJerk_m_s3(), 0);
     // A step of 3 m/s^2 becomes 3 (1 - exp(-t / 0.1 s)): its jerk squared integrates to 9 / 0.2.
     EXPECT_NEAR(accelerating(3).rmsJerk_m_s3(), std::sqrt(9 / 0.2), 0.3);
 }
@@ -60,13 +60,13 @@ TEST(PoseBelief, DriftIsAHundredthOfTheWayInOneDirection) {
 }
 
 TEST(PoseBelief, NoiseHasItsSizeIsSmoothAndDependsOnTheSeedAlone) {
-    const FlightTrace trace(VehicleState{});
+    const FlightTrace trace(avoidance::VehicleState{});
     PoseBelief belief(PoseError::Noise, 5), late(PoseError::Noise, 5), other(PoseError::Noise, 6);
     const Eigen::Vector3d last = late.offset_m(trace, 99);  // asked out of turn
     double squares_m2 = 0, squares_rad2 = 0;
     const int knots = 1000;
     for (int knot = 0; knot < knots; ++knot) {
-        const SensorPose pose = belief.at(trace, 0.1 * knot);
+        const simulation::SensorPose pose = belief.at(trace, 0.1 * knot);
         squares_m2 += pose.position_m.squaredNorm() / 3 / knots;
         const double angle = Eigen::AngleAxisd(pose.attitude).angle();
         squares_rad2 += angle * angle / 3 / knots;
@@ -79,4 +79,4 @@ TEST(PoseBelief, NoiseHasItsSizeIsSmoothAndDependsOnTheSeedAlone) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -4,7 +4,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using test::messageOf;
@@ -13,7 +13,7 @@ using test::TemporaryFolder;
 TEST(LatencyProfile, DrawsLieAsTheQuantilesSay) {
     LatencyProfile profile;
     profile.quantiles_ms["a"] = {1, 2, 10};  // a half in 1..2, a half in 2..10
-    Random random(7);
+    simulation::Random random(7);
     int low = 0;
     double sum = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -81,4 +81,4 @@ TEST(LatencyProfile, BrokenFilesAreNamedWithTheirKey) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -8,7 +8,7 @@
 
 #include "support/Program.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using Row = hagen::Run;  // a test has a Run() of its own
@@ -46,7 +46,7 @@ TEST(RunTable, NothingIsMinusZeroAndNothingDependsOnTheLocale) {
 }
 
 /// Any run, of a few values each so that sorting meets equal ones.
-Row anyRun(Random& random) {
+Row anyRun(simulation::Random& random) {
     Row run = someRun();
     run.scenario = random.chance(0.5) ? "gap" : "u-trap";
     run.seed = random.below(1000000);
@@ -69,7 +69,7 @@ Row anyRun(Random& random) {
 
 TEST(RunTable, WhatIsWrittenIsReadAndWrittenTheSameAgain) {
     const test::TemporaryFolder folder;
-    Random random(1);
+    simulation::Random random(1);
     std::string text = runHeader() + "\n";
     for (int r = 0; r < 300; ++r) text += rowOf(anyRun(random)) + "\n";
     const std::vector<Row> runs = readRuns(folder.write("runs.csv", text));
@@ -81,7 +81,7 @@ TEST(RunTable, WhatIsWrittenIsReadAndWrittenTheSameAgain) {
 }
 
 TEST(RunTable, TheOrderDoesNotDependOnTheOneBefore) {
-    Random random(2);
+    simulation::Random random(2);
     std::vector<Row> runs;
     for (int r = 0; r < 200; ++r) runs.push_back(anyRun(random));
     std::vector<Row> reversed(runs.rbegin(), runs.rend());
@@ -144,4 +144,4 @@ TEST(RunTable, NamesOfPoseErrorsAreReadBack) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 void expectBounds(Bounds bounds, double low, double high, double tolerance = 0.00005001) {
@@ -30,7 +30,7 @@ TEST(WilsonInterval, NoneOf200StillAllowsNearly2Percent) {
 }
 
 TEST(WilsonInterval, EndsWhereTheScoreTestWouldJustNotReject) {
-    Random random(1);
+    simulation::Random random(1);
     for (int i = 0; i < 200; ++i) {
         const int n = 1 + random.below(400);
         const int k = random.below(n + 1);
@@ -97,7 +97,7 @@ TEST(PairedDifference, WithoutCorrelationIsThatOfIndependentShares) {
 }
 
 TEST(PairedDifference, TurnsRoundWithItsSidesAndHoldsTheDifference) {
-    Random random(3);
+    simulation::Random random(3);
     for (int i = 0; i < 500; ++i) {
         const int a = random.below(60), b = random.below(20);
         const int c = random.below(20), d = random.below(60);
@@ -114,7 +114,7 @@ TEST(PairedDifference, TurnsRoundWithItsSidesAndHoldsTheDifference) {
 }
 
 TEST(PairedDifference, HoldsTheTrueDifferenceAsOftenAsItSays) {
-    Random random(4);
+    simulation::Random random(4);
     int held = 0;
     const int repetitions = 2000;
     for (int r = 0; r < repetitions; ++r) {
@@ -144,7 +144,7 @@ TEST(Holm, IsThatOfAPublishedExample) {
 }
 
 TEST(Holm, RejectsWhatTheStepDownRuleRejects) {
-    Random random(5);
+    simulation::Random random(5);
     for (int i = 0; i < 100; ++i) {
         std::vector<double> p;
         for (int k = 0; k < 7; ++k) p.push_back(std::pow(random.uniform(), 4));
@@ -187,4 +187,4 @@ TEST(MedianInterval, OfOneValueIsThatValueAndOfNoneThereIsNone) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

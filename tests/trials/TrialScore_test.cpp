@@ -6,7 +6,7 @@
 
 #include "trials/SimpleCourse.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using test::emptyContent;
@@ -43,7 +43,7 @@ TEST(TrialJudge, NoFlightIsEndless) {
 }
 
 TEST(FreeWay, EndsWhereTheRoomDoes) {
-    SceneContent content = emptyContent();
+    simulation::SceneContent content = emptyContent();
     EXPECT_TRUE(std::isnan(freeWay_m(simpleCourse(content), {0, 0, 2}, 0.65, 0)));
     putWall(content, -5, 5);
     const Course course = simpleCourse(std::move(content));
@@ -66,4 +66,4 @@ TEST(LeavesCourse, AsideOrSlow) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -7,7 +7,7 @@
 
 #include "trials/SimpleCourse.h"
 
-namespace hagen {
+namespace hagen::trials {
 namespace {
 
 using test::emptyContent;
@@ -71,7 +71,7 @@ TEST(Trial, ABusyPlannerDropsAllButTheNewestScan) {
 }
 
 TEST(Trial, AWallWithoutAGapStopsEveryModel) {
-    SceneContent content = emptyContent();
+    simulation::SceneContent content = emptyContent();
     putWall(content, -40, 40);
     const Course course = simpleCourse(std::move(content));
     for (const char* model : {"W-RoI", "W-Full", "oracle"}) {
@@ -88,7 +88,7 @@ TEST(Trial, AWallWithoutAGapStopsEveryModel) {
 }
 
 TEST(Trial, AWallToFlyRoundIsFlownRound) {
-    SceneContent content = emptyContent();
+    simulation::SceneContent content = emptyContent();
     putWall(content, -4, 4);
     const Course course = simpleCourse(std::move(content));
     TrialSetup setup;
@@ -99,7 +99,7 @@ TEST(Trial, AWallToFlyRoundIsFlownRound) {
 }
 
 TEST(Trial, WhoDoesNotBrakeInTimeCollides) {
-    SceneContent content = emptyContent();
+    simulation::SceneContent content = emptyContent();
     putWall(content, -40, 40);
     const Course course = simpleCourse(std::move(content));
     TrialSetup setup;
@@ -115,7 +115,7 @@ TEST(Trial, WhoDoesNotBrakeInTimeCollides) {
 }
 
 TEST(Trial, WhoKnowsToBeSlowStopsInTime) {
-    SceneContent content = emptyContent();
+    simulation::SceneContent content = emptyContent();
     putWall(content, -40, 40);
     TrialSetup setup;
     setup.latency_scale = 100;  // each plan takes three seconds, and the planner knows
@@ -127,7 +127,7 @@ TEST(Trial, WhoKnowsToBeSlowStopsInTime) {
 }
 
 TEST(Trial, TheSameSeedFliesTheSame) {
-    SceneContent content = emptyContent();
+    simulation::SceneContent content = emptyContent();
     putWall(content, -4, 4);
     for (const PoseError error : {PoseError::None, PoseError::Noise, PoseError::Drift}) {
         TrialSetup setup;
@@ -143,7 +143,7 @@ TEST(Trial, TheSameSeedFliesTheSame) {
 }
 
 TEST(Trial, MeasuringAndListeningChangeNothing) {
-    SceneContent content = emptyContent();
+    simulation::SceneContent content = emptyContent();
     putWall(content, -4, 4);
     const Course course = simpleCourse(std::move(content));
     const LatencyProfile profile = constantProfile(10);
@@ -152,7 +152,7 @@ TEST(Trial, MeasuringAndListeningChangeNothing) {
     int moves = 0, steps = 0;
     std::size_t candidates = 0;
     std::string last;
-    listener.moved = [&](double, const VehicleState&) { ++moves; };
+    listener.moved = [&](double, const avoidance::VehicleState&) { ++moves; };
     listener.event = [&](const std::string& what) { last = what; };
     listener.step = [&](const TrialStep& step) {
         ++steps;
@@ -163,7 +163,7 @@ TEST(Trial, MeasuringAndListeningChangeNothing) {
     listener.keeps_candidates = true;
     const TrialResult watched = runTrial(course, TrialSetup{}, profile, &measurement, listener);
     EXPECT_EQ(textOf(watched), textOf(runTrial(course, TrialSetup{}, profile)));
-    EXPECT_NEAR(moves, watched.time_s / kControlStep_s + 1, 1);
+    EXPECT_NEAR(moves, watched.time_s / avoidance::kControlStep_s + 1, 1);
     EXPECT_NEAR(steps, watched.scans, 1);
     EXPECT_GT(candidates, 0u);
     EXPECT_EQ(last, "success");
@@ -187,4 +187,4 @@ TEST(Trial, WhatIsNotKnownIsNamed) {
 }
 
 }  // namespace
-}  // namespace hagen
+}  // namespace hagen::trials

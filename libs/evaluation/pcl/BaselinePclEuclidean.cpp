@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hagen {
+namespace hagen::evaluation {
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
@@ -148,4 +148,4 @@ std::vector<Baseline> pclBaselines(float zone_m) {
     return rows;
 }
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

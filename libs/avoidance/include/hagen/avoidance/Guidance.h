@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 struct GuidanceTask {
     Eigen::Vector3d position_m;
@@ -36,4 +36,4 @@ class Guidance {
 const std::vector<std::string>& guidanceNames();
 std::unique_ptr<Guidance> makeGuidance(const std::string& name);
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 struct PathSearchOptions {
     Eigen::AlignedBox3d bounds_m;  ///< the middles of cells lie within
@@ -31,4 +31,4 @@ std::optional<std::vector<Eigen::Vector3d>> findPath(
     const std::function<float(const Eigen::Vector3f&)>& clearance_m, const Eigen::Vector3d& start_m,
     const Eigen::Vector3d& goal_m, const PathSearchOptions& options);
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// What a local planner is asked.
 struct PlanningTask {
@@ -53,4 +53,4 @@ std::unique_ptr<Planner> makePlanner(const std::string& name);
 /// another period would leave no room to stop.
 bool mustStop(const WorldModel& world, const PlanningTask& task);
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

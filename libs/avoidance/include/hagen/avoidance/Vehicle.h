@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// What a multirotor can do, and how much room it needs.
 struct VehicleLimits {
@@ -30,4 +30,4 @@ Eigen::Vector3d accelerationFor(const VehicleState& state, const Eigen::Vector3d
 VehicleState advance(const VehicleState& state, const Eigen::Vector3d& command_m_s, double step_s,
                      const VehicleLimits& limits);
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::avoidance {
 
 /// What a vehicle knows of what is around it. A planner asks nothing else, so that models can be
 /// compared under one planner. Points are in the map, as the vehicle believes it to be.
@@ -21,7 +21,7 @@ class WorldModel {
     virtual ~WorldModel() = default;
 
     /// Takes in the next scan.
-    virtual void update(const MappedScan& scan) = 0;
+    virtual void update(const mapping::MappedScan& scan) = 0;
 
     /// From a point to the nearest obstacle known, at most kReach_m; 0 within one. What is unknown
     /// counts as free.
@@ -71,4 +71,4 @@ bool needsLabels(const std::string& model);
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
 
-}  // namespace hagen
+}  // namespace hagen::avoidance

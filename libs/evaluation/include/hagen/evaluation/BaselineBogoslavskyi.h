@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// Bogoslavskyi, Stachniss: "Efficient online segmentation for sparse 3D laser scans", PFG 85
 /// (2017) 41-52; the clusters are those of "Fast range image-based segmentation of sparse 3D laser
@@ -47,4 +47,4 @@ std::vector<std::int32_t> bogoslavskyiClusters(const Scan& scan, const SensorMod
                                                const std::vector<Label>& labels,
                                                const BogoslavskyiOptions& options = {});
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

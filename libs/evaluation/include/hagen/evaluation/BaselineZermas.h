@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// Zermas, Izzat, Papanikolopoulos: "Fast segmentation of 3D point clouds: a paradigm on LiDAR data
 /// for autonomous vehicle applications", ICRA 2017. Defaults are the published parameters;
@@ -44,4 +44,4 @@ std::vector<std::int32_t> scanLineRuns(const Scan& scan, const SensorModel& sens
 std::vector<Label> zermasLabels(const Scan& scan, const SensorModel& sensor,
                                 const ZermasOptions& options = {});
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

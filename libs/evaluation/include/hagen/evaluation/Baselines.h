@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// A published segmenter to stand beside the filter, ready to run.
 struct Baseline {
@@ -22,4 +22,4 @@ struct Baseline {
 /// docs/baselines.md tells them apart. Returns farther than `zone_m` are ROU, as with the filter.
 std::vector<Baseline> baselines(float zone_m);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

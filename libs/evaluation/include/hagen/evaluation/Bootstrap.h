@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// A confidence interval; NaN where there is none.
 struct Interval {
@@ -35,4 +35,4 @@ struct ScoreIntervals {
 ScoreIntervals bootstrapIntervals(const std::vector<Scores>& scans,
                                   const BootstrapOptions& options = {});
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// A part of what was scored: a range band, an altitude, a kind, a folder.
 struct Group {
@@ -32,4 +32,4 @@ std::vector<Group> byRange(const std::vector<ScanScores>& scans, const RangeBand
 /// (Scores::correct()) says all, its precision nothing.
 std::vector<Group> byKind(const std::vector<ScanScores>& scans);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

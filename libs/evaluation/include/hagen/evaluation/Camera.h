@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// A pinhole camera without distortion, beside the LiDAR.
 struct PinholeCamera {
@@ -42,4 +42,4 @@ struct CameraPixel {
 /// Sorted by row and column. Returns without a range are not seen.
 std::vector<CameraPixel> visibleReturns(const PinholeCamera& camera, const Scan& scan);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

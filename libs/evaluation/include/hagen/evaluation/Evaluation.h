@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// Labelled scans of one sensor, wherever they come from.
 struct ScanSource {
@@ -51,4 +51,4 @@ std::vector<MethodScores> evaluate(const std::vector<ScanSource>& sources,
                                    const EvaluationOptions& options = {},
                                    const EvaluationListener& listener = {});
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// A kind of object that returns are of: what it is called, and the label that its returns have.
 struct Kind {
@@ -33,4 +33,4 @@ std::vector<Label> labelsOfKinds(const std::vector<std::uint16_t>& kinds, const 
 /// Label numbers, as a label file has them. Throws std::invalid_argument for any but 0, 1 and 2.
 std::vector<Label> labelsOfNumbers(const std::vector<std::uint16_t>& numbers);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

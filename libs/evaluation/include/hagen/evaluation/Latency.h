@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// How long something took, in milliseconds; NaN where it never ran.
 struct Latency {
@@ -17,4 +17,4 @@ struct Latency {
 
 Latency latencyOf(std::vector<double> runs_ms);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// What a method is given of a scan.
 struct ScanInput {
@@ -24,4 +24,4 @@ struct Method {
     std::function<std::vector<Label>(const ScanInput& input)> segment;
 };
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// A scan whose true labels are known.
 struct TrueScan {
@@ -45,4 +45,4 @@ struct RangeBands {
 ScanScores scoreScan(const TrueScan& scan, const std::vector<Label>& found, const LabelMap& kinds,
                      const RangeBands& bands, const std::vector<std::size_t>* chosen = nullptr);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -2,7 +2,7 @@
 #include <hagen/range_image/Label.h>
 #include <cstdint>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// Precision, recall and F1 of one class, and the counts behind them.
 struct ClassScore {
@@ -33,4 +33,4 @@ struct Scores {
 /// Adds one return, or one pixel. Nothing is added where its true label is Unclassified.
 void addScore(Label truth, Label found, Scores& scores);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// A log to segment, and what to write of it. Outputs with an empty name are not written.
 struct Conversion {
@@ -22,7 +22,7 @@ struct Conversion {
     std::filesystem::path folder;    ///< scan folder; of several LiDARs a folder of such
     std::filesystem::path pictures;  ///< folder of pictures of each stage, a folder a scan
     std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot or .3Dscene: one map, file by file
-    ScanMapOptions octomap;                       ///< what goes into it
+    mapping::ScanMapOptions octomap;              ///< what goes into it
     std::filesystem::path stats;  ///< JSON: settings in force, counts, a line a scan
     bool overwrite = false;       ///< replace outputs that exist
 
@@ -30,12 +30,12 @@ struct Conversion {
     std::size_t from = 0;         ///< first and last entry to convert, both included
     std::size_t to = std::numeric_limits<std::size_t>::max();
     std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty: all
-    CloudClass cloud_class = CloudClass::Simple;
+    observations::CloudClass cloud_class = observations::CloudClass::Simple;
     std::size_t jobs = 0;  ///< threads; 0: as many as there are cores. No output depends on it
     bool preview = false;  ///< adds a coloured scene after each pair of clouds
     std::optional<float>
         picture_azimuth_deg;  ///< of the column drawn; none: the nearest obstacle's
-    Settings settings;
+    observations::Settings settings;
 };
 
 /// What became of one scan.
@@ -65,7 +65,8 @@ struct ConversionReport {
     std::size_t scans_with_attitude = 0;  ///< how the sensor was tilted was known
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< of the input that is read, 0 ... 1
-    Settings settings;    ///< in force: those of the conversion, and of a scan folder's sensor.yaml
+    observations::Settings
+        settings;  ///< in force: those of the conversion, and of a scan folder's sensor.yaml
 };
 
 /// What a conversion tells and asks while it goes on: in the log's order, one call at a time, but
@@ -109,4 +110,4 @@ struct Interrupted : std::runtime_error {
 /// options do not fit a sensor.
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener = {});
 
-}  // namespace hagen
+}  // namespace hagen::logs

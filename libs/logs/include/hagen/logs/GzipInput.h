@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// Reads a file that is gzipped, in one member or several, or not at all, and knows whether it
 /// ended whole. MRPT's own stream takes a gzip file that is cut off for one that ends there.
@@ -36,4 +36,4 @@ class GzipInput : public mrpt::io::CStream {
     std::uint64_t position_ = 0;
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -34,4 +34,4 @@ class GzipOutput {
     std::unique_ptr<std::FILE, Close> file_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// Where the vehicle of a log was, and how a user should read where that is known from.
 struct LogPoses {
-    Trajectory vehicle;
+    observations::Trajectory vehicle;
     std::string source;  ///< such as "flight.tum"; empty: not known
 };
 
@@ -24,4 +24,4 @@ LogPoses posesOfRawlog(const RawlogSurvey& survey, const std::filesystem::path& 
 LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& times_s,
                            const std::filesystem::path& file);
 
-}  // namespace hagen
+}  // namespace hagen::logs

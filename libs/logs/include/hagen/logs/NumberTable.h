@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// A line of a text file and its numbers.
 struct NumberLine {
@@ -20,4 +20,4 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file);
 void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,
                   const std::string& what);
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// Files of poses, as text, a line a pose; functions throw std::runtime_error, naming file and
 /// line. Empty lines, and those that start with '#', are passed over.
@@ -32,4 +32,4 @@ void writeKittiPoses(const std::filesystem::path& file,
 /// seen from the camera. Its poses.txt are the camera's.
 mrpt::poses::CPose3D readKittiCalibration(const std::filesystem::path& file);
 
-}  // namespace hagen
+}  // namespace hagen::logs

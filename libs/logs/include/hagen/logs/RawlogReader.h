@@ -8,7 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// A rawlog that ends in the middle of an entry, or holds one that cannot be read. The message
 /// names the file, the entry and its byte.
@@ -38,4 +38,4 @@ class RawlogReader {
     std::size_t entries_ = 0;
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

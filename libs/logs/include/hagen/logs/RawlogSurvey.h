@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// What has to be known of a rawlog before its first scan is segmented: a pose may come after the
 /// scan that it is needed for.
@@ -18,7 +18,7 @@ struct RawlogSurvey {
     /// CActionRobotMovement3D, else CObservationOdometry, else summed CActionRobotMovement2D.
     /// Sources are not mixed, for each has a map of its own; of two alike (sensor labels) the one
     /// with more poses is taken.
-    Trajectory trajectory;
+    observations::Trajectory trajectory;
     std::string source;  ///< such as "CObservationRobotPose 'gps'"; empty where there are no poses
 
     /// When and from where on the vehicle each LiDAR scan was taken, by sensor label.
@@ -38,4 +38,4 @@ RawlogSurvey surveyRawlog(
     const std::filesystem::path& rawlog,
     const std::function<bool()>& keep_going = [] { return true; });
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -1,10 +1,10 @@
 #pragma once
+#include <hagen/base/OutputPath.h>
 #include <hagen/logs/GzipOutput.h>
-#include <hagen/logs/OutputPath.h>
 #include <mrpt/serialization/CSerializable.h>
 #include <filesystem>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// Appends an entry's bytes, as a rawlog holds them.
 void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes);
@@ -39,11 +39,11 @@ class RawlogWriter {
  private:
     void finish();
 
-    OutputPath path_;
+    base::OutputPath path_;
     GzipOutput file_;
     Bytes gathered_;  ///< entries of a member that is not full
     bool is_empty_ = true;
     Bytes entry_, member_, packed_;  // of write(); kept so that it does not allocate
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/base/OutputPath.h>
 #include <hagen/range_image/Label.h>
 #include <hagen/range_image/Scan.h>
 #include <cstdint>
@@ -7,7 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
+
+/// A scan folder as an output, or a folder of such.
+extern const base::OutputKind kScanFolders;
 
 /// A folder of scans in the KITTI layout:
 ///
@@ -73,4 +77,4 @@ std::vector<std::uint16_t> readLabels(const std::filesystem::path& file);
 void writeLabels(const std::filesystem::path& file, const std::vector<Label>& labels,
                  const std::vector<std::int32_t>& components);
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// The name of scan n in a scan folder: "000042".
 std::string scanName(std::size_t scan);
@@ -43,4 +43,4 @@ class ScanFolderWriter {
     bool have_horizon_ = true;
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -1,17 +1,17 @@
 #pragma once
-#include <hagen/logs/OutputPath.h>
+#include <hagen/base/OutputPath.h>
 #include <filesystem>
 #include <map>
 #include <string>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// An output folder with a part for each sensor of a log: DIR/<sensor label>/, or DIR itself where
 /// the log has but one. Appears under its name when whole.
 class SensorFolders {
  public:
     /// Throws std::runtime_error, naming the folder; see OutputPath.
-    SensorFolders(const std::filesystem::path& folder, OutputPath::Kind kind, bool overwrite);
+    SensorFolders(const std::filesystem::path& folder, const base::OutputKind& kind, bool overwrite);
 
     /// Where to write what belongs to this sensor until commit(); made when first asked for.
     /// Characters that do not go into file names become '_'.
@@ -23,8 +23,8 @@ class SensorFolders {
  private:
     void liftOnlyOne();
 
-    OutputPath path_;
+    base::OutputPath path_;
     std::map<std::string, std::filesystem::path> folders_;  ///< by sensor label
 };
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -2,7 +2,7 @@
 #include <hagen/logs/Conversion.h>
 #include <filesystem>
 
-namespace hagen {
+namespace hagen::logs {
 
 /// Writes what a conversion counted as JSON:
 ///
@@ -23,4 +23,4 @@ namespace hagen {
 void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
                      const ConversionReport& report);
 
-}  // namespace hagen
+}  // namespace hagen::logs

@@ -2,7 +2,7 @@
 #include <octomap/OcTree.h>
 #include <filesystem>
 
-namespace hagen {
+namespace hagen::mapping {
 
 /// Whether the name ends as that of a map: .bt, .ot, .3Dscene.
 bool isMapFile(const std::filesystem::path& file);
@@ -17,4 +17,4 @@ void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file);
 void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file,
              const std::filesystem::path& named);
 
-}  // namespace hagen
+}  // namespace hagen::mapping

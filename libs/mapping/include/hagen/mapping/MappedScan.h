@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace hagen {
+namespace hagen::mapping {
 
 /// A segmented scan in the map: each return at the pose that the vehicle believed to have when it
 /// was taken. Returns without a valid range are not in it.
@@ -14,4 +14,4 @@ struct MappedScan {
     std::vector<Label> labels;              ///< an entry a point: Rou or Roi
 };
 
-}  // namespace hagen
+}  // namespace hagen::mapping

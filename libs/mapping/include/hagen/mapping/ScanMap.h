@@ -4,7 +4,7 @@
 #include <octomap/OcTree.h>
 #include <memory>
 
-namespace hagen {
+namespace hagen::mapping {
 
 /// What of a segmented scan goes into an OctoMap.
 enum class MapContent {
@@ -51,4 +51,4 @@ class ScanMap {
     std::unique_ptr<RayWalk> walk_;  ///< memory that is used again from scan to scan
 };
 
-}  // namespace hagen
+}  // namespace hagen::mapping

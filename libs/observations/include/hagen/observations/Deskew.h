@@ -5,7 +5,7 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/poses/CPose3D.h>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// Stage 10 begins with it: moves each return of a scan that was taken on the way to where the
 /// sensor would have seen it at `start`, the scan's time, by the vehicle's pose at the return's own
@@ -17,4 +17,4 @@ namespace hagen {
 bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
             const mrpt::poses::CPose3D& sensor_on_vehicle, const SensorModel& sensor, Scan& scan);
 
-}  // namespace hagen
+}  // namespace hagen::observations

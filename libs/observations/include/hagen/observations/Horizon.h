@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// How the vehicle was tilted, as a log tells it while it goes by. Two kinds of observation do: a
 /// CObservationRobotPose, and a CObservationIMU that has an orientation (its quaternion, else roll
@@ -25,4 +25,4 @@ class Horizon {
     mrpt::Clock::time_point time_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -7,7 +7,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/registerAllClasses.h>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// Makes every class of mrpt-obs and mrpt-maps readable from a rawlog. Linking the libraries is not
 /// enough: the linker drops one of which no symbol is used.
@@ -21,4 +21,4 @@ using PortableCloud = mrpt::maps::CSimplePointsMap;
 /// The one that has intensities.
 using IntensityCloud = mrpt::maps::CPointsMapXYZI;
 
-}  // namespace hagen
+}  // namespace hagen::observations

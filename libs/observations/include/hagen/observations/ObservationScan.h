@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// Whether this project reads the observation as a LiDAR scan: a CObservationVelodyneScan, or a
 /// CObservationPointCloud, unless its label ends in `_roi` or `_non_roi`: those are results.
@@ -52,4 +52,4 @@ mrpt::obs::CObservationPointCloud::Ptr observationOf(
     const Scan& scan, const std::string& label, mrpt::Clock::time_point time,
     CloudClass cloud_class = CloudClass::WithIntensity);
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -18,7 +18,7 @@
 #include <optional>
 #include <string>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// The filter as an MRPT observation processor.
 ///
@@ -30,7 +30,7 @@ namespace hagen {
 /// Takes every LiDAR scan of a log, of several sensors too: each sensor label has its own filter
 /// and its own window.
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
-    DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen)
+    DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen::observations)
 
  public:
     struct Output {
@@ -134,4 +134,4 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 /// program uses any of them; call it before asking for one by name alone.
 void registerHagenClasses();
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -4,7 +4,7 @@
 #include <mrpt/maps/CPointCloudFilterBase.h>
 #include <mrpt/poses/CPose3D.h>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// The filter where MRPT expects a point-cloud filter, such as in its reactive navigation: of one
 /// LiDAR scan's points it keeps the RoI. Points out of the sensor's range are deleted too.
@@ -27,4 +27,4 @@ class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
     Scan scan_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -2,7 +2,7 @@
 #include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/obs/CObservation3DScene.h>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// A segmented scan as a scene that a stock RawLogViewer shows in its true colours: RoI vermilion,
 /// ROU pale blue, returns out of the sensor's range left out; the vehicle's frame with a corner of
@@ -13,4 +13,4 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
                                               const ObservationSegmenter::Output& segmented,
                                               float zone_m);
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// A settings file, or a setting on the command line, that cannot be taken as it is. The message
 /// names the file and line, the key, and what is allowed.
@@ -58,4 +58,4 @@ std::vector<SettingsKey> settingsKeys();
 /// Sets one option from text, as `--sweep KEY=VALUE` does. Throws SettingsError.
 void setOption(const std::string& key, const std::string& value, Settings& settings);
 
-}  // namespace hagen
+}  // namespace hagen::observations

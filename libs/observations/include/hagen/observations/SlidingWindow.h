@@ -4,7 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <deque>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// Stage 10, the sliding window (section I): the last K scans as one, seen from where the newest
 /// was taken. The only memory from scan to scan that this project has.
@@ -33,4 +33,4 @@ class SlidingWindow {
     Scan window_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// Where the vehicle was: its poses in the map over time.
 class Trajectory {
@@ -30,4 +30,4 @@ class Trajectory {
     mrpt::poses::CPose3DInterpolator poses_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -4,7 +4,7 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <cstddef>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// The sensor that took these packets: its calibration's beams (the model's default calibration
 /// where the observation has none) and the observation's range limits. Throws std::runtime_error
@@ -27,4 +27,4 @@ void sensorOf(const mrpt::obs::CObservationVelodyneScan& observation, SensorMode
 /// `scan` is used again.
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
 
-}  // namespace hagen
+}  // namespace hagen::observations

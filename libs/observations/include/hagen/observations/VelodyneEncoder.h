@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// What a Velodyne measured over some firings: an array entry (laser, firing), lasers in the order
 /// in which they fire (not by elevation).
@@ -33,4 +33,4 @@ std::vector<mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket> encodePacke
 mrpt::obs::CObservationVelodyneScan::Ptr encodeScan(const VelodyneModel& model,
                                                     const Firings& firings);
 
-}  // namespace hagen
+}  // namespace hagen::observations

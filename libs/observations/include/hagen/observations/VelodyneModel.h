@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::observations {
 
 /// How a Velodyne sensor fires, as its manual tells; shared by the packet decoder and encoder. A
 /// packet holds 12 blocks, a block 32 returns: the lasers of one firing after the other.
@@ -50,4 +50,4 @@ void beamsOf(const mrpt::obs::VelodyneCalibration& calibration, std::vector<floa
 /// The calibration's beams as a sensor, lowest first. Range limits are those of SensorModel.
 SensorModel sensorOf(const mrpt::obs::VelodyneCalibration& calibration, const std::string& name);
 
-}  // namespace hagen
+}  // namespace hagen::observations

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::pictures {
 
 /// Any text as a string of gnuplot's, in which nothing is a command; line breaks become blanks.
 /// Draw it with `noenhanced`, else `_` and `^` shift what follows.
@@ -17,4 +17,4 @@ std::string gnuplotString(const std::string& text);
 void runGnuplot(const std::string& script, const std::filesystem::path& folder,
                 const std::vector<std::string>& pictures);
 
-}  // namespace hagen
+}  // namespace hagen::pictures

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/base/OutputPath.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/HagenFilter.h>
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::pictures {
 
 /// A segmented scan to draw: what one call of HagenFilter::segment() was given and made. Refers to
 /// the caller's.
@@ -26,6 +27,8 @@ struct StageView {
 
 /// The pictures that drawStages() makes: one a stage, and an overview of all.
 const std::vector<std::string>& stagePictures();
+/// A folder of such pictures, or of folders of them.
+extern const base::OutputKind kStagePictures;
 
 /// Draws what each stage made of a scan, as PNGs of these names in `folder`, which is there:
 ///
@@ -43,4 +46,4 @@ const std::vector<std::string>& stagePictures();
 /// Throws std::runtime_error as runGnuplot() does.
 void drawStages(const StageView& view, const std::filesystem::path& folder);
 
-}  // namespace hagen
+}  // namespace hagen::pictures

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// Where the sensor is, and how it is turned, in the map (x east, z up).
 struct SensorPose {
@@ -47,4 +47,4 @@ class Flight {
     std::vector<double> lap_s_;  ///< time at each metre of a lap
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// What a simulated return came from. The numbers are those of semantic/*.label.
 enum class Kind : std::uint8_t {
@@ -31,4 +31,4 @@ std::string nameOf(Kind kind);
 /// wherever it is (a score leaves out what lies beyond the zone).
 Label labelOf(Kind kind);
 
-}  // namespace hagen
+}  // namespace hagen::simulation

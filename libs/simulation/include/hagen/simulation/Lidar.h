@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// How a rotating LiDAR fires, as its manual tells.
 struct FiringPattern {
@@ -68,4 +68,4 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
                            double time_s, Random& random, const LidarFaults& faults = {});
 
-}  // namespace hagen
+}  // namespace hagen::simulation

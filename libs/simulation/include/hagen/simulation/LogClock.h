@@ -1,9 +1,9 @@
 #pragma once
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// The time stamp of a simulated log's first scan, at the flight's time 0: 2026-01-01, a full hour
 /// [s since 1970].
 constexpr double kSimulatedLogStart_s = 1767225600;
 
-}  // namespace hagen
+}  // namespace hagen::simulation

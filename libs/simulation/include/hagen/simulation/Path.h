@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// The way that a flight follows over a scene, seen from above: two straights along x, joined by
 /// half circles, flown counter-clockwise from the middle of the southern straight. Scenes keep it
@@ -17,4 +17,4 @@ struct Path {
     double distance_m(double x_m, double y_m) const;  ///< from a place to the path
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -2,7 +2,7 @@
 #include <hagen/simulation/Random.h>
 #include <hagen/simulation/Shape.h>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// How a tree is grown. Its foot is the origin; the trunk reaches a little into the ground.
 struct TreeForm {
@@ -28,4 +28,4 @@ Shape makeCanopyPatch(double side_m, Random& random);
 /// A tuft of blades of grass, 1 m high and 0.8 m across: scale it.
 Shape makeTuft(Random& random);
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <random>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// Random numbers that are the same on every machine: those of a Mersenne twister, with
 /// distributions of our own, for the standard library's differ from one to the next.
@@ -28,4 +28,4 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// Names of all scenarios:
 ///
@@ -24,4 +24,4 @@ std::vector<std::string> scenarioNames();
 /// Throws std::invalid_argument, naming the known ones, for any other name.
 Scene makeScene(const std::string& scenario, std::uint64_t seed);
 
-}  // namespace hagen
+}  // namespace hagen::simulation

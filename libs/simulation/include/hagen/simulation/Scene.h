@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// A thing that stands in a scene.
 struct SceneObject {
@@ -92,4 +92,4 @@ class Scene::Snapshot {
     std::shared_ptr<const Movers> movers_;  ///< none: nothing moves
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

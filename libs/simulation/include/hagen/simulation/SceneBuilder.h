@@ -2,7 +2,7 @@
 #include <hagen/simulation/Scene.h>
 #include <functional>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// How far the ground reaches, about the origin of the map: finely meshed out to both, then ever
 /// more coarsely.
@@ -66,4 +66,4 @@ class SceneBuilder {
     std::uint16_t numbers_ = 0;
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// True distances from points to the nearest surface of a scene (Embree point query), of what
 /// stands and of what moves.
@@ -26,4 +26,4 @@ class SceneDistance {
     std::shared_ptr<const World> world_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

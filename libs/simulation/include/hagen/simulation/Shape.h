@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// The surface of a thing: triangles, and round cylinders for what is thin. Metres, z up.
 struct Shape {
@@ -29,4 +29,4 @@ struct Shape {
     void append(const Shape& other, const Eigen::Affine3f& pose);
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -3,7 +3,7 @@
 #include <hagen/simulation/Shape.h>
 #include <vector>
 
-namespace hagen {
+namespace hagen::simulation {
 
 /// What a scenario asks of its ground.
 struct TerrainForm {
@@ -39,4 +39,4 @@ class Terrain {
     std::vector<float> grass_m_;  ///< a square metre after the other
 };
 
-}  // namespace hagen
+}  // namespace hagen::simulation

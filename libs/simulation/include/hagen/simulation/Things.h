@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/simulation/SceneBuilder.h>
 
-namespace hagen {
+namespace hagen::simulation {
 
 // Shapes with the origin on the ground.
 Shape makeRod(double height_m, double radius_m);  ///< a pole
@@ -20,4 +20,4 @@ void addWall(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::
 void addWireLine(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
                  double span_m, const std::vector<double>& heights_m, double sideways_m);
 
-}  // namespace hagen
+}  // namespace hagen::simulation

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 struct CalibrationOptions {
     std::vector<std::string> models;  ///< those to measure
@@ -30,4 +30,4 @@ struct HeapSample {
 /// over, each time where the last one ended. Every 10 m.
 std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m);
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -3,7 +3,7 @@
 #include <functional>
 #include <stdexcept>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// The campaign was told to stop. What was finished is kept.
 struct CampaignStopped : std::runtime_error {
@@ -24,4 +24,4 @@ struct CampaignOptions {
 std::size_t flyCampaign(const std::vector<CourseFlights>& flights, const LatencyProfile& profile,
                         const CampaignOptions& options, CampaignFolder& folder);
 
-}  // namespace hagen
+}  // namespace hagen::trials

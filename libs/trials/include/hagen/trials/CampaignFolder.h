@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// What a run cost on the machine that it ran on; a row of measured.csv. Columns: those that name
 /// the run (scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown), then
@@ -115,4 +115,4 @@ std::vector<CampaignPlan> readPlans(const std::filesystem::path& folder);
 std::size_t mergeCampaigns(const std::vector<std::filesystem::path>& folders,
                            const std::filesystem::path& into, bool overwrite);
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// What is to be flown: every combination of what the lists hold.
 struct CampaignPlan {
@@ -37,4 +37,4 @@ std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shar
 /// Throws std::runtime_error, naming it, where the profile has no stage that these flights need.
 void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights>& flights);
 
-}  // namespace hagen
+}  // namespace hagen::trials

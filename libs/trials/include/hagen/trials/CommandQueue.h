@@ -2,7 +2,7 @@
 #include <hagen/avoidance/Vehicle.h>
 #include <deque>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// Commands that were given, each from the time on when it is followed.
 class CommandQueue {
@@ -15,8 +15,8 @@ class CommandQueue {
 
     /// The state at `to_s`, of a vehicle that is in `state` at `from_s`: in steps of at most
     /// kControlStep_s, which end where a command begins.
-    VehicleState advanced(VehicleState state, double from_s, double to_s,
-                          const VehicleLimits& limits) const;
+    avoidance::VehicleState advanced(avoidance::VehicleState state, double from_s, double to_s,
+                                     const avoidance::VehicleLimits& limits) const;
 
     /// Forgets commands that ended before a time.
     void forgetBefore(double time_s);
@@ -29,4 +29,4 @@ class CommandQueue {
     std::deque<Command> commands_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::trials

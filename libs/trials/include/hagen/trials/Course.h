@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// A flight to be made: from a start to a goal through a scene.
 struct Course {
     std::string scenario;
     std::uint64_t seed;
-    Scene scene;
-    SceneDistance distance;  ///< true clearances
+    simulation::Scene scene;
+    simulation::SceneDistance distance;  ///< true clearances
     Eigen::Vector3d start_m, goal_m;
     double altitude_m;             ///< wanted above the ground
     Eigen::AlignedBox3d bounds_m;  ///< where the flight may lead
@@ -41,10 +41,10 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed);
 
 /// What a LiDAR on the vehicle suffers from in a trial: 2 cm of noise, 1 % of returns lost, spots
 /// that miss thin wires the more often the farther they are. No dust; the vehicle is masked out.
-LidarFaults trialFaults();
+simulation::LidarFaults trialFaults();
 
 // What a course has to offer, on the shortest path past what stands.
 constexpr double kCourseClearance_m = 0.65;
 constexpr double kLowest_m = 1.0, kHighest_m = 4.5;  ///< above the ground
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -3,7 +3,7 @@
 #include <hagen/simulation/Flight.h>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// Where a vehicle under control was, a sample every kControlStep_s from time 0 on, and how it was
 /// tilted: its thrust carries its weight and its acceleration, so that the body leans into what it
@@ -13,23 +13,25 @@ class FlightTrace {
  public:
     static constexpr double kTilt_s = 0.1;  ///< time constant of the tilt
 
-    explicit FlightTrace(const VehicleState& start);
+    explicit FlightTrace(const avoidance::VehicleState& start);
 
     /// The state a control step later, and the acceleration that led to it.
-    void add(const VehicleState& state, const Eigen::Vector3d& acceleration_m_s2);
+    void add(const avoidance::VehicleState& state, const Eigen::Vector3d& acceleration_m_s2);
 
     /// The sensor's true pose; before the first and after the last sample those.
-    SensorPose at(double time_s) const;
+    simulation::SensorPose at(double time_s) const;
     /// Length of the way flown until then.
     double way_m(double time_s) const;
 
-    double end_s() const { return kControlStep_s * static_cast<double>(samples_.size() - 1); }
+    double end_s() const {
+        return avoidance::kControlStep_s * static_cast<double>(samples_.size() - 1);
+    }
     /// Root mean square of the smoothed acceleration's change.
     double rmsJerk_m_s3() const;
 
  private:
     struct Sample {
-        SensorPose pose;
+        simulation::SensorPose pose;
         Eigen::Vector3d smooth_m_s2;  ///< acceleration
         double way_m;
     };
@@ -43,4 +45,4 @@ class FlightTrace {
     double squared_jerk_ = 0;  ///< sum over all steps
 };
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// How long each stage took on some machine: quantiles of what was measured. Trials draw from it,
 /// so that they do not depend on how fast, or how busy, the machine is that they run on.
@@ -17,7 +17,7 @@ struct LatencyProfile {
     std::map<std::string, std::vector<double>> quantiles_ms;
 
     /// Draws a latency [ms]. Throws std::runtime_error, naming the stage, for one it does not have.
-    double draw_ms(const std::string& stage, Random& random) const;
+    double draw_ms(const std::string& stage, simulation::Random& random) const;
     double median_ms(const std::string& stage) const;
 
     /// The latency [ms] below which this share of a stage's lies.
@@ -40,4 +40,4 @@ void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::p
 /// Those of config/campaign/profile.json when the program was built.
 LatencyProfile standardLatencyProfile();
 
-}  // namespace hagen
+}  // namespace hagen::trials

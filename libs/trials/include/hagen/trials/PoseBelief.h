@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// Where a vehicle believes to be.
 ///
@@ -20,7 +20,7 @@ class PoseBelief {
  public:
     PoseBelief(PoseError error, std::uint64_t seed);
 
-    SensorPose at(const FlightTrace& trace, double time_s);
+    simulation::SensorPose at(const FlightTrace& trace, double time_s);
     /// What is believed minus what is.
     Eigen::Vector3d offset_m(const FlightTrace& trace, double time_s);
 
@@ -31,9 +31,9 @@ class PoseBelief {
     Knot knotAt(double time_s);
 
     PoseError error_;
-    Random random_;
+    simulation::Random random_;
     Eigen::Vector3d direction_{0, 0, 0};  ///< of the drift
     std::vector<Knot> knots_;             ///< of the noise, every 0.1 s
 };
 
-}  // namespace hagen
+}  // namespace hagen::trials

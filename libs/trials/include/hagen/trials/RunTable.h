@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// A row of runs.csv.
 struct Run {
@@ -38,4 +38,4 @@ std::vector<Run> readRuns(const std::filesystem::path& file);
 /// By scenario, speed, planner, guidance, model, ..., seed: one order whatever order they ran in.
 void sortRuns(std::vector<Run>& runs);
 
-}  // namespace hagen
+}  // namespace hagen::trials

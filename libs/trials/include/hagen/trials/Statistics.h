@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 struct Bounds {
     double low, high;
@@ -22,11 +22,8 @@ Bounds pairedDifferenceInterval(int both, int only_first, int only_second, int n
 /// Holm's step-down correction (1979): adjusted p, in the order given.
 std::vector<double> holm(const std::vector<double>& p);
 
-/// The value below which this share (0..1) of them lies, interpolated between ranks; NaN of none.
-double quantile(std::vector<double> values, double share);
-
 /// Percentile bootstrap of the median; NaN of no values.
 Bounds medianInterval(const std::vector<double>& values, int resamples = 2000,
                       std::uint64_t seed = 1, double level = 0.95);
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hagen {
+namespace hagen::trials {
 
 enum class PoseError { None, Noise /* 5 cm, 0.5 deg */, Drift /* 1 % of the way */ };
 enum class Outcome { Success, Collision, Timeout };
@@ -22,7 +22,7 @@ struct TrialSetup {
     PoseError pose_error = PoseError::None;
     double latency_scale = 1;            ///< 4: an embedded computer
     bool brakes_in_known_space = false;  ///< unknown space: optimistic, or brake only where known
-    VehicleLimits limits;
+    avoidance::VehicleLimits limits;
 };
 
 /// The stages of a setup's planning by their names in a profile: the filter where labels are
@@ -51,18 +51,19 @@ struct TrialMeasurement {
 /// All of one planning step, for replays; valid during the call.
 struct TrialStep {
     double time_s;  ///< when the command is given
-    VehicleState true_state, believed_state;
-    const MappedScan& scan;  ///< the scan planned on
-    const WorldModel& world;
-    const Carrot& carrot;
-    const Plan& plan;
+    avoidance::VehicleState true_state, believed_state;
+    const mapping::MappedScan& scan;  ///< the scan planned on
+    const avoidance::WorldModel& world;
+    const avoidance::Carrot& carrot;
+    const avoidance::Plan& plan;
     double true_clearance_m;
     double latency_ms;
 };
 
 struct TrialListener {
-    std::function<void(const TrialStep&)> step;                     ///< after each plan
-    std::function<void(double time_s, const VehicleState&)> moved;  ///< 50 Hz, true state
+    std::function<void(const TrialStep&)> step;  ///< after each plan
+    std::function<void(double time_s, const avoidance::VehicleState&)>
+        moved;                                           ///< 50 Hz, true state
     std::function<void(const std::string& what)> event;  ///< "emergency stop", "collision"
     bool keeps_candidates = false;
 };
@@ -71,4 +72,4 @@ struct TrialListener {
 TrialResult runTrial(const Course& course, const TrialSetup& setup, const LatencyProfile& profile,
                      TrialMeasurement* measurement = nullptr, const TrialListener& listener = {});
 
-}  // namespace hagen
+}  // namespace hagen::trials

@@ -3,7 +3,7 @@
 #include <hagen/trials/Trial.h>
 #include <optional>
 
-namespace hagen {
+namespace hagen::trials {
 
 /// When a flight ends, and how: judged by true positions, every control step.
 ///
@@ -44,4 +44,4 @@ double freeWay_m(const Course& course, const Eigen::Vector3d& position_m, double
 bool leavesCourse(const Eigen::Vector3d& command_m_s, const Eigen::Vector3d& to_goal_m,
                   double speed_m_s);
 
-}  // namespace hagen
+}  // namespace hagen::trials

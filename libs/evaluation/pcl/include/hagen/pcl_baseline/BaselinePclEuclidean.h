@@ -5,7 +5,7 @@
 #include <hagen/range_image/SensorModel.h>
 #include <vector>
 
-namespace hagen {
+namespace hagen::evaluation {
 
 /// The Point Cloud Library's own way to obstacles: voxel grid, a plane by RANSAC taken out, the
 /// rest into Euclidean clusters, as in its tutorial "Euclidean Cluster Extraction". The tutorial's
@@ -32,4 +32,4 @@ std::vector<Label> pclEuclideanLabels(const Scan& scan, const SensorModel& senso
 /// To be appended to baselines(): as usual, and as tuned on labelled scans.
 std::vector<Baseline> pclBaselines(float zone_m);
 
-}  // namespace hagen
+}  // namespace hagen::evaluation

@@ -1,0 +1,33 @@
+# Headers that most sources include are parsed once per kind of target, not once per source: that is
+# more than half of what a build costs. The sets are in cmake/precompiled.
+option(HAGEN_PRECOMPILED_HEADERS "Parse common headers once; off: each source includes what it names" ON)
+
+# hagen_precompile(TARGET SET): the target's sources see the headers of cmake/precompiled/SET.h.
+# Targets of one set share what is compiled; libraries are position-independent, programs are not.
+function(hagen_precompile target set)
+  if(NOT HAGEN_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  get_target_property(is_pic ${target} POSITION_INDEPENDENT_CODE)
+  if(is_pic)
+    set(shared hagen_precompiled_${set}_pic)
+  else()
+    set(shared hagen_precompiled_${set})
+  endif()
+  if(NOT TARGET ${shared})
+    set(source ${PROJECT_BINARY_DIR}/precompiled/${set}.cpp)
+    file(GENERATE OUTPUT ${source} CONTENT "// Nothing but the headers.\n")
+    add_library(${shared} OBJECT ${source})
+    hagen_target(${shared})
+    set_target_properties(${shared} PROPERTIES POSITION_INDEPENDENT_CODE ${is_pic})
+    target_precompile_headers(${shared} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${set}.h)
+    target_link_libraries(${shared} PRIVATE Eigen3::Eigen)
+    if(set MATCHES mrpt)
+      target_link_libraries(${shared} PRIVATE mrpt::obs mrpt::maps)
+    endif()
+    if(set MATCHES tests)
+      target_link_libraries(${shared} PRIVATE GTest::gmock)
+    endif()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${shared})
+endfunction()

@@ -1,0 +1,6 @@
+// The same for tests of what needs no MRPT.
+#pragma once
+#include "plain.h"
+//
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>

@@ -1,0 +1,31 @@
+#include <hagen/base/NumberText.h>
+#include <array>
+
+namespace hagen::base {
+namespace {
+
+constexpr std::size_t kLongest = 400;  // 1e308 has 309 digits before its decimals
+
+template <class... Format>
+std::string textOf(double value, Format... format) {
+    std::array<char, kLongest> text;
+    return {text.data(),
+            std::to_chars(text.data(), text.data() + text.size(), value, format...).ptr};
+}
+
+}  // namespace
+
+std::string shortestText(double value) { return textOf(value); }
+
+std::string shortestText(float value) {
+    std::array<char, kLongest> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string fixedText(double value, int decimals) {
+    const std::string text = textOf(value, std::chars_format::fixed, decimals);
+    const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+    return is_zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+}  // namespace hagen::base

@@ -1,0 +1,100 @@
+#include <hagen/labelled_scans/Methods.h>
+
+#include <hagen/evaluation/Baselines.h>
+#include <hagen/segmentation/HagenFilter.h>
+#ifdef HAGEN_HAS_PCL_BASELINE
+#include <hagen/pcl_baseline/BaselinePclEuclidean.h>
+#endif
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+namespace hagen::labelled_scans {
+namespace {
+
+/// How the sensor was tilted, where its pose in the map is known: yaw, pitch, roll about z, y, x.
+std::optional<Attitude> attitudeOf(const evaluation::ScanInput& input) {
+    if (!input.map_from_sensor) return std::nullopt;
+    const Eigen::Matrix3f& turn = *input.map_from_sensor;
+    return Attitude{std::atan2(turn(2, 1), turn(2, 2)),
+                    std::asin(std::clamp(-turn(2, 0), -1.0f, 1.0f))};
+}
+
+evaluation::Method filterMethod(const std::string& name, const observations::Settings& settings) {
+    const auto filter = std::make_shared<HagenFilter>(
+        observations::filterFor(settings.sensorModel(), settings.options));
+    return {name, [filter](const evaluation::ScanInput& input) {
+                return filter->segment(input.scan, attitudeOf(input)).returns.label;
+            }};
+}
+
+std::vector<evaluation::Baseline> allBaselines(float zone_m) {
+    std::vector<evaluation::Baseline> all = evaluation::baselines(zone_m);
+#ifdef HAGEN_HAS_PCL_BASELINE
+    for (const evaluation::Baseline& baseline : evaluation::pclBaselines(zone_m))
+        all.push_back(baseline);
+#endif
+    return all;
+}
+
+/// "5,7.5" as two texts; an empty one stays, and is refused as a value later.
+std::vector<std::string> valuesOf(const std::string& text) {
+    std::vector<std::string> values;
+    std::istringstream stream(text);
+    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
+    return values;
+}
+
+}  // namespace
+
+std::vector<SettingsRow> rowsOf(const observations::Settings& settings,
+                                const std::vector<std::string>& sweeps) {
+    std::vector<SettingsRow> rows;
+    if (sweeps.empty()) rows.push_back({"hagen", settings, "", ""});
+    for (const std::string& sweep : sweeps) {
+        const std::size_t equals = sweep.find('=');
+        if (equals == std::string::npos || equals + 1 == sweep.size()) {
+            throw observations::SettingsError("--sweep: expected KEY=VALUE,VALUE,..., not '" +
+                                              sweep + "'");
+        }
+        const std::string key = sweep.substr(0, equals);
+        for (const std::string& value : valuesOf(sweep.substr(equals + 1))) {
+            SettingsRow row{key + "=" + value, settings, key, value};
+            observations::setOption(key, value, row.settings);
+            rows.push_back(row);
+        }
+    }
+    for (const SettingsRow& row : rows) {
+        if (row.settings.options.window_scans > 1) {
+            throw observations::SettingsError(
+                "window_scans is above 1; scans are scored one by one here");
+        }
+    }
+    return rows;
+}
+
+observations::Settings settingsFor(observations::Settings settings,
+                                   const std::filesystem::path& sensor_file) {
+    if (std::filesystem::exists(sensor_file)) observations::mergeSettings(sensor_file, settings);
+    return settings;
+}
+
+std::vector<evaluation::Method> methodsFor(const MethodRows& rows,
+                                           const std::filesystem::path& sensor_file) {
+    std::vector<evaluation::Method> methods;
+    for (const SettingsRow& row : rows.filter) {
+        methods.push_back(filterMethod(row.name, settingsFor(row.settings, sensor_file)));
+    }
+    if (!rows.baselines) return methods;
+    const observations::Settings settings = settingsFor(*rows.baselines, sensor_file);
+    const SensorModel sensor = settings.sensorModel();
+    for (const evaluation::Baseline& baseline : allBaselines(settings.options.zone_m)) {
+        methods.push_back({baseline.name, [baseline, sensor](const evaluation::ScanInput& input) {
+                               return baseline.segment(input.scan, sensor);
+                           }});
+    }
+    return methods;
+}
+
+}  // namespace hagen::labelled_scans

@@ -1,0 +1,47 @@
+#include <hagen/labelled_scans/Summary.h>
+
+namespace hagen::labelled_scans {
+namespace {
+
+SummedGroup summed(const evaluation::Group& group, const evaluation::BootstrapOptions& options) {
+    return {group.name, group.scans.size(), group.sum(),
+            evaluation::bootstrapIntervals(group.scans, options)};
+}
+
+std::vector<SummedGroup> summed(const std::vector<evaluation::Group>& groups,
+                                const evaluation::BootstrapOptions& options) {
+    std::vector<SummedGroup> all;
+    for (const evaluation::Group& group : groups) all.push_back(summed(group, options));
+    return all;
+}
+
+SummedScores summed(const std::vector<evaluation::ScanScores>& scans, const Summary& summary) {
+    const evaluation::BootstrapOptions& options = summary.bootstrap;
+    return {summed(evaluation::wholeOf(scans), options),
+            summed(evaluation::byRange(scans, summary.range), options),
+            summed(evaluation::byAltitude(scans), options),
+            summed(evaluation::byKind(scans), options),
+            summed(evaluation::byFolder(scans, summary.folder_names), options)};
+}
+
+}  // namespace
+
+void sumUp(const std::vector<evaluation::MethodScores>& methods,
+           const std::vector<SettingsRow>& rows, Summary& summary) {
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        const evaluation::MethodScores& method = methods[m];
+        SummedMethod sum;
+        sum.name = method.name;
+        if (m < rows.size()) {  // the filter's rows come first
+            sum.sweep_key = rows[m].sweep_key;
+            sum.sweep_value = rows[m].sweep_value;
+        }
+        sum.latency = evaluation::latencyOf(method.latency_ms);
+        sum.returns = summed(method.returns, summary);
+        if (!method.pixels.empty()) sum.pixels = summed(method.pixels, summary);
+        summary.scans = method.returns.size();
+        summary.methods.push_back(sum);
+    }
+}
+
+}  // namespace hagen::labelled_scans

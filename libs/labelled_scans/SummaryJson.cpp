@@ -1,0 +1,109 @@
+#include <hagen/labelled_scans/SummaryJson.h>
+
+#include <hagen/base/WriteFile.h>
+#include <hagen/segmentation/OptionKeys.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace hagen::labelled_scans {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isnan(value) ? Json() : Json(value); }
+Json text(const std::string& value) { return value.empty() ? Json() : Json(value); }
+
+Json json(const evaluation::Interval& interval) {
+    return std::isnan(interval.low) ? Json() : Json{interval.low, interval.high};
+}
+
+Json json(const evaluation::ClassScore& score,
+          const evaluation::ScoreIntervals::OfClass& intervals) {
+    return {{"hits", score.hits},
+            {"misses", score.misses},
+            {"false_alarms", score.false_alarms},
+            {"precision", number(score.precision())},
+            {"recall", number(score.recall())},
+            {"f1", number(score.f1())},
+            {"precision_interval", json(intervals.precision)},
+            {"recall_interval", json(intervals.recall)},
+            {"f1_interval", json(intervals.f1)}};
+}
+
+Json json(const SummedGroup& group) {
+    return {{"name", group.name},
+            {"scans", group.scans},
+            {"returns", group.scores.returns()},
+            {"correct", number(group.scores.correct())},
+            {"correct_interval", json(group.intervals.correct)},
+            {"roi", json(group.scores.roi, group.intervals.roi)},
+            {"rou", json(group.scores.rou, group.intervals.rou)}};
+}
+
+Json json(const std::vector<SummedGroup>& groups) {
+    Json list = Json::array();
+    for (const SummedGroup& group : groups) list.push_back(json(group));
+    return list;
+}
+
+Json json(const SummedScores& scores) {
+    return {{"all", json(scores.all)},
+            {"by_range", json(scores.by_range)},
+            {"by_altitude", json(scores.by_altitude)},
+            {"by_kind", json(scores.by_kind)},
+            {"by_folder", json(scores.by_folder)}};
+}
+
+Json json(const evaluation::Latency& latency) {
+    return {{"runs", latency.runs},          {"mean", number(latency.mean_ms)},
+            {"sd", number(latency.sd_ms)},   {"p50", number(latency.p50_ms)},
+            {"p95", number(latency.p95_ms)}, {"p99", number(latency.p99_ms)},
+            {"max", number(latency.max_ms)}};
+}
+
+Json json(const SummedMethod& method) {
+    const Json sweep{{"key", method.sweep_key}, {"value", method.sweep_value}};
+    return {{"name", method.name},
+            {"sweep", method.sweep_key.empty() ? Json() : sweep},
+            {"latency_ms", json(method.latency)},
+            {"returns", json(method.returns)},
+            {"pixels", method.pixels.all.scans == 0 ? Json() : json(method.pixels)}};
+}
+
+Json json(const observations::Settings& settings) {
+    Json keys;
+    for (const OptionKey& key : optionKeys()) {
+        const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
+        const std::string value = textOf(key, settings.options);
+        keys[key.name] = is_word ? Json(value) : Json::parse(value);
+    }
+    keys["sensor.model"] = settings.sensor.model ? Json(*settings.sensor.model) : Json();
+    return keys;
+}
+
+}  // namespace
+
+void writeJson(const std::filesystem::path& file, const Summary& summary) {
+    Json report{{"hagen", HAGEN_VERSION},
+                {"compiler", __VERSION__},
+                {"command_line", summary.command_line}};
+    for (std::size_t f = 0; f < summary.folders.size(); ++f) {
+        report["folders"].push_back(
+            {{"name", summary.folder_names[f]}, {"path", summary.folders[f]}});
+    }
+    report["settings"] = json(summary.settings);
+    report["label_map"] = text(summary.label_map);
+    report["camera"] = text(summary.camera);
+    report["max_range_m"] = summary.range.max_range_m;
+    report["scans"] = summary.scans;
+    report["bootstrap"] = {{"resamples", summary.bootstrap.resamples},
+                           {"seed", summary.bootstrap.seed},
+                           {"level", summary.bootstrap.level}};
+    report["methods"] = Json::array();
+    for (const SummedMethod& method : summary.methods) report["methods"].push_back(json(method));
+
+    // File names need not be UTF-8, JSON must be.
+    base::writeText(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", file, file);
+}
+
+}  // namespace hagen::labelled_scans

@@ -1,0 +1,28 @@
+// The report that machines read.
+#pragma once
+#include <filesystem>
+
+#include "Summary.h"
+
+namespace hagen::labelled_scans {
+
+/// Writes all of a summary as JSON:
+///
+///     {"hagen": version, "compiler": ..., "command_line": [...], "folders": [{name, path}, ...],
+///      "settings": {key: value, ...}, "label_map": FILE or null, "camera": FILE or null,
+///      "max_range_m": x, "scans": n, "bootstrap": {"resamples": n, "seed": n, "level": 0.95},
+///      "methods": [{"name": ..., "sweep": {"key", "value"} or null,
+///                   "latency_ms": {"runs", "mean", "sd", "p50", "p95", "p99", "max"},
+///                   "returns": {"all": SCORES, "by_range": [SCORES, ...], "by_altitude": [...],
+///                               "by_kind": [...], "by_folder": [...]},
+///                   "pixels": the same, or null without a camera}, ...]}
+///
+///     SCORES: {"name", "scans": n, "returns": n, "correct": x, "correct_interval": [low, high],
+///              "roi": CLASS, "rou": CLASS}
+///     CLASS: {"hits": n, "misses": n, "false_alarms": n, "precision": x, "recall": x, "f1": x,
+///             "precision_interval": [low, high], "recall_interval": ..., "f1_interval": ...}
+///
+/// What is not defined is null. Throws std::runtime_error, naming the file.
+void writeJson(const std::filesystem::path& file, const Summary& summary);
+
+}  // namespace hagen::labelled_scans

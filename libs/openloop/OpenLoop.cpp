@@ -1,0 +1,337 @@
+#include <hagen/base/ProcessCost.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/openloop/LaterScansTruth.h>
+#include <hagen/openloop/OpenLoop.h>
+#include <hagen/simulation/LogClock.h>
+#include <hagen/simulation/Scenarios.h>
+#include <hagen/simulation/SceneDistance.h>
+
+#include <algorithm>
+#include <deque>
+#include <stdexcept>
+
+namespace hagen::openloop {
+namespace {
+
+constexpr float kMapMargin_m = 20, kMapMarginUp_m = 10;  // around the whole flight
+constexpr float kLargestMap_m3 = 100000;
+constexpr float kHalfBox_m = 30, kHalfBoxUp_m = 10;  // around the vehicle
+constexpr float kBorder_m = 12, kBorderUp_m = 5;     // beyond what queries and clearances reach
+constexpr double kKept_s = 3;                        // of scans, for maps that are begun anew
+
+// Half of a scan's obstacles lie nearer than this to those of its own scene (1 to 2 cm as a rule).
+constexpr float kMostOffScene_m = 0.08f;
+constexpr std::size_t kFewestForFit = 100;
+
+Eigen::AlignedBox3f widened(const Eigen::AlignedBox3f& box, float aside_m, float up_m) {
+    const Eigen::Vector3f by(aside_m, aside_m, up_m);
+    return {box.min() - by, box.max() + by};
+}
+
+/// The true scene of a simulated log.
+class SceneTruth {
+ public:
+    SceneTruth(const OpenLoop::TrueScene& scene, const Eigen::AlignedBox3f& flight_m)
+        : name_(scene.scenario + " of seed " + std::to_string(scene.seed)),
+          distance_(simulation::makeScene(scene.scenario, scene.seed),
+                    widened(flight_m, kMapMargin_m, kMapMarginUp_m).cast<double>(),
+                    avoidance::WorldModel::kReach_m) {}
+
+    /// As of the last scan.
+    float clearance_m(const Eigen::Vector3f& point_m) const {
+        return distance_.at(point_m, time_s_);
+    }
+
+    /// Throws std::runtime_error where the scan's obstacles are not the scene's.
+    void see(const mapping::MappedScan& scan) {
+        time_s_ = scan.time_s - simulation::kSimulatedLogStart_s;
+        if (is_checked_) return;
+        std::vector<float> off_m;
+        for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+            if (scan.labels[i] == Label::Roi) off_m.push_back(clearance_m(scan.points_m[i]));
+        }
+        if (off_m.size() < kFewestForFit) return;
+        is_checked_ = true;
+        const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
+        std::nth_element(off_m.begin(), middle, off_m.end());
+        if (*middle < kMostOffScene_m) return;
+        throw std::runtime_error("the log was not simulated in " + name_ +
+                                 ": half of a scan's obstacles lie " + std::to_string(*middle) +
+                                 " m and more off the scene's");
+    }
+
+ private:
+    std::string name_;
+    simulation::SceneDistance distance_;
+    double time_s_ = 0;
+    bool is_checked_ = false;
+};
+
+/// Scans whose truth is not known yet.
+struct Judgement {
+    std::vector<OpenLoopRow> rows;  ///< a model each
+    std::vector<OpenLoopCost> costs;
+    std::vector<DirectionSet> blocked;
+    double time_s = 0;
+    LaterScansTruth later;
+    std::optional<TrueDirections> truth;
+};
+
+DirectionSet levelDirections() {
+    DirectionSet level;
+    for (std::size_t n = 0; n < kDirections; ++n) level[n] = !leadsDown(n);
+    return level;
+}
+
+DirectionSet directionsAt(std::size_t elevation) {
+    DirectionSet at;
+    for (std::size_t n = 0; n < kDirectionAzimuths; ++n) at.set(elevation * kDirectionAzimuths + n);
+    return at;
+}
+
+class Run {
+ public:
+    Run(const OpenLoop& open_loop, const OpenLoopListener& listener)
+        : open_loop_(open_loop), listener_(listener), scans_(open_loop.source) {
+        result_.poses = scans_.poseSource();
+        result_.poses_have_horizon = scans_.posesHaveHorizon();
+        result_.scans_without_pose = scans_.scansWithoutPose();
+        for (const std::string& name : open_loop.models) {
+            result_.models.emplace_back().name = name;
+        }
+        const std::size_t models = open_loop.models.size();
+        result_.agreement.assign(models, std::vector<double>(models, 0));
+        models_.resize(models);
+        heap_bytes_.resize(models);
+        if (open_loop.scene) truth_.emplace(*open_loop.scene, scans_.flight_m());
+        const Eigen::AlignedBox3f whole = widened(scans_.flight_m(), kMapMargin_m, kMapMarginUp_m);
+        is_whole_mapped_ = whole.volume() <= kLargestMap_m3;
+        if (is_whole_mapped_) box_m_ = whole;
+    }
+
+    OpenLoopResult result() {
+        LoggedScan scan;
+        try {
+            while (listener_.keep_going() && scans_.next(scan)) {
+                digest(scan);
+                listener_.progress(result_.scans, scans_.scans() - scans_.scansWithoutPose());
+            }
+        } catch (const logs::BrokenRawlog& e) {
+            why_ended_ = e.what();
+        } catch (const logs::BrokenScan& e) {
+            why_ended_ = e.what();
+        }
+        if (why_ended_.empty() && !listener_.keep_going()) why_ended_ = "interrupted";
+        return finish();
+    }
+
+ private:
+    void digest(const LoggedScan& scan);
+    void prepareModels(const LoggedScan& scan);
+    Judgement judgementOf(const LoggedScan& scan) const;
+    void askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement);
+    void judgeOldest();
+    void agree(const Judgement& judgement);
+    OpenLoopResult finish();
+
+    const OpenLoop& open_loop_;
+    const OpenLoopListener& listener_;
+    LoggedScans scans_;
+    std::optional<SceneTruth> truth_;
+    bool is_whole_mapped_ = false;
+    Eigen::AlignedBox3f box_m_;
+    std::vector<std::unique_ptr<avoidance::WorldModel>> models_;
+    std::vector<double> heap_bytes_;
+    std::deque<mapping::MappedScan> kept_;
+    std::deque<Judgement> waiting_;
+    LastingPoints lasting_;
+    OpenLoopResult result_;
+    std::string why_ended_;
+};
+
+/// Makes the models at first, and anew where the vehicle nears the border of their box.
+void Run::prepareModels(const LoggedScan& scan) {
+    const bool is_begun = result_.scans > 0;
+    const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
+    if (is_begun && (is_whole_mapped_ || inner.contains(scan.vehicle_m))) return;
+    result_.maps_begun_anew += is_begun;
+    if (!is_whole_mapped_) {
+        box_m_ = widened({scan.vehicle_m, scan.vehicle_m}, kHalfBox_m, kHalfBoxUp_m);
+    }
+    avoidance::WorldModelSetting setting;
+    setting.bounds_m = box_m_;
+    if (truth_) {
+        setting.true_clearance_m = [this](const auto& point_m) {
+            return truth_->clearance_m(point_m);
+        };
+    }
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+        models_[m].reset();
+        const double before = base::heapBytes();
+        models_[m] = open_loop_.make(open_loop_.models[m], setting);
+        for (const mapping::MappedScan& kept : kept_) models_[m]->update(kept);
+        heap_bytes_[m] = base::heapBytes() - before;
+    }
+}
+
+void Run::askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement) {
+    avoidance::WorldModel& model = *models_[m];
+    OpenLoopRow& row = judgement.rows[m];
+    OpenLoopCost& cost = judgement.costs[m];
+    const double before = base::heapBytes(), start_ms = base::threadCpuTime_ms();
+    model.update(scan.mapped);
+    cost.update_ms = base::threadCpuTime_ms() - start_ms;
+    heap_bytes_[m] += base::heapBytes() - before;
+    cost.heap_bytes = heap_bytes_[m];
+
+    const double asking_ms = base::threadCpuTime_ms();
+    judgement.blocked[m] = blockedDirections(
+        [&](const Eigen::Vector3f& point_m) { return model.clearance_m(point_m); }, scan.vehicle_m);
+    cost.queries_ms = base::threadCpuTime_ms() - asking_ms;
+
+    row.obstacles = model.obstacles().middle_m.size();
+    row.bytes = model.bytes();
+    row.blocked = judgement.blocked[m].count();
+}
+
+/// What is asked of a scan, before anybody answers.
+Judgement Run::judgementOf(const LoggedScan& scan) const {
+    const std::size_t models = models_.size();
+    Judgement judgement{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),
+                        std::vector<DirectionSet>(models), scan.mapped.time_s,
+                        LaterScansTruth(scan.vehicle_m),   {}};
+    const auto& labels = scan.mapped.labels;
+    for (std::size_t m = 0; m < models; ++m) {
+        OpenLoopRow& row = judgement.rows[m];
+        row.scan = result_.scans;
+        row.entry = scan.entry;
+        row.time_s = scan.mapped.time_s;
+        row.model = open_loop_.models[m];
+        row.returns = labels.size();
+        row.roi = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), Label::Roi));
+        judgement.costs[m].scan = row.scan;
+        judgement.costs[m].model = row.model;
+        judgement.costs[m].filter_ms = scan.filter_ms;
+    }
+    if (!truth_) return judgement;
+    judgement.truth.emplace();
+    judgement.truth->scored.set();
+    judgement.truth->blocked = blockedDirections(
+        [this](const Eigen::Vector3f& point_m) { return truth_->clearance_m(point_m); },
+        scan.vehicle_m);
+    return judgement;
+}
+
+void Run::digest(const LoggedScan& scan) {
+    if (truth_) truth_->see(scan.mapped);
+    prepareModels(scan);
+    Judgement judgement = judgementOf(scan);
+    for (std::size_t m = 0; m < models_.size(); ++m) askModel(m, scan, judgement);
+    result_.returns.push_back(static_cast<double>(judgement.rows.front().returns));
+    result_.roi.push_back(static_cast<double>(judgement.rows.front().roi));
+    result_.filter_ms.push_back(scan.filter_ms);
+    result_.scans_moved_whole += scan.is_moved_whole;
+    ++result_.scans;
+
+    const double now_s = scan.mapped.time_s;
+    while (!waiting_.empty() && waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
+        judgeOldest();
+    }
+    if (!truth_) {
+        const SeenRanges ranges(scan.mapped);
+        const auto lasting_m = lasting_.of(scan.mapped);
+        for (Judgement& earlier : waiting_) earlier.later.see(lasting_m, ranges);
+    }
+    waiting_.push_back(std::move(judgement));
+    if (truth_) judgeOldest();
+
+    kept_.push_back(scan.mapped);
+    while (kept_.front().time_s + kKept_s < now_s) kept_.pop_front();
+}
+
+/// Counts what the models said of the oldest scan, and tells of it.
+void Run::judgeOldest() {
+    static const DirectionSet level = levelDirections();
+    Judgement& oldest = waiting_.front();
+    const TrueDirections truth = oldest.truth ? *oldest.truth : oldest.later.directions();
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+        OpenLoopRow& row = oldest.rows[m];
+        const DirectionSet& blocked = oldest.blocked[m];
+        row.truly_blocked = (truth.blocked & truth.scored).count();
+        row.all = countBlocked(blocked, truth.blocked, truth.scored);
+        row.level = countBlocked(blocked, truth.blocked, truth.scored & level);
+
+        OpenLoopModel& model = result_.models[m];
+        model.all += row.all;
+        model.level += row.level;
+        for (std::size_t e = 0; e < kDirectionElevations; ++e) {
+            model.by_elevation[e] +=
+                countBlocked(blocked, truth.blocked, truth.scored & directionsAt(e));
+        }
+        model.obstacles.push_back(static_cast<double>(row.obstacles));
+        model.bytes.push_back(static_cast<double>(row.bytes));
+        model.blocked.push_back(static_cast<double>(row.blocked));
+        const OpenLoopCost& cost = oldest.costs[m];
+        model.update_ms.push_back(cost.update_ms);
+        model.queries_ms.push_back(cost.queries_ms);
+        model.peak_heap_bytes = std::max(model.peak_heap_bytes, cost.heap_bytes);
+        listener_.row(row, cost);
+    }
+    agree(oldest);
+    waiting_.pop_front();
+}
+
+void Run::agree(const Judgement& judgement) {
+    for (std::size_t a = 0; a < models_.size(); ++a) {
+        for (std::size_t b = 0; b < models_.size(); ++b) {
+            result_.agreement[a][b] += freeAgreement(judgement.blocked[a], judgement.blocked[b]);
+        }
+    }
+}
+
+OpenLoopResult Run::finish() {
+    while (!waiting_.empty()) judgeOldest();
+    result_.unreadable_scans = scans_.unreadableScans();
+    if (result_.scans == 0) {
+        const std::string why = why_ended_.empty() ? scans_.whyUnreadable() : why_ended_;
+        throw std::runtime_error(open_loop_.source.log.string() +
+                                 ": none of its scans was digested: " + why);
+    }
+    for (auto& line : result_.agreement) {
+        for (double& sum : line) sum /= static_cast<double>(result_.scans);
+    }
+    if (!why_ended_.empty()) throw OpenLoopEnded(why_ended_, std::move(result_));
+    return std::move(result_);
+}
+
+}  // namespace
+
+void checkOpenLoop(const OpenLoop& open_loop) {
+    if (open_loop.models.empty()) throw std::invalid_argument("no world model is named");
+    for (const std::string& model : open_loop.models) {
+        avoidance::needsLabels(model);  // throws for an unknown one
+        if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
+            throw std::invalid_argument("world model '" + model + "' is named twice");
+        }
+        if (model == "oracle" && !open_loop.scene) {
+            throw std::invalid_argument(
+                "the oracle knows the scene that a log was simulated in: name it "
+                "(--truth-scenario, --truth-seed)");
+        }
+    }
+    if (!open_loop.scene) return;
+    const auto known = simulation::scenarioNames();
+    if (std::find(known.begin(), known.end(), open_loop.scene->scenario) != known.end()) return;
+    std::string names;
+    for (const std::string& name : known) names += " " + name;
+    throw std::invalid_argument("unknown scenario '" + open_loop.scene->scenario + "'; known are" +
+                                names);
+}
+
+OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener) {
+    checkOpenLoop(open_loop);
+    return Run(open_loop, listener).result();
+}
+
+}  // namespace hagen::openloop

@@ -1,0 +1,29 @@
+#include <hagen/pages/Page.h>
+
+#include <stdexcept>
+
+namespace hagen::pages {
+
+std::string filled(std::string_view page, const std::map<std::string, std::string_view>& values) {
+    std::string text;
+    for (;;) {
+        const std::size_t begin = page.find("{{");
+        if (begin == std::string_view::npos) return text.append(page);
+        const std::size_t end = page.find("}}", begin);
+        const std::string name(page.substr(begin + 2, end - begin - 2));
+        const auto value = values.find(name);
+        if (value == values.end()) throw std::logic_error("the page has no value for " + name);
+        text.append(page.substr(0, begin)).append(value->second);
+        page.remove_prefix(end + 2);
+    }
+}
+
+std::string scriptText(std::string json) {
+    // "</script>" within a string would end the element.
+    for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3) {
+        json.replace(at, 2, "<\\/");
+    }
+    return json;
+}
+
+}  // namespace hagen::pages

@@ -1,0 +1,94 @@
+#include <hagen/replays/Ending.h>
+
+#include <hagen/range_image/Angle.h>
+#include <hagen/trials/TrialScore.h>
+#include <cmath>
+#include <vector>
+
+#include <hagen/pages/Table.h>
+
+namespace hagen::replays {
+namespace {
+
+/// Directions all around, evenly spread: along a spiral from pole to pole, each a golden angle on.
+std::vector<simulation::Ray> raysAround(const Eigen::Vector3f& at_m) {
+    // 1.4 degrees apart: a wire at 0.3 m is met by several.
+    constexpr int kRays = 20000;
+    const double golden = kPi * (3 - std::sqrt(5.0));
+    std::vector<simulation::Ray> rays;
+    rays.reserve(kRays);
+    for (int i = 0; i < kRays; ++i) {
+        const double z = 1 - (2 * i + 1.0) / kRays, r = std::sqrt(1 - z * z);
+        const Eigen::Vector3d direction(r * std::cos(golden * i), r * std::sin(golden * i), z);
+        rays.push_back({at_m, direction.cast<float>()});
+    }
+    return rays;
+}
+
+/// What the nearest thing within `reach_m` is; Kind::None where there is none.
+simulation::Kind nearestKind(const simulation::Scene& scene, const Eigen::Vector3d& at_m,
+                             double time_s, double reach_m) {
+    constexpr double kMoment_s = 0.001;
+    std::vector<simulation::RayHit> hits;
+    scene.during(time_s, kMoment_s)
+        .cast(raysAround(at_m.cast<float>()), static_cast<float>(reach_m), hits);
+    simulation::RayHit nearest{static_cast<float>(reach_m)};
+    for (const simulation::RayHit& hit : hits) {
+        // Grass and crop bend, and nothing was hit where they were.
+        if (hit.range_m <= nearest.range_m && hit.kind != simulation::Kind::Canopy) nearest = hit;
+    }
+    return nearest.kind;
+}
+
+std::string wordsFor(simulation::Kind kind) {
+    switch (kind) {
+        case simulation::Kind::Terrain:
+            return "the ground";
+        case simulation::Kind::Tree:
+            return "a tree";
+        case simulation::Kind::Pole:
+            return "a pole";
+        case simulation::Kind::Wire:
+            return "a wire";
+        case simulation::Kind::Building:
+            return "a building";
+        case simulation::Kind::Vehicle:
+            return "a parked car";
+        case simulation::Kind::Wall:
+            return "a wall or rock";
+        case simulation::Kind::Mover:
+            return "something that moves";
+        default:
+            return "an obstacle";
+    }
+}
+
+/// Which of the judge's limits a timeout went beyond.
+std::string wordsForTimeout(const trials::Course& course, const trials::TrialResult& result,
+                            double speed_m_s, const Eigen::Vector3d& end_m) {
+    if (course.bounds_m.exteriorDistance(end_m) > trials::TrialJudge::kOutside_m)
+        return "left the course";
+    if (result.time_s > trials::TrialJudge::longestFlight_s(course, speed_m_s))
+        return "ran out of time";
+    return "gave up for lack of progress";
+}
+
+}  // namespace
+
+std::string endingOf(const trials::Course& course, const trials::TrialResult& result,
+                     double speed_m_s, const Eigen::Vector3d& end_m) {
+    const std::string at = " at " + pages::figure(result.time_s, 2) + " s";
+    if (result.outcome == trials::Outcome::Success) return "arrived" + at;
+    if (result.outcome == trials::Outcome::Timeout) {
+        return wordsForTimeout(course, result, speed_m_s, end_m) + at;
+    }
+    const auto clearance_m =
+        static_cast<double>(course.distance.at(end_m.cast<float>(), result.time_s));
+    constexpr double kMore_m = 0.05;  // rays pass a little beside the nearest point
+    const simulation::Kind kind =
+        nearestKind(course.scene, end_m, result.time_s, clearance_m + kMore_m);
+    return "hit " + wordsFor(kind) + at + ": " + pages::figure(clearance_m, 2) +
+           " m from it to the vehicle's middle";
+}
+
+}  // namespace hagen::replays

@@ -1,0 +1,250 @@
+#include "ReportTables.h"
+
+#include <hagen/base/Quantile.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "Figures.h"
+#include "Phrases.h"
+
+namespace hagen::reports {
+namespace {
+
+template <class Text>
+pages::Table matrix(const Summary& summary, const trials::Condition& condition, Text text) {
+    const std::vector<trials::Contender> contenders = contendersUnder(summary, condition);
+    pages::Table table{{"scenario"}, {}};
+    for (const trials::Contender& contender : contenders) table.header.push_back(nameOf(contender));
+    for (const std::string& scenario : summary.scenarios) {
+        std::vector<std::string> row{scenario};
+        bool has_any = false;
+        for (const trials::Contender& contender : contenders) {
+            const Cell* cell = find(summary, scenario, condition, contender);
+            row.push_back(cell == nullptr ? "" : text(*cell));
+            has_any = has_any || cell != nullptr;
+        }
+        if (has_any) table.rows.push_back(row);
+    }
+    return table;
+}
+
+std::string spread(const Spread& of, int decimals) {
+    if (of.count == 0) return "-";
+    return pages::figure(of.median, decimals) + " (" + intervalText(of.median_interval, decimals) +
+           ")";
+}
+
+}  // namespace
+
+pages::Table successTable(const Summary& summary, const trials::Condition& condition) {
+    return matrix(summary, condition,
+                  [](const Cell& cell) { return percentOfRuns(cell.successes, cell.runs); });
+}
+
+pages::Table collisionTable(const Summary& summary, const trials::Condition& condition) {
+    return matrix(summary, condition,
+                  [](const Cell& cell) { return percentOfRuns(cell.collisions, cell.runs); });
+}
+
+pages::Table outcomeTable(const Summary& summary, const trials::Condition& condition) {
+    pages::Table table{{"scenario", "contender", "runs", "success %", "collision %", "timeout %"},
+                       {}};
+    for (const Cell& cell : summary.cells) {
+        if (!(cell.condition == condition) || cell.scenario.empty()) continue;
+        table.rows.push_back({cell.scenario, nameOf(cell.contender), std::to_string(cell.runs),
+                              percentOf(cell.successes, cell.runs),
+                              percentOf(cell.collisions, cell.runs),
+                              percentOf(cell.timeouts, cell.runs)});
+    }
+    return table;
+}
+
+pages::Table pairingTable(const std::vector<Pairing>& pairings) {
+    pages::Table table{
+        {"scenario", "condition", "first", "second", "pairs", "only first", "only second",
+         "difference, points", "p (Holm)", "first is", "only it collided: first / second (p)"},
+        {}};
+    for (const Pairing& pairing : pairings) {
+        table.rows.push_back(
+            {pairing.scenario.empty() ? "all" : pairing.scenario, nameOf(pairing.condition),
+             nameOf(pairing.first), nameOf(pairing.second), std::to_string(pairing.pairs()),
+             std::to_string(pairing.only_first), std::to_string(pairing.only_second),
+             points(pairing.difference) + " (" + pointsOf(pairing.interval) + ")",
+             pText(pairing.p_holm), nameOf(pairing.verdict),
+             std::to_string(pairing.only_first_collided) + " / " +
+                 std::to_string(pairing.only_second_collided) + " (" +
+                 pText(trials::mcNemar(pairing.only_first_collided, pairing.only_second_collided)) +
+                 ")"});
+    }
+    return table;
+}
+
+pages::Table speedTable(const Summary& summary) {
+    pages::Table table{
+        {"scenario", "contender", "flown up to, m/s", "highest speed with success >= 95 %, m/s",
+         "the same of the interval's lower bound, m/s"},
+        {}};
+    for (const SpeedLimit& limit : summary.speed_limits) {
+        const auto text = [](double speed) {
+            return std::isnan(speed) ? "none" : pages::figure(speed, 1);
+        };
+        table.rows.push_back({limit.scenario + trials::deviationOf(limit.lowest),
+                              nameOf(limit.contender), pages::figure(limit.flown_m_s, 1),
+                              text(limit.highest_m_s), text(limit.sure_m_s)});
+    }
+    return table;
+}
+
+pages::Table squareTable(const Summary& summary, const trials::Condition& condition) {
+    std::set<std::string> models, guidances, scenarios;
+    for (const Cell& cell : summary.cells) {
+        if (!(cell.condition == condition) || cell.scenario.empty()) continue;
+        guidances.insert(cell.contender.guidance);
+        if (cell.contender.guidance == "astar") continue;
+        models.insert(cell.contender.model);
+        scenarios.insert(cell.scenario);
+    }
+    pages::Table table{{"scenario", "model"}, {}};
+    for (const std::string& guidance : guidances) {
+        table.header.push_back(guidance == "astar" ? "A*" : guidance);
+    }
+    for (const std::string& scenario : scenarios) {
+        for (const std::string& model : models) {
+            std::vector<std::string> row{scenario, model};
+            for (const std::string& guidance : guidances) {
+                const Cell* cell = find(summary, scenario, condition, {model, guidance});
+                row.push_back(cell == nullptr ? "" : percentOfRuns(cell->successes, cell->runs));
+            }
+            // A row of one cell compares nothing.
+            if (std::count(row.begin(), row.end(), "") + 2 < static_cast<long>(row.size()) - 1) {
+                table.rows.push_back(row);
+            }
+        }
+    }
+    return table;
+}
+
+pages::Table flightTable(const SharedCourses& shared) {
+    pages::Table table{
+        {"contender", "courses", "least clearance p5, m", "median, m", "path / oracle's",
+         "time to goal, s", "first reaction, m", "RMS jerk, m/s^3"},
+        {}};
+    for (const Cell& cell : shared.cells) {
+        table.rows.push_back({nameOf(cell.contender), std::to_string(cell.runs),
+                              pages::figure(cell.min_clearance_m.p05, 2),
+                              spread(cell.min_clearance_m, 2), spread(cell.path_ratio, 3),
+                              spread(cell.time_s, 1), spread(cell.first_reaction_m, 1),
+                              spread(cell.rms_jerk_m_s3, 1)});
+    }
+    return table;
+}
+
+pages::Table wiresTable(const Summary& summary, const trials::Condition& condition) {
+    pages::Table table{{"contender", "runs", "success %", "collision %", "timeout %"}, {}};
+    for (const trials::Contender& contender : contendersUnder(summary, condition)) {
+        const Cell* cell = find(summary, kWires, condition, contender);
+        if (cell == nullptr) continue;
+        table.rows.push_back(
+            {nameOf(contender), std::to_string(cell->runs), percentOf(cell->successes, cell->runs),
+             percentOf(cell->collisions, cell->runs), percentOf(cell->timeouts, cell->runs)});
+    }
+    return table;
+}
+
+pages::Table shortfallTable(const trials::FlownRuns& flown) {
+    pages::Table table{{"condition", "contender", "runs flown", "planned"}, {}};
+    for (const trials::Shortfall& one : flown.shortfalls) {
+        table.rows.push_back({nameOf(one.condition), nameOf(one.contender),
+                              std::to_string(one.flown), std::to_string(one.planned)});
+    }
+    return table;
+}
+
+pages::Table effortTable(const Summary& summary, const trials::Condition& condition) {
+    pages::Table table{{"contender", "sensor to command p50, ms", "p95, ms", "max, ms",
+                        "dropped scans, %", "emergency stops a km"},
+                       {}};
+    for (const trials::Contender& contender : contendersUnder(summary, condition)) {
+        const Cell& cell = *find(summary, "", condition, contender);
+        table.rows.push_back(
+            {nameOf(contender), pages::figure(cell.latency_p50_ms.median, 1),
+             pages::figure(cell.latency_p95_ms.median, 1), pages::figure(cell.latency_max_ms, 1),
+             pages::figure(cell.dropped_percent, 2), pages::figure(cell.stops_per_km, 1)});
+    }
+    return table;
+}
+
+std::vector<std::string> stageNamesOf(const trials::Contender& contender,
+                                      const std::string& planner,
+                                      const trials::LatencyProfile& profile) {
+    trials::TrialSetup setup;
+    setup.model = contender.model;
+    setup.guidance = contender.guidance;
+    setup.planner = planner;
+    std::vector<std::string> stages = trials::stagesOf(setup);
+    stages.erase(std::remove_if(stages.begin(), stages.end(),
+                                [&](const std::string& stage) {
+                                    const auto found = profile.quantiles_ms.find(stage);
+                                    return found == profile.quantiles_ms.end() ||
+                                           found->second.empty();
+                                }),
+                 stages.end());
+    return stages;
+}
+
+pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& profile) {
+    pages::Table table{{"stage", "p50, ms", "p95, ms", "max, ms"}, {}};
+    if (summary.conditions.empty()) return table;
+    std::set<std::string> shown;
+    for (const trials::Contender& contender : summary.contenders) {
+        for (const std::string& stage :
+             stageNamesOf(contender, summary.conditions.front().planner, profile)) {
+            if (!shown.insert(stage).second) continue;
+            const std::vector<double>& q = profile.quantiles_ms.at(stage);
+            table.rows.push_back({stage, pages::figure(base::quantile(q, 0.5), 2),
+                                  pages::figure(base::quantile(q, 0.95), 2),
+                                  pages::figure(q.back(), 2)});
+        }
+    }
+    return table;
+}
+
+pages::Table measuredTable(const trials::MeasuredByModel& measured) {
+    pages::Table table{{"model", "runs", "peak heap, median, MB", "most, MB"}, {}};
+    std::set<std::string> stages;
+    for (const auto& [model, runs] : measured) {
+        for (const auto& [stage, values] : runs.p50_ms) stages.insert(stage);
+    }
+    for (const std::string& stage : stages) table.header.push_back(stage + " p50, ms");
+    for (const auto& [model, runs] : measured) {
+        const std::vector<double>& bytes = runs.peak_model_bytes;
+        std::vector<std::string> row{model, std::to_string(bytes.size()),
+                                     pages::figure(1e-6 * base::quantile(bytes, 0.5), 2),
+                                     pages::figure(1e-6 * base::quantile(bytes, 1), 2)};
+        for (const std::string& stage : stages) {
+            const auto found = runs.p50_ms.find(stage);
+            row.push_back(found == runs.p50_ms.end()
+                              ? "-"
+                              : pages::figure(base::quantile(found->second, 0.5), 2));
+        }
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+pages::Table memoryTable(const std::vector<trials::HeapCurve>& memory) {
+    pages::Table table{{"model", "flown, m", "at the end, MB", "peak, MB"}, {}};
+    for (const trials::HeapCurve& curve : memory) {
+        if (curve.bytes_by_path_m.empty()) continue;
+        double peak = 0;
+        for (const auto& [path_m, bytes] : curve.bytes_by_path_m) peak = std::max(peak, bytes);
+        const auto& [path_m, bytes] = curve.bytes_by_path_m.back();
+        table.rows.push_back({curve.model, pages::figure(path_m, 0), pages::figure(1e-6 * bytes, 2),
+                              pages::figure(1e-6 * peak, 2)});
+    }
+    return table;
+}
+
+}  // namespace hagen::reports

@@ -1,0 +1,9 @@
+#pragma once
+#include <string_view>
+
+/// The files of the report's page, compiled in.
+namespace hagen::reports::texts {
+
+extern const std::string_view report_html, report_css, report_js, chart_js;
+
+}  // namespace hagen::reports::texts

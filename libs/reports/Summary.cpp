@@ -1,0 +1,310 @@
+#include <hagen/base/Quantile.h>
+#include <hagen/reports/Summary.h>
+
+#include <hagen/trials/TrialScore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace hagen::reports {
+namespace {
+
+constexpr const char* kMappingFree = "W-RoI";
+
+bool isMap(const std::string& model) {
+    return model.compare(0, 2, "O-") == 0 || model.compare(0, 2, "G-") == 0;
+}
+
+Spread spreadOf(const std::vector<double>& all) {
+    std::vector<double> values;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(values),
+                 [](double value) { return !std::isnan(value); });
+    return {static_cast<int>(values.size()), base::quantile(values, 0.05),
+            base::quantile(values, 0.5), base::quantile(values, 0.95),
+            trials::medianInterval(values, 1000)};
+}
+
+using Runs = std::vector<const trials::Run*>;
+
+template <class Value>
+Spread spreadOf(const Runs& runs, Value value) {
+    std::vector<double> values;
+    for (const trials::Run* run : runs) values.push_back(value(*run));
+    return spreadOf(values);
+}
+
+Spread spreadOf(const Runs& runs, double trials::TrialResult::*field) {
+    return spreadOf(runs, [=](const trials::Run& run) { return run.result.*field; });
+}
+
+Runs ofOutcome(const Runs& runs, trials::Outcome outcome) {
+    Runs chosen;
+    std::copy_if(runs.begin(), runs.end(), std::back_inserter(chosen),
+                 [=](const trials::Run* run) { return run->result.outcome == outcome; });
+    return chosen;
+}
+
+/// Runs of a cell by (scenario, seed): the courses that they flew.
+using CourseKey = std::pair<std::string, std::uint64_t>;
+using Flights = std::map<std::pair<trials::Condition, trials::Contender>,
+                         std::map<CourseKey, const trials::Run*>>;
+
+struct Comparison {
+    trials::Contender first, second;
+};
+
+/// Who is compared with whom, of those that flew under a condition.
+std::vector<Comparison> comparisonsOf(const std::set<trials::Contender>& contenders) {
+    std::vector<Comparison> comparisons;
+    for (const trials::Contender& first : contenders) {
+        if (first.model != kMappingFree) continue;
+        for (const trials::Contender& second : contenders) {
+            const bool same_guidance = second.guidance == first.guidance;
+            const bool is_itself = second == first;
+            const bool free_or_mapped = first.guidance == "straight" &&
+                                        second.guidance != "straight" && isMap(second.model);
+            const bool other_guidance =
+                first.guidance != "straight" && second.model == kMappingFree;
+            if (is_itself || !(same_guidance || free_or_mapped || other_guidance)) continue;
+            comparisons.push_back({first, second});
+        }
+    }
+    return comparisons;
+}
+
+void count(const trials::Run& first, const trials::Run& second, Pairing& pairing) {
+    const bool a = first.result.outcome == trials::Outcome::Success;
+    const bool b = second.result.outcome == trials::Outcome::Success;
+    ++(a ? (b ? pairing.both : pairing.only_first) : (b ? pairing.only_second : pairing.neither));
+    const bool hit_a = first.result.outcome == trials::Outcome::Collision;
+    const bool hit_b = second.result.outcome == trials::Outcome::Collision;
+    if (hit_a && !hit_b) ++pairing.only_first_collided;
+    if (hit_b && !hit_a) ++pairing.only_second_collided;
+}
+
+void judge(Pairing& pairing) {
+    const double n = pairing.pairs();
+    pairing.p = trials::mcNemar(pairing.only_first, pairing.only_second);
+    pairing.difference = (pairing.only_first - pairing.only_second) / n;
+    pairing.interval = trials::pairedDifferenceInterval(pairing.both, pairing.only_first,
+                                                        pairing.only_second, pairing.neither);
+    pairing.verdict = pairing.interval.low > -kMargin    ? Verdict::NotInferior
+                      : pairing.interval.high < -kMargin ? Verdict::Inferior
+                                                         : Verdict::Open;
+}
+
+void correct(std::vector<Pairing>& pairings) {
+    std::vector<double> p;
+    for (const Pairing& pairing : pairings) p.push_back(pairing.p);
+    const std::vector<double> adjusted = trials::holm(p);
+    for (std::size_t i = 0; i < p.size(); ++i) pairings[i].p_holm = adjusted[i];
+}
+
+void addPairings(const Flights& flights, Summary& summary) {
+    for (const trials::Condition& condition : summary.conditions) {
+        std::set<trials::Contender> present;
+        for (const auto& [key, runs] : flights) {
+            if (key.first == condition) present.insert(key.second);
+        }
+        for (const Comparison& comparison : comparisonsOf(present)) {
+            const auto& first = flights.at({condition, comparison.first});
+            const auto& second = flights.at({condition, comparison.second});
+            Pairing all{"", condition, comparison.first, comparison.second};
+            Pairing without_wires{kAllButWires, condition, comparison.first, comparison.second};
+            std::map<std::string, Pairing> by_scenario;
+            for (const auto& [course, run] : first) {
+                const auto other = second.find(course);
+                if (other == second.end()) continue;
+                Pairing& one =
+                    by_scenario
+                        .try_emplace(run->scenario, Pairing{run->scenario, condition,
+                                                            comparison.first, comparison.second})
+                        .first->second;
+                count(*run, *other->second, one);
+                count(*run, *other->second, all);
+                if (run->scenario != kWires) count(*run, *other->second, without_wires);
+            }
+            if (all.pairs() > 0) summary.overall.push_back(all);
+            for (const auto& [scenario, one] : by_scenario) summary.pairings.push_back(one);
+            const bool is_of_windows = comparison.second.model == "W-Full";
+            const int others = without_wires.pairs();
+            if (is_of_windows && others > 0 && others < all.pairs()) {
+                summary.without_wires.push_back(without_wires);
+            }
+        }
+    }
+    for (std::vector<Pairing>* pairings :
+         {&summary.overall, &summary.pairings, &summary.without_wires}) {
+        for (Pairing& pairing : *pairings) judge(pairing);
+        correct(*pairings);
+    }
+}
+
+void addCells(const Flights& flights, Summary& summary) {
+    for (const trials::Condition& condition : summary.conditions) {
+        std::vector<Cell> all;
+        for (const std::string& scenario : summary.scenarios) {
+            for (const trials::Contender& contender : summary.contenders) {
+                const auto found = flights.find({condition, contender});
+                if (found == flights.end()) continue;
+                Runs runs, everywhere;
+                for (const auto& [course, run] : found->second) {
+                    everywhere.push_back(run);
+                    if (run->scenario == scenario) runs.push_back(run);
+                }
+                if (!runs.empty()) summary.cells.push_back(cellOf(scenario, runs));
+                if (scenario == summary.scenarios.front()) all.push_back(cellOf("", everywhere));
+            }
+        }
+        summary.cells.insert(summary.cells.end(), all.begin(), all.end());
+    }
+}
+
+/// Speeds at which all else is the same, from low to high.
+void addSpeedLimits(Summary& summary) {
+    std::map<std::tuple<std::string, trials::Contender,
+                        std::tuple<std::string, trials::PoseError, double, bool>>,
+             std::map<double, const Cell*>>
+        series;
+    for (const Cell& cell : summary.cells) {
+        const trials::Condition& c = cell.condition;
+        if (cell.scenario.empty()) continue;
+        series[{cell.scenario,
+                cell.contender,
+                {c.planner, c.pose_error, c.latency_scale, c.brakes_in_known_space}}][c.speed_m_s] =
+            &cell;
+    }
+    for (const auto& [key, cells] : series) {
+        if (cells.size() < 2) continue;
+        SpeedLimit limit{std::get<0>(key),
+                         cells.begin()->second->condition,
+                         std::get<1>(key),
+                         cells.rbegin()->first,
+                         NAN,
+                         NAN};
+        bool holds = true, surely = true;
+        for (const auto& [speed_m_s, cell] : cells) {
+            holds = holds && cell->successes >= 0.95 * cell->runs;
+            surely = surely && trials::wilsonInterval(cell->successes, cell->runs).low >= 0.95;
+            if (holds) limit.highest_m_s = speed_m_s;
+            if (surely) limit.sure_m_s = speed_m_s;
+        }
+        summary.speed_limits.push_back(limit);
+    }
+}
+
+template <class Value>
+std::vector<Value> listOf(const std::set<Value>& values) {
+    return {values.begin(), values.end()};
+}
+
+void addNames(const std::vector<trials::Run>& runs, Summary& summary) {
+    std::map<trials::Condition, int> conditions;
+    std::set<std::string> scenarios, settings, versions;
+    std::set<trials::Contender> contenders;
+    for (const trials::Run& run : runs) {
+        ++conditions[trials::conditionOf(run)];
+        scenarios.insert(run.scenario);
+        settings.insert(run.settings_hash);
+        versions.insert(run.version);
+        contenders.insert(trials::contenderOf(run));
+    }
+    for (const auto& [condition, count] : conditions) summary.conditions.push_back(condition);
+    std::stable_sort(summary.conditions.begin(), summary.conditions.end(),
+                     [&](const trials::Condition& a, const trials::Condition& b) {
+                         return conditions.at(a) > conditions.at(b);
+                     });
+    summary.scenarios = listOf(scenarios);
+    summary.settings = listOf(settings);
+    summary.versions = listOf(versions);
+    summary.contenders = listOf(contenders);
+    const auto rank = [](const trials::Contender& contender) {
+        const std::string& model = contender.model;
+        return std::make_tuple(contender.guidance, model == "oracle",
+                               model == kMappingFree ? 0
+                               : model == "W-Full"   ? 1
+                                                     : 2,
+                               model);
+    };
+    std::sort(
+        summary.contenders.begin(), summary.contenders.end(),
+        [&](const trials::Contender& a, const trials::Contender& b) { return rank(a) < rank(b); });
+}
+
+}  // namespace
+
+Cell cellOf(const std::string& scenario, const Runs& runs) {
+    Cell cell{scenario, trials::conditionOf(*runs[0]), trials::contenderOf(*runs[0])};
+    const Runs won = ofOutcome(runs, trials::Outcome::Success);
+    cell.runs = static_cast<int>(runs.size());
+    cell.successes = static_cast<int>(won.size());
+    cell.collisions = static_cast<int>(ofOutcome(runs, trials::Outcome::Collision).size());
+    cell.timeouts = cell.runs - cell.successes - cell.collisions;
+    cell.min_clearance_m = spreadOf(runs, &trials::TrialResult::min_clearance_m);
+    cell.path_ratio =
+        spreadOf(won, [](const trials::Run& run) {  // a flight ends that far from the goal
+            return run.result.path_m / (run.oracle_path_m - trials::TrialJudge::kArrived_m);
+        });
+    cell.time_s = spreadOf(won, &trials::TrialResult::time_s);
+    cell.first_reaction_m = spreadOf(won, &trials::TrialResult::first_reaction_m);
+    cell.rms_jerk_m_s3 = spreadOf(won, &trials::TrialResult::rms_jerk_m_s3);
+    cell.latency_p50_ms = spreadOf(runs, &trials::TrialResult::latency_p50_ms);
+    cell.latency_p95_ms = spreadOf(runs, &trials::TrialResult::latency_p95_ms);
+    double scans = 0, dropped = 0, stops = 0, path_m = 0;
+    for (const trials::Run* run : runs) {
+        scans += run->result.scans;
+        dropped += run->result.dropped_scans;
+        stops += run->result.emergency_stops;
+        path_m += run->result.path_m;
+        cell.latency_max_ms = std::fmax(cell.latency_max_ms, run->result.latency_max_ms);
+    }
+    cell.dropped_percent = 100 * dropped / scans;
+    cell.stops_per_km = 1000 * stops / path_m;
+    return cell;
+}
+
+Summary summarize(const std::vector<trials::Run>& runs) {
+    Summary summary;
+    summary.runs = static_cast<int>(runs.size());
+    if (runs.empty()) return summary;
+    addNames(runs, summary);
+    Flights flights;
+    for (const trials::Run& run : runs) {
+        flights[{trials::conditionOf(run), trials::contenderOf(run)}][{run.scenario, run.seed}] =
+            &run;
+    }
+    addCells(flights, summary);
+    addPairings(flights, summary);
+    addSpeedLimits(summary);
+    return summary;
+}
+
+const Cell* find(const Summary& summary, const std::string& scenario,
+                 const trials::Condition& condition, const trials::Contender& contender) {
+    for (const Cell& cell : summary.cells) {
+        if (cell.scenario == scenario && cell.condition == condition &&
+            cell.contender == contender) {
+            return &cell;
+        }
+    }
+    return nullptr;
+}
+
+std::vector<trials::Contender> contendersUnder(const Summary& summary,
+                                               const trials::Condition& condition) {
+    std::vector<trials::Contender> present;
+    for (const trials::Contender& contender : summary.contenders) {
+        if (find(summary, "", condition, contender) != nullptr) present.push_back(contender);
+    }
+    return present;
+}
+
+std::string nameOf(Verdict verdict) {
+    return verdict == Verdict::NotInferior ? "not inferior"
+           : verdict == Verdict::Inferior  ? "inferior"
+                                           : "open";
+}
+
+}  // namespace hagen::reports

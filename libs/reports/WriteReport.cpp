@@ -1,0 +1,108 @@
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
+#include <hagen/reports/Report.h>
+#include <hagen/reports/ReportWords.h>
+#include <hagen/reports/SummaryFiles.h>
+#include <hagen/reports/Verdict.h>
+#include <hagen/reports/WriteReport.h>
+#include <memory>
+#include <stdexcept>
+
+namespace hagen::reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A text file that is to appear with others.
+struct TextOutput {
+    TextOutput(const fs::path& path, bool overwrite, std::string content)
+        : place(path, base::kFile, overwrite), text(std::move(content)) {
+        base::writeText(text, place.temporary(), path);
+    }
+    base::OutputPath place;
+    std::string text;
+};
+
+/// All that the folder tells, but for the worst runs.
+Report readReport(const ReportRequest& request) {
+    const fs::path& folder = request.folder;
+    if (!fs::is_directory(folder)) {
+        throw std::runtime_error(folder.string() +
+                                 ": no such folder; give one of octomap-compare closedloop");
+    }
+    Report report;
+    report.flown = trials::readFlownRuns(folder);
+    if (report.flown.runs.empty()) {
+        throw std::runtime_error(folder.string() +
+                                 ": no run is finished yet; fly some with octomap-compare "
+                                 "closedloop");
+    }
+    report.summary = summarize(report.flown.runs);
+    if (fs::exists(folder / "profile.json")) {
+        report.profile = trials::readLatencyProfile(folder / "profile.json");
+    }
+    const fs::path memory = request.memory.empty() ? folder / "memory.csv" : request.memory;
+    if (!request.memory.empty() || fs::exists(memory))
+        report.memory = trials::readHeapCurves(memory);
+    return report;
+}
+
+/// What cannot be written is to be told before minutes of flying.
+void checkOutputs(const ReportRequest& request) {
+    const auto check = [&](const fs::path& path) {
+        base::OutputPath(path, base::kFile, request.overwrite);
+    };
+    for (const char* name : {"report.html", "summary.json", "summary.csv"}) {
+        check(request.folder / name);
+    }
+    if (!request.markdown.empty()) check(request.markdown);
+}
+
+void addWorst(const ReportRequest& request, Report& report) {
+    if (request.worst == 0) return;
+    if (!report.profile) {
+        report.worst_missing = {"They cannot be flown again: the folder has no profile.json."};
+        return;
+    }
+    for (const trials::Run& run : replays::worstRuns(report.flown.runs, request.worst)) {
+        const std::string course = run.scenario + ", seed " + std::to_string(run.seed);
+        request.doing("flying again: " + course + ", " + run.setup.model);
+        try {
+            report.worst.push_back(replays::viewFromAbove(run, *report.profile));
+        } catch (const std::exception& e) {
+            report.worst_missing.push_back(course + ", " + nameOf(trials::contenderOf(run)) + ", " +
+                                           nameOf(trials::conditionOf(run)) +
+                                           ", cannot be flown again: " + e.what());
+        }
+    }
+}
+
+void writeOutputs(const ReportRequest& request, const Report& report) {
+    std::vector<std::unique_ptr<TextOutput>> outputs;
+    const auto write = [&](const fs::path& path, std::string text) {
+        outputs.push_back(std::make_unique<TextOutput>(path, request.overwrite, std::move(text)));
+    };
+    write(request.folder / "report.html", reportPage(report));
+    write(request.folder / "summary.json", summaryJson(report.summary, report.flown));
+    write(request.folder / "summary.csv", summaryCsv(report.summary));
+    if (!request.markdown.empty()) write(request.markdown, reportMarkdown(report));
+    for (const auto& output : outputs) output->place.commit();
+}
+
+}  // namespace
+
+std::vector<std::string> writeReport(const ReportRequest& request) {
+    Report report = readReport(request);
+    checkOutputs(request);
+    addWorst(request, report);
+    writeOutputs(request, report);
+
+    std::vector<std::string> lines;
+    const std::string unfinished = unfinishedWords(report.flown);
+    if (!unfinished.empty()) lines.push_back(unfinished);
+    for (const std::string& words : verdictOf(report.summary)) lines.push_back(words);
+    lines.push_back((request.folder / "report.html").string());
+    return lines;
+}
+
+}  // namespace hagen::reports

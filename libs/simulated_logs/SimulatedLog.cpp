@@ -1,0 +1,176 @@
+#include <hagen/simulated_logs/SimulatedLog.h>
+
+#include <hagen/logs/RawlogWriter.h>
+#include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/simulation/LogClock.h>
+#include <hagen/simulation/Scenarios.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include <hagen/simulated_logs/SimulatedObservation.h>
+#include <hagen/simulated_logs/TruthFolder.h>
+
+namespace hagen::simulated_logs {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kStart_s = simulation::kSimulatedLogStart_s;
+constexpr double kPoseStep_s = 0.05;  // well below the gap over which poses are interpolated
+
+/// A file of poses that appears when it is whole.
+class PoseOutput {
+ public:
+    PoseOutput(const fs::path& file, bool overwrite)
+        : path_(file, base::kFile, overwrite) {}
+
+    void add(double time_s, const mrpt::poses::CPose3D& pose) { poses_.push_back({time_s, pose}); }
+    void commit() {
+        logs::writeTumPoses(path_.temporary(), poses_);
+        path_.commit();
+    }
+    fs::path keepPartial() {
+        logs::writeTumPoses(path_.temporary(), poses_);
+        return path_.keepPartial();
+    }
+
+ private:
+    base::OutputPath path_;
+    std::vector<logs::TimedPose> poses_;
+};
+
+/// The outputs that are wanted.
+class Outputs {
+ public:
+    explicit Outputs(const SimulatedLog& log) {
+        if (!log.rawlog.empty()) rawlog.emplace(log.rawlog, log.overwrite);
+        if (!log.folder.empty()) folder.emplace(log.folder, log.overwrite);
+        if (!log.poses.empty()) poses.emplace(log.poses, log.overwrite);
+    }
+    void commit() {
+        if (folder) folder->commit();
+        if (poses) poses->commit();
+        if (rawlog) rawlog->commit();
+    }
+    std::string keepPartial() {
+        std::string names;
+        if (folder) names += " " + folder->keepPartial().string();
+        if (poses) names += " " + poses->keepPartial().string();
+        if (rawlog) names += " " + rawlog->keepPartial().string();
+        return names;
+    }
+
+    std::optional<logs::RawlogWriter> rawlog;
+    std::optional<TruthFolder> folder;
+    std::optional<PoseOutput> poses;
+};
+
+mrpt::Clock::time_point timePoint(double time_s) { return mrpt::Clock::fromDouble(time_s); }
+
+void writePose(double time_s, const simulation::SensorPose& pose, Outputs& outputs) {
+    if (outputs.poses) outputs.poses->add(kStart_s + time_s, mrptPose(pose));
+    if (!outputs.rawlog) return;
+    mrpt::obs::CObservationRobotPose entry;
+    entry.sensorLabel = "pose";
+    entry.timestamp = timePoint(kStart_s + time_s);
+    entry.pose.mean = mrptPose(pose);
+    outputs.rawlog->write(entry);
+}
+
+bool hasPackets(const SensorModel& sensor) {
+    return sensor.name == "VLP-16" || sensor.name == "HDL-32E";
+}
+
+/// The scan as a folder holds it: as it was measured, or as its packets tell it.
+struct Measured {
+    Scan scan;
+    SensorModel sensor;
+};
+
+Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel& sensor,
+                        double time_s, Outputs& outputs) {
+    if (!hasPackets(sensor)) return {made.scan, sensor};
+    const auto observation = encodeSimulated(made, sensor, std::fmod(time_s, 3600.0));
+    observation->sensorLabel = "lidar";
+    observation->timestamp = timePoint(kStart_s + time_s);
+    Measured measured;
+    observations::decodePackets(*observation, measured.scan);
+    measured.sensor = observations::sensorOf(*observation);
+    if (measured.scan.size() != made.size()) {
+        throw std::logic_error("packets hold other returns than were simulated");
+    }
+    if (outputs.rawlog) outputs.rawlog->write(*observation);
+    return measured;
+}
+
+void count(const std::vector<simulation::Kind>& kinds, SimulationReport& report) {
+    ++report.scans;
+    report.returns += kinds.size();
+    for (const simulation::Kind kind : kinds) {
+        const Label label = simulation::labelOf(kind);
+        ++(label == Label::Roi   ? report.roi
+           : label == Label::Rou ? report.rou
+                                 : report.unclassified);
+    }
+}
+
+}  // namespace
+
+SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going) {
+    const SensorModel sensor = sensorModel(log.sensor);
+    if (!log.rawlog.empty() && !hasPackets(sensor)) {
+        throw std::invalid_argument(
+            "packets of '" + sensor.name +
+            "' are not known, so there is no rawlog of it; ask for a scan folder alone");
+    }
+    base::checkApart({log.rawlog, log.folder, log.poses}, {});
+    Outputs outputs(log);
+    const simulation::Scene scene = simulation::makeScene(log.scenario, log.seed);
+    simulation::FlightSettings settings;
+    settings.altitude_m = log.altitude_m;
+    settings.speed_m_s = log.speed_m_s;
+    settings.tilt_sd_rad = radians(log.tilt_sd_deg);
+    const simulation::Flight flight(scene.terrain(), scene.path(), settings, log.seed);
+    const double measuring_s = simulation::firingPattern(sensor).turnPeriod_s();
+
+    simulation::LidarFaults faults;
+    if (log.clear_air) {
+        faults.dust_per_m = 0;
+        faults.airframe = false;
+    }
+    simulation::Random random(log.seed, 3);
+    SimulationReport report;
+    for (int scan = 0; scan < log.scans; ++scan) {
+        if (!keep_going()) {
+            if (scan == 0) throw std::runtime_error("interrupted before the first scan");
+            throw std::runtime_error("interrupted; the " + std::to_string(scan) +
+                                     " scans before it are in" + outputs.keepPartial());
+        }
+        const double time_s = log.every_s * scan, next_s = log.every_s * (scan + 1);
+        const simulation::SimulatedScan made =
+            simulation::simulateScan(scene, sensor, flight, time_s, random, faults);
+        writePose(time_s, made.pose, outputs);
+        const Measured measured = writeScanEntry(made, sensor, time_s, outputs);
+        // Poses on until past the last firing, or until the next scan brings one.
+        const bool is_last = scan + 1 == log.scans;
+        for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {
+            const double pose_s = time_s + step * kPoseStep_s;
+            if (!is_last && pose_s > next_s - 0.5 * kPoseStep_s) break;
+            writePose(pose_s, flight.at(pose_s), outputs);
+        }
+        if (outputs.folder) {
+            outputs.folder->write(measured.scan, {made.kind, made.object}, measured.sensor,
+                                  kStart_s + time_s, mrptPose(made.pose), made.altitude_m);
+        }
+        count(made.kind, report);
+    }
+    outputs.commit();
+    return report;
+}
+
+}  // namespace hagen::simulated_logs

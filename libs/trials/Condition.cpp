@@ -1,0 +1,41 @@
+#include <hagen/trials/Condition.h>
+
+namespace hagen::trials {
+namespace {
+
+/// Without zeros at the end.
+std::string numberText(double value) {
+    std::string text = std::to_string(value);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+}  // namespace
+
+Condition conditionOf(const Run& run) {
+    const TrialSetup& setup = run.setup;
+    return {setup.speed_m_s, setup.planner, setup.pose_error, setup.latency_scale,
+            setup.brakes_in_known_space};
+}
+
+Contender contenderOf(const Run& run) { return {run.setup.model, run.setup.guidance}; }
+
+std::string nameOf(const Contender& contender) {
+    return contender.model + ", " + (contender.guidance == "astar" ? "A*" : contender.guidance);
+}
+
+std::string nameOf(const Condition& condition) {
+    return numberText(condition.speed_m_s) + " m/s" + deviationOf(condition);
+}
+
+std::string deviationOf(const Condition& condition) {
+    std::string name;
+    if (condition.planner != "primitives") name += ", planner " + condition.planner;
+    if (condition.pose_error != PoseError::None) name += ", pose " + nameOf(condition.pose_error);
+    if (condition.latency_scale != 1) name += ", latency x" + numberText(condition.latency_scale);
+    if (condition.brakes_in_known_space) name += ", brakes in known space";
+    return name;
+}
+
+}  // namespace hagen::trials

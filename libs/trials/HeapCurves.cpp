@@ -1,0 +1,50 @@
+#include <hagen/base/WriteFile.h>
+#include <hagen/trials/Calibration.h>
+#include <hagen/trials/HeapCurves.h>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace hagen::trials {
+
+namespace fs = std::filesystem;
+
+void writeHeapCurves(const std::vector<std::string>& models, double path_m,
+                     const std::function<void(const std::string& model)>& begin,
+                     const fs::path& place, const fs::path& file) {
+    std::ofstream out = base::openToWrite(place, file);
+    out << "model,path_m,bytes\n";
+    for (const std::string& model : models) {
+        begin(model);
+        for (const HeapSample& sample : heapAlongFlight(model, path_m)) {
+            out << model << "," << std::round(10 * sample.path_m) / 10 << ","
+                << static_cast<long long>(sample.bytes) << "\n";
+        }
+    }
+    base::closeWritten(out, file);
+}
+
+std::vector<HeapCurve> readHeapCurves(const fs::path& file) {
+    std::vector<HeapCurve> curves;
+    std::ifstream in(file);
+    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+    std::string text;
+    for (int line = 1; std::getline(in, text); ++line) {
+        if (line == 1) continue;
+        const std::size_t first = text.find(','), second = text.find(',', first + 1);
+        try {
+            if (second == std::string::npos) throw std::invalid_argument(text);
+            const std::string model = text.substr(0, first);
+            const double path_m = std::stod(text.substr(first + 1));
+            const double bytes = std::stod(text.substr(second + 1));
+            if (curves.empty() || curves.back().model != model) curves.push_back({model, {}});
+            curves.back().bytes_by_path_m.emplace_back(path_m, bytes);
+        } catch (const std::logic_error&) {
+            throw std::runtime_error(file.string() + ":" + std::to_string(line) +
+                                     ": not model,path_m,bytes: " + text);
+        }
+    }
+    return curves;
+}
+
+}  // namespace hagen::trials

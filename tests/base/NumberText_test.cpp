@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+#include <hagen/base/NumberText.h>
+#include <clocale>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+namespace hagen::base {
+namespace {
+
+TEST(NumberText, TheShortestTextReadsBackAsTheSameNumber) {
+    EXPECT_EQ(shortestText(0.1), "0.1");
+    EXPECT_EQ(shortestText(0.1f), "0.1");
+    EXPECT_EQ(shortestText(4.0), "4");
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 1000; ++i) {
+        const double value = std::ldexp(static_cast<double>(random()), static_cast<int>(i) - 500);
+        EXPECT_EQ(numberFrom<double>(shortestText(value)), value);
+    }
+}
+
+TEST(NumberText, FixedTextHasTheDecimalsAndNoMinusBeforeZerosAlone) {
+    EXPECT_EQ(fixedText(1.005, 1), "1.0");
+    EXPECT_EQ(fixedText(-0.04, 1), "0.0");
+    EXPECT_EQ(fixedText(-0.06, 1), "-0.1");
+    EXPECT_EQ(fixedText(-0.0, 0), "0");
+    EXPECT_EQ(fixedText(std::numeric_limits<double>::max(), 2).size(), 309u + 3u);
+}
+
+TEST(NumberText, ANumberIsTheWholeTextOrNothing) {
+    EXPECT_EQ(numberFrom<int>("-12"), -12);
+    EXPECT_EQ(numberFrom<double>("1e3"), 1000.0);
+    for (const char* text : {"", " 1", "1 ", "1x", "x", "1,5", "+1", "0x10"}) {
+        EXPECT_EQ(numberFrom<double>(text), std::nullopt) << "'" << text << "'";
+    }
+    EXPECT_EQ(numberFrom<std::uint16_t>("65536"), std::nullopt);
+    EXPECT_EQ(numberFrom<std::uint16_t>("-1"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace hagen::base

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "support/Program.h"
+
+namespace hagen::base {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(OutputPath, AFileAppearsWhenItIsWhole) {
+    const test::TemporaryFolder folder;
+    OutputPath output(folder / "a.rawlog", kFile, false);
+    std::ofstream(output.temporary()) << "new";
+    EXPECT_FALSE(fs::exists(folder / "a.rawlog"));
+    output.commit();
+    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "new");
+}
+
+TEST(CloseWritten, TellsWhyAFileCannotBeWritten) {
+    const test::TemporaryFolder folder;
+    const auto refusal = [&](const fs::path& place) {
+        return test::messageOf([&] { writeText("text", place, "named.csv"); });
+    };
+    EXPECT_EQ(refusal(folder.path()), "named.csv: cannot be written: Is a directory");
+    EXPECT_EQ(refusal(folder / "no/a.csv"),
+              "named.csv: cannot be written: No such file or directory");
+    if (fs::exists("/dev/full")) {
+        EXPECT_EQ(refusal("/dev/full"), "named.csv: cannot be written: No space left on device");
+        std::ofstream out("/dev/full");  // full before it is closed
+        out << std::string(100000, 'x') << std::flush;
+        errno = EACCES;  // of something else since
+        EXPECT_EQ(test::messageOf([&] { closeWritten(out, "named.csv"); }),
+                  "named.csv: cannot be written: No space left on device");
+    }
+    EXPECT_EQ(refusal(folder / "a.csv"), "");
+    EXPECT_EQ(test::readFile(folder / "a.csv"), "text");
+}
+
+TEST(OutputPath, WhatExistsIsReplacedOnlyWhereWanted) {
+    const test::TemporaryFolder folder;
+    folder.write("a.rawlog", "old");
+    EXPECT_THROW(OutputPath(folder / "a.rawlog", kFile, false), std::runtime_error);
+    OutputPath output(folder / "a.rawlog", kFile, true);
+    std::ofstream(output.temporary()) << "new";
+    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "old");
+    output.commit();
+    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "new");
+}
+
+TEST(OutputPath, GivenUpLeavesWhatWasThere) {
+    const test::TemporaryFolder folder;
+    folder.write("a.rawlog", "old");
+    {
+        OutputPath output(folder / "a.rawlog", kFile, true);
+        std::ofstream(output.temporary()) << "half";
+    }
+    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "old");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(OutputPath, APartSaysSoInItsName) {
+    const test::TemporaryFolder folder;
+    OutputPath output(folder / "a.rawlog", kFile, false);
+    std::ofstream(output.temporary()) << "half";
+    EXPECT_EQ(output.keepPartial(), folder / "a.partial.rawlog");
+    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "half");
+}
+
+TEST(OutputPath, AFolderThatIsNotThereIsNamed) {
+    const test::TemporaryFolder folder;
+    try {
+        OutputPath output(folder / "none/a.rawlog", kFile, false);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find((folder / "none").string()), std::string::npos);
+    }
+}
+
+TEST(OutputPath, APartNeverReplacesAnother) {
+    const test::TemporaryFolder folder;
+    folder.write("a.partial.rawlog", "of another run");
+    OutputPath output(folder / "a.rawlog", kFile, true);
+    std::ofstream(output.temporary()) << "half";
+    EXPECT_EQ(output.keepPartial(), folder / "a.partial-2.rawlog");
+    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "of another run");
+}
+
+TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {
+    const test::TemporaryFolder folder;
+    OutputPath output(folder / "a.rawlog", kFile, false);
+    std::ofstream(output.temporary()) << "new";
+    folder.write("a.rawlog", "somebody's");
+    EXPECT_THROW(output.commit(), std::runtime_error);
+    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "somebody's");
+    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "new");
+}
+
+}  // namespace
+}  // namespace hagen::base

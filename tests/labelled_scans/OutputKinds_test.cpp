@@ -1,0 +1,112 @@
+// What outputs of each kind may hold, and so what may be replaced.
+#include <gtest/gtest.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/labelled_scans/Charts.h>
+#include <hagen/labelled_scans/Overlay.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/pictures/StagePictures.h>
+#include <fstream>
+#include <stdexcept>
+
+#include "support/Program.h"
+
+namespace hagen::labelled_scans {
+namespace {
+
+namespace fs = std::filesystem;
+using base::kFile;
+using base::OutputPath;
+using logs::kScanFolders;
+using pictures::kStagePictures;
+
+TEST(OutputKinds, AFolderIsReplacedWhole) {
+    const test::TemporaryFolder folder;
+    folder.write("out/velodyne/000000.bin", "old");
+    base::OutputPath output(folder / "out/", logs::kScanFolders, true);
+    fs::create_directory(output.temporary());
+    std::ofstream(output.temporary() / "new.txt") << "new";
+    output.commit();
+    EXPECT_TRUE(fs::exists(folder / "out/new.txt"));
+    EXPECT_FALSE(fs::exists(folder / "out/velodyne"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(OutputKinds, OnlyItsOwnKindIsReplaced) {
+    const test::TemporaryFolder folder;
+    folder.write("file", "");
+    folder.write("scans/velodyne/000000.bin", "");
+    folder.write("work/velodyne/000000.bin", "");
+    folder.write("work/notes.txt", "");
+    EXPECT_THROW(base::OutputPath(folder / "scans", base::kFile, true), std::runtime_error);
+    EXPECT_THROW(base::OutputPath(folder / "file", logs::kScanFolders, true), std::runtime_error);
+    EXPECT_THROW(base::OutputPath("/dev/null", base::kFile, true), std::runtime_error);
+    EXPECT_NO_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true));
+    try {
+        base::OutputPath output(folder / "work", logs::kScanFolders, true);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("'notes.txt'"), std::string::npos) << e.what();
+    }
+    EXPECT_TRUE(fs::exists(folder / "work/notes.txt"));
+}
+
+TEST(OutputKinds, FoldersOfAPartASensorAreOfTheirKindToo) {
+    const test::TemporaryFolder folder;
+    folder.write("scans/front/velodyne/000000.bin", "");
+    folder.write("scans/rear/labels/000000.label", "");
+    folder.write("pictures/front/000000/1_depth.png", "");
+    folder.write("pictures/rear/000000/1_depth.png", "");
+    EXPECT_NO_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true));
+    EXPECT_NO_THROW(base::OutputPath(folder / "pictures", pictures::kStagePictures, true));
+    EXPECT_THROW(base::OutputPath(folder / "pictures", logs::kScanFolders, true),
+                 std::runtime_error);
+    EXPECT_THROW(base::OutputPath(folder / "scans", pictures::kStagePictures, true),
+                 std::runtime_error);
+    folder.write("scans/front/notes.txt", "");
+    folder.write("pictures/rear/000000/more/1_depth.png", "");
+    EXPECT_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true), std::runtime_error);
+    EXPECT_THROW(base::OutputPath(folder / "pictures", pictures::kStagePictures, true),
+                 std::runtime_error);
+}
+
+TEST(OutputKinds, ChartsAndOverlaysAreKnownByTheirNames) {
+    const test::TemporaryFolder folder;
+    folder.write("charts/by_range.svg", "");
+    folder.write("charts/sweep_beta_deg.svg", "");
+    folder.write("overlays/hagen/00_000000_overlay.png", "");
+    EXPECT_NO_THROW(base::OutputPath(folder / "charts", kCharts, true));
+    EXPECT_NO_THROW(base::OutputPath(folder / "overlays", kOverlays, true));
+    EXPECT_THROW(base::OutputPath(folder / "charts", kOverlays, true), std::runtime_error);
+    EXPECT_THROW(base::OutputPath(folder / "overlays", kCharts, true), std::runtime_error);
+    folder.write("charts/logo.svg", "mine");
+    folder.write("overlays/hagen/wedding.png", "mine");
+    EXPECT_THROW(base::OutputPath(folder / "charts", kCharts, true), std::runtime_error);
+    EXPECT_THROW(base::OutputPath(folder / "overlays", kOverlays, true), std::runtime_error);
+}
+
+TEST(OutputKinds, ForeignFilesWithinPartsAreSomebodysWork) {
+    const test::TemporaryFolder folder;
+    folder.write("scans/velodyne/notes.txt", "mine");
+    folder.write("labels/labels/hand_made.json", "mine");
+    folder.write("pictures/wedding.png", "mine");
+    EXPECT_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true), std::runtime_error);
+    EXPECT_THROW(base::OutputPath(folder / "labels", logs::kScanFolders, true), std::runtime_error);
+    EXPECT_THROW(base::OutputPath(folder / "pictures", pictures::kStagePictures, true),
+                 std::runtime_error);
+}
+
+TEST(OutputKinds, NeighboursWithLikeNamesAreLeftAlone) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"out.tmp/x", "out.old/x", "out.partial/x"}) folder.write(name, "mine");
+    folder.write("out/velodyne/000000.bin", "old");
+    base::OutputPath output(folder / "out", logs::kScanFolders, true);
+    fs::create_directory(output.temporary());
+    output.commit();
+    for (const char* name : {"out.tmp/x", "out.old/x", "out.partial/x"}) {
+        EXPECT_EQ(test::readFile(folder / name), "mine");
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 4);
+}
+
+}  // namespace
+}  // namespace hagen::labelled_scans
