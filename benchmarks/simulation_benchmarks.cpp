@@ -75,9 +75,9 @@ void measureDistances(benchmark::State& state, const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto add = [](const std::string& name, const auto& simulation::makeScene) {
+    const auto add = [](const std::string& name, const auto& makeScene) {
         const auto run = [=](benchmark::State& state) {
-            simulate(state, simulation::makeScene(), "VLP-16");
+            simulate(state, makeScene(), "VLP-16");
         };
         benchmark::RegisterBenchmark((name + ", VLP-16").c_str(), run)
             ->Unit(benchmark::kMillisecond);

@@ -1,5 +1,6 @@
 // Measures what docs/results.md says, and writes it. Run by scripts/reproduce-paper.
 #include <hagen/base/OutputPath.h>
+#include <hagen/labelled_scans/Charts.h>
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>

@@ -1,6 +1,7 @@
 // Times whole flights, and writes docs/performance.md of that and of what stage-benchmarks and
 // conversion-benchmark measured. Run by scripts/measure-performance.
 #include <hagen/base/OutputPath.h>
+#include <hagen/labelled_scans/Charts.h>
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>

@@ -1,4 +1,4 @@
-#include "Figures.h"
+#include <hagen/reports/Figures.h>
 
 namespace hagen::reports {
 

@@ -1,5 +1,5 @@
 #include "Phrases.h"
-#include "Figures.h"
+#include <hagen/reports/Figures.h>
 
 namespace hagen::reports {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "Figures.h"
+#include <hagen/reports/Figures.h>
 #include "Phrases.h"
 
 namespace hagen::reports {

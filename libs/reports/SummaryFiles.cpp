@@ -1,7 +1,7 @@
 #include <hagen/reports/SummaryFiles.h>
 
+#include <hagen/reports/Figures.h>
 #include <cmath>
-#include "Figures.h"
 #include "SummaryJson.h"
 
 namespace hagen::reports {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "Figures.h"
+#include <hagen/reports/Figures.h>
 #include "Phrases.h"
 
 namespace hagen::reports {

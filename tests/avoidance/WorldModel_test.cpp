@@ -26,12 +26,12 @@ using namespace hagen;
 const Eigen::AlignedBox3f kBounds(Eigen::Vector3f(-6, -6, -2), Eigen::Vector3f(10, 6, 4));
 const Eigen::Vector3f kOrigin(0.03f, 0.05f, 1.07f);
 
-WorldModelSetting setting() {
+avoidance::WorldModelSetting setting() {
     return {kBounds, [](const Eigen::Vector3f& p) { return std::abs(5 - p.x()); }};
 }
 
 std::vector<std::string> modelsThatLearn() {
-    std::vector<std::string> names = worldModelNames();
+    std::vector<std::string> names = avoidance::worldModelNames();
     names.erase(std::find(names.begin(), names.end(), "oracle"));
     return names;
 }
@@ -77,7 +77,7 @@ std::vector<Eigen::Vector3f> sparsePoints(simulation::Random& random, int count)
 }
 
 float nearestOf(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& at) {
-    float least = WorldModel::kReach_m;
+    float least = avoidance::WorldModel::kReach_m;
     for (const auto& point : points) least = std::min(least, (point - at).norm());
     return least;
 }
@@ -86,7 +86,7 @@ TEST(WorldModel, ClearanceIsThatOfThePoints) {
     for (const std::string& name : modelsThatLearn()) {
         simulation::Random random(7);
         const auto points = sparsePoints(random, 60);
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         model->update(scanOf(points));
         // The cube that a point lies in is nearer than the point by its diagonal at most; which
         // cube is nearest is judged by middles.
@@ -109,8 +109,9 @@ TEST(WorldModel, ClearanceIsThatOfThePoints) {
 TEST(WorldModel, AMapsClearanceIsThatOfADistanceTransform) {
     constexpr float kEdge_m = 0.2f;
     mapping::ScanMap map({mapping::MapContent::Full, kEdge_m, 20});
-    DynamicEDTOctomap distances(WorldModel::kReach_m, &map.tree(), {-7, -7, -3}, {11, 7, 5}, false);
-    const auto model = makeWorldModel("O-Full-0.2", setting());
+    DynamicEDTOctomap distances(avoidance::WorldModel::kReach_m, &map.tree(), {-7, -7, -3},
+                                {11, 7, 5}, false);
+    const auto model = avoidance::makeWorldModel("O-Full-0.2", setting());
     simulation::Random random(11);
     for (int scan = 0; scan < 3; ++scan) {
         const mapping::MappedScan seen = scanOf(sparsePoints(random, 300));
@@ -122,15 +123,15 @@ TEST(WorldModel, AMapsClearanceIsThatOfADistanceTransform) {
             const float middles_m = distances.getDistance(octomap::point3d(at.x(), at.y(), at.z()));
             const float clearance_m = model->clearance_m(at);
             EXPECT_LE(clearance_m, middles_m + 0.87f * kEdge_m);
-            EXPECT_GE(clearance_m,
-                      std::min(WorldModel::kReach_m, middles_m - 2 * 0.87f * kEdge_m - kEdge_m));
+            EXPECT_GE(clearance_m, std::min(avoidance::WorldModel::kReach_m,
+                                            middles_m - 2 * 0.87f * kEdge_m - kEdge_m));
         }
     }
 }
 
 TEST(WorldModel, AWallIsAsFarAsItIs) {
-    for (const std::string& name : worldModelNames()) {
-        const auto model = makeWorldModel(name, setting());
+    for (const std::string& name : avoidance::worldModelNames()) {
+        const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 3; ++i) model->update(scanOf(wall()));
         const float edge = edgeOf(name);
         for (float x = 2.3f; x < 4.5f; x += 0.11f) {
@@ -138,13 +139,13 @@ TEST(WorldModel, AWallIsAsFarAsItIs) {
             EXPECT_GE(5.1f - x + 0.05f, clearance) << name << " " << x;
             EXPECT_LE(5.1f - x - edge - 0.11f, clearance) << name << " " << x;
         }
-        EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({-4, 0, 1})) << name;
+        EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({-4, 0, 1})) << name;
     }
 }
 
 TEST(WorldModel, WithinAnObstacleThereIsNoClearance) {
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 3; ++i) model->update(scanOf(wall()));
         EXPECT_LE(model->clearance_m({5.1f, 0.1f, 1.1f}), edgeOf(name) > 0 ? 0.0f : 0.05f) << name;
     }
@@ -152,9 +153,9 @@ TEST(WorldModel, WithinAnObstacleThereIsNoClearance) {
 
 TEST(WorldModel, WithoutAScanAllIsFreeAndUnknown) {
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 2; ++i) {
-            EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({1, 1, 1})) << name;
+            EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({1, 1, 1})) << name;
             EXPECT_FALSE(model->isKnown({1, 1, 1})) << name;
             EXPECT_TRUE(model->obstacles().middle_m.empty()) << name;
             model->update({});  // with nothing in it
@@ -163,15 +164,15 @@ TEST(WorldModel, WithoutAScanAllIsFreeAndUnknown) {
 }
 
 TEST(WorldModel, WhatIsOutsideTheBoundsMayBeAsked) {
-    for (const std::string& name : worldModelNames()) {
-        const auto model = makeWorldModel(name, setting());
+    for (const std::string& name : avoidance::worldModelNames()) {
+        const auto model = avoidance::makeWorldModel(name, setting());
         model->update(scanOf({{1, 1, 1}, {500, 1, 1}, {1, -500, 1}, {1, 1, 500}}));
         for (const float far : {11.0f, 100.0f, 9000.0f, -11.0f, -9000.0f}) {
             for (int axis = 0; axis < 3; ++axis) {
                 Eigen::Vector3f at(0, 0, 0);
                 at[axis] = far;
                 EXPECT_GE(model->clearance_m(at), 0) << name;
-                EXPECT_LE(model->clearance_m(at), WorldModel::kReach_m) << name;
+                EXPECT_LE(model->clearance_m(at), avoidance::WorldModel::kReach_m) << name;
                 model->isKnown(at);
             }
         }
@@ -180,7 +181,7 @@ TEST(WorldModel, WhatIsOutsideTheBoundsMayBeAsked) {
 
 TEST(WorldModel, AnObstacleBesideTheBoundsIsSeen) {
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         model->update(scanOf({{0.1f, 6.5f, 1.1f}}));
         EXPECT_NEAR(0.7f, model->clearance_m({0.1f, 5.8f, 1.1f}), 0.4f) << name;
     }
@@ -188,7 +189,7 @@ TEST(WorldModel, AnObstacleBesideTheBoundsIsSeen) {
 
 TEST(WorldModel, WhatIsSeenIsKnown) {
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         model->update(scanOf(wall()));
         EXPECT_TRUE(model->isKnown({3.1f, 0.1f, 1.1f})) << name;
         EXPECT_FALSE(model->isKnown({5.9f, 0.1f, 1.1f})) << name << ": behind it";
@@ -198,9 +199,10 @@ TEST(WorldModel, WhatIsSeenIsKnown) {
 
 TEST(WorldModel, OnlyRoiCountsWhereOnlyRoiShall) {
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 3; ++i) model->update(scanOf(wall(), Label::Rou));
-        EXPECT_EQ(needsLabels(name), model->clearance_m({4.1f, 0.1f, 1.1f}) > 2.5f) << name;
+        EXPECT_EQ(avoidance::needsLabels(name), model->clearance_m({4.1f, 0.1f, 1.1f}) > 2.5f)
+            << name;
         const bool knows = name.find("O-RoI-") == std::string::npos;
         EXPECT_EQ(knows, model->isKnown({3.1f, 0.1f, 1.1f})) << name;
     }
@@ -208,12 +210,12 @@ TEST(WorldModel, OnlyRoiCountsWhereOnlyRoiShall) {
 
 TEST(WorldModel, AWindowForgetsAfterTenScans) {
     for (const std::string name : {"W-RoI", "W-Full"}) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         model->update(scanOf(wall()));
         for (int i = 1; i < 10; ++i) model->update(scanOf({{-4, 0, 1}}));
         EXPECT_NEAR(1.1f, model->clearance_m({4, 0.1f, 1.1f}), 0.05f);
         model->update(scanOf({{-4, 0, 1}}));
-        EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({4, 0.1f, 1.1f}));
+        EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({4, 0.1f, 1.1f}));
         EXPECT_EQ(10u, model->obstacles().middle_m.size());
     }
 }
@@ -224,17 +226,17 @@ TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
     std::vector<Eigen::Vector3f> far_off;
     for (float y = -12; y <= 12; y += 0.2f) far_off.emplace_back(25.0f, y, 1.3f);
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = makeWorldModel(name, {wide, nullptr});
+        const auto model = avoidance::makeWorldModel(name, {wide, nullptr});
         model->update(scanOf(far_off));
         EXPECT_TRUE(model->obstacles().middle_m.empty()) << name;
-        EXPECT_EQ(model->clearance_m({20, 0.1f, 1.3f}), WorldModel::kReach_m) << name;
+        EXPECT_EQ(model->clearance_m({20, 0.1f, 1.3f}), avoidance::WorldModel::kReach_m) << name;
     }
 }
 
 TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
     for (const std::string& name : modelsThatLearn()) {
         simulation::Random random(8);
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         for (int scan = 0; scan < 3; ++scan) model->update(scanOf(sparsePoints(random, 40)));
         for (int i = 0; i < 200; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
@@ -269,7 +271,7 @@ TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
         }
         std::vector<float> expected, kept;
         for (const auto& [cube, range_m] : nearest_m) expected.push_back(range_m);
-        const auto model = makeWorldModel("W-Full", setting());
+        const auto model = avoidance::makeWorldModel("W-Full", setting());
         model->update(scanOf(points));
         for (const Eigen::Vector3f& point : model->obstacles().middle_m) {
             EXPECT_TRUE(std::find(points.begin(), points.end(), point) != points.end());
@@ -290,7 +292,7 @@ TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
 /// Three scans share a tree; the oldest is forgotten by itself, whichever it shares with.
 TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
     simulation::Random random(9);
-    const auto model = makeWorldModel("W-Full", setting());
+    const auto model = avoidance::makeWorldModel("W-Full", setting());
     std::vector<std::vector<Eigen::Vector3f>> past;
     for (int number = 0; number < 25; ++number) {
         past.push_back(sparsePoints(random, 5));
@@ -308,15 +310,15 @@ TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
 }
 
 TEST(WorldModel, AWindowReachesFifteenMetres) {
-    const auto model = makeWorldModel("W-Full", setting());
+    const auto model = avoidance::makeWorldModel("W-Full", setting());
     model->update(scanOf({{14.9f, 0, 1}, {0, 15.2f, 1}}));
     EXPECT_NEAR(1, model->clearance_m({13.9f, 0, 1}), 1e-4);
-    EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({0, 14.2f, 1}));
+    EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({0, 14.2f, 1}));
 }
 
 TEST(WorldModel, RaysClearWhatMovedAway) {
     for (const std::string name : {"O-Full-0.2", "O-RoI+rays-0.2", "O-RoI+rays-0.4", "G-Full"}) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 2; ++i) model->update(scanOf(board()));
         ASSERT_LT(model->clearance_m({2.1f, 0.1f, 1.1f}), 1.1f) << name;
         for (int i = 0; i < 12; ++i) model->update(scanOf(wall(7.1f), Label::Rou));
@@ -326,7 +328,7 @@ TEST(WorldModel, RaysClearWhatMovedAway) {
 
 TEST(WorldModel, ObstaclesAreWhereClearanceEnds) {
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         model->update(scanOf(wall()));
         const auto obstacles = model->obstacles();
         EXPECT_EQ(edgeOf(name), obstacles.edge_m) << name;
@@ -343,10 +345,10 @@ std::size_t heap() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 TEST(WorldModel, BytesAreThoseOfTheHeap) {
     for (const std::string& name : modelsThatLearn()) {
         simulation::Random random(5);
-        const auto first = makeWorldModel(name, setting());
+        const auto first = avoidance::makeWorldModel(name, setting());
         first->update(scanOf(sparsePoints(random, 3000)));  // what is kept for all models is there
         const std::size_t before = heap();
-        const auto model = makeWorldModel(name, setting());
+        const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));
         const auto measured = static_cast<double>(heap() - before);
         const auto told = static_cast<double>(model->bytes());
@@ -357,19 +359,19 @@ TEST(WorldModel, BytesAreThoseOfTheHeap) {
 }
 
 TEST(WorldModel, TheOracleTellsTheTruth) {
-    const auto model = makeWorldModel("oracle", setting());
+    const auto model = avoidance::makeWorldModel("oracle", setting());
     EXPECT_FLOAT_EQ(1.5f, model->clearance_m({3.5f, 0, 0}));
-    EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({-20, 0, 0}));
+    EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({-20, 0, 0}));
     EXPECT_TRUE(model->isKnown({-20, 0, 0}));
     EXPECT_EQ(0u, model->bytes());
-    EXPECT_THROW(makeWorldModel("oracle", {kBounds, nullptr}), std::invalid_argument);
+    EXPECT_THROW(avoidance::makeWorldModel("oracle", {kBounds, nullptr}), std::invalid_argument);
 }
 
 TEST(WorldModel, NamesTheKnownOnesForAnother) {
     for (const std::string bad : {"", "w-roi", "O-Full", "W-RoI "}) {
-        EXPECT_THROW(needsLabels(bad), std::invalid_argument);
+        EXPECT_THROW(avoidance::needsLabels(bad), std::invalid_argument);
         try {
-            makeWorldModel(bad, setting());
+            avoidance::makeWorldModel(bad, setting());
             ADD_FAILURE() << bad;
         } catch (const std::invalid_argument& error) {
             EXPECT_NE(std::string::npos, std::string(error.what()).find("O-RoI+rays-0.4"));

@@ -40,9 +40,9 @@ inline const trials::Condition kReference{4, "primitives", trials::PoseError::No
 inline std::vector<Row> threeContenders() {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", seed == 0 ? kHit : kWon));
-        runs.push_back(trials::runOf("gap", seed, "O-Full-0.4", "astar", seed < 3 ? kLate : kWon));
-        runs.push_back(trials::runOf("gap", seed, "W-RoI", "straight", kLate));
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", seed == 0 ? kHit : kWon));
+        runs.push_back(runOf("gap", seed, "O-Full-0.4", "astar", seed < 3 ? kLate : kWon));
+        runs.push_back(runOf("gap", seed, "W-RoI", "straight", kLate));
     }
     return runs;
 }

@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
-    Row run = trials::runOf("forest-0.10", 7, "O-RoI+rays-0.4", "astar", kWon);
+    Row run = test::runOf("forest-0.10", 7, "O-RoI+rays-0.4", "astar", kWon);
     EXPECT_EQ(replays::fileNameOf(run), "forest-0.10-7-O-RoI+rays-0.4-astar-4mps");
     run.setup.speed_m_s = 2.5;
     run.setup.planner = "3dvfh";
@@ -45,7 +45,7 @@ TEST(ChooseRun, ListsWhatThereIsInstead) {
 }
 
 TEST(ChooseRun, ListsTheFlagsThatTellRunsApart) {
-    const Row plain = trials::runOf("gap", 1, "W-RoI", "astar", kWon);
+    const Row plain = test::runOf("gap", 1, "W-RoI", "astar", kWon);
     std::vector<Row> runs(6, plain);
     runs[1].setup.speed_m_s = 0.1 + 0.2;  // needs all of its digits
     runs[2].setup.latency_scale = 4;
@@ -66,8 +66,8 @@ TEST(ChooseRun, ListsTheFlagsThatTellRunsApart) {
 }
 
 TEST(ChooseRun, TellsWaysOfUnknownSpaceApart) {
-    std::vector<Row> runs{trials::runOf("gap", 1, "W-RoI", "astar", kWon),
-                          trials::runOf("gap", 1, "W-RoI", "astar", kHit)};
+    std::vector<Row> runs{test::runOf("gap", 1, "W-RoI", "astar", kWon),
+                          test::runOf("gap", 1, "W-RoI", "astar", kHit)};
     runs[1].setup.brakes_in_known_space = true;
     replays::RunWanted wanted;
     wanted.seed = 1;

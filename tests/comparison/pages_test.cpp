@@ -6,6 +6,7 @@
 #include <hagen/pages/Page.h>
 #include <hagen/pages/Table.h>
 #include <hagen/replays/Overhead.h>
+#include <hagen/reports/Figures.h>
 #include <hagen/reports/Report.h>
 #include "SampleRuns.h"
 
@@ -16,7 +17,7 @@ using namespace test;
 
 TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
     replays::OverheadView view{
-        trials::runOf("gap", 0, "W-RoI", "astar", kHit), true, {5, 0}, {45, 0}, {}, {}, {}};
+        test::runOf("gap", 0, "W-RoI", "astar", kHit), true, {5, 0}, {45, 0}, {}, {}, {}};
     view.track_m = {{5, 0}, {20, 30}};
     const std::string hit = replays::svgOf(view);
     // 5 m around 5 to 45 and 0 to 30, and half as wide again as high: 60 x 40.
@@ -49,8 +50,8 @@ TEST(Pages, ShowTheWorstRunsThatCanBeFlownBesideThoseThatCannot) {
 
 TEST(WorstRuns, AreCollisionsThenTimeoutsThenByClearanceOneOfAKind) {
     std::vector<Row> runs = threeContenders();
-    runs.push_back(trials::runOf("gap", 0, "oracle", "astar", kHit));
-    runs.push_back(trials::runOf("street", 1, "W-RoI", "astar", kHit));
+    runs.push_back(test::runOf("gap", 0, "oracle", "astar", kHit));
+    runs.push_back(test::runOf("street", 1, "W-RoI", "astar", kHit));
     const std::vector<Row> worst = replays::worstRuns(runs, 3);
     ASSERT_EQ(worst.size(), 3u);
     EXPECT_EQ(worst[0].scenario + worst[0].setup.model, "gapW-RoI");
@@ -66,7 +67,7 @@ TEST(Pages, FillTheirPlacesAndEscapeWhatTheyAreTold) {
     EXPECT_EQ(pages::htmlText("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
     EXPECT_EQ(pages::figure(-0.001, 2), "0.00");
     EXPECT_EQ(pages::figure(NAN, 2), "-");
-    EXPECT_EQ(percentOf(0, 200), "0.0 (0.0 to 1.9)");
+    EXPECT_EQ(reports::percentOf(0, 200), "0.0 (0.0 to 1.9)");
     EXPECT_EQ(pages::markdownOf({{"a", "b"}, {{"1", "2"}}}), "| a | b |\n|---|--:|\n| 1 | 2 |\n");
 }
 

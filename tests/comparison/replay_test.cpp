@@ -18,7 +18,7 @@ using namespace test;
 
 replays::Recording smallRecording() {
     replays::Recording recording;
-    recording.run = trials::runOf("gap", 1, "O-Full-0.4", "astar", kWon);
+    recording.run = test::runOf("gap", 1, "O-Full-0.4", "astar", kWon);
     recording.is_same = true;
     recording.ending = "arrived at 9.00 s";
     recording.start_m = {5, 0, 2};
@@ -117,7 +117,7 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);
 }
 
-TEST(replays::TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
+TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
     const trials::Course course = trials::makeCourse("movers", 3);
     const simulation::SceneContent& content = course.scene.content();
     const replays::TrueScene seen = replays::trueSceneOf(course.scene, course.bounds_m, 3);

@@ -78,7 +78,7 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     fs::create_directory(path("journal"));
     std::string journal;
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
-        journal += lineOf(trials::runOf("gap", seed, "W-RoI", "astar", kWon), 1e6 * double(seed));
+        journal += lineOf(test::runOf("gap", seed, "W-RoI", "astar", kWon), 1e6 * double(seed));
     }
     folder_.write("journal/1.csv", journal + "gap,4,W-");
     folder_.write("campaign.json", R"({"flown": [{"scenarios": ["gap"], "seeds": [0, 9],
@@ -89,7 +89,7 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     ASSERT_EQ(before.exit_code, 0) << before.err;
     EXPECT_NE(before.out.find("Unfinished: 3 of 20 runs planned so far are flown."),
               std::string::npos);
-    writeRuns({trials::runOf("gap", 0, "W-RoI", "astar", kWon)});
+    writeRuns({test::runOf("gap", 0, "W-RoI", "astar", kWon)});
     const test::Outcome outcome =
         run({"report", folder(), "--overwrite", "--markdown", path("a.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -108,8 +108,8 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
 
     std::vector<Row> all;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-        all.push_back(trials::runOf("gap", seed, "W-RoI", "astar", kWon));
-        all.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
+        all.push_back(test::runOf("gap", seed, "W-RoI", "astar", kWon));
+        all.push_back(test::runOf("gap", seed, "G-Full", "astar", kWon));
     }
     writeRuns(all);
     EXPECT_EQ(run({"report", folder(), "--overwrite"}).out.find("Unfinished"), std::string::npos);
@@ -118,9 +118,9 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
               std::string::npos);
 }
 
-TEST(trials::FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
+TEST(FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
     const test::TemporaryFolder folder;
-    const Row run = trials::runOf("gap", 1, "W-RoI", "astar", kWon);
+    const Row run = test::runOf("gap", 1, "W-RoI", "astar", kWon);
     fs::create_directory(folder / "journal");
     // A pipe holds the reader up between its list of journals and the second of them.
     ASSERT_EQ(mkfifo((folder / "journal/0.csv").c_str(), 0600), 0);
@@ -136,7 +136,7 @@ TEST(trials::FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
     EXPECT_EQ(flown.runs.size(), 1u);
 }
 
-TEST(trials::FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
+TEST(FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
     const test::TemporaryFolder folder;
     fs::create_directory(folder / "journal");
     fs::create_symlink("nowhere", folder / "journal/0.csv");
@@ -216,7 +216,7 @@ TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
 }
 
 TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {
-    std::vector<Row> runs(3, trials::runOf("gap", 1, "W-RoI", "astar", kWon));
+    std::vector<Row> runs(3, test::runOf("gap", 1, "W-RoI", "astar", kWon));
     runs[1].setup.speed_m_s = 6;
     runs[2].setup.speed_m_s = 6;
     runs[2].setup.latency_scale = 4;

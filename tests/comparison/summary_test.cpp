@@ -11,10 +11,10 @@ namespace {
 
 using namespace test;
 
-TEST(reports::Summary, CountsCellsAndSpreads) {
+TEST(Summary, CountsCellsAndSpreads) {
     const reports::Summary summary = reports::summarize(threeContenders());
     ASSERT_EQ(summary.contenders.size(), 3u);
-    EXPECT_EQ(reports::nameOf(summary.contenders[0]), "W-RoI, A*");
+    EXPECT_EQ(nameOf(summary.contenders[0]), "W-RoI, A*");
     const reports::Cell* cell = reports::find(summary, "gap", kReference, {"W-RoI", "astar"});
     ASSERT_NE(cell, nullptr);
     EXPECT_EQ(cell->runs, 10);
@@ -31,9 +31,9 @@ TEST(reports::Summary, CountsCellsAndSpreads) {
     EXPECT_EQ(reports::find(summary, "gap", kReference, {"W-Full", "astar"}), nullptr);
 }
 
-TEST(reports::Summary, PairsRunsThroughTheSameCourse) {
+TEST(Summary, PairsRunsThroughTheSameCourse) {
     std::vector<Row> runs = threeContenders();
-    runs.push_back(trials::runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    runs.push_back(test::runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
     const reports::Summary summary = reports::summarize(runs);
     // A*: against the map and against itself straight; straight: against the map under A*.
     ASSERT_EQ(summary.pairings.size(), 3u);
@@ -53,13 +53,13 @@ TEST(reports::Summary, PairsRunsThroughTheSameCourse) {
     EXPECT_EQ(pairing->verdict, reports::Verdict::Open);
 }
 
-TEST(reports::Summary, JudgesByTheMargin) {
+TEST(Summary, JudgesByTheMargin) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", seed < 2 ? kHit : kWon));
-        runs.push_back(trials::runOf("gap", seed, "W-Full", "astar", seed == 2 ? kHit : kWon));
-        runs.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
-        runs.push_back(trials::runOf("gap", seed, "W-RoI", "straight", seed < 100 ? kLate : kWon));
+        runs.push_back(test::runOf("gap", seed, "W-RoI", "astar", seed < 2 ? kHit : kWon));
+        runs.push_back(test::runOf("gap", seed, "W-Full", "astar", seed == 2 ? kHit : kWon));
+        runs.push_back(test::runOf("gap", seed, "G-Full", "astar", kWon));
+        runs.push_back(test::runOf("gap", seed, "W-RoI", "straight", seed < 100 ? kLate : kWon));
     }
     const reports::Summary summary = reports::summarize(runs);
     ASSERT_EQ(summary.overall.size(), 4u);
@@ -67,17 +67,17 @@ TEST(reports::Summary, JudgesByTheMargin) {
         const bool is_worse = pairing.first.guidance == "straight";
         EXPECT_EQ(pairing.verdict,
                   is_worse ? reports::Verdict::Inferior : reports::Verdict::NotInferior)
-            << reports::nameOf(pairing.first) << " " << reports::nameOf(pairing.second);
+            << nameOf(pairing.first) << " " << nameOf(pairing.second);
     }
 }
 
-TEST(reports::Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
+TEST(Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         for (const double speed_m_s : {4.0, 6.0, 8.0, 10.0}) {
             const bool fails = speed_m_s == 8 && seed < 6;  // 94 %
-            runs.push_back(trials::runOf("forest-0.10", seed, "W-RoI", "astar", fails ? kHit : kWon,
-                                         speed_m_s));
+            runs.push_back(
+                test::runOf("forest-0.10", seed, "W-RoI", "astar", fails ? kHit : kWon, speed_m_s));
         }
     }
     const reports::Summary summary = reports::summarize(runs);
@@ -88,9 +88,9 @@ TEST(reports::Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {
     EXPECT_EQ(trials::deviationOf(summary.speed_limits[0].lowest), "");
 }
 
-TEST(reports::SharedCourses, AreThoseOnWhichAllArrived) {
+TEST(SharedCourses, AreThoseOnWhichAllArrived) {
     std::vector<Row> runs = threeContenders();
-    runs.push_back(trials::runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
+    runs.push_back(test::runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it
     for (Row& run : runs) {
         if (run.setup.model == "W-RoI" && run.seed < 5) run.result.time_s = 100;
         if (run.seed != 7) run.result.first_reaction_m = static_cast<double>(run.seed);
@@ -121,12 +121,12 @@ TEST(reports::SharedCourses, AreThoseOnWhichAllArrived) {
 }
 
 /// Maps are slow to fly: their few courses must not be all that is told of the others.
-TEST(reports::SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
+TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", kWon));
-        if (seed < 19) runs.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
-        if (seed < 4) runs.push_back(trials::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
+        runs.push_back(test::runOf("gap", seed, "W-RoI", "astar", kWon));
+        if (seed < 19) runs.push_back(test::runOf("gap", seed, "G-Full", "astar", kWon));
+        if (seed < 4) runs.push_back(test::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
     }
     const std::vector<reports::SharedCourses> shared =
         reports::sharedCourses(runs, reports::summarize(runs), kReference);
@@ -137,7 +137,7 @@ TEST(reports::SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
     EXPECT_EQ(shared[1].arrived, 4);
 }
 
-TEST(reports::Summary, OfNothingIsEmpty) {
+TEST(Summary, OfNothingIsEmpty) {
     EXPECT_TRUE(reports::summarize({}).cells.empty());
     EXPECT_NE(reports::reportPage(reports::Report{}).find("Nothing was flown"), std::string::npos);
 }

@@ -10,13 +10,13 @@ namespace {
 
 using namespace test;
 
-TEST(reports::Verdict, TellsWiresApartFromTheRest) {
+TEST(Verdict, TellsWiresApartFromTheRest) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", kWon));
-        runs.push_back(trials::runOf("gap", seed, "W-Full", "astar", seed == 0 ? kHit : kWon));
-        runs.push_back(trials::runOf("wires", seed, "W-RoI", "astar", seed < 100 ? kHit : kWon));
-        runs.push_back(trials::runOf("wires", seed, "W-Full", "astar", kWon));
+        runs.push_back(test::runOf("gap", seed, "W-RoI", "astar", kWon));
+        runs.push_back(test::runOf("gap", seed, "W-Full", "astar", seed == 0 ? kHit : kWon));
+        runs.push_back(test::runOf("wires", seed, "W-RoI", "astar", seed < 100 ? kHit : kWon));
+        runs.push_back(test::runOf("wires", seed, "W-Full", "astar", kWon));
     }
     const reports::Summary summary = reports::summarize(runs);
     ASSERT_EQ(summary.without_wires.size(), 1u);
@@ -36,15 +36,15 @@ TEST(reports::Verdict, TellsWiresApartFromTheRest) {
         0u)
         << words[2];
     // Where nobody flew wires, all is where no wires are.
-    EXPECT_TRUE(reports::summarize({trials::runOf("gap", 0, "W-RoI", "astar", kWon),
-                                    trials::runOf("gap", 0, "W-Full", "astar", kWon)})
+    EXPECT_TRUE(reports::summarize({test::runOf("gap", 0, "W-RoI", "astar", kWon),
+                                    test::runOf("gap", 0, "W-Full", "astar", kWon)})
                     .without_wires.empty());
 }
 
-TEST(reports::Verdict, SpeaksOfOneAsOne) {
+TEST(Verdict, SpeaksOfOneAsOne) {
     const std::vector<std::string> words =
-        reports::verdictOf(reports::summarize({trials::runOf("gap", 0, "W-RoI", "astar", kHit),
-                                               trials::runOf("gap", 0, "G-Full", "astar", kWon)}));
+        reports::verdictOf(reports::summarize({test::runOf("gap", 0, "W-RoI", "astar", kHit),
+                                               test::runOf("gap", 0, "G-Full", "astar", kWon)}));
     ASSERT_EQ(words.size(), 6u);
     EXPECT_EQ(words[0], "W-RoI with A* at 4 m/s: nothing is decided yet. Open: G-Full.");
     EXPECT_EQ(words[1].find(
@@ -58,7 +58,7 @@ TEST(reports::Verdict, SpeaksOfOneAsOne) {
     EXPECT_NE(words[5].find("0 collisions in 1 run of a scenario still allows"), std::string::npos);
 }
 
-TEST(reports::Verdict, CallsNothingWorseThatMayBeChance) {
+TEST(Verdict, CallsNothingWorseThatMayBeChance) {
     // The interval excludes 3 points, but among so many comparisons the test does not.
     reports::Pairing pairing{"", kReference, {"W-RoI", "astar"}, {"G-Full", "astar"}};
     pairing.both = 90;
@@ -75,15 +75,15 @@ TEST(reports::Verdict, CallsNothingWorseThatMayBeChance) {
               0u);
 }
 
-TEST(reports::Verdict, TellsLossesThatGoUnderInTheWhole) {
+TEST(Verdict, TellsLossesThatGoUnderInTheWhole) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         for (const char* scenario : {"gap", "movers"}) {
             const bool is_gap = scenario == std::string("gap");
             runs.push_back(
-                trials::runOf(scenario, seed, "W-RoI", "astar", is_gap || seed < 80 ? kWon : kHit));
-            runs.push_back(trials::runOf(scenario, seed, "G-Full", "astar",
-                                         !is_gap || seed < 78 ? kWon : kLate));
+                test::runOf(scenario, seed, "W-RoI", "astar", is_gap || seed < 80 ? kWon : kHit));
+            runs.push_back(test::runOf(scenario, seed, "G-Full", "astar",
+                                       !is_gap || seed < 78 ? kWon : kLate));
         }
     }
     const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
@@ -101,14 +101,14 @@ TEST(reports::Verdict, TellsLossesThatGoUnderInTheWhole) {
 }
 
 /// 45 of 200 lost in one of ten scenarios are no 3 points of the whole.
-TEST(reports::Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
+TEST(Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
     std::vector<Row> runs;
     for (const char* scenario : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "wires"}) {
         const bool is_wires = scenario == std::string("wires");
         for (std::uint64_t seed = 0; seed < 200; ++seed) {
-            runs.push_back(trials::runOf(scenario, seed, "W-RoI", "astar",
-                                         is_wires && seed < 45 ? kHit : kWon));
-            runs.push_back(trials::runOf(scenario, seed, "G-Full", "astar", kWon));
+            runs.push_back(
+                test::runOf(scenario, seed, "W-RoI", "astar", is_wires && seed < 45 ? kHit : kWon));
+            runs.push_back(test::runOf(scenario, seed, "G-Full", "astar", kWon));
         }
     }
     const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
@@ -119,25 +119,25 @@ TEST(reports::Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
         << words[2];
 }
 
-TEST(reports::Verdict, TellsOfOneScenarioOnce) {
+TEST(Verdict, TellsOfOneScenarioOnce) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-        runs.push_back(trials::runOf("gap", seed, "W-RoI", "astar", seed < 5 ? kHit : kWon));
-        runs.push_back(trials::runOf("gap", seed, "G-Full", "astar", kWon));
+        runs.push_back(test::runOf("gap", seed, "W-RoI", "astar", seed < 5 ? kHit : kWon));
+        runs.push_back(test::runOf("gap", seed, "G-Full", "astar", kWon));
     }
     const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
     EXPECT_EQ(words[1].find("Open: W-RoI with A* against G-Full"), 0u) << words[1];
     EXPECT_EQ(words[2], "What is open needs more courses to be decided.");
 }
 
-TEST(reports::Verdict, SaysWhereWhatWasNotFlownEverywhere) {
+TEST(Verdict, SaysWhereWhatWasNotFlownEverywhere) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         for (const char* scenario : {"gap", "u-trap"}) {
-            runs.push_back(trials::runOf(scenario, seed, "W-RoI", "astar", kWon));
-            runs.push_back(trials::runOf(scenario, seed, "G-Full", "astar", kWon));
+            runs.push_back(test::runOf(scenario, seed, "W-RoI", "astar", kWon));
+            runs.push_back(test::runOf(scenario, seed, "G-Full", "astar", kWon));
         }
-        runs.push_back(trials::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
+        runs.push_back(test::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
     }
     const std::string headline = reports::verdictOf(reports::summarize(runs)).front();
     EXPECT_NE(headline.find("O-Full-0.4 (in gap)"), std::string::npos) << headline;

@@ -21,7 +21,7 @@ class MapFile : public testing::Test {
  protected:
     MapFile() {
         simulation::Random random(4);
-        MappedScan scan;
+        mapping::MappedScan scan;
         for (int i = 0; i < 400; ++i) {
             const double x = random.uniform(-4, 4);
             const double y = random.uniform(-4, 4);
@@ -63,11 +63,11 @@ class MapFile : public testing::Test {
     }
 
     test::TemporaryFolder folder_;  // of its own: tests run side by side
-    ScanMap map_{{MapContent::Full, 0.2, 20}};
+    mapping::ScanMap map_{{mapping::MapContent::Full, 0.2, 20}};
 };
 
 TEST_F(MapFile, OctomapReadsWhatIsOccupiedAndFree) {
-    saveMap(map_.tree(), folder_ / "map.bt");
+    mapping::saveMap(map_.tree(), folder_ / "map.bt");
     octomap::OcTree read(0.1);
     ASSERT_TRUE(read.readBinary((folder_ / "map.bt").string()));
     expectSameVoxels(read);
@@ -75,7 +75,7 @@ TEST_F(MapFile, OctomapReadsWhatIsOccupiedAndFree) {
 }
 
 TEST_F(MapFile, OctomapReadsProbabilities) {
-    saveMap(map_.tree(), folder_ / "map.ot");
+    mapping::saveMap(map_.tree(), folder_ / "map.ot");
     const std::unique_ptr<octomap::AbstractOcTree> read(
         octomap::AbstractOcTree::read((folder_ / "map.ot").string()));
     const auto* tree = dynamic_cast<octomap::OcTree*>(read.get());
@@ -85,7 +85,7 @@ TEST_F(MapFile, OctomapReadsProbabilities) {
 }
 
 TEST_F(MapFile, MrptReadsTheScene) {
-    saveMap(map_.tree(), folder_ / "map.3Dscene");
+    mapping::saveMap(map_.tree(), folder_ / "map.3Dscene");
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile((folder_ / "map.3Dscene").string()));
     const auto voxels = scene.getByClass<mrpt::opengl::COctoMapVoxels>();
@@ -95,16 +95,16 @@ TEST_F(MapFile, MrptReadsTheScene) {
 
 TEST_F(MapFile, TheSameMapMakesTheSameBytes) {
     for (const std::string ending : {".bt", ".ot", ".3Dscene"}) {
-        saveMap(map_.tree(), folder_ / ("first" + ending));
-        saveMap(map_.tree(), folder_ / ("second" + ending));
+        mapping::saveMap(map_.tree(), folder_ / ("first" + ending));
+        mapping::saveMap(map_.tree(), folder_ / ("second" + ending));
         EXPECT_EQ(bytesOf(folder_ / ("first" + ending)), bytesOf(folder_ / ("second" + ending)));
     }
 }
 
 TEST_F(MapFile, Empty) {
-    const ScanMap empty({});
+    const mapping::ScanMap empty({});
     for (const std::string name : {"map.bt", "map.ot", "map.3Dscene"}) {
-        saveMap(empty.tree(), folder_ / name);
+        mapping::saveMap(empty.tree(), folder_ / name);
         EXPECT_TRUE(fs::exists(folder_ / name));
     }
 }
@@ -112,7 +112,7 @@ TEST_F(MapFile, Empty) {
 TEST_F(MapFile, RefusesOtherEndings) {
     for (const std::string name : {"map", "map.pcd", "map.BT", "map.bt.gz"}) {
         try {
-            saveMap(map_.tree(), folder_ / name);
+            mapping::saveMap(map_.tree(), folder_ / name);
             ADD_FAILURE() << name;
         } catch (const std::runtime_error& error) {
             EXPECT_NE(std::string::npos, std::string(error.what()).find(name + ": "));
@@ -124,10 +124,10 @@ TEST_F(MapFile, RefusesOtherEndings) {
 
 TEST_F(MapFile, SaysWhatCannotBeWritten) {
     for (const std::string name : {"none/map.bt", "none/map.ot", "none/map.3Dscene"}) {
-        EXPECT_THROW(saveMap(map_.tree(), folder_ / name), std::runtime_error) << name;
+        EXPECT_THROW(mapping::saveMap(map_.tree(), folder_ / name), std::runtime_error) << name;
     }
-    EXPECT_THROW(saveMap(map_.tree(), "/dev/full", "map.bt"), std::runtime_error);
-    EXPECT_THROW(saveMap(map_.tree(), "/dev/full", "map.ot"), std::runtime_error);
+    EXPECT_THROW(mapping::saveMap(map_.tree(), "/dev/full", "map.bt"), std::runtime_error);
+    EXPECT_THROW(mapping::saveMap(map_.tree(), "/dev/full", "map.ot"), std::runtime_error);
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ double lengthIn(const Voxel& v, const Eigen::Vector3d& from, const Eigen::Vector
     return std::max(0.0, last - first) * (to - from).norm();
 }
 
-MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi,
-                  const Eigen::Vector3f& origin = {0.03f, 0.05f, 0.07f}) {
+mapping::MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi,
+                           const Eigen::Vector3f& origin = {0.03f, 0.05f, 0.07f}) {
     return {0, origin, points, std::vector<Label>(points.size(), label)};
 }
 
@@ -51,14 +51,14 @@ constexpr double kBarely_m = 1e-4;
 
 enum class State { Unknown, Free, Occupied };
 
-State stateAt(const ScanMap& map, const Eigen::Vector3d& p) {
+State stateAt(const mapping::ScanMap& map, const Eigen::Vector3d& p) {
     const auto* node = map.tree().search(p.x(), p.y(), p.z());
     if (!node) return State::Unknown;
     return map.tree().isNodeOccupied(node) ? State::Occupied : State::Free;
 }
 
-MappedScan randomScan(simulation::Random& random, int points) {
-    MappedScan scan;
+mapping::MappedScan randomScan(simulation::Random& random, int points) {
+    mapping::MappedScan scan;
     scan.origin_m = {0.03f, 0.05f, 0.07f};
     for (int i = 0; i < points; ++i) {
         const double x = random.uniform(-3, 3);
@@ -72,8 +72,8 @@ MappedScan randomScan(simulation::Random& random, int points) {
 
 /// Every voxel near the scan, one by one, against what hits and rays say of it. Voxels that rays
 /// barely touch may go either way.
-void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
-    ScanMap map(options);
+void expectAsDefined(const mapping::ScanMapOptions& options, const mapping::MappedScan& scan) {
+    mapping::ScanMap map(options);
     map.insert(scan);
     const double edge = options.resolution_m;
     const Eigen::Vector3d origin = scan.origin_m.cast<double>();
@@ -82,9 +82,10 @@ void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         const Eigen::Vector3d point = scan.points_m[i].cast<double>();
         const double range = (point - origin).norm();
-        const bool is_hit = options.content == MapContent::Full || scan.labels[i] == Label::Roi;
+        const bool is_hit =
+            options.content == mapping::MapContent::Full || scan.labels[i] == Label::Roi;
         if (is_hit && range <= options.max_range_m) hits.insert(voxelOf(point, edge));
-        if (!is_hit && options.content != MapContent::RoiAndRays) continue;
+        if (!is_hit && options.content != mapping::MapContent::RoiAndRays) continue;
         const Eigen::Vector3d end =
             range > options.max_range_m
                 ? Eigen::Vector3d(origin + (point - origin) * (options.max_range_m / range))
@@ -123,7 +124,8 @@ void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
 
 TEST(ScanMap, VoxelsAreAsDefined) {
     simulation::Random random(1);
-    for (const MapContent content : {MapContent::Full, MapContent::Roi, MapContent::RoiAndRays}) {
+    for (const mapping::MapContent content :
+         {mapping::MapContent::Full, mapping::MapContent::Roi, mapping::MapContent::RoiAndRays}) {
         for (int i = 0; i < 2; ++i) {
             expectAsDefined({content, 0.2, 20}, randomScan(random, 40));
             expectAsDefined({content, 0.2, 1.5}, randomScan(random, 40));
@@ -136,7 +138,7 @@ TEST(ScanMap, AWallIsOccupiedAndTheWayToItFree) {
     for (float y = -2; y <= 2; y += 0.05f) {
         for (float z = -1; z <= 1; z += 0.05f) wall.emplace_back(5.1f, y, z);
     }
-    ScanMap map({MapContent::Full, 0.2, 20});
+    mapping::ScanMap map({mapping::MapContent::Full, 0.2, 20});
     map.insert(scanOf(wall));
     for (double y = -1.9; y < 2; y += 0.2) {
         EXPECT_EQ(State::Occupied, stateAt(map, {5.1, y, 0.1}));
@@ -146,21 +148,21 @@ TEST(ScanMap, AWallIsOccupiedAndTheWayToItFree) {
 }
 
 TEST(ScanMap, GroundIsNoObstacleButItsRaysClear) {
-    MappedScan scan = scanOf({{5.1f, 0.1f, -1.9f}, {3.1f, 2.1f, 0.1f}});
+    mapping::MappedScan scan = scanOf({{5.1f, 0.1f, -1.9f}, {3.1f, 2.1f, 0.1f}});
     scan.labels[0] = Label::Rou;
-    ScanMap map({MapContent::RoiAndRays, 0.2, 20});
+    mapping::ScanMap map({mapping::MapContent::RoiAndRays, 0.2, 20});
     map.insert(scan);
     EXPECT_EQ(State::Unknown, stateAt(map, {5.1, 0.1, -1.9}));
     EXPECT_EQ(State::Free, stateAt(map, {2.57, 0.075, -0.915}));
     EXPECT_EQ(State::Occupied, stateAt(map, {3.1, 2.1, 0.1}));
 
-    ScanMap of_roi({MapContent::Roi, 0.2, 20});
+    mapping::ScanMap of_roi({mapping::MapContent::Roi, 0.2, 20});
     of_roi.insert(scan);
     EXPECT_EQ(State::Unknown, stateAt(of_roi, {2.57, 0.075, -0.915}));
 }
 
 TEST(ScanMap, WhatMovedAwayIsCleared) {
-    ScanMap map({MapContent::RoiAndRays, 0.2, 20});
+    mapping::ScanMap map({mapping::MapContent::RoiAndRays, 0.2, 20});
     map.insert(scanOf({{3.1f, 0.1f, 0.1f}}));
     ASSERT_EQ(State::Occupied, stateAt(map, {3.1, 0.1, 0.1}));
     for (int i = 0; i < 5; ++i) map.insert(scanOf({{9.1f, 0.1f, 0.1f}}, Label::Rou));
@@ -168,22 +170,24 @@ TEST(ScanMap, WhatMovedAwayIsCleared) {
 }
 
 TEST(ScanMap, Empty) {
-    ScanMap map({});
+    mapping::ScanMap map({});
     map.insert({});
     EXPECT_EQ(0u, map.tree().size());
 }
 
 TEST(ScanMap, RefusesAnEdgeOrARangeOfNothing) {
     for (const double bad : {0.0, -0.2, double(NAN), double(INFINITY)}) {
-        EXPECT_THROW(ScanMap({MapContent::Full, bad, 20}), std::invalid_argument) << bad;
-        EXPECT_THROW(ScanMap({MapContent::Full, 0.2, bad}), std::invalid_argument) << bad;
+        EXPECT_THROW(mapping::ScanMap({mapping::MapContent::Full, bad, 20}), std::invalid_argument)
+            << bad;
+        EXPECT_THROW(mapping::ScanMap({mapping::MapContent::Full, 0.2, bad}), std::invalid_argument)
+            << bad;
     }
 }
 
 TEST(ScanMap, AScanBeyondItsReachIsRefusedNotWrapped) {
     for (const float far_m : {6600.0f, 500000.0f, -6600.0f}) {
-        ScanMap map({MapContent::Full, 0.2, 20});
-        MappedScan scan;
+        mapping::ScanMap map({mapping::MapContent::Full, 0.2, 20});
+        mapping::MappedScan scan;
         scan.origin_m = {far_m, 0, 0};
         scan.points_m = {{far_m + 5, 0, 0}};
         scan.labels = {Label::Roi};

@@ -4,30 +4,32 @@
 namespace hagen::test {
 
 /// A scene's content over level, smooth ground without grass; nothing stands there.
-inline SceneContent emptyContent() {
-    TerrainForm level;
+inline simulation::SceneContent emptyContent() {
+    simulation::TerrainForm level;
     level.max_slope_rad = level.bump_m = level.roughness_m = level.grass_m = 0;
-    Random random(1);
-    return {Terrain(level, random), Path{30, 10}, {}, {}, {}};
+    simulation::Random random(1);
+    return {simulation::Terrain(level, random), simulation::Path{30, 10}, {}, {}, {}};
 }
 
-inline void put(SceneContent& content, Kind kind, std::uint16_t number, Shape shape,
+inline void put(simulation::SceneContent& content, simulation::Kind kind, std::uint16_t number,
+                simulation::Shape shape,
                 const Eigen::Affine3f& pose = Eigen::Affine3f::Identity()) {
     content.shapes.push_back(std::move(shape));
     content.objects.push_back({kind, number, content.shapes.size() - 1, pose});
 }
 
 /// A square of level ground at z = 0.
-inline Shape plane(float half_m = 100) {
-    Shape shape;
+inline simulation::Shape plane(float half_m = 100) {
+    simulation::Shape shape;
     shape.addQuad({-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0},
                   {-half_m, half_m, 0});
     return shape;
 }
 
-inline RayHit castOne(const Scene& scene, const Eigen::Vector3f& from,
-                      const Eigen::Vector3f& direction, float time = 0, double duration_s = 0.1) {
-    std::vector<RayHit> hits;
+inline simulation::RayHit castOne(const simulation::Scene& scene, const Eigen::Vector3f& from,
+                                  const Eigen::Vector3f& direction, float time = 0,
+                                  double duration_s = 0.1) {
+    std::vector<simulation::RayHit> hits;
     scene.during(0, duration_s).cast({{from, direction.normalized(), time}}, 200.0f, hits);
     return hits.front();
 }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using test::messageOf;
 using test::readFile;
 using test::TemporaryFolder;
-using Row = hagen::Run;  // a test has a Run() of its own
+using Row = hagen::trials::Run;  // a test has a Run() of its own
 
 Row runOfSeed(std::uint64_t seed, const CampaignFolder& folder, double path_m = 40) {
     Row run{};

@@ -11,7 +11,7 @@
 namespace hagen::trials {
 namespace {
 
-using Row = hagen::Run;  // a test has a Run() of its own
+using Row = hagen::trials::Run;  // a test has a Run() of its own
 
 Row someRun() {
     Row run{};

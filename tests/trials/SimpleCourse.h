@@ -7,7 +7,7 @@
 namespace hagen::test {
 
 /// 20 m along x, 2 m above level ground.
-inline Course simpleCourse(simulation::SceneContent content, std::uint64_t seed = 1) {
+inline trials::Course simpleCourse(simulation::SceneContent content, std::uint64_t seed = 1) {
     put(content, simulation::Kind::Terrain, 0, plane());
     const simulation::Scene scene(std::move(content));
     const Eigen::AlignedBox3d bounds(Eigen::Vector3d(-6, -12, -1), Eigen::Vector3d(26, 12, 6));

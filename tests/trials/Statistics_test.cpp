@@ -1,5 +1,6 @@
 // Against published examples, and against sums and searches that need no formula.
 #include <gtest/gtest.h>
+#include <hagen/base/Quantile.h>
 #include <hagen/simulation/Random.h>
 #include <hagen/trials/Statistics.h>
 
@@ -164,12 +165,12 @@ TEST(Holm, RejectsWhatTheStepDownRuleRejects) {
 }
 
 TEST(Quantile, LiesBetweenRanks) {
-    EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2);
-    EXPECT_EQ(quantile({4, 1, 2, 3}, 0.5), 2.5);
-    EXPECT_EQ(quantile({4, 1, 2, 3}, 0), 1);
-    EXPECT_EQ(quantile({4, 1, 2, 3}, 1), 4);
-    EXPECT_NEAR(quantile({0, 10}, 0.95), 9.5, 1e-12);
-    EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+    EXPECT_EQ(base::quantile({3, 1, 2}, 0.5), 2);
+    EXPECT_EQ(base::quantile({4, 1, 2, 3}, 0.5), 2.5);
+    EXPECT_EQ(base::quantile({4, 1, 2, 3}, 0), 1);
+    EXPECT_EQ(base::quantile({4, 1, 2, 3}, 1), 4);
+    EXPECT_NEAR(base::quantile({0, 10}, 0.95), 9.5, 1e-12);
+    EXPECT_TRUE(std::isnan(base::quantile({}, 0.5)));
 }
 
 TEST(MedianInterval, IsNearlyThatOfOrderStatistics) {
