@@ -1,8 +1,8 @@
 // octomap-compare calibrate: measures what each stage takes on this machine.
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/logs/CloseWritten.h>
 #include <hagen/logs/OutputPath.h>
 #include <hagen/trials/Calibration.h>
-#include <hagen/trials/Trial.h>
 
 #include <cmath>
 #include <cstdlib>

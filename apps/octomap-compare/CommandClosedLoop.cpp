@@ -1,5 +1,9 @@
 // octomap-compare closedloop: flies a campaign in simulation.
+#include <hagen/avoidance/Guidance.h>
+#include <hagen/avoidance/Planner.h>
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/trials/Campaign.h>
+#include <hagen/trials/Course.h>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>

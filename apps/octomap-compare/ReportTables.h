@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/trials/LatencyProfile.h>
 #include <string>
 #include <vector>
 

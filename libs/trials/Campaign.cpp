@@ -1,4 +1,6 @@
 #include <hagen/trials/Campaign.h>
+#include <hagen/trials/Journal.h>
+#include <hagen/trials/Trial.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>

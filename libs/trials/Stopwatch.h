@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/trials/Trial.h>
+#include <hagen/trials/TrialMeasurement.h>
 #include <malloc.h>
 #include <time.h>
 
@@ -15,13 +15,13 @@ inline double cpuTime_ms() {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-/// What the heap holds, of all threads [bytes].
+/// Heap in use by all threads [bytes].
 inline double heapBytes() {
     const struct mallinfo2 info = mallinfo2();
     return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
-/// Takes down what stages cost, where somebody wants to know.
+/// Measures what stages cost. Does nothing without a measurement to write to.
 class Stopwatch {
  public:
     explicit Stopwatch(TrialMeasurement* measurement) : measurement_(measurement) {}
@@ -33,8 +33,8 @@ class Stopwatch {
         return call();
     }
 
-    /// Of a call that changes the world model alone: what the heap holds more afterwards is the
-    /// model's. Names no stage: the model's making is not timed.
+    /// Times a call that changes only the world model; the heap's growth is the model's. An empty
+    /// stage, of the call that makes the model, is not timed.
     template <class Call>
     void weigh(const std::string& stage, double path_m, Call call) {
         if (measurement_ == nullptr) return call();

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/CampaignFolder.h>
+#include <hagen/trials/Journal.h>
+#include <hagen/trials/MergeCampaigns.h>
 
 #include <cmath>
 #include <fstream>
@@ -45,74 +47,6 @@ TEST(Journal, AFullDiskIsNamed) {
     } catch (const std::runtime_error& e) {
         EXPECT_NE(std::string(e.what()).find("/dev/full"), std::string::npos) << e.what();
     }
-}
-
-TEST(CampaignPlan, FliesEveryCombinationOnce) {
-    CampaignPlan plan;
-    plan.scenarios = {"gap", "street"};
-    plan.first_seed = 5;
-    plan.last_seed = 7;
-    plan.models = {"W-RoI", "oracle"};
-    plan.guidances = {"straight", "astar"};
-    plan.speeds_m_s = {4, 8};
-    const auto flights = flightsOf(plan);
-    ASSERT_EQ(flights.size(), 6u);
-    EXPECT_EQ(flights[0].setups.size(), 8u);
-    EXPECT_EQ(flights[0].seed, 5u);
-    EXPECT_EQ(flights[1].seed, 5u);
-    EXPECT_EQ(flights[1].scenario, "street");
-}
-
-TEST(CampaignPlan, ShardsShareEverythingAndNothingTwice) {
-    CampaignPlan plan;
-    plan.scenarios = {"gap", "street", "wires"};
-    plan.last_seed = 6;
-    std::vector<std::string> all, shards;
-    const auto note = [](const std::vector<CourseFlights>& flights, std::vector<std::string>& to) {
-        for (const auto& course : flights)
-            to.push_back(course.scenario + std::to_string(course.seed));
-    };
-    note(flightsOf(plan), all);
-    for (int number = 1; number <= 4; ++number) note(flightsOf(plan, {number, 4}), shards);
-    std::sort(all.begin(), all.end());
-    std::sort(shards.begin(), shards.end());
-    EXPECT_EQ(all, shards);
-}
-
-TEST(CampaignPlan, WhatCannotBeFlownIsNamed) {
-    CampaignPlan good;
-    good.scenarios = {"gap"};
-    const auto fails = [&](const std::function<void(CampaignPlan&)>& change, Shard shard = {}) {
-        CampaignPlan plan = good;
-        change(plan);
-        try {
-            flightsOf(plan, shard);
-        } catch (const std::invalid_argument& e) {
-            return std::string(e.what());
-        }
-        return std::string("nothing");
-    };
-    EXPECT_EQ(fails([](CampaignPlan&) {}), "nothing");
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.scenarios = {"moon"}; }).find("'moon'"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.models = {"X"}; }).find("W-RoI"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.first_seed = 3; }).find("seed"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.speeds_m_s = {0}; }).find("speed"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan&) {}, {5, 4}).find("shard"), std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan&) {}, {0, 4}).find("shard"), std::string::npos);
-}
-
-TEST(CampaignPlan, AProfileWithoutAStageIsToldBeforeAnythingIsFlown) {
-    CampaignPlan plan;
-    plan.scenarios = {"gap"};
-    LatencyProfile profile = constantProfile(1);
-    checkProfile(profile, flightsOf(plan));
-    profile.quantiles_ms.erase("W-RoI/astar");
-    EXPECT_NE(messageOf([&] { checkProfile(profile, flightsOf(plan)); }).find("W-RoI/astar"),
-              std::string::npos);
 }
 
 TEST(CampaignFolder, WhatIsInJournalsIsThereAgain) {
