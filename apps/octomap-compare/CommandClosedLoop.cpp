@@ -113,11 +113,13 @@ int run(Flags flags) {
     CampaignOptions options;
     options.jobs =
         flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
+    // The very file that runs, even if it is built anew while the campaign goes on.
+    options.worker = {"/proc/self/exe", {"octomap-compare", "fly-runs"}};
     options.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
         options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
-    flyCampaign(flights, profile, options, folder);
+    flyCampaign(flights, options, folder);
     if (flags.is_quiet) return 0;
     printCells(folder.runs());
     std::cout << (folder.path() / "runs.csv").string() << "\n";
