@@ -53,9 +53,12 @@ class Campaign : public testing::Test {
         return flyCampaign(flights_, options, campaign);
     }
 
-    const std::string all_ = "for key; do fly \"$key\"; done";
-    std::vector<CourseFlights> flights_;
     TemporaryFolder place_;
+    const std::string all_ = "for key; do fly \"$key\"; done";
+    /// Waits, for longer than anything takes here, and leaves a file if nobody stopped it.
+    const std::string waiting_ = "for i in $(seq 200); do sleep 0.1; done; touch '" +
+                                 (place_ / "not stopped").string() + "'";
+    std::vector<CourseFlights> flights_;
 
  private:
     /// "KEY|line of a journal" of each run.
@@ -124,13 +127,13 @@ TEST_F(Campaign, WhyAWorkerFailedIsToldAndFinishedRunsAreKept) {
 }
 
 TEST_F(Campaign, OneFailureStopsAllJobs) {
-    const CampaignOptions options = running("case $1 in gap,0,*) exit 3;; esac; exec sleep 60",
-                                            4);  // longer than a test may take
+    const CampaignOptions options = running("case $1 in gap,0,*) exit 3;; esac; " + waiting_, 4);
     EXPECT_THAT(messageOf([&] { fly(options, "c"); }), HasSubstr("exit status 3 at gap,0,"));
+    EXPECT_FALSE(fs::exists(place_ / "not stopped"));
 }
 
 TEST_F(Campaign, ToldToStopItKeepsFinishedRunsAndGoesOnLater) {
-    CampaignOptions options = running("fly \"$1\"; exec sleep 60", 2);
+    CampaignOptions options = running("fly \"$1\"; " + waiting_, 2);
     std::size_t seen = 0;
     options.progress = [&](std::size_t done, std::size_t) { seen = done; };
     options.keep_going = [&] { return seen < 2; };
@@ -140,6 +143,7 @@ TEST_F(Campaign, ToldToStopItKeepsFinishedRunsAndGoesOnLater) {
     } catch (const CampaignStopped& e) {
         EXPECT_THAT(e.what(), StartsWith("interrupted; 2 of 40 runs are kept in "));
     }
+    EXPECT_FALSE(fs::exists(place_ / "not stopped"));
     EXPECT_EQ(fly(running(all_), "c"), 38u);
 }
 

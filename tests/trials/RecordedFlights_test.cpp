@@ -1,4 +1,4 @@
-// Nobody can forget kRevision: ten short flights must come out as recorded at that revision.
+// Ten short flights must repeat the recorded ones exactly, unless kRevision was counted up.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/Calibration.h>
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 const char kFile[] = HAGEN_SOURCE_DIR "/tests/trials/recorded_flights.csv";
 const char kHowToRecord[] =
-    "count up kRevision in libs/trials/include/hagen/trials/SettingsHash.h, and record anew: "
+    "count up kRevision in libs/trials/include/hagen/trials/SettingsHash.h, and record again: "
     "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
 
 /// The recorded flights: "revision,N", then rows as in runs.csv.
@@ -43,23 +43,23 @@ Recording recordingFrom(const std::string& text) {
     return recording;
 }
 
-/// What is wrong with a recording, by the flights of this revision; empty: nothing.
+/// What is wrong with a recording, given the flights of this revision; empty: nothing.
 std::string faultOf(const Recording& recording, const Recording& flown) {
     if (recording.revision != flown.revision) {
         return "recorded at revision " + std::to_string(recording.revision) +
                ", but kRevision is " + std::to_string(flown.revision) +
-               "; if it was counted up, record anew: HAGEN_RECORD_FLIGHTS=1 scripts/test -R "
+               "; if it was counted up, record again: HAGEN_RECORD_FLIGHTS=1 scripts/test -R "
                "RecordedFlights";
     }
     if (recording.rows == flown.rows) return "";
-    return std::string("flights come out otherwise than recorded; if this change is meant, ") +
+    return std::string("flights differ from the recorded ones; if the change is intended, ") +
            kHowToRecord;
 }
 
-/// What forbids to record these flights in place of others; empty: nothing.
+/// Why these flights may not replace the recorded ones; empty: they may.
 std::string obstacleTo(const Recording& flown, const Recording& recorded) {
-    if (flown.rows == recorded.rows || flown.revision > recorded.revision) return "";
-    return std::string("flights changed, but kRevision is not above the recorded one; first ") +
+    if (flown.revision > recorded.revision || textOf(flown) == textOf(recorded)) return "";
+    return std::string("flights or kRevision changed, but kRevision was not counted up; first ") +
            kHowToRecord;
 }
 
@@ -70,8 +70,8 @@ LatencyProfile someProfile() {
     return profile;
 }
 
-/// Each scenario once; every kind of model, guidance, planner, pose error and the rest at least
-/// once. Fast, and so short.
+/// Each scenario once; every guidance, planner, pose error and kind of model at least once. Fast
+/// flights, because they are short.
 std::vector<std::string> keys() {
     return {"forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic",
             "forest-0.05,2,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic",
@@ -115,6 +115,8 @@ TEST(RecordedFlights, AChangeWithoutANewRevisionIsFoundAndCannotBeRecorded) {
     EXPECT_THAT(faultOf(recorded, changed), HasSubstr("count up kRevision"));
     EXPECT_THAT(obstacleTo(changed, recorded), HasSubstr("count up kRevision"));
     EXPECT_NE(obstacleTo({2, "b\n"}, recorded), "");
+    EXPECT_NE(obstacleTo({2, "a\n"}, recorded), "");
+    EXPECT_EQ(obstacleTo(recorded, recorded), "");
 }
 
 TEST(RecordedFlights, ANewRevisionIsRecorded) {
