@@ -1,5 +1,9 @@
 // octomap-compare closedloop: flies a campaign in simulation.
+#include <hagen/avoidance/Guidance.h>
+#include <hagen/avoidance/Planner.h>
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/trials/Campaign.h>
+#include <hagen/trials/Course.h>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
@@ -110,11 +114,13 @@ int run(Flags flags) {
     trials::CampaignOptions options;
     options.jobs =
         flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
+    // The very file that runs, even if it is built anew while the campaign goes on.
+    options.worker = {"/proc/self/exe", {"octomap-compare", "fly-runs"}};
     options.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
         options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
-    trials::flyCampaign(flights, profile, options, folder);
+    trials::flyCampaign(flights, options, folder);
     if (flags.is_quiet) return 0;
     printCells(folder.runs());
     std::cout << (folder.path() / "runs.csv").string() << "\n";

@@ -1,6 +1,5 @@
 // octomap-compare merge: joins the folders of a campaign that was flown in parts.
-#include <hagen/trials/CampaignFolder.h>
-
+#include <hagen/trials/MergeCampaigns.h>
 #include <iostream>
 #include <memory>
 

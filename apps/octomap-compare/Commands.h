@@ -10,6 +10,7 @@ using Command = std::function<int()>;
 
 // Each adds a subcommand with its flags, and sets `command` where it is the one that was given.
 void addClosedLoop(CLI::App& app, Command& command);
+void addFlyRuns(CLI::App& app, Command& command);
 void addMerge(CLI::App& app, Command& command);
 void addCalibrate(CLI::App& app, Command& command);
 void addOpenLoop(CLI::App& app, Command& command);

@@ -32,7 +32,8 @@ std::string commandsOf(const CLI::App& app) {
     std::string text =
         unknown.empty() ? "no command is given" : "'" + unknown[0] + "' is no command";
     const char* before = "; there are ";
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const auto is_shown = [](const CLI::App* command) { return !command->get_group().empty(); };
+    for (const CLI::App* command : app.get_subcommands(is_shown)) {
         text += before + command->get_name();
         before = ", ";
     }
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
     Command command;
     addClosedLoop(app, command);
     addMerge(app, command);
+    addFlyRuns(app, command);
     addCalibrate(app, command);
     addOpenLoop(app, command);
     addReport(app, command);

@@ -1,4 +1,8 @@
+#include <hagen/avoidance/Guidance.h>
+#include <hagen/avoidance/Planner.h>
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/trials/CampaignPlan.h>
+#include <hagen/trials/Course.h>
 #include <algorithm>
 #include <stdexcept>
 

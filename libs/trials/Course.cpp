@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Clearance = std::function<float(const Vector3f&)>;
 
-/// Where one may fly, seen from above, and from the lowest ground there to over the highest.
+/// The limits of a flight: a rectangle seen from above, from below the lowest ground in it to above
+/// the highest.
 Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     constexpr double kLeft_m = -6, kRight_m = 46, kHalfWidth_m = 15;
     constexpr double kBelow_m = 1, kAbove_m = 6;
@@ -29,7 +30,7 @@ Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     return bounds;
 }
 
-/// Whether the straight way between two places is clear, by stepping from ball to free ball.
+/// Whether the straight line between two places is clear, by sphere stepping.
 bool isStraightWayClear(const Clearance& clearance_m, const Vector3d& from_m,
                         const Vector3d& to_m) {
     constexpr double kLeastStep_m = 0.05;
@@ -44,8 +45,8 @@ bool isStraightWayClear(const Clearance& clearance_m, const Vector3d& from_m,
     return true;
 }
 
-/// The length of a path whose corners are cut where the straight way is clear: that of a search
-/// over cells is up to 8 % too long.
+/// The length of a path after its corners are cut where the straight line is clear. The uncut path
+/// of a grid search is up to 8 % too long.
 double cutLength_m(const Clearance& clearance_m, const std::vector<Vector3d>& path) {
     double length_m = 0;
     for (std::size_t i = 0; i + 1 < path.size();) {
@@ -57,7 +58,7 @@ double cutLength_m(const Clearance& clearance_m, const std::vector<Vector3d>& pa
     return length_m;
 }
 
-/// None: no path leads to the goal.
+/// Empty: no path leads to the goal.
 std::optional<double> oraclePath_m(const Course& course) {
     const Clearance clearance_m = [&](const Vector3f& at) {
         const double height_m = static_cast<double>(at.z()) -
@@ -74,28 +75,28 @@ std::optional<double> oraclePath_m(const Course& course) {
     return cutLength_m(clearance_m, *path);
 }
 
-Course courseThrough(const CourseSort& sort, std::uint64_t seed, const simulation::Scene& scene) {
+Course courseThrough(const CourseKind& kind, std::uint64_t seed, const simulation::Scene& scene) {
     const auto above = [&](const Eigen::Vector2d& at) {
-        return Vector3d(at.x(), at.y(), scene.terrain().height_m(at.x(), at.y()) + sort.altitude_m);
+        return Vector3d(at.x(), at.y(), scene.terrain().height_m(at.x(), at.y()) + kind.altitude_m);
     };
     const Eigen::AlignedBox3d bounds_m = boundsOver(scene.terrain());
     const auto reach_m = static_cast<double>(avoidance::WorldModel::kReach_m);
-    return {sort.name,
+    return {kind.name,
             seed,
             scene,
             simulation::SceneDistance(scene, bounds_m, reach_m),
             above(kCourseStart_m),
             above(kCourseGoal_m),
-            sort.altitude_m,
+            kind.altitude_m,
             bounds_m,
             0};
 }
 
-const CourseSort& sortNamed(const std::string& name) {
+const CourseKind& kindNamed(const std::string& name) {
     std::string known;
-    for (const CourseSort& sort : courseSorts()) {
-        if (sort.name == name) return sort;
-        known += (known.empty() ? "" : ", ") + sort.name;
+    for (const CourseKind& kind : courseKinds()) {
+        if (kind.name == name) return kind;
+        known += (known.empty() ? "" : ", ") + kind.name;
     }
     throw std::invalid_argument("unknown course '" + name + "'; known are " + known);
 }
@@ -105,7 +106,7 @@ const CourseSort& sortNamed(const std::string& name) {
 const std::vector<std::string>& courseNames() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> made;
-        for (const CourseSort& sort : courseSorts()) made.push_back(sort.name);
+        for (const CourseKind& kind : courseKinds()) made.push_back(kind.name);
         return made;
     }();
     return names;
@@ -113,10 +114,10 @@ const std::vector<std::string>& courseNames() {
 
 Course makeCourse(const std::string& scenario, std::uint64_t seed) {
     constexpr std::uint64_t kFirstStream = 100, kMostAttempts = 50;
-    const CourseSort& sort = sortNamed(scenario);
+    const CourseKind& kind = kindNamed(scenario);
     for (std::uint64_t attempt = 0; attempt < kMostAttempts; ++attempt) {
         Course course =
-            courseThrough(sort, seed, sort.make(simulation::Random(seed, kFirstStream + attempt)));
+            courseThrough(kind, seed, kind.make(simulation::Random(seed, kFirstStream + attempt)));
         if (const std::optional<double> length_m = oraclePath_m(course)) {
             course.oracle_path_m = *length_m;
             return course;

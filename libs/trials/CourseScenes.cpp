@@ -307,8 +307,8 @@ simulation::Scene makeStreet(const simulation::Random& random) {
 
 }  // namespace
 
-const std::vector<CourseSort>& courseSorts() {
-    static const std::vector<CourseSort> sorts{
+const std::vector<CourseKind>& courseKinds() {
+    static const std::vector<CourseKind> kinds{
         {"forest-0.02", 2, [](simulation::Random random) { return makeForest(0.02, random); }},
         {"forest-0.05", 2, [](simulation::Random random) { return makeForest(0.05, random); }},
         {"forest-0.10", 2, [](simulation::Random random) { return makeForest(0.10, random); }},
@@ -319,7 +319,7 @@ const std::vector<CourseSort>& courseSorts() {
         {"wires", 2, [](simulation::Random random) { return makeWires(random); }},
         {"movers", 1.5, [](simulation::Random random) { return makeMovers(random); }},
         {"street", 1.5, [](simulation::Random random) { return makeStreet(random); }}};
-    return sorts;
+    return kinds;
 }
 
 }  // namespace hagen::trials

@@ -1,6 +1,8 @@
 #include <hagen/trials/FlownRuns.h>
 
-#include <hagen/trials/CampaignFolder.h>
+#include <hagen/trials/CampaignFile.h>
+#include <hagen/trials/Journal.h>
+#include <hagen/trials/MeasuredTable.h>
 #include <algorithm>
 #include <map>
 #include <set>

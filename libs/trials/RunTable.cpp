@@ -1,124 +1,52 @@
-#include <hagen/base/NumberText.h>
 #include <hagen/trials/RunTable.h>
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <fstream>
-#include <functional>
 #include <stdexcept>
 #include <tuple>
+
+#include "RunColumns.h"
 
 namespace hagen::trials {
 namespace {
 
-std::string measureText(double value, int decimals) {
-    if (std::isnan(value)) return "";
-    return base::fixedText(value, decimals);
-}
+using Columns = std::vector<const RunColumn*>;
 
-template <class Number>
-Number parsed(const std::string& text) {
-    if (const auto value = base::numberFrom<Number>(text)) return *value;
-    throw std::runtime_error("\"" + text + "\" is no number");
-}
-
-double measureFrom(const std::string& text) { return text.empty() ? NAN : parsed<double>(text); }
-
-template <class Value, std::size_t count>
-Value wordFrom(const std::string& text, const std::array<const char*, count>& words) {
-    std::string known;
-    for (std::size_t w = 0; w < count; ++w) {
-        if (text == words[w]) return static_cast<Value>(w);
-        known += std::string(w > 0 ? ", " : "") + words[w];
+Columns columnsThat(bool (*fit)(const RunColumn&)) {
+    Columns columns;
+    for (const RunColumn& column : runColumns()) {
+        if (fit(column)) columns.push_back(&column);
     }
-    throw std::runtime_error("\"" + text + "\" is none of " + known);
+    return columns;
 }
 
-// In the order of Outcome, PoseError, and of brakes_in_known_space.
-constexpr std::array<const char*, 3> kOutcomes{"success", "collision", "timeout"};
-constexpr std::array<const char*, 3> kPoseErrors{"none", "noise", "drift"};
-constexpr std::array<const char*, 2> kUnknowns{"optimistic", "brake_known"};
-
-struct Column {
-    const char* name;
-    std::function<std::string(const Run&)> write;
-    std::function<void(const std::string&, Run&)> read;
-};
-
-/// A measure that need not be there.
-Column measure(const char* name, double TrialResult::*field, int decimals) {
-    return {name, [=](const Run& run) { return measureText(run.result.*field, decimals); },
-            [=](const std::string& text, Run& run) { run.result.*field = measureFrom(text); }};
+const Columns& rowColumns() {
+    static const Columns columns = columnsThat([](const RunColumn&) { return true; });
+    return columns;
 }
 
-Column count(const char* name, int TrialResult::*field) {
-    return {name, [=](const Run& run) { return std::to_string(run.result.*field); },
-            [=](const std::string& text, Run& run) {
-                run.result.*field = parsed<int>(text);
-            }};
+const Columns& keyColumns() {
+    static const Columns columns = columnsThat([](const RunColumn& one) { return one.is_key; });
+    return columns;
 }
 
-Column setting(const char* name, double TrialSetup::*field) {
-    return {name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
-            [=](const std::string& text, Run& run) {
-                run.setup.*field = parsed<double>(text);
-            }};
+std::string headerOf(const Columns& columns) {
+    std::string header;
+    for (const RunColumn* column : columns) {
+        header += (header.empty() ? "" : ",") + std::string(column->name);
+    }
+    return header;
 }
 
-Column setting(const char* name, std::string TrialSetup::*field) {
-    return {name, [=](const Run& run) { return run.setup.*field; },
-            [=](const std::string& text, Run& run) { run.setup.*field = text; }};
+std::string fieldsOf(const Run& run, const Columns& columns) {
+    std::string fields;
+    for (const RunColumn* column : columns) {
+        if (!fields.empty()) fields += ',';
+        fields += column->write(run);
+    }
+    return fields;
 }
 
-Column word(const char* name, std::string Run::*field) {
-    return {name, [=](const Run& run) { return run.*field; },
-            [=](const std::string& text, Run& run) { run.*field = text; }};
-}
-
-const std::vector<Column>& columns() {
-    static const std::vector<Column> all{
-        word("scenario", &Run::scenario),
-        {"seed", [](const Run& run) { return std::to_string(run.seed); },
-         [](const std::string& text, Run& run) {
-             run.seed = parsed<std::uint64_t>(text);
-         }},
-        setting("model", &TrialSetup::model),
-        setting("guidance", &TrialSetup::guidance),
-        setting("speed", &TrialSetup::speed_m_s),
-        {"outcome", [](const Run& run) { return nameOf(run.result.outcome); },
-         [](const std::string& text, Run& run) {
-             run.result.outcome = wordFrom<Outcome>(text, kOutcomes);
-         }},
-        measure("min_clearance_m", &TrialResult::min_clearance_m, 4),
-        measure("path_m", &TrialResult::path_m, 3),
-        measure("time_s", &TrialResult::time_s, 3),
-        setting("planner", &TrialSetup::planner),
-        {"pose_error", [](const Run& run) { return nameOf(run.setup.pose_error); },
-         [](const std::string& text, Run& run) {
-             run.setup.pose_error = wordFrom<PoseError>(text, kPoseErrors);
-         }},
-        setting("latency_scale", &TrialSetup::latency_scale),
-        {"unknown",
-         [](const Run& run) { return kUnknowns[run.setup.brakes_in_known_space ? 1 : 0]; },
-         [](const std::string& text, Run& run) {
-             run.setup.brakes_in_known_space = wordFrom<int>(text, kUnknowns) == 1;
-         }},
-        {"oracle_path_m", [](const Run& run) { return measureText(run.oracle_path_m, 3); },
-         [](const std::string& text, Run& run) { run.oracle_path_m = measureFrom(text); }},
-        measure("first_reaction_m", &TrialResult::first_reaction_m, 3),
-        measure("rms_jerk_m_s3", &TrialResult::rms_jerk_m_s3, 3),
-        count("scans", &TrialResult::scans),
-        count("dropped_scans", &TrialResult::dropped_scans),
-        count("emergency_stops", &TrialResult::emergency_stops),
-        measure("latency_p50_ms", &TrialResult::latency_p50_ms, 3),
-        measure("latency_p95_ms", &TrialResult::latency_p95_ms, 3),
-        measure("latency_max_ms", &TrialResult::latency_max_ms, 3),
-        word("settings", &Run::settings_hash),
-        word("version", &Run::version)};
-    return all;
-}
-
-std::vector<std::string> fieldsOf(const std::string& line) {
+std::vector<std::string> split(const std::string& line) {
     std::vector<std::string> fields(1);
     for (const char c : line) {
         if (c == ',') {
@@ -130,52 +58,32 @@ std::vector<std::string> fieldsOf(const std::string& line) {
     return fields;
 }
 
-}  // namespace
-
-std::string nameOf(Outcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
-
-std::string nameOf(PoseError error) { return kPoseErrors[static_cast<std::size_t>(error)]; }
-
-PoseError poseErrorFrom(const std::string& name) {
-    try {
-        return wordFrom<PoseError>(name, kPoseErrors);
-    } catch (const std::runtime_error& e) {
-        throw std::invalid_argument(std::string("pose error: ") + e.what());
-    }
-}
-
-std::string runHeader() {
-    std::string header;
-    for (const Column& column : columns())
-        header += (header.empty() ? "" : ",") + std::string(column.name);
-    return header;
-}
-
-std::string rowOf(const Run& run) {
-    std::string row;
-    for (const Column& column : columns()) {
-        if (!row.empty()) row += ',';
-        row += column.write(run);
-    }
-    return row;
-}
-
-Run runOf(const std::string& row) {
-    const std::vector<std::string> fields = fieldsOf(row);
-    if (fields.size() != columns().size()) {
+Run runFrom(const std::string& line, const Columns& columns) {
+    const std::vector<std::string> fields = split(line);
+    if (fields.size() != columns.size()) {
         throw std::runtime_error(std::to_string(fields.size()) + " fields, not " +
-                                 std::to_string(columns().size()));
+                                 std::to_string(columns.size()));
     }
     Run run{};
     for (std::size_t c = 0; c < fields.size(); ++c) {
         try {
-            columns()[c].read(fields[c], run);
+            columns[c]->read(fields[c], run);
         } catch (const std::runtime_error& e) {
-            throw std::runtime_error(std::string("column ") + columns()[c].name + ": " + e.what());
+            throw std::runtime_error(std::string("column ") + columns[c]->name + ": " + e.what());
         }
     }
     return run;
 }
+
+}  // namespace
+
+std::string runHeader() { return headerOf(rowColumns()); }
+std::string rowOf(const Run& run) { return fieldsOf(run, rowColumns()); }
+Run runOf(const std::string& row) { return runFrom(row, rowColumns()); }
+
+std::string keyHeader() { return headerOf(keyColumns()); }
+std::string keyOf(const Run& run) { return fieldsOf(run, keyColumns()); }
+Run runOfKey(const std::string& key) { return runFrom(key, keyColumns()); }
 
 std::vector<Run> readRuns(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);

@@ -1,13 +1,13 @@
 #pragma once
 #include <hagen/base/ProcessCost.h>
-#include <hagen/trials/Trial.h>
+#include <hagen/trials/TrialMeasurement.h>
 
 #include <algorithm>
 #include <string>
 
 namespace hagen::trials {
 
-/// Takes down what stages cost, where somebody wants to know.
+/// Measures what stages cost. Does nothing without a measurement to write to.
 class Stopwatch {
  public:
     explicit Stopwatch(TrialMeasurement* measurement) : measurement_(measurement) {}
@@ -19,8 +19,8 @@ class Stopwatch {
         return call();
     }
 
-    /// Of a call that changes the world model alone: what the heap holds more afterwards is the
-    /// model's. Names no stage: the model's making is not timed.
+    /// Times a call that changes only the world model; the heap's growth is the model's. An empty
+    /// stage, of the call that makes the model, is not timed.
     template <class Call>
     void weigh(const std::string& stage, double path_m, Call call) {
         if (measurement_ == nullptr) return call();

@@ -1,12 +1,12 @@
 #pragma once
 #include <cstdint>
 
-/// Streams of a course's seed that a flight draws from. Each has its own, so that what one part
-/// draws, or leaves out, shifts nothing of another.
+/// Random streams of a course's seed that a flight draws from. Each purpose has its own, so that a
+/// draw more or less in one does not shift another.
 namespace hagen::trials::streams {
 
-constexpr std::uint64_t kPose = 0x7001, kLatency = 0x7100 /* and one a stage */;
-constexpr std::uint64_t kScan = 0x1000000 /* and one a turn */;
-constexpr std::uint64_t kAltimeter = 0x2000000 /* and one a turn */;
+constexpr std::uint64_t kPose = 0x7001, kLatency = 0x7100 /* plus the stage */;
+constexpr std::uint64_t kScan = 0x1000000 /* plus the turn */;
+constexpr std::uint64_t kAltimeter = 0x2000000 /* plus the turn */;
 
 }  // namespace hagen::trials::streams

@@ -22,12 +22,12 @@ namespace {
 constexpr int kStepsPerTurn = 5;
 static_assert(kStepsPerTurn * 20 == 100);  // of kControlStep_s in TrialSensor::kTurn_s
 
-/// What each stage takes, by the profile.
+/// Draws the latency of planning steps from the profile.
 class Latencies {
  public:
     Latencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile)
         : profile_(profile), scale_(setup.latency_scale) {
-        // Streams are counted from the last, so that models with and without the filter share them.
+        // Counted from the last stage, so that models with and without the filter share streams.
         const std::vector<std::string> names = stagesOf(setup);
         for (std::size_t i = 0; i < names.size(); ++i) {
             stages_.push_back(
@@ -39,7 +39,7 @@ class Latencies {
         for (Stage& stage : stages_) sum_ms += profile_.draw_ms(stage.name, stage.random);
         return 1e-3 * scale_ * sum_ms;
     }
-    /// What a planner may count on.
+    /// What a planner expects.
     double median_s() const {
         double sum_ms = 0;
         for (const Stage& stage : stages_) sum_ms += profile_.median_ms(stage.name);
@@ -62,7 +62,7 @@ double groundHeight_m(const Course& course, const Eigen::Vector3d& at) {
     return course.scene.terrain().height_m(at.x(), at.y());
 }
 
-/// A flight, from control step to control step.
+/// One flight, simulated in control steps.
 class TrialFlight {
  public:
     TrialFlight(const Course& course, const TrialSetup& setup, const LatencyProfile& profile,
@@ -104,14 +104,14 @@ class TrialFlight {
     }
 
  private:
-    /// A turn is complete. One that still waits was not needed.
+    /// A turn is complete. It replaces one that still waits.
     void receive(int turn) {
         ++result_.scans;
         if (waiting_) ++result_.dropped_scans;
         waiting_ = turn;
     }
 
-    /// Plans on the waiting scan, from when the planner is free on, within the step from `time_s`.
+    /// Plans on the waiting scan as soon as the planner is free, within the step from `time_s`.
     void think(double time_s) {
         const int turn = *std::exchange(waiting_, std::nullopt);
         const double start_s = std::max(time_s, free_s_);
@@ -147,7 +147,7 @@ class TrialFlight {
         const avoidance::Plan plan = stopwatch_.time(
             planner, [&] { return planner_->plan(*world_, planningTask(then, carrot, ground_m)); });
         commands_.add(free_s_ + setup_.limits.actuation_delay_s, plan.command_m_s);
-        takeDown(plan, now, start_s);
+        note(plan, now, start_s);
         if (listener_.step) {
             listener_.step({free_s_, now, believed, scan, *world_, carrot, plan,
                             clearance_m(now, start_s), latency_ms_.back()});
@@ -167,7 +167,7 @@ class TrialFlight {
         return static_cast<double>(course_.distance.at(state.position_m.cast<float>(), time_s));
     }
 
-    /// Height above the ground, as measured.
+    /// Measured height above the ground.
     double altimeter_m(int turn, const Eigen::Vector3d& at) const {
         constexpr double kNoise_m = 0.02;
         simulation::Random random(course_.seed,
@@ -203,7 +203,7 @@ class TrialFlight {
         return task;
     }
 
-    void takeDown(const avoidance::Plan& plan, const avoidance::VehicleState& now, double time_s) {
+    void note(const avoidance::Plan& plan, const avoidance::VehicleState& now, double time_s) {
         if (plan.is_emergency && !in_emergency_) {
             ++result_.emergency_stops;
             tell("emergency stop");
@@ -248,9 +248,9 @@ class TrialFlight {
     avoidance::VehicleState state_;  ///< true
     FlightTrace trace_;
     CommandQueue commands_;
-    std::optional<int> waiting_;  ///< the newest turn that nothing was planned on
-    double free_s_ = 0;           ///< when the planner is free
-    double scan_s_ = 0;           ///< of the last scan that the model took in
+    std::optional<int> waiting_;  ///< newest complete turn that is not planned on yet
+    double free_s_ = 0;           ///< when the planner is free again
+    double scan_s_ = 0;           ///< time of the last scan that the model took in
     Eigen::Vector3f scan_offset_m_{0, 0, 0};
     bool in_emergency_ = false;
     std::vector<double> latency_ms_;
@@ -269,17 +269,6 @@ class TrialFlight {
 };
 
 }  // namespace
-
-std::vector<std::string> stagesOf(const TrialSetup& setup) {
-    std::vector<std::string> stages;
-    if (avoidance::needsLabels(setup.model)) stages.push_back("filter");
-    const std::string prefix = setup.model + "/";
-    for (const std::string& part :
-         {std::string("update"), setup.guidance, setup.guidance + "+" + setup.planner}) {
-        stages.push_back(prefix + part);
-    }
-    return stages;
-}
 
 TrialResult runTrial(const Course& course, const TrialSetup& setup, const LatencyProfile& profile,
                      TrialMeasurement* measurement, const TrialListener& listener) {

@@ -1,3 +1,5 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -17,6 +19,9 @@ namespace fs = std::filesystem;
 using test::Outcome;
 using test::readFile;
 using test::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 Outcome octomapCompare(const std::vector<std::string>& arguments) {
     return test::run(HAGEN_OCTOMAP_COMPARE, arguments);
@@ -59,6 +64,44 @@ std::vector<std::string> flying(const TemporaryFolder& folder, const std::string
 void expectFailure(const Outcome& outcome, int exit_code, const std::string& part) {
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+}
+
+/// Starts the program in the background; its stderr goes to a file.
+pid_t start(std::vector<std::string> words, const fs::path& errors) {
+    words.insert(words.begin(), "octomap-compare");
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const pid_t pid = fork();
+    if (pid == 0) {
+        dup2(open(errors.c_str(), O_WRONLY | O_CREAT, 0666), STDERR_FILENO);
+        execv(HAGEN_OCTOMAP_COMPARE, arguments.data());
+        _exit(127);
+    }
+    return pid;
+}
+
+int exitCodeOf(pid_t pid) {
+    int status = 0;
+    waitpid(pid, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void waitForALine(const fs::path& journal) {
+    for (int i = 0; i < 3000 && (!fs::exists(journal) || fs::file_size(journal) == 0); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
+
+/// The process whose command line names this journal; 0 if there is none.
+pid_t workerOf(const fs::path& journal) {
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+        const std::string words = readFile(entry.path() / "cmdline");
+        if (words.find(journal.string()) != std::string::npos) {
+            return std::stoi(entry.path().filename());
+        }
+    }
+    return 0;
 }
 
 TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
@@ -128,23 +171,16 @@ TEST(ClosedLoopFlights, KilledInFlightItGoesOnWhereItWas) {
     const TemporaryFolder folder;
     ASSERT_EQ(octomapCompare(flying(folder, "whole")).exit_code, 0);
     const auto journal = folder / "killed/journal/1.csv";
-    const pid_t pid = fork();
-    if (pid == 0) {
-        std::vector<std::string> words = flying(folder, "killed", {"--jobs", "1", "-q"});
-        words.insert(words.begin(), "octomap-compare");
-        std::vector<char*> arguments;
-        for (std::string& word : words) arguments.push_back(word.data());
-        arguments.push_back(nullptr);
-        execv(HAGEN_OCTOMAP_COMPARE, arguments.data());
-        _exit(127);
-    }
-    for (int i = 0; i < 3000 && (!fs::exists(journal) || fs::file_size(journal) == 0); ++i) {
+    const pid_t pid = start(flying(folder, "killed", {"--jobs", "1", "-q"}), folder / "err");
+    waitForALine(journal);
+    kill(pid, SIGKILL);
+    EXPECT_EQ(exitCodeOf(pid), -1);
+    const std::string kept = readFile(journal);
+    for (int i = 0; i < 1000 && workerOf(journal) != 0; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    kill(pid, SIGKILL);
-    waitpid(pid, nullptr, 0);
+    EXPECT_EQ(readFile(journal), kept);  // its worker ended with it
     ASSERT_FALSE(fs::exists(folder / "killed/runs.csv"));
-    const std::string kept = readFile(journal);
     ASSERT_NE(kept, "");
     std::ofstream(journal, std::ios::app) << "forest-0.02,10";  // what a torn write leaves
     const Outcome told = octomapCompare({"report", (folder / "killed").string(), "--worst", "0"});
@@ -158,6 +194,34 @@ TEST(ClosedLoopFlights, KilledInFlightItGoesOnWhereItWas) {
     EXPECT_NE(readFile(folder / "killed/measured.csv")
                   .find(kept.substr(tab + 1, kept.find(';') - tab - 1)),
               std::string::npos);
+}
+
+TEST(ClosedLoopFlights, InterruptedItKeepsWhatItFinished) {
+    const TemporaryFolder folder;
+    const pid_t pid = start(flying(folder, "stopped", {"--jobs", "1"}), folder / "err");
+    waitForALine(folder / "stopped/journal/1.csv");
+    kill(pid, SIGTERM);  // it alone: workers are told by it
+    EXPECT_EQ(exitCodeOf(pid), 1);
+    EXPECT_THAT(readFile(folder / "err"),
+                AllOf(HasSubstr("octomap-compare: interrupted; "),
+                      HasSubstr(" of 6 runs are kept in " + (folder / "stopped/journal").string() +
+                                ", and the same command goes on from there\n")));
+    EXPECT_EQ(workerOf(folder / "stopped/journal/1.csv"), 0);
+    EXPECT_NE(readFile(folder / "stopped/journal/1.csv"), "");
+    EXPECT_FALSE(fs::exists(folder / "stopped/runs.csv"));
+}
+
+TEST(ClosedLoopFlights, AWorkerThatDiesIsToldWithTheRunThatItFlew) {
+    const TemporaryFolder folder;
+    const fs::path journal = folder / "c/journal/1.csv";
+    const pid_t pid = start(flying(folder, "c", {"--jobs", "1"}), folder / "err");
+    waitForALine(journal);
+    kill(workerOf(journal), SIGKILL);
+    EXPECT_EQ(exitCodeOf(pid), 1);
+    EXPECT_THAT(readFile(folder / "err"),
+                AllOf(HasSubstr("octomap-compare: a worker was killed by signal 9 (Killed) at "
+                                "forest-0.02,100"),
+                      HasSubstr(" finished runs are kept in ")));
 }
 
 TEST(ClosedLoopFlights, AFullDiskIsNamedAndWhatWasFinishedIsKept) {
@@ -201,6 +265,23 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     expectFailure(octomapCompare({"closedloop"}), 2, "required");
     expectFailure(octomapCompare({"hover"}), 2, "");
     expectFailure(octomapCompare({}), 2, "");
+}
+
+TEST(ClosedLoop, ItsWorkersAreNoCommandOfUsers) {
+    EXPECT_THAT(octomapCompare({"--help"}).out,
+                AllOf(HasSubstr("closedloop"), Not(HasSubstr("fly-runs"))));
+    EXPECT_THAT(octomapCompare({"hover"}).err,
+                AllOf(HasSubstr("closedloop, merge"), Not(HasSubstr("fly-runs"))));
+}
+
+TEST(ClosedLoop, AWorkerWithoutItsParentFliesNothing) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        octomapCompare({"fly-runs", "--parent", "1", "--profile", someProfile(folder).string(),
+                        "--journal", (folder / "journal").string(),
+                        "forest-0.02,1,oracle,straight,10,primitives,none,1,optimistic"});
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_FALSE(fs::exists(folder / "journal"));
 }
 
 TEST(ClosedLoop, ABrokenProfileOrOneWithoutAStageIsNamed) {

@@ -1,6 +1,6 @@
 // The report and the replay of the built program; campaigns that are flown meanwhile.
 #include <gtest/gtest.h>
-#include <hagen/trials/CampaignFolder.h>
+#include <hagen/trials/MeasuredTable.h>
 #include <sys/stat.h>
 
 #include <filesystem>

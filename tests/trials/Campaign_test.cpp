@@ -1,9 +1,9 @@
+// Campaigns whose workers are shell scripts: nothing is flown.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/Calibration.h>
-#include <hagen/trials/CampaignFolder.h>
-
-#include <cmath>
-#include <fstream>
+#include <hagen/trials/Campaign.h>
+#include <hagen/trials/MeasuredTable.h>
 
 #include "support/Program.h"
 
@@ -14,226 +14,159 @@ namespace fs = std::filesystem;
 using test::messageOf;
 using test::readFile;
 using test::TemporaryFolder;
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
 using Row = hagen::trials::Run;  // a test has a Run() of its own
 
-Row runOfSeed(std::uint64_t seed, const CampaignFolder& folder, double path_m = 40) {
-    Row run{};
-    run.scenario = "gap";
-    run.seed = seed;
-    run.result = {Outcome::Success, 0.7, path_m, 12, NAN, 20, 120, 4, 1, 3.5, 7.25, 9};
-    run.oracle_path_m = 40;
-    run.settings_hash = folder.settingsHash();
-    run.version = "0.1.0";
-    return run;
-}
-
-void journal(CampaignFolder& folder, const std::vector<std::uint64_t>& seeds) {
-    Journal journal(folder.newJournal());
-    TrialMeasurement measurement;
-    measurement.stage_ms["W-RoI/update"] = {1, 2, 3};
-    for (const std::uint64_t seed : seeds) journal.append(runOfSeed(seed, folder), measurement);
-}
-
-TEST(Journal, AFullDiskIsNamed) {
-    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-    const TemporaryFolder place;
-    CampaignFolder folder(place / "c", constantProfile(1), false);
-    Journal journal("/dev/full");
-    try {
-        journal.append(runOfSeed(1, folder), {});
-        ADD_FAILURE() << "took a row that went nowhere";
-    } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("/dev/full"), std::string::npos) << e.what();
+class Campaign : public testing::Test {
+ protected:
+    Campaign() {
+        CampaignPlan plan;
+        plan.scenarios = {"gap", "street"};
+        plan.last_seed = 9;
+        plan.models = {"W-RoI", "oracle"};
+        flights_ = flightsOf(plan);
     }
-}
 
-TEST(CampaignPlan, FliesEveryCombinationOnce) {
-    CampaignPlan plan;
-    plan.scenarios = {"gap", "street"};
-    plan.first_seed = 5;
-    plan.last_seed = 7;
-    plan.models = {"W-RoI", "oracle"};
-    plan.guidances = {"straight", "astar"};
-    plan.speeds_m_s = {4, 8};
-    const auto flights = flightsOf(plan);
-    ASSERT_EQ(flights.size(), 6u);
-    EXPECT_EQ(flights[0].setups.size(), 8u);
-    EXPECT_EQ(flights[0].seed, 5u);
-    EXPECT_EQ(flights[1].seed, 5u);
-    EXPECT_EQ(flights[1].scenario, "street");
-}
+    CampaignFolder folder(const std::string& name) const {
+        return CampaignFolder(place_ / name, constantProfile(1), false);
+    }
 
-TEST(CampaignPlan, ShardsShareEverythingAndNothingTwice) {
-    CampaignPlan plan;
-    plan.scenarios = {"gap", "street", "wires"};
-    plan.last_seed = 6;
-    std::vector<std::string> all, shards;
-    const auto note = [](const std::vector<CourseFlights>& flights, std::vector<std::string>& to) {
-        for (const auto& course : flights)
-            to.push_back(course.scenario + std::to_string(course.seed));
-    };
-    note(flightsOf(plan), all);
-    for (int number = 1; number <= 4; ++number) note(flightsOf(plan, {number, 4}), shards);
-    std::sort(all.begin(), all.end());
-    std::sort(shards.begin(), shards.end());
-    EXPECT_EQ(all, shards);
-}
+    /// A script in which $journal is the journal's path and "$@" are the keys; `fly KEY` appends
+    /// the run's line to the journal.
+    CampaignOptions running(const std::string& script, int jobs = 1) {
+        const std::string lines = place_.write("lines", allLines()).string();
+        CampaignOptions options;
+        options.jobs = jobs;
+        options.worker = {"/bin/sh",
+                          {"sh", "-c",
+                           "journal=$6; shift 6; fly() { grep -F \"$1|\" '" + lines +
+                               "' | cut -d'|' -f2 >>\"$journal\"; }; " + script,
+                           "worker"}};
+        return options;
+    }
 
-TEST(CampaignPlan, WhatCannotBeFlownIsNamed) {
-    CampaignPlan good;
-    good.scenarios = {"gap"};
-    const auto fails = [&](const std::function<void(CampaignPlan&)>& change, Shard shard = {}) {
-        CampaignPlan plan = good;
-        change(plan);
-        try {
-            flightsOf(plan, shard);
-        } catch (const std::invalid_argument& e) {
-            return std::string(e.what());
+    std::size_t fly(const CampaignOptions& options, const std::string& name) {
+        CampaignFolder campaign = folder(name);
+        return flyCampaign(flights_, options, campaign);
+    }
+
+    TemporaryFolder place_;
+    const std::string all_ = "for key; do fly \"$key\"; done";
+    /// Waits, for longer than anything takes here, and leaves a file if nobody stopped it.
+    const std::string waiting_ = "for i in $(seq 200); do sleep 0.1; done; touch '" +
+                                 (place_ / "not stopped").string() + "'";
+    std::vector<CourseFlights> flights_;
+
+ private:
+    /// "KEY|line of a journal" of each run.
+    std::string allLines() const {
+        const std::string hash = folder("hash").settingsHash();
+        std::string lines;
+        for (const CourseFlights& course : flights_) {
+            for (const TrialSetup& setup : course.setups) {
+                Row run{};
+                run.scenario = course.scenario;
+                run.seed = course.seed;
+                run.setup = setup;
+                run.settings_hash = hash;
+                lines += keyOf(run) + "|" + rowOf(run) + "\t" + measuredRowOf(run, {}) + ";\n";
+            }
         }
-        return std::string("nothing");
+        return lines;
+    }
+};
+
+TEST_F(Campaign, TheSameBytesForAnyNumberOfJobs) {
+    EXPECT_EQ(fly(running(all_, 1), "one"), 40u);
+    EXPECT_EQ(fly(running(all_, 3), "three"), 40u);
+    EXPECT_EQ(fly(running(all_, 100), "many"), 40u);
+    EXPECT_EQ(readRuns(place_ / "one/runs.csv").size(), 40u);
+    for (const char* name : {"three", "many"}) {
+        EXPECT_EQ(readFile(place_ / name / "runs.csv"), readFile(place_ / "one/runs.csv"));
+        EXPECT_EQ(readFile(place_ / name / "measured.csv"), readFile(place_ / "one/measured.csv"));
+    }
+    EXPECT_FALSE(fs::exists(place_ / "one/journal"));
+    EXPECT_EQ(fly(running("exit 1"), "one"), 0u);  // nothing is left to fly
+}
+
+TEST_F(Campaign, ProgressCountsFinishedRuns) {
+    CampaignOptions options = running(all_ + "; sleep 0.2", 2);
+    std::size_t last = 0;
+    std::vector<std::size_t> seen;
+    options.progress = [&](std::size_t done, std::size_t all) {
+        EXPECT_EQ(all, 40u);
+        EXPECT_GE(done, last);
+        last = done;
+        seen.push_back(done);
     };
-    EXPECT_EQ(fails([](CampaignPlan&) {}), "nothing");
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.scenarios = {"moon"}; }).find("'moon'"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.models = {"X"}; }).find("W-RoI"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.first_seed = 3; }).find("seed"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan& plan) { plan.speeds_m_s = {0}; }).find("speed"),
-              std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan&) {}, {5, 4}).find("shard"), std::string::npos);
-    EXPECT_NE(fails([](CampaignPlan&) {}, {0, 4}).find("shard"), std::string::npos);
+    fly(options, "c");
+    EXPECT_EQ(seen.front(), 0u);
+    EXPECT_EQ(seen.back(), 40u);
 }
 
-TEST(CampaignPlan, AProfileWithoutAStageIsToldBeforeAnythingIsFlown) {
-    CampaignPlan plan;
-    plan.scenarios = {"gap"};
-    LatencyProfile profile = constantProfile(1);
-    checkProfile(profile, flightsOf(plan));
-    profile.quantiles_ms.erase("W-RoI/astar");
-    EXPECT_NE(messageOf([&] { checkProfile(profile, flightsOf(plan)); }).find("W-RoI/astar"),
-              std::string::npos);
-}
-
-TEST(CampaignFolder, WhatIsInJournalsIsThereAgain) {
-    const TemporaryFolder place;
-    {
-        CampaignFolder folder(place / "c", constantProfile(1), false);
-        journal(folder, {3, 1});
-        journal(folder, {2});
-    }
-    CampaignFolder folder(place / "c", constantProfile(1), false);
-    EXPECT_EQ(folder.size(), 3u);
-    EXPECT_TRUE(folder.has(runOfSeed(2, folder)));
-    EXPECT_FALSE(folder.has(runOfSeed(4, folder)));
-    folder.finish();
-    EXPECT_FALSE(fs::exists(place / "c/journal"));
-    const auto runs = readRuns(place / "c/runs.csv");
-    ASSERT_EQ(runs.size(), 3u);
-    EXPECT_EQ(runs[0].seed, 1u);
-    EXPECT_NE(readFile(place / "c/measured.csv")
-                  .find("gap,1,W-RoI,astar,4,primitives,none,1,optimistic,,,2.000,2.900,,,,,0\n"),
-              std::string::npos)
-        << readFile(place / "c/measured.csv");
-}
-
-TEST(CampaignFolder, AFinishedOneIsAddedTo) {
-    const TemporaryFolder place;
-    for (const std::uint64_t seed : {7u, 5u}) {
-        CampaignFolder folder(place / "c", constantProfile(1), false);
-        journal(folder, {seed});
-        folder.readJournals();
-        folder.finish();
-    }
-    EXPECT_EQ(readRuns(place / "c/runs.csv").size(), 2u);
-    const std::string measured = readFile(place / "c/measured.csv");
-    EXPECT_EQ(std::count(measured.begin(), measured.end(), '\n'), 3);
-}
-
-TEST(CampaignFolder, ATornLastLineIsFlownAgainAndAnyOtherIsNamed) {
-    const TemporaryFolder place;
-    {
-        CampaignFolder folder(place / "c", constantProfile(1), false);
-        journal(folder, {1, 2, 3});
-    }
-    const std::string whole = readFile(place / "c/journal/1.csv");
-    const std::size_t third = whole.rfind("gap,3,");
-    for (std::size_t end = third; end < whole.size() - 1; end += 7) {  // torn anywhere
-        std::ofstream(place / "c/journal/1.csv", std::ios::binary) << whole.substr(0, end);
-        CampaignFolder folder(place / "c", constantProfile(1), false);
-        EXPECT_EQ(folder.size(), 2u) << end;
-        EXPECT_NE(folder.newJournal(), place / "c/journal/1.csv");
-    }
-    std::ofstream(place / "c/journal/1.csv", std::ios::binary) << "gap,9\n" << whole;
-    const std::string message =
-        messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); });
-    EXPECT_EQ(message.find((place / "c/journal/1.csv").string() + ":1: "), 0u) << message;
-}
-
-TEST(CampaignFolder, OtherSettingsAreRefusedUnlessItBeginsAnew) {
-    const TemporaryFolder place;
-    {
-        CampaignFolder folder(place / "c", constantProfile(1), false);
-        journal(folder, {1});
-    }
-    EXPECT_NE(messageOf([&] {
-                  CampaignFolder(place / "c", constantProfile(2), false);
-              }).find("other settings"),
-              std::string::npos);
-    EXPECT_EQ(CampaignFolder(place / "c", constantProfile(1), false).size(), 1u);
-    EXPECT_EQ(CampaignFolder(place / "c", constantProfile(2), true).size(), 0u);
-}
-
-TEST(CampaignFolder, AFolderOfOthersIsLeftAlone) {
-    const TemporaryFolder place;
-    place.write("c/mine.txt", "text");
-    for (const bool overwrite : {false, true}) {
-        EXPECT_NE(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), overwrite); }),
-                  "");
-    }
-    EXPECT_EQ(readFile(place / "c/mine.txt"), "text");
-    place.write("file", "text");
-    EXPECT_NE(messageOf([&] { CampaignFolder(place / "file", constantProfile(1), true); }), "");
-}
-
-TEST(CampaignFolder, TwoProgramsDoNotWriteToOne) {
-    const TemporaryFolder place;
-    const CampaignFolder folder(place / "c", constantProfile(1), false);
-    EXPECT_NE(
-        messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }).find("another"),
-        std::string::npos);
-}
-
-TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {
-    const TemporaryFolder place;
-    const auto fly = [&](const std::string& name, std::vector<std::uint64_t> seeds, double ms) {
-        CampaignFolder folder(place / name, constantProfile(ms), false);
-        journal(folder, seeds);
-        folder.readJournals();
-        folder.finish();
+TEST_F(Campaign, WhyAWorkerFailedIsToldAndFinishedRunsAreKept) {
+    const std::string kept = " finished runs are kept in " + (place_ / "c/journal").string() +
+                             ", and the same command goes on from there";
+    const auto failsWith = [&](const std::string& script) {
+        return messageOf([&] { fly(running(script), "c"); });
     };
-    fly("a", {1, 3}, 1);
-    fly("b", {2, 3}, 1);
-    fly("ab", {3, 2, 1}, 1);
-    fly("other", {4}, 2);
-    EXPECT_EQ(mergeCampaigns({place / "a", place / "b"}, place / "m", false), 3u);
-    EXPECT_EQ(readFile(place / "m/runs.csv"), readFile(place / "ab/runs.csv"));
-    EXPECT_EQ(readFile(place / "m/measured.csv"), readFile(place / "ab/measured.csv"));
-    EXPECT_NE(messageOf([&] {
-                  mergeCampaigns({place / "a", place / "other"}, place / "n", false);
-              }).find("other settings"),
-              std::string::npos);
-    EXPECT_NE(messageOf([&] {
-                  mergeCampaigns({place / "a", place / "none"}, place / "o", false);
-              }).find("none"),
-              std::string::npos);
-    std::string runs = readFile(place / "b/runs.csv");
-    runs.replace(runs.rfind(",40.000,12"), 7, ",41.000");
-    std::ofstream(place / "b/runs.csv", std::ios::binary) << runs;
-    EXPECT_NE(messageOf([&] {
-                  mergeCampaigns({place / "a", place / "b"}, place / "p", false);
-              }).find("contradicts"),
-              std::string::npos);
+    EXPECT_EQ(failsWith("echo 'too tired' >&2; exit 1"), "too tired; 0" + kept);
+    EXPECT_EQ(failsWith("fly \"$1\"; exit 3"),
+              "a worker ended with exit status 3 at "
+              "gap,0,oracle,astar,4,primitives,none,1,optimistic; 1" +
+                  kept);
+    EXPECT_THAT(failsWith("fly \"$1\"; echo 'out of air' >&2; kill -9 $$"),
+                AllOf(StartsWith("a worker was killed by signal 9 (Killed) at street,0,W-RoI,"),
+                      EndsWith(": out of air; 1" + kept)));
+    EXPECT_FALSE(fs::exists(place_ / "c/runs.csv"));
+    EXPECT_EQ(fly(running(all_), "c"), 38u);
+    EXPECT_EQ(readRuns(place_ / "c/runs.csv").size(), 40u);
+}
+
+TEST_F(Campaign, OneFailureStopsAllJobs) {
+    const CampaignOptions options = running("case $1 in gap,0,*) exit 3;; esac; " + waiting_, 4);
+    EXPECT_THAT(messageOf([&] { fly(options, "c"); }), HasSubstr("exit status 3 at gap,0,"));
+    EXPECT_FALSE(fs::exists(place_ / "not stopped"));
+}
+
+TEST_F(Campaign, ToldToStopItKeepsFinishedRunsAndGoesOnLater) {
+    CampaignOptions options = running("fly \"$1\"; " + waiting_, 2);
+    std::size_t seen = 0;
+    options.progress = [&](std::size_t done, std::size_t) { seen = done; };
+    options.keep_going = [&] { return seen < 2; };
+    try {
+        fly(options, "c");
+        ADD_FAILURE() << "did not stop";
+    } catch (const CampaignStopped& e) {
+        EXPECT_THAT(e.what(), StartsWith("interrupted; 2 of 40 runs are kept in "));
+    }
+    EXPECT_FALSE(fs::exists(place_ / "not stopped"));
+    EXPECT_EQ(fly(running(all_), "c"), 38u);
+}
+
+TEST_F(Campaign, AWorkerThatIsToldToStopStopsTheCampaign) {
+    for (const char* end : {"exit 0", "kill -TERM $$"}) {
+        try {
+            fly(running(std::string("fly \"$1\"; ") + end), end);
+            ADD_FAILURE() << "did not stop";
+        } catch (const CampaignStopped& e) {
+            EXPECT_THAT(e.what(), StartsWith("interrupted; 1 of 40 runs are kept in "));
+        }
+    }
+}
+
+TEST_F(Campaign, TheFolderStaysLockedWhileAWorkerLives) {
+    fly(running(all_ + "; sleep 3 2>/dev/null >&2 &"), "c");
+    EXPECT_THAT(messageOf([&] { folder("c"); }), HasSubstr("another octomap-compare"));
+}
+
+TEST_F(Campaign, AProgramThatCannotBeStartedIsNamed) {
+    CampaignOptions options;
+    options.worker = {"/nowhere/worker", {"worker"}};
+    EXPECT_THAT(messageOf([&] { fly(options, "c"); }), HasSubstr("/nowhere/worker"));
 }
 
 }  // namespace

@@ -80,6 +80,26 @@ TEST(RunTable, WhatIsWrittenIsReadAndWrittenTheSameAgain) {
     EXPECT_TRUE(std::isnan(runs[0].result.first_reaction_m));
 }
 
+TEST(RunTable, AKeyIsTheCourseAndSetupOfARowAndIsReadBack) {
+    EXPECT_EQ(keyHeader(),
+              "scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown");
+    EXPECT_EQ(keyOf(someRun()), "forest-0.05,1007,W-RoI,astar,4,primitives,none,1,optimistic");
+    simulation::Random random(3);
+    for (int r = 0; r < 300; ++r) {
+        const Row run = anyRun(random);
+        Row unflown = runOfKey(keyOf(run));
+        EXPECT_EQ(keyOf(unflown), keyOf(run));
+        unflown.result = run.result;
+        unflown.oracle_path_m = run.oracle_path_m;
+        unflown.settings_hash = run.settings_hash;
+        unflown.version = run.version;
+        EXPECT_EQ(rowOf(unflown), rowOf(run));
+    }
+    EXPECT_EQ(test::messageOf([] { runOfKey("gap,1"); }), "2 fields, not 9");
+    EXPECT_EQ(test::messageOf([] { runOfKey("gap,x,W-RoI,astar,4,primitives,none,1,optimistic"); }),
+              "column seed: \"x\" is no number");
+}
+
 TEST(RunTable, TheOrderDoesNotDependOnTheOneBefore) {
     simulation::Random random(2);
     std::vector<Row> runs;

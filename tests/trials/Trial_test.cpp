@@ -16,7 +16,7 @@ using test::simpleCourse;
 
 /// All of a result, to compare.
 std::string textOf(const TrialResult& result) {
-    hagen::Run run{};
+    hagen::trials::Run run{};
     run.result = result;
     return rowOf(run);
 }

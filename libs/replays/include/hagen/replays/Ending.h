@@ -1,5 +1,6 @@
 #pragma once
-#include <hagen/trials/Trial.h>
+#include <hagen/trials/Course.h>
+#include <hagen/trials/TrialResult.h>
 #include <Eigen/Core>
 #include <string>
 

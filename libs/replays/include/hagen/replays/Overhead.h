@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/RunTable.h>
 #include <Eigen/Core>
 #include <string>

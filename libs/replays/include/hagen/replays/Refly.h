@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/trials/RunTable.h>
+#include <hagen/trials/Trial.h>
 
 namespace hagen::replays {
 

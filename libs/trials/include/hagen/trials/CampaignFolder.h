@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/trials/CampaignPlan.h>
+#include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/RunTable.h>
 #include <filesystem>
 #include <map>
@@ -9,36 +9,28 @@
 
 namespace hagen::trials {
 
-/// What a run cost on the machine that it ran on; a row of measured.csv. Columns: those that name
-/// the run (scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown), then
-/// filter_p50_ms,filter_p95_ms, the same of update, guidance and planner (CPU time), and
-/// peak_model_bytes (heap).
-std::string measuredHeader();
-std::string measuredRowOf(const Run& run, const TrialMeasurement& measurement);
-
-/// What names a run: the columns of its settings and its seed.
-std::string keyOf(const Run& run);
-
-/// A folder that a campaign is flown into:
+/// The folder of a campaign:
 ///
-///     campaign.json  what holds for all runs, and what was flown
-///     profile.json   the latencies drawn from
-///     journal/N.csv  runs that are finished, a line each, while the campaign goes on
-///     runs.csv       all runs, sorted, once it is done; the same bytes however it was flown
-///     measured.csv   what they cost, which differs from time to time
+///     campaign.json  what holds for all runs, and the plans that were flown
+///     profile.json   the latencies that runs draw from
+///     journal/N.csv  finished runs, one per line, while the campaign goes on
+///     runs.csv       all runs, sorted, at the end; the same bytes however they were flown
+///     measured.csv   what they cost; differs each time
 ///
-/// Commands may add to a folder, also after its end, while what holds for all runs is the same.
+/// Later commands may add to a folder, even a finished one, as long as what holds for all runs
+/// stays the same.
 class CampaignFolder {
  public:
-    /// Opens a folder, or makes it. Throws std::runtime_error, naming it, where it holds anything
-    /// but a campaign, one with other settings (unless `overwrite`: it begins anew then), or one
-    /// that another program is writing to.
+    /// Opens a folder or makes it, and locks it. Throws std::runtime_error, naming it, if it holds
+    /// anything but a campaign, a campaign with other settings (unless `overwrite`, which begins
+    /// anew), or if another program is writing to it.
     CampaignFolder(std::filesystem::path folder, const LatencyProfile& profile, bool overwrite);
 
     const std::filesystem::path& path() const { return folder_; }
-    const std::string& settingsHash() const { return settings_hash_; }
+    std::filesystem::path profileFile() const { return folder_ / "profile.json"; }
+    const std::string& settingsHash() const { return campaign_.settings_hash; }
 
-    /// Whether a run is there, from this command or one before.
+    /// Whether a run was flown, by this command or an earlier one.
     bool has(const Run& run) const { return rows_.count(keyOf(run)) > 0; }
     std::size_t size() const { return rows_.size(); }
     /// All runs, sorted.
@@ -47,13 +39,13 @@ class CampaignFolder {
     /// Notes in campaign.json what is about to be flown.
     void note(const CampaignPlan& plan);
 
-    /// A file for a journal that none has yet.
+    /// A file for a new journal.
     std::filesystem::path newJournal();
-    /// Takes in what the journals hold. A torn last line is left out: its run is flown again.
-    /// Throws std::runtime_error, naming file and line, for any other that cannot be read.
+    /// Takes in the journals' runs. A torn last line is left out: its run is flown again. Throws
+    /// std::runtime_error, naming file and line, for any other line that cannot be read.
     void readJournals();
-    /// Takes in the runs of another folder. Throws std::runtime_error where it has other settings,
-    /// or the same run with another result.
+    /// Takes in the runs of another folder. Throws std::runtime_error if it has other settings, or
+    /// another result for the same run.
     void add(const CampaignFolder& other);
 
     /// Writes runs.csv and measured.csv, and removes the journals.
@@ -65,54 +57,18 @@ class CampaignFolder {
         std::string text, measured;
     };
     void open(bool overwrite);
-    void lock();
+    void begin();
+    void removeAll();
     void readTables();
     void keep(const std::string& run, const std::string& measured, const std::string& from);
-    void writeDescription();
+    void addPlan(const std::string& plan);
 
     std::filesystem::path folder_;
-    std::shared_ptr<const int> lock_;  ///< the folder's descriptor, closed with the last copy
+    std::shared_ptr<const void> lock_;
     LatencyProfile profile_;
-    std::string settings_hash_;
-    std::vector<std::string> flown_;   ///< plans, as JSON
+    CampaignFile campaign_;
     std::map<std::string, Row> rows_;  ///< by their keys
     int next_journal_ = 1;
 };
-
-/// Appends lines to a journal, each on disk before the call returns.
-class Journal {
- public:
-    /// Throws std::runtime_error, naming the file.
-    explicit Journal(std::filesystem::path file);
-    ~Journal();
-    Journal(const Journal&) = delete;
-    Journal& operator=(const Journal&) = delete;
-    void append(const Run& run, const TrialMeasurement& measurement);
-
- private:
-    std::filesystem::path file_;
-    int descriptor_;
-};
-
-/// What a line of a journal holds: rows of runs.csv and measured.csv.
-struct JournalLine {
-    std::string run, measured;
-};
-
-/// The journals of a folder by name; none where it is finished.
-std::vector<std::filesystem::path> journalsIn(const std::filesystem::path& folder);
-
-/// The lines of a journal, which may be being written to: a torn last one is left out. Throws
-/// std::runtime_error, naming file and line, for any other that is not whole.
-std::vector<JournalLine> readJournal(const std::filesystem::path& file);
-
-/// The plans that a folder's campaign.json notes. Throws std::runtime_error, naming it.
-std::vector<CampaignPlan> readPlans(const std::filesystem::path& folder);
-
-/// Joins the folders of shards into a new one, or one of the same settings: runs that several have
-/// are taken once. Returns how many runs there are. Throws std::runtime_error for folders that
-/// hold no finished or unfinished campaign, of other settings, or that contradict one another.
-std::size_t mergeCampaigns(const std::vector<std::filesystem::path>& folders,
-                           const std::filesystem::path& into, bool overwrite);
 
 }  // namespace hagen::trials

@@ -1,15 +1,16 @@
 #pragma once
-#include <hagen/trials/Trial.h>
+#include <hagen/trials/LatencyProfile.h>
+#include <hagen/trials/TrialSetup.h>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace hagen::trials {
 
-/// What is to be flown: every combination of what the lists hold.
+/// What to fly: every combination of the lists' entries.
 struct CampaignPlan {
     std::vector<std::string> scenarios;
-    std::uint64_t first_seed = 0, last_seed = 0;  ///< both flown
+    std::uint64_t first_seed = 0, last_seed = 0;  ///< both included
     std::vector<double> speeds_m_s{4};
     std::vector<std::string> models{"W-RoI"}, guidances{"astar"}, planners{"primitives"};
     std::vector<PoseError> pose_errors{PoseError::None};
@@ -17,24 +18,25 @@ struct CampaignPlan {
     bool brakes_in_known_space = false;
 };
 
-/// Part `number` of `of`, from 1 on: every of-th course.
+/// Part `number` of `of`, counted from 1: every of-th course.
 struct Shard {
     int number = 1, of = 1;
 };
 
-/// All flights through one course, which is made once for them.
+/// All flights through one course. The course is made once for them.
 struct CourseFlights {
     std::string scenario;
     std::uint64_t seed;
     std::vector<TrialSetup> setups;
 };
 
-/// The flights of a plan, courses seed by seed, so that a campaign that is stopped has some of
-/// every scenario. Throws std::invalid_argument, naming the known ones, for unknown names, for no
-/// seed, a speed or latency scale that is not more than 0, and a shard that is none.
+/// The flights of a plan, courses seed by seed, so that a campaign that is stopped early has some
+/// of every scenario. Throws std::invalid_argument for unknown names (and lists the known ones), an
+/// empty list, a last seed before the first, a speed or latency scale outside (0, 100], and an
+/// invalid shard.
 std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard = {});
 
-/// Throws std::runtime_error, naming it, where the profile has no stage that these flights need.
+/// Throws std::runtime_error, naming the stage, if the profile lacks one that these flights need.
 void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights>& flights);
 
 }  // namespace hagen::trials

@@ -7,37 +7,36 @@
 
 namespace hagen::trials {
 
-/// How long each stage took on some machine: quantiles of what was measured. Trials draw from it,
-/// so that they do not depend on how fast, or how busy, the machine is that they run on.
+/// How long each stage took on some machine, as quantiles of the measurements. Trials draw from it,
+/// so that they do not depend on the speed or load of the machine that they run on.
 struct LatencyProfile {
     std::string machine, made_by, date;  ///< processor; program and version; ISO date
-    /// Stage names: "filter", "MODEL/update", "MODEL/GUIDANCE", "MODEL/GUIDANCE+PLANNER" (how
-    /// long a planner takes depends on where it is sent). Of each, quantiles at 0, 1/(n-1), ..., 1
-    /// [ms].
+    /// By stage: "filter", "MODEL/update", "MODEL/GUIDANCE", "MODEL/GUIDANCE+PLANNER" (a planner's
+    /// time depends on the guidance). Quantiles at 0, 1/(n-1), ..., 1 [ms].
     std::map<std::string, std::vector<double>> quantiles_ms;
 
-    /// Draws a latency [ms]. Throws std::runtime_error, naming the stage, for one it does not have.
+    /// Draws a latency [ms]. Throws std::runtime_error, naming the stage, if it is missing.
     double draw_ms(const std::string& stage, simulation::Random& random) const;
     double median_ms(const std::string& stage) const;
 
-    /// The latency [ms] below which this share of a stage's lies.
+    /// The latency [ms] below which this share (0..1) of a stage's latencies lies.
     double at_ms(const std::string& stage, double share) const;
 };
 
-/// A stage's quantiles, `count` of them, of what was measured. Of nothing, none.
+/// `count` quantiles of the measurements; none if there are no measurements.
 std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 201);
 
-/// The profile as a file holds it: JSON, latencies to the microsecond.
+/// The profile as JSON, latencies rounded to the microsecond.
 std::string textOf(const LatencyProfile& profile);
 
-/// The opposite, to the microsecond. Throws std::runtime_error, naming the key.
+/// The inverse of textOf(). Throws std::runtime_error, naming the key.
 LatencyProfile latencyProfileFrom(const std::string& text);
 
-/// Read to the microsecond. Throw std::runtime_error, naming the file and the key.
+/// Files as textOf() makes them. Throw std::runtime_error, naming the file and the key.
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
 void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file);
 
-/// Those of config/campaign/profile.json when the program was built.
+/// The profile of config/campaign/profile.json when the program was built.
 LatencyProfile standardLatencyProfile();
 
 }  // namespace hagen::trials

@@ -1,27 +1,26 @@
 #pragma once
 #include <hagen/simulation/Random.h>
 #include <hagen/trials/FlightTrace.h>
-#include <hagen/trials/Trial.h>
+#include <hagen/trials/PoseError.h>
 #include <cstdint>
 #include <vector>
 
 namespace hagen::trials {
 
-/// Where a vehicle believes to be.
+/// The pose that a vehicle believes it has.
 ///
-///     none   where it is
-///     noise  off by 5 cm and by 0.5 degrees about each axis (standard deviations), drawn anew
-///     every
-///            0.1 s, and straight between: scan matching that sees each scan by itself
-///     drift  off by 1 % of the way flown, in one direction: odometry
+///     none   its true pose
+///     noise  off by 5 cm per axis and 0.5 degrees about each axis (standard deviations), drawn
+///            every 0.1 s and linear in between: scan matching of each scan by itself
+///     drift  off by 1 % of the distance flown, in one direction: odometry
 ///
-/// Its velocity it knows.
+/// Its velocity is always the true one.
 class PoseBelief {
  public:
     PoseBelief(PoseError error, std::uint64_t seed);
 
     simulation::SensorPose at(const FlightTrace& trace, double time_s);
-    /// What is believed minus what is.
+    /// Believed minus true position.
     Eigen::Vector3d offset_m(const FlightTrace& trace, double time_s);
 
  private:
@@ -32,8 +31,8 @@ class PoseBelief {
 
     PoseError error_;
     simulation::Random random_;
-    Eigen::Vector3d direction_{0, 0, 0};  ///< of the drift
-    std::vector<Knot> knots_;             ///< of the noise, every 0.1 s
+    Eigen::Vector3d direction_{0, 0, 0};  ///< of the drift, unit length
+    std::vector<Knot> knots_;             ///< of the noise, one per 0.1 s
 };
 
 }  // namespace hagen::trials

@@ -1,12 +1,14 @@
 #pragma once
-#include <hagen/trials/Trial.h>
+#include <hagen/trials/TrialResult.h>
+#include <hagen/trials/TrialSetup.h>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace hagen::trials {
 
-/// A row of runs.csv.
+/// One row of runs.csv: one flight.
 struct Run {
     std::string scenario;
     std::uint64_t seed;
@@ -20,22 +22,25 @@ struct Run {
 /// pose_error,latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,
 /// dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version
 /// outcome: success, collision, timeout; pose_error: none, noise, drift; unknown: optimistic,
-/// brake_known; NaN is an empty field. Fixed decimals, '.' whatever the locale, \n.
+/// brake_known; NaN is an empty field. Fixed decimals, '.' in every locale, \n.
 std::string runHeader();
 std::string rowOf(const Run& run);
 
-/// The run that a row tells. Throws std::runtime_error, naming the column.
+/// The run of a row. Throws std::runtime_error, naming the column.
 Run runOf(const std::string& row);
 
-/// Names as in runs.csv. poseErrorFrom() throws std::invalid_argument, naming the known ones.
-std::string nameOf(Outcome outcome);
-std::string nameOf(PoseError error);
-PoseError poseErrorFrom(const std::string& name);
+/// A run's key identifies it: the fields of its course and setup, as in its row. The header's
+/// columns: scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown
+std::string keyHeader();
+std::string keyOf(const Run& run);
+
+/// A run of this course and setup that was not flown yet. Throws as runOf().
+Run runOfKey(const std::string& key);
 
 /// Throws std::runtime_error, naming file, line and column.
 std::vector<Run> readRuns(const std::filesystem::path& file);
 
-/// By scenario, speed, planner, guidance, model, ..., seed: one order whatever order they ran in.
+/// By scenario, speed, planner, guidance, model, ..., seed: one order, whatever order they flew in.
 void sortRuns(std::vector<Run>& runs);
 
 }  // namespace hagen::trials

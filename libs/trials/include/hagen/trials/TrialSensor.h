@@ -16,15 +16,15 @@ class TrialSensor {
 
     explicit TrialSensor(const Course& course);
 
-    /// The turn from `number` * kTurn_s on, as it is measured from the true poses; depends on the
-    /// course's seed and the number, not on what other turns were asked for.
+    /// The turn that starts at `number` * kTurn_s, measured from the true poses. Depends on the
+    /// course's seed and the number only, not on which other turns were measured.
     simulation::SimulatedScan measure(int number, const FlightTrace& trace) const;
 
-    /// Segments it, its horizon that of the believed attitude. Valid until the next call.
+    /// Segments a turn, with the horizon of the believed attitude. Valid until the next call.
     const std::vector<Label>& segment(int number, const simulation::SimulatedScan& measured,
                                       const FlightTrace& trace, PoseBelief& belief);
 
-    /// Each return of the sensor's range at the believed pose of its own time.
+    /// Places each return within the sensor's range by the believed pose at its own time.
     mapping::MappedScan place(int number, const simulation::SimulatedScan& measured,
                               const std::vector<Label>& labels, const FlightTrace& trace,
                               PoseBelief& belief) const;

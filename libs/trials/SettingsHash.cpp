@@ -1,0 +1,43 @@
+#include <hagen/avoidance/Vehicle.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/trials/SettingsHash.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace hagen::trials {
+namespace {
+
+/// The 64-bit FNV-1a hash of Fowler, Noll and Vo, in hexadecimal.
+std::string hashOf(const std::string& text) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    }
+    std::array<char, 17> digits{};
+    std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
+    return digits.data();
+}
+
+}  // namespace
+
+std::string vehicleText() {
+    const avoidance::VehicleLimits limits;
+    return nlohmann::ordered_json{{"acceleration_m_s2", limits.acceleration_m_s2},
+                                  {"actuation_delay_s", limits.actuation_delay_s},
+                                  {"radius_m", limits.radius_m},
+                                  {"margin_m", limits.margin_m},
+                                  {"collision_m", limits.collision_m},
+                                  {"response_per_s", limits.response_per_s}}
+        .dump();
+}
+
+std::string hashOfSettings(const LatencyProfile& profile) {
+    return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +
+                  vehicleText() + "\n" + observations::dumpSettings(observations::Settings{}) +
+                  "\n" + textOf(profile));
+}
+
+}  // namespace hagen::trials

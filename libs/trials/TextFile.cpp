@@ -1,0 +1,37 @@
+#include "TextFile.h"
+
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace hagen::trials {
+
+namespace fs = std::filesystem;
+
+void writeWhole(const fs::path& file, const std::string& text) {
+    base::OutputPath output(file, base::kFile, true);
+    base::writeText(text, output.temporary(), file);
+    output.commit();
+}
+
+std::vector<std::string> linesOf(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    if (in.bad() || !in.eof()) throw std::runtime_error(file.string() + ": cannot be read");
+    return lines;
+}
+
+std::string placeOf(const fs::path& file, std::size_t line) {
+    return file.string() + ":" + std::to_string(line + 1);
+}
+
+void failWith(const fs::path& file, const std::string& what) {
+    throw std::runtime_error(file.string() + ": " + what + ": " + std::strerror(errno));
+}
+
+}  // namespace hagen::trials

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hagen::trials {
+
+/// Writes a file under a temporary name and renames it once it is complete. Throws
+/// std::runtime_error, naming it.
+void writeWhole(const std::filesystem::path& file, const std::string& text);
+
+/// Throws std::runtime_error, naming the file.
+std::vector<std::string> linesOf(const std::filesystem::path& file);
+
+/// "FILE:3" of the line with index 2.
+std::string placeOf(const std::filesystem::path& file, std::size_t line);
+
+/// Throws std::runtime_error: "FILE: WHAT: why", by errno.
+[[noreturn]] void failWith(const std::filesystem::path& file, const std::string& what);
+
+}  // namespace hagen::trials

@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+#include <hagen/trials/Calibration.h>
+#include <hagen/trials/CampaignFolder.h>
+#include <hagen/trials/Journal.h>
+#include <hagen/trials/MergeCampaigns.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "support/Program.h"
+
+namespace hagen::trials {
+namespace {
+
+namespace fs = std::filesystem;
+using test::messageOf;
+using test::readFile;
+using test::TemporaryFolder;
+using Row = hagen::trials::Run;  // a test has a Run() of its own
+
+Row runOfSeed(std::uint64_t seed, const CampaignFolder& folder, double path_m = 40) {
+    Row run{};
+    run.scenario = "gap";
+    run.seed = seed;
+    run.result = {Outcome::Success, 0.7, path_m, 12, NAN, 20, 120, 4, 1, 3.5, 7.25, 9};
+    run.oracle_path_m = 40;
+    run.settings_hash = folder.settingsHash();
+    run.version = "0.1.0";
+    return run;
+}
+
+void journal(CampaignFolder& folder, const std::vector<std::uint64_t>& seeds) {
+    Journal journal(folder.newJournal());
+    TrialMeasurement measurement;
+    measurement.stage_ms["W-RoI/update"] = {1, 2, 3};
+    for (const std::uint64_t seed : seeds) journal.append(runOfSeed(seed, folder), measurement);
+}
+
+TEST(Journal, AFullDiskIsNamed) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const TemporaryFolder place;
+    CampaignFolder folder(place / "c", constantProfile(1), false);
+    Journal journal("/dev/full");
+    try {
+        journal.append(runOfSeed(1, folder), {});
+        ADD_FAILURE() << "took a row that went nowhere";
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("/dev/full"), std::string::npos) << e.what();
+    }
+}
+
+TEST(CampaignFolder, WhatIsInJournalsIsThereAgain) {
+    const TemporaryFolder place;
+    {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        journal(folder, {3, 1});
+        journal(folder, {2});
+    }
+    CampaignFolder folder(place / "c", constantProfile(1), false);
+    EXPECT_EQ(folder.size(), 3u);
+    EXPECT_TRUE(folder.has(runOfSeed(2, folder)));
+    EXPECT_FALSE(folder.has(runOfSeed(4, folder)));
+    folder.finish();
+    EXPECT_FALSE(fs::exists(place / "c/journal"));
+    const auto runs = readRuns(place / "c/runs.csv");
+    ASSERT_EQ(runs.size(), 3u);
+    EXPECT_EQ(runs[0].seed, 1u);
+    EXPECT_NE(readFile(place / "c/measured.csv")
+                  .find("gap,1,W-RoI,astar,4,primitives,none,1,optimistic,,,2.000,2.900,,,,,0\n"),
+              std::string::npos)
+        << readFile(place / "c/measured.csv");
+}
+
+TEST(CampaignFolder, AFinishedOneIsAddedTo) {
+    const TemporaryFolder place;
+    for (const std::uint64_t seed : {7u, 5u}) {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        journal(folder, {seed});
+        folder.readJournals();
+        folder.finish();
+    }
+    EXPECT_EQ(readRuns(place / "c/runs.csv").size(), 2u);
+    const std::string measured = readFile(place / "c/measured.csv");
+    EXPECT_EQ(std::count(measured.begin(), measured.end(), '\n'), 3);
+}
+
+TEST(CampaignFolder, ATornLastLineIsFlownAgainAndAnyOtherIsNamed) {
+    const TemporaryFolder place;
+    {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        journal(folder, {1, 2, 3});
+    }
+    const std::string whole = readFile(place / "c/journal/1.csv");
+    const std::size_t third = whole.rfind("gap,3,");
+    for (std::size_t end = third; end < whole.size() - 1; end += 7) {  // torn anywhere
+        std::ofstream(place / "c/journal/1.csv", std::ios::binary) << whole.substr(0, end);
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        EXPECT_EQ(folder.size(), 2u) << end;
+        EXPECT_NE(folder.newJournal(), place / "c/journal/1.csv");
+    }
+    std::ofstream(place / "c/journal/1.csv", std::ios::binary) << "gap,9\n" << whole;
+    const std::string message =
+        messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); });
+    EXPECT_EQ(message.find((place / "c/journal/1.csv").string() + ":1: "), 0u) << message;
+}
+
+TEST(CampaignFolder, OtherSettingsAreRefusedUnlessItBeginsAnew) {
+    const TemporaryFolder place;
+    {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        journal(folder, {1});
+    }
+    EXPECT_NE(messageOf([&] {
+                  CampaignFolder(place / "c", constantProfile(2), false);
+              }).find("other settings"),
+              std::string::npos);
+    EXPECT_EQ(CampaignFolder(place / "c", constantProfile(1), false).size(), 1u);
+    EXPECT_EQ(CampaignFolder(place / "c", constantProfile(2), true).size(), 0u);
+}
+
+TEST(CampaignFolder, AFolderOfOthersIsLeftAlone) {
+    const TemporaryFolder place;
+    place.write("c/mine.txt", "text");
+    for (const bool overwrite : {false, true}) {
+        EXPECT_NE(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), overwrite); }),
+                  "");
+    }
+    EXPECT_EQ(readFile(place / "c/mine.txt"), "text");
+    place.write("file", "text");
+    EXPECT_NE(messageOf([&] { CampaignFolder(place / "file", constantProfile(1), true); }), "");
+}
+
+TEST(CampaignFolder, TwoProgramsDoNotWriteToOne) {
+    const TemporaryFolder place;
+    const CampaignFolder folder(place / "c", constantProfile(1), false);
+    EXPECT_NE(
+        messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }).find("another"),
+        std::string::npos);
+}
+
+TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {
+    const TemporaryFolder place;
+    const auto fly = [&](const std::string& name, std::vector<std::uint64_t> seeds, double ms) {
+        CampaignFolder folder(place / name, constantProfile(ms), false);
+        journal(folder, seeds);
+        folder.readJournals();
+        folder.finish();
+    };
+    fly("a", {1, 3}, 1);
+    fly("b", {2, 3}, 1);
+    fly("ab", {3, 2, 1}, 1);
+    fly("other", {4}, 2);
+    EXPECT_EQ(mergeCampaigns({place / "a", place / "b"}, place / "m", false), 3u);
+    EXPECT_EQ(readFile(place / "m/runs.csv"), readFile(place / "ab/runs.csv"));
+    EXPECT_EQ(readFile(place / "m/measured.csv"), readFile(place / "ab/measured.csv"));
+    EXPECT_NE(messageOf([&] {
+                  mergeCampaigns({place / "a", place / "other"}, place / "n", false);
+              }).find("other settings"),
+              std::string::npos);
+    EXPECT_NE(messageOf([&] {
+                  mergeCampaigns({place / "a", place / "none"}, place / "o", false);
+              }).find("none"),
+              std::string::npos);
+    std::string runs = readFile(place / "b/runs.csv");
+    runs.replace(runs.rfind(",40.000,12"), 7, ",41.000");
+    std::ofstream(place / "b/runs.csv", std::ios::binary) << runs;
+    EXPECT_NE(messageOf([&] {
+                  mergeCampaigns({place / "a", place / "b"}, place / "p", false);
+              }).find("contradicts"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace hagen::trials

@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/trials/Calibration.h>
+#include <hagen/trials/CampaignPlan.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "support/Program.h"
+
+namespace hagen::trials {
+namespace {
+
+using test::messageOf;
+using testing::HasSubstr;
+
+TEST(CampaignPlan, FliesEveryCombinationOnce) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap", "street"};
+    plan.first_seed = 5;
+    plan.last_seed = 7;
+    plan.models = {"W-RoI", "oracle"};
+    plan.guidances = {"straight", "astar"};
+    plan.speeds_m_s = {4, 8};
+    const auto flights = flightsOf(plan);
+    ASSERT_EQ(flights.size(), 6u);
+    EXPECT_EQ(flights[0].setups.size(), 8u);
+    EXPECT_EQ(flights[0].seed, 5u);
+    EXPECT_EQ(flights[1].seed, 5u);
+    EXPECT_EQ(flights[1].scenario, "street");
+}
+
+TEST(CampaignPlan, ShardsShareEverythingAndNothingTwice) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap", "street", "wires"};
+    plan.last_seed = 6;
+    std::vector<std::string> all, shards;
+    const auto note = [](const std::vector<CourseFlights>& flights, std::vector<std::string>& to) {
+        for (const auto& course : flights)
+            to.push_back(course.scenario + std::to_string(course.seed));
+    };
+    note(flightsOf(plan), all);
+    for (int number = 1; number <= 4; ++number) note(flightsOf(plan, {number, 4}), shards);
+    std::sort(all.begin(), all.end());
+    std::sort(shards.begin(), shards.end());
+    EXPECT_EQ(all, shards);
+}
+
+TEST(CampaignPlan, WhatCannotBeFlownIsNamed) {
+    CampaignPlan good;
+    good.scenarios = {"gap"};
+    const auto fails = [&](const std::function<void(CampaignPlan&)>& change, Shard shard = {}) {
+        CampaignPlan plan = good;
+        change(plan);
+        try {
+            flightsOf(plan, shard);
+        } catch (const std::invalid_argument& e) {
+            return std::string(e.what());
+        }
+        return std::string("nothing");
+    };
+    EXPECT_EQ(fails([](CampaignPlan&) {}), "nothing");
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.scenarios = {"moon"}; }), HasSubstr("'moon'"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.models = {"X"}; }), HasSubstr("W-RoI"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.first_seed = 3; }), HasSubstr("seed"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.speeds_m_s = {0}; }), HasSubstr("speed"));
+    EXPECT_THAT(fails([](CampaignPlan&) {}, {5, 4}), HasSubstr("shard"));
+    EXPECT_THAT(fails([](CampaignPlan&) {}, {0, 4}), HasSubstr("shard"));
+}
+
+TEST(CampaignPlan, AProfileWithoutAStageIsToldBeforeAnythingIsFlown) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap"};
+    LatencyProfile profile = constantProfile(1);
+    checkProfile(profile, flightsOf(plan));
+    profile.quantiles_ms.erase("W-RoI/astar");
+    EXPECT_THAT(messageOf([&] { checkProfile(profile, flightsOf(plan)); }),
+                HasSubstr("W-RoI/astar"));
+}
+
+}  // namespace
+}  // namespace hagen::trials

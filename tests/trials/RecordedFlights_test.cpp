@@ -1,0 +1,131 @@
+// Ten short flights must repeat the recorded ones exactly, unless kRevision was counted up.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/trials/Calibration.h>
+#include <hagen/trials/RunTable.h>
+#include <hagen/trials/SettingsHash.h>
+#include <hagen/trials/Trial.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "support/Program.h"
+
+namespace hagen::trials {
+namespace {
+
+using testing::HasSubstr;
+
+const char kFile[] = HAGEN_SOURCE_DIR "/tests/trials/recorded_flights.csv";
+const char kHowToRecord[] =
+    "count up kRevision in libs/trials/include/hagen/trials/SettingsHash.h, and record again: "
+    "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
+
+/// The recorded flights: "revision,N", then rows as in runs.csv.
+struct Recording {
+    int revision;
+    std::string rows;
+};
+
+std::string textOf(const Recording& recording) {
+    return "revision," + std::to_string(recording.revision) + "\n" + recording.rows;
+}
+
+Recording recordingFrom(const std::string& text) {
+    Recording recording{0, ""};
+    std::istringstream in(text);
+    std::string word;
+    std::getline(in, word, ',');
+    in >> recording.revision;
+    in.ignore();
+    std::getline(in, recording.rows, '\0');
+    return recording;
+}
+
+/// What is wrong with a recording, given the flights of this revision; empty: nothing.
+std::string faultOf(const Recording& recording, const Recording& flown) {
+    if (recording.revision != flown.revision) {
+        return "recorded at revision " + std::to_string(recording.revision) +
+               ", but kRevision is " + std::to_string(flown.revision) +
+               "; if it was counted up, record again: HAGEN_RECORD_FLIGHTS=1 scripts/test -R "
+               "RecordedFlights";
+    }
+    if (recording.rows == flown.rows) return "";
+    return std::string("flights differ from the recorded ones; if the change is intended, ") +
+           kHowToRecord;
+}
+
+/// Why these flights may not replace the recorded ones; empty: they may.
+std::string obstacleTo(const Recording& flown, const Recording& recorded) {
+    if (flown.revision > recorded.revision || textOf(flown) == textOf(recorded)) return "";
+    return std::string("flights or kRevision changed, but kRevision was not counted up; first ") +
+           kHowToRecord;
+}
+
+/// Latencies that do not depend on the profile that comes with the program.
+LatencyProfile someProfile() {
+    LatencyProfile profile = constantProfile(1);
+    for (auto& [stage, quantiles_ms] : profile.quantiles_ms) quantiles_ms = {2, 5, 8, 40};
+    return profile;
+}
+
+/// Each scenario once; every guidance, planner, pose error and kind of model at least once. Fast
+/// flights, because they are short.
+std::vector<std::string> keys() {
+    return {"forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic",
+            "forest-0.05,2,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic",
+            "forest-0.10,3,W-RoI,astar,10,3dvfh,none,1,optimistic",
+            "orchard,4,W-Full,astar,10,primitives,drift,1,optimistic",
+            "gap,5,O-Full-0.4,astar,8,primitives,none,1,optimistic",
+            "u-trap,6,oracle,astar,10,primitives,none,1,optimistic",
+            "terrain,7,W-RoI,straight,10,primitives,none,1,optimistic",
+            "wires,8,O-RoI+rays-0.4,straight,10,primitives,none,1,brake_known",
+            "movers,9,W-RoI,astar,10,primitives,noise,4,optimistic",
+            "street,10,G-Full,straight,10,3dvfh,none,1,optimistic"};
+}
+
+Recording fly() {
+    const LatencyProfile profile = someProfile();
+    Recording flown{kRevision, runHeader() + "\n"};
+    for (const std::string& key : keys()) {
+        hagen::trials::Run run = runOfKey(key);
+        const Course course = makeCourse(run.scenario, run.seed);
+        run.oracle_path_m = course.oracle_path_m;
+        run.result = runTrial(course, run.setup, profile);
+        flown.rows += rowOf(run) + "\n";
+    }
+    return flown;
+}
+
+TEST(RecordedFlights, ComeOutAsRecordedAtThisRevision) {
+    const Recording recorded = recordingFrom(test::readFile(kFile)), flown = fly();
+    if (std::getenv("HAGEN_RECORD_FLIGHTS") != nullptr) {
+        ASSERT_EQ(obstacleTo(flown, recorded), "");
+        std::ofstream(kFile, std::ios::binary) << textOf(flown);
+        return;
+    }
+    EXPECT_EQ(faultOf(recorded, flown), "") << "recorded:\n"
+                                            << recorded.rows << "flown:\n"
+                                            << flown.rows;
+}
+
+TEST(RecordedFlights, AChangeWithoutANewRevisionIsFoundAndCannotBeRecorded) {
+    const Recording recorded{3, "a\n"}, changed{3, "b\n"};
+    EXPECT_THAT(faultOf(recorded, changed), HasSubstr("count up kRevision"));
+    EXPECT_THAT(obstacleTo(changed, recorded), HasSubstr("count up kRevision"));
+    EXPECT_NE(obstacleTo({2, "b\n"}, recorded), "");
+    EXPECT_NE(obstacleTo({2, "a\n"}, recorded), "");
+    EXPECT_EQ(obstacleTo(recorded, recorded), "");
+}
+
+TEST(RecordedFlights, ANewRevisionIsRecorded) {
+    const Recording recorded{3, "a\n"}, changed{4, "b\n"};
+    EXPECT_THAT(faultOf(recorded, changed), HasSubstr("recorded at revision 3"));
+    EXPECT_EQ(obstacleTo(changed, recorded), "");
+    EXPECT_EQ(faultOf(recordingFrom(textOf(changed)), changed), "");
+    EXPECT_EQ(obstacleTo(recorded, recordingFrom("")), "");  // the first one
+}
+
+}  // namespace
+}  // namespace hagen::trials
