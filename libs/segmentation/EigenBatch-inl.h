@@ -1,51 +1,20 @@
-// Eigenvectors of several small symmetric matrices at once, a matrix a lane: once for each
+// Eigenvectors of several small symmetric matrices at once, one matrix per lane; compiled once per
 // instruction set.
 
 #ifndef HAGEN_EIGEN_BATCH_H
 #define HAGEN_EIGEN_BATCH_H
-#include <vector>
+#include <hagen/segmentation/RunBatch.h>
 
 namespace hagen {
 
-/// So many matrices at once, in several vectors even where vectors are widest: while one waits for
-/// a root or a division, the others go on.
-template <class Real>
-constexpr int kLanes = 128 / sizeof(Real);
-
-/// The same number of each matrix.
-template <class Real>
-struct alignas(64) Lanes {
-    Real of[kLanes<Real>];
-};
-
-/// Turns coordinates i and i + 1 of a vector.
-template <class Real>
-struct Rotation {
-    Lanes<Real> cosine, sine;
-    int i;
-};
-
-/// What is beside the diagonal counts as 0 where it is so small a share of the matrix; of doubles,
-/// far below what the squares of floats tell.
+/// Off-diagonal elements count as 0 where they are this small a share of the matrix; for doubles,
+/// that is far below what the squares of floats resolve.
 template <class Real>
 constexpr double kNegligible = sizeof(Real) == sizeof(float) ? 0x1p-23 : 0x1p-44;
 
-/// Less is not divided by. Its square root still has a square.
+/// The least divisor. Its square root can still be squared.
 template <class Real>
 constexpr double kTiny = sizeof(Real) == sizeof(float) ? 1e-30 : 1e-280;
-
-/// The memory of eigenvectors(), of matrices m x m.
-template <class Real>
-struct EigenBatch {
-    using Row = std::vector<Lanes<Real>>;
-    Row matrix;        ///< m x m, row by row, of which the lower triangle counts
-    Row vectors;       ///< the eigenvectors found, one after the other
-    Lanes<Real> last;  ///< the eigenvalue of the last of them,
-    Lanes<Real> next;  ///< and the one that would have come next
-
-    Row scale, diagonal, beside, product;
-    std::vector<Rotation<Real>> rotations;
-};
 
 }  // namespace hagen
 #endif
@@ -242,8 +211,8 @@ HWY_INLINE void planSweep(const Pack<Real>& negligible, EigenBatch<Real>& batch,
 /// One implicit QL sweep. A lane's rotation is the identity, exactly, where its off-diagonal entry
 /// is 0, and the chase begins anew above: so a lane never feels how far others are.
 template <class Real>
-HWY_INLINE Rotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Real>& batch,
-                                   Rotation<Real>* to) {
+HWY_INLINE GivensRotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Real>& batch,
+                                         GivensRotation<Real>* to) {
     const Pack<Real> zero = all<Real>(0.0), one = all<Real>(1.0);
     Lanes<Real>*const diagonal = batch.diagonal.data(), *const beside = batch.beside.data();
     Pack<Real> s = one, c = one, p = zero, g = load(diagonal[sweep.end]) - sweep.shift;
@@ -327,8 +296,8 @@ void pickEigenvectors(int m, int count, bool smallest, EigenBatch<Real>& batch) 
 /// What diagonalised T, undone on the vectors, from the last rotation to the first.
 template <class Real>
 void undoRotations(int m, int count, std::size_t rotations, EigenBatch<Real>& batch) {
-    const Rotation<Real>* const first = batch.rotations.data();
-    for (const Rotation<Real>* rotation = first + rotations; rotation != first;) {
+    const GivensRotation<Real>* const first = batch.rotations.data();
+    for (const GivensRotation<Real>* rotation = first + rotations; rotation != first;) {
         --rotation;
         const Pack<Real> c = load(rotation->cosine), s = load(rotation->sine);
         for (int v = 0; v < count; ++v) {
