@@ -1,6 +1,5 @@
 // What is timed: each stage of the filter, the whole, and what it is held against.
 #pragma once
-#include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <functional>
 #include <string>
@@ -22,8 +21,6 @@ struct Case {
     HagenFilter filter;
     Scan scan;
     SegmentationResult result;
-    DecoderWorkspace decoder;
-    FilterWorkspace work;  ///< of stages that are run alone
     std::vector<Label> floor_labels;
 };
 

@@ -62,11 +62,14 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, GroundFit<kSide>& fit,
     fit.candidates = n;
 }
 
+// The two below are not inlined: only a function that returns clears the upper halves of vectors,
+// which would slow down the scalar loops of the fit.
+
 /// Lists the pixels marked `wanted` in every `step`-th column of an image.
 template <int kSide>
-HWY_INLINE void listMarked(const PixelSpan& image, std::size_t rows, std::size_t step,
-                           const std::uint8_t* HWY_RESTRICT mark, std::uint8_t wanted,
-                           GroundFit<kSide>& fit) {
+HWY_NOINLINE void listMarked(const PixelSpan& image, std::size_t rows, std::size_t step,
+                             const std::uint8_t* HWY_RESTRICT mark, std::uint8_t wanted,
+                             GroundFit<kSide>& fit) {
     const std::size_t at_once = step == 1 ? image.size : rows;
     for (std::size_t first = 0; first < image.size; first += step * at_once) {
         listCandidates(image.part(first, at_once), fit,
@@ -83,8 +86,8 @@ HWY_INLINE void listMarked(const PixelSpan& image, std::size_t rows, std::size_t
 /// Lists the pixels close to a coarse surface, which is given as one height per cell; the tolerance
 /// grows with distance. That gathers one height per pixel, where interpolation takes four.
 template <int kSide>
-HWY_INLINE void listClose(const PixelSpan& pixels, const float* HWY_RESTRICT coarse_m,
-                          GroundFit<kSide>& fit) {
+HWY_NOINLINE void listClose(const PixelSpan& pixels, const float* HWY_RESTRICT coarse_m,
+                            GroundFit<kSide>& fit) {
     listCandidates(
         pixels, fit, [&](auto d, std::size_t pixel, auto x, auto y, auto cell) HAGEN_INLINE {
             const auto z = hn::LoadU(d, pixels.z_m + pixel);

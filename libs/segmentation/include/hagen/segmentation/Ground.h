@@ -13,11 +13,11 @@ struct Ground {
     Eigen::Isometry3f from_sensor = Eigen::Isometry3f::Identity();
     PixelPoints pixels;  ///< in the ground's frame
 
-    bool has_surface =
-        false;              ///< whether a surface was fitted; if not, all below is of older scans
-    GroundSurface surface;  ///< under the ROU
-    Image<float> height_m;  ///< of each pixel above the surface
-    CellTops tops;          ///< the highest point in each cell
+    /// Whether a surface was fitted. If not, what follows is that of an older scan.
+    bool has_surface = false;
+    GroundSurface surface;     ///< under the ROU
+    Image<float> height_m;     ///< of each pixel above the surface
+    CellTops tops;             ///< the highest point in each cell
     Image<float> tolerance_m;  ///< up to this height a pixel is ground
 };
 

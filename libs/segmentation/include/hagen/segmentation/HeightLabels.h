@@ -18,8 +18,8 @@ struct HeightTolerance {
 /// The memory of toleratedHeights(). Keep it from scan to scan, so that none is allocated; it
 /// carries nothing over.
 struct ToleranceWorkspace {
-    std::vector<float>
-        tallest_m;  ///< for each cell of CellTops: the tallest of it and its neighbours
+    /// For each cell of CellTops the highest top of the cell and its neighbours.
+    std::vector<float> tallest_m;
 };
 
 /// The tolerance of each pixel, at least 0.04 m; NaN where it is empty. It is less where something
