@@ -83,12 +83,13 @@ std::vector<double> packetsToLabels_ms(const Options& options, int runs) {
             simulated_logs::encodeSimulated(lidar.next(), lidar.sensor(), kScanPeriod_s * scan));
     }
     HagenFilter filter(observations::sensorOf(*packets.front()), options);
+    observations::DecoderWorkspace decoder;
     Scan scan;
     std::vector<double> runs_ms;
     for (int run = -kDistinctScans; run < runs; ++run) {  // the first round is to warm up
         const auto& observation = *packets[(run + kDistinctScans) % kDistinctScans];
         const double run_ms = millisecondsOf([&] {
-            observations::decodePackets(observation, scan);
+            observations::decodePackets(observation, scan, decoder);
             filter.segment(scan);
         });
         if (run >= 0) runs_ms.push_back(run_ms);

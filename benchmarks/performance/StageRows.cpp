@@ -4,23 +4,22 @@
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
-#include <hagen/segmentation/CanopyLayer.h>
-#include <hagen/segmentation/FartherReturns.h>
 #include <hagen/segmentation/GapRepair.h>
-#include <hagen/segmentation/GroundFrame.h>
-#include <hagen/segmentation/HeightLabels.h>
-#include <hagen/segmentation/Labelling.h>
 #include <hagen/segmentation/RangeAngle.h>
 #include <hagen/segmentation/RoiBoxes.h>
-#include <hagen/segmentation/RoiComponents.h>
 #include <hagen/segmentation/Sharpening.h>
-#include <hagen/segmentation/SingularSpectrumAnalysis.h>
 
 #include <algorithm>
 #include <cstring>
 
 namespace hagen {
 namespace {
+
+/// The memory of stages that are run alone: one for all scans, as a filter has.
+FilterWorkspace& work() {
+    static FilterWorkspace kept;
+    return kept;
+}
 
 float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
 
@@ -60,14 +59,15 @@ const std::vector<StageRow>& papersStages() {
         {"1 depth image", true, false,
          [](Case& c) {
              projectScan(c.scan, c.sensor, c.options.columns, c.options.context_m,
-                         c.result.range_image);
+                         c.result.range_image, work().projection);
          }},
         {"2 gap repair", true, false,
          [](Case& c) { repairGaps(c.result.range_image.depth_m, 1.0f, c.result.sharpened_m); }},
         {"3 local maxima", true, false,
          [](Case& c) {
              proximityOf(c.result.repaired_m, c.options.zone_m, c.result.proximity_m);
-             findPersistentMaxima(c.result.proximity_m, c.options.persistence_m, c.result.maxima);
+             findPersistentMaxima(c.result.proximity_m, c.options.persistence_m, c.result.maxima,
+                                  work().maxima);
          }},
         {"4+5 sharpening and merge", true, false,
          [](Case& c) {
@@ -84,24 +84,26 @@ const std::vector<StageRow>& papersStages() {
         {"7 singular spectrum analysis", true, false,
          [](Case& c) {
              smoothColumns(c.result.range_angle_rad, c.options.window_size,
-                           c.options.principal_components, c.result.smoothed_rad);
+                           c.options.principal_components, c.result.smoothed_rad, work().ssa);
          }},
         {"8 labelling", true, false,
          [](Case& c) {
              labelRegions(c.result.repaired_m, c.result.pixel_angle_rad,
                           radiansf(c.options.beta_deg), c.options.seeds,
-                          radiansf(c.options.seed_gate_deg), c.result.labels);
+                          radiansf(c.options.seed_gate_deg), c.result.labels, work().labelling);
              limitToZone(c.result.repaired_m, c.options.zone_m, c.result.labels);
          }},
         {"obstacles numbered", true, false,
          [](Case& c) {
              numberRoiComponents(c.result.repaired_m, c.result.labels, c.options.component_gap_m,
-                                 c.result.components);
+                                 c.result.components, work().components);
          }},
         {"9 extraction", true, false, [](Case& c) {
-             extractReturns(c.scan, c.sensor, c.result.range_image, c.result.labels,
-                            c.result.components, c.result.own_label, c.options.zone_m,
-                            c.options.component_gap_m, c.result.returns);
+             extractReturns(c.scan, {c.result.range_image, c.result.labels, c.result.components},
+                            c.result.own_labels,
+                            {c.sensor.min_range_m, c.sensor.max_range_m, c.options.zone_m,
+                             c.options.component_gap_m},
+                            c.result.returns, work().extraction);
          }}};
     return rows;
 }
@@ -112,12 +114,13 @@ const std::vector<StageRow>& ownStages() {
          [](Case& c) {
              static PixelPoints pixels;
              locatePixels(c.scan, c.directions, c.result.range_image, c.result.repaired_m, pixels);
-             movePixels(fitGroundFrame(pixels, Attitude{}), pixels);
+             movePixels(fitGroundFrame(pixels, Attitude{}, work().ground_frame), pixels);
          }},
         {"own: ground surface", false, false,
          [](Case& c) {
              static GroundSurface surface;
-             fitGroundSurface(c.result.ground.pixels, c.result.labels, surface);
+             fitGroundSurface(c.result.ground.pixels, c.result.labels, surface,
+                              work().ground_surface);
          }},
         {"own: heights and tolerances", false, false,
          [](Case& c) {
@@ -128,23 +131,25 @@ const std::vector<StageRow>& ownStages() {
              toleratedHeights(
                  g.pixels, g.tops,
                  {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
-                 g.tolerance_m);
+                 g.tolerance_m, work().tolerance);
          }},
         {"own: canopy", false, false,
          [](Case& c) {
              Ground& g = c.result.ground;
-             tolerateCanopy(g.tops, g.height_m, g.tolerance_m);
+             tolerateCanopy(g.tops, g.height_m, g.tolerance_m, work().canopy);
          }},
         {"own: labels, feet, specks", false, false,
          [](Case& c) {
              const Ground& g = c.result.ground;
              labelByHeight(g.height_m, g.tolerance_m, c.result.labels);
-             growFeet(g.pixels, g.height_m, c.result.labels);
-             removeSpecks(g.pixels, g.height_m, g.tolerance_m, c.result.labels);
+             growFeet(g.pixels, g.height_m, c.result.labels, work().feet);
+             removeSpecks(g.pixels, g.height_m, g.tolerance_m, c.result.labels, work().specks);
          }},
         {"own: farther returns", false, false,
          [](Case& c) {
-             judgeFartherReturns(c.scan, c.result.range_image, c.result.ground, c.result.own_label);
+             const Clearance clearance{Eigen::Vector3f::UnitZ(), c.options.ground_is_roi_below_m};
+             judgeFartherReturns(c.scan, c.result.range_image, c.result.ground, clearance,
+                                 c.result.own_labels, work().farther_returns);
          }},
         {"boxes (on demand)", false, false,
          [](Case& c) { boxRoiComponents(c.scan, c.result.returns); }}};
@@ -172,7 +177,8 @@ Case::Case(const Input& input, std::size_t which, const Options& with)
 
 void readReturns(Case& one) {
     if (one.packets) {
-        observations::decodePackets(*one.packets, one.scan);
+        static observations::DecoderWorkspace decoder;
+        observations::decodePackets(*one.packets, one.scan, decoder);
     } else {
         locateBeams(one.sensor, one.scan);
     }

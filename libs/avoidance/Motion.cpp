@@ -44,10 +44,10 @@ std::optional<float> freeClearance(const WorldModel& world,
 
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
-                                  std::vector<Eigen::Vector3f>& way_m) {
-    thread_local std::vector<Eigen::Vector3f> broken_off_m;
-    rollOut(task.start, command_m_s, task.period_s, task.limits, broken_off_m);
-    rollOut(task.start, command_m_s, hold_s, task.limits, way_m);
+                                  CommandWays& ways) {
+    const std::vector<Eigen::Vector3f>&way_m = ways.held_m, &broken_off_m = ways.broken_off_m;
+    rollOut(task.start, command_m_s, task.period_s, task.limits, ways.broken_off_m);
+    rollOut(task.start, command_m_s, hold_s, task.limits, ways.held_m);
     if (task.brakes_in_known_space &&
         !(world.isKnown(broken_off_m.back()) && world.isKnown(way_m.back()))) {
         return std::nullopt;

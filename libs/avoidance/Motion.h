@@ -18,12 +18,18 @@ void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, doub
 std::optional<float> freeClearance(const WorldModel& world,
                                    const std::vector<Eigen::Vector3f>& way_m, double room_m);
 
+/// The ways of a command: held, then braking; and broken off after a period.
+struct CommandWays {
+    std::vector<Eigen::Vector3f> held_m, broken_off_m;
+};
+
 /// Whether a command can be flown: held for `hold_s` and followed by braking, and just as well
 /// broken off after a period, so that braking at once will be possible then. From too near an
-/// obstacle it must lead away. The least clearance of both. The longer way is left in `way_m`.
+/// obstacle it must lead away. The least clearance of both. The ways are left in `ways`, which a
+/// planner reuses from command to command.
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
-                                  std::vector<Eigen::Vector3f>& way_m);
+                                  CommandWays& ways);
 
 /// At most the speed wanted, and slow enough to stop at the goal.
 double speedTowardsGoal(const PlanningTask& task);

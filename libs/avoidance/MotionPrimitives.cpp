@@ -122,13 +122,14 @@ Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) c
     plan.is_emergency = true;
     if (mustStop(world, task)) return plan;
     double best = std::numeric_limits<double>::infinity();
-    std::vector<Eigen::Vector3f> way_m;
+    CommandWays ways;
     for (const Candidate& candidate : rankedCandidates(task)) {
         if (candidate.cost >= best) break;  // the rest cost more, however much room they have
         const std::optional<float> clearance_m =
-            checkCommand(world, task, candidate.command_m_s, kLookAhead_s, way_m);
+            checkCommand(world, task, candidate.command_m_s, kLookAhead_s, ways);
         if (task.keeps_candidates) {
-            plan.candidates.push_back({way_m, candidate.command_m_s, clearance_m.has_value()});
+            plan.candidates.push_back(
+                {ways.held_m, candidate.command_m_s, clearance_m.has_value()});
         }
         if (!clearance_m) continue;
         const double cost = candidate.cost + proximityCost(*clearance_m, task.limits);

@@ -108,13 +108,13 @@ std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
 
 /// The fastest command of a direction that the check lets pass; none of zero.
 std::optional<Eigen::Vector3d> commandAlong(const WorldModel& world, const PlanningTask& task,
-                                            const HistogramCell& cell, double free_m, Plan& plan) {
-    thread_local std::vector<Eigen::Vector3f> way_m;
+                                            const HistogramCell& cell, double free_m,
+                                            CommandWays& ways, Plan& plan) {
     double speed_m_s = std::min(speedTowardsGoal(task), speedFor(free_m, task));
     for (int attempt = 0; attempt < 2 && speed_m_s >= kSlowest_m_s; ++attempt) {
         const Eigen::Vector3d command_m_s = speed_m_s * cell.direction;
-        const bool is_free = checkCommand(world, task, command_m_s, kHold_s, way_m).has_value();
-        if (task.keeps_candidates) plan.candidates.push_back({way_m, command_m_s, is_free});
+        const bool is_free = checkCommand(world, task, command_m_s, kHold_s, ways).has_value();
+        if (task.keeps_candidates) plan.candidates.push_back({ways.held_m, command_m_s, is_free});
         if (is_free) return command_m_s;
         speed_m_s /= 2;
     }
@@ -128,13 +128,14 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     plan.is_emergency = true;
     if (mustStop(world, task)) return plan;
     const double reach_m = lookAhead(task);
+    CommandWays ways;
     double best = std::numeric_limits<double>::infinity();
     for (const HistogramCell& cell : rankedCells(task)) {
         if (cell.cost >= best) break;  // the rest cost more, however far they are free
         const double free_m = freeDistance(world, task, cell.direction, reach_m);
         const double cost = cell.cost + blockedCost(task, free_m, reach_m);
         if (cost >= best) continue;
-        if (const auto command_m_s = commandAlong(world, task, cell, free_m, plan)) {
+        if (const auto command_m_s = commandAlong(world, task, cell, free_m, ways, plan)) {
             best = cost;
             plan.command_m_s = *command_m_s;
             plan.is_emergency = false;

@@ -4,7 +4,7 @@
 namespace hagen::avoidance {
 
 bool mustStop(const WorldModel& world, const PlanningTask& task) {
-    thread_local std::vector<Eigen::Vector3f> way_m;
+    std::vector<Eigen::Vector3f> way_m;
     rollOut(task.start, task.start.velocity_m_s, task.period_s, task.limits, way_m);
     return !freeClearance(world, way_m, task.limits.radius_m);
 }

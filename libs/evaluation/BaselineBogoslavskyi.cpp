@@ -107,7 +107,8 @@ Image<float> savitzkyGolay(const Image<float>& image, int window) {
 std::vector<Label> bogoslavskyiLabels(const Scan& scan, const SensorModel& sensor,
                                       const BogoslavskyiOptions& options) {
     RangeImage image;
-    projectScan(scan, sensor, options.columns, sensor.max_range_m, image);
+    ProjectionWorkspace work;
+    projectScan(scan, sensor, options.columns, sensor.max_range_m, image, work);
     Image<float> depth_m, between_beams_rad, angle_rad;
     repairGaps(image.depth_m, options.repair_step_m, depth_m);
     rangeAngles(depth_m, pixelDirections(sensor, 0), between_beams_rad);
@@ -136,7 +137,8 @@ std::vector<std::int32_t> bogoslavskyiClusters(const Scan& scan, const SensorMod
         if (labels[i] != Label::Roi) roi.range_m[i] = kNoValue;
     }
     RangeImage image;
-    projectScan(roi, sensor, options.columns, sensor.max_range_m, image);
+    ProjectionWorkspace work;
+    projectScan(roi, sensor, options.columns, sensor.max_range_m, image, work);
     Image<std::int32_t> clusters =
         Image<std::int32_t>::Zero(image.depth_m.rows(), image.depth_m.cols());
     std::vector<std::int32_t> numbers(scan.size(), 0);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -44,20 +43,15 @@ bool isSame(const Settings::Sensor& a, const Settings::Sensor& b) {
            a.min_range_m == b.min_range_m && a.max_range_m == b.max_range_m;
 }
 
-/// The sensor of the settings: made anew, which allocates, only where they are not the last ones.
+/// The sensor of the settings: made anew, which allocates, only where they changed.
 void takeConfiguredSensor(const Settings& settings, ObservedScan& observed) {
-    struct Last {
-        std::optional<Settings::Sensor> settings;
-        SensorModel sensor;
-    };
-    thread_local Last kept;
-    Last& last = kept;
-    if (!last.settings || !isSame(*last.settings, settings.sensor)) {
-        last.settings.reset();
-        last.sensor = settings.sensorModel();
-        last.settings = settings.sensor;
+    ObservedScan::Workspace& work = observed.work;
+    if (!work.settings || !isSame(*work.settings, settings.sensor)) {
+        work.settings.reset();
+        work.sensor_of_settings = settings.sensorModel();
+        work.settings = settings.sensor;
     }
-    observed.sensor = last.sensor;
+    observed.sensor = work.sensor_of_settings;
     observed.is_sensor_assumed = !settings.sensor.model;
 }
 
@@ -84,7 +78,8 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
     sensor.min_range_m = std::max(sensor.min_range_m, settings.sensor.min_range_m.value_or(0.0f));
     sensor.max_range_m =
         std::min(sensor.max_range_m, settings.sensor.max_range_m.value_or(sensor.max_range_m));
-    const std::size_t unsound_blocks = decodePackets(observation, observed.scan);
+    const std::size_t unsound_blocks =
+        decodePackets(observation, observed.scan, observed.work.decoder);
     if (unsound_blocks > 0) {
         observed.remark = std::to_string(unsound_blocks) + " of " +
                           std::to_string(observation.scan_packets.size() * 12) +

@@ -26,7 +26,7 @@ static_assert(CObservationVelodyneScan::DISTANCE_RESOLUTION == kDistanceUnit_m);
 constexpr double kHourUs = 3600e6;
 
 /// A raw packet, read byte by byte: MRPT's struct is packed, and its accessors bind references to
-/// numbers that are not aligned. Little-endian, as it came over the network.
+/// unaligned numbers. Little-endian, as it came over the network.
 class Packet {
  public:
     explicit Packet(const CObservationVelodyneScan::TVelodyneRawPacket& raw)
@@ -62,8 +62,8 @@ struct Turn {
     explicit Turn(double angle_rad) : sine(std::sin(angle_rad)), cosine(std::cos(angle_rad)) {}
 };
 
-/// The directions of all azimuth readings: of whole degrees, and of hundredths from there on. Small
-/// enough to stay in the nearest cache.
+/// The directions of all azimuth readings, from tables of whole degrees and of hundredths, which
+/// are small enough to stay in the first-level cache.
 class Directions {
  public:
     Directions() {
@@ -71,8 +71,8 @@ class Directions {
         for (int i = 0; i < 100; ++i) hundredths_.emplace_back(i * kRadiansPerReading);
     }
 
-    /// Gives a block the direction of its reading.
-    void tell(int reading, VelodyneBlock& block) const {
+    /// Sets a block's direction to that of its reading.
+    void setDirection(int reading, VelodyneBlock& block) const {
         const int from_behind = reading < kTurn / 2 ? reading + kTurn / 2 : reading - kTurn / 2;
         const Turn& a = degrees_[from_behind / 100];
         const Turn& b = hundredths_[from_behind % 100];
@@ -114,11 +114,8 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
 }
 
 /// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over
-/// the scan, so that neither the rounding of azimuths nor a broken block shifts a return.
-int turnOfBlocks(const CObservationVelodyneScan& observation) {
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local std::vector<int> kept;
-    std::vector<int>& turns = kept;
+/// the scan, so that neither rounded azimuths nor a broken block shift returns.
+int turnOfBlocks(const CObservationVelodyneScan& observation, std::vector<int>& turns) {
     turns.clear();
     for (const auto& raw : observation.scan_packets) {
         const Packet packet(raw);
@@ -175,7 +172,7 @@ std::size_t collectBlocks(const CObservationVelodyneScan& observation, const Vel
     for (const auto& raw : observation.scan_packets) {
         const Packet packet(raw);
         double packet_us = static_cast<double>(packet.time_us()) - first_us;
-        if (packet_us < 0) packet_us += kHourUs;  // time stamps start anew every hour
+        if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
         for (int b = 0; b < kBlocks; ++b) {
             if (!packet.isSound(b)) continue;
             const double block_us =
@@ -183,11 +180,24 @@ std::size_t collectBlocks(const CObservationVelodyneScan& observation, const Vel
             VelodyneBlock& block = *next++;
             block.returns = packet.returns(b);
             block.time_s = static_cast<float>(1e-6 * block_us);
-            directions.tell(packet.azimuth(b), block);
+            directions.setDirection(packet.azimuth(b), block);
         }
     }
     blocks.resize(next - blocks.data());
     return observation.scan_packets.size() * kBlocks - blocks.size();
+}
+
+/// As beamSpan() of the sensor that sensorOf() gives, without its memory.
+BeamSpan beamSpan(const VelodyneCalibration& calibration) {
+    const auto isLower = [](const auto& a, const auto& b) {
+        return a.sinVertCorrection < b.sinVertCorrection;
+    };
+    const auto& lasers = calibration.laser_corrections;
+    const auto [lowest, highest] = std::minmax_element(lasers.begin(), lasers.end(), isLower);
+    const auto elevation = [](const auto& laser) {
+        return static_cast<float>(std::atan2(laser.sinVertCorrection, laser.cosVertCorrection));
+    };
+    return {static_cast<int>(lasers.size()), elevation(*lowest), elevation(*highest)};
 }
 
 void resize(std::size_t returns, Scan& scan) {
@@ -215,10 +225,11 @@ SensorModel sensorOf(const CObservationVelodyneScan& observation) {
     return sensor;
 }
 
-// Fast because the lasers of all blocks fire in the same pattern: what is different between them
-// is their first direction, which a table tells, and the pattern is turned there, a vector of
-// returns at a time (locateReturns).
-std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan) {
+// Fast because the lasers of all blocks fire in the same pattern: blocks differ in their first
+// direction, which a table gives, and the pattern is rotated there, a vector of returns at a time
+// (locateReturns).
+std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan,
+                          DecoderWorkspace& work) {
     if (observation.scan_packets.empty()) {
         scan.clear();
         return 0;
@@ -227,14 +238,13 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
     for (std::size_t p = 1; p < observation.scan_packets.size(); ++p) {
         modelOf(observation, p);  // refuses a packet of another model
     }
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local std::vector<VelodyneBlock> kept;
-    std::vector<VelodyneBlock>& blocks = kept;
+    const VelodyneCalibration& calibration = calibrationOf(observation, model);
+    std::vector<VelodyneBlock>& blocks = work.blocks;
     const std::size_t unsound_blocks = collectBlocks(observation, model, blocks);
     const PlacesInBlock places =
-        placesOf(calibrationOf(observation, model), model, turnOfBlocks(observation));
+        placesOf(calibration, model, turnOfBlocks(observation, work.turns));
 
-    // Counted beforehand: arrays that grow are filled with zeros, which takes time.
+    // Counted first: arrays that grow are filled with zeros, which takes time.
     const std::size_t returns = countReturns(blocks);
     resize(returns + kSpareReturns, scan);
     locateReturns(
@@ -242,7 +252,13 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
         {scan.x_m.data(), scan.y_m.data(), scan.z_m.data(), scan.intensity.data(),
          scan.range_m.data(), scan.azimuth_rad.data(), scan.time_s.data(), scan.row.data()});
     resize(returns, scan);
+    scan.beams = beamSpan(calibration);
     return unsound_blocks;
+}
+
+std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan) {
+    DecoderWorkspace work;
+    return decodePackets(observation, scan, work);
 }
 
 }  // namespace hagen::observations

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/observations/VelodyneBlock.h>
 #include <hagen/range_image/Angle.h>
 #include <cstddef>
 #include <cstdint>
@@ -16,15 +17,6 @@ constexpr float kDistanceUnit_m = 0.002f;
 /// azimuthOfReadingDeg().
 constexpr int kReadingsOfTurn = 36000;
 constexpr double kRadiansPerReading = 2.0 * kPi / (kReadingsOfTurn - 1);
-
-/// A packet's block, by its first firing.
-struct VelodyneBlock {
-    const std::uint8_t* returns;  ///< 32 times distance (two bytes, little-endian) and intensity
-    float sine, cosine;           ///< of its direction, clockwise from x
-    float azimuth_rad;            ///< the same direction, counter-clockwise from x
-    float reading_from_behind;    ///< and as 0.01 degrees clockwise from behind, 0...35999
-    float time_s;
-};
 
 /// What tells a return from the first of its block: an entry a place in the block, the same in all
 /// blocks of a scan.

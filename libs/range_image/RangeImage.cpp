@@ -18,10 +18,10 @@
 namespace hagen {
 namespace {
 
-/// What nearestColumn() multiplies an azimuth with, for turns.
+/// Turns per radian of azimuth.
 constexpr float kTurnsPerRadian = static_cast<float>(0.5 / kPi);
 
-/// As many returns as are projected together.
+/// The number of returns that are projected together.
 constexpr std::size_t kTogether = 128;
 
 /// The size of the image, and the ranges that enter it.
@@ -37,18 +37,17 @@ struct Returns {
     std::int32_t* depth_mapper;
 };
 
-/// A return as one number: the bits of its range above those of its index, taken for a double.
-/// Such numbers compare as their bits do: the least is of the closest return, of equally close ones
-/// the earliest. (A minimum of doubles takes no branch, and whether a return is its pixel's closest
-/// cannot be foretold.)
+/// A return as one number: the bits of its range above those of its index, read as a double. Such
+/// numbers compare as their bits do: the least is the closest return, the earliest of equally close
+/// ones. (A minimum of doubles takes no branch, and which return is the closest is unpredictable.)
 using RangeAndIndex = double;
 
-/// No return, in both halves: as a double a number, and above those of all returns.
+/// No return, in both halves: as a double it is a number, and above those of all returns.
 constexpr std::int32_t kNoValueBits = 0x7fc00000;
 
-/// What keepClosest() needs of returns that are projected together.
+/// Returns that were projected together, for keepClosest().
 struct Projected {
-    std::int32_t pixel[kTogether];  ///< within the image, also of those that stay out
+    std::int32_t pixel[kTogether];  ///< within the image, even for returns that are left out
     RangeAndIndex found[kTogether];
 };
 
@@ -61,7 +60,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// nearestColumn(), of a vector of azimuths.
+/// nearestColumn() for a vector of azimuths.
 template <class V>
 auto nearestColumns(V azimuth_rad, int columns) {
     const hn::DFromV<V> d;
@@ -136,7 +135,7 @@ void split(const RangeAndIndex* closest, std::size_t pixels, float* depth_m,
     }
 }
 
-/// The image's part of a scan, `kTogether` returns after the other.
+/// Projects a scan, `kTogether` returns at a time.
 void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_mapper,
                     RangeAndIndex* closest) {
     Projected projected;
@@ -149,7 +148,7 @@ void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_
          static_cast<std::int32_t>(first), projected);
         keepClosest(projected, kTogether, closest);
     }
-    // The last few, filled up.
+    // The last few, padded.
     const std::size_t rest = scan.size() - first;
     float range_m[kTogether] = {}, azimuth_rad[kTogether] = {};
     std::uint8_t row[kTogether] = {};
@@ -175,13 +174,12 @@ float columnAzimuth(int column, int columns) {
     return static_cast<float>(kPi - 2.0 * kPi * (column + 0.5) / columns);
 }
 
-// Fast because pixels are found a vector of returns at a time, and the closest returns without a
-// branch.
+// Fast because pixels are found for a vector of returns at a time, and the closest returns without
+// a branch.
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
-                 RangeImage& image) {
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local std::vector<RangeAndIndex> kept;
-    std::vector<RangeAndIndex>& closest = kept;
+                 RangeImage& image, ProjectionWorkspace& work) {
+    checkLocated(scan, sensor);
+    std::vector<RangeAndIndex>& closest = work.closest;
     closest.assign(static_cast<std::size_t>(sensor.rows()) * columns, emptyPixel());
     image.depth_mapper.resize(scan.size());
     projectReturns(

@@ -18,10 +18,10 @@
 namespace hagen {
 namespace {
 
-/// Finds the row whose beam is closest by the sine of an elevation, z / range, and so without the
-/// arc sine: sines grow with their angles, and the row is the number of midpoints between
-/// neighbouring beams that lie below. Of those, a table over the sine tells all but the few within
-/// its own bin: mostly none, at most one even with the narrow beams of 64.
+/// Finds the row of the closest beam from the sine of the elevation, z / range, which saves the arc
+/// sine: sines grow with their angles, so the row is the number of midpoints between neighbouring
+/// beams that lie below. A table over the sine gives all of these except those within the same bin:
+/// usually none, at most one even for the narrow beams of a 64-beam sensor.
 struct RowTable {
     static constexpr int kBins = 1024;
     static constexpr float kBinsPerSine = kBins / 2;
@@ -43,7 +43,7 @@ struct RowTable {
         }
     }
 
-    /// As the vectors below have it.
+    /// The same arithmetic as in rowOf() below.
     static int binOf(float sine) {
         return static_cast<int>(std::min((sine + 1.0f) * kBinsPerSine, kBins - 1.0f));
     }
@@ -53,7 +53,7 @@ struct RowTable {
     int most_midpoints_in_bin = 0;
 };
 
-/// Where the points are, and where to write their beams.
+/// The points, and where their beams are written.
 struct Beams {
     const float *x_m, *y_m, *z_m;
     float *range_m, *azimuth_rad;
@@ -83,7 +83,7 @@ V arcTangent(V ratio) {
     return hn::Mul(sum, ratio);
 }
 
-/// atan2(y, x), within 5e-7; of zeros and signs as std::atan2 has it.
+/// atan2(y, x), within 5e-7; treats zeros and signs as std::atan2 does.
 template <class V>
 V azimuthOf(V x, V y) {
     const hn::DFromV<V> d;
@@ -117,7 +117,7 @@ auto rowOf(V sine, const RowTable& table) {
     return row;
 }
 
-/// As many points as a vector has.
+/// As many points as a vector has lanes.
 template <class D>
 HWY_INLINE void locateVector(D d, const RowTable& table, const Beams& at) {
     const auto x = hn::LoadU(d, at.x_m), y = hn::LoadU(d, at.y_m), z = hn::LoadU(d, at.z_m);
@@ -146,7 +146,7 @@ void locateAll(const RowTable& table, Beams beams, std::size_t count) {
                       beams.azimuth_rad + i, beams.row + i});
     }
     if (i == count) return;
-    float x_m[kMost] = {}, y_m[kMost] = {}, z_m[kMost] = {};  // the last few, filled up
+    float x_m[kMost] = {}, y_m[kMost] = {}, z_m[kMost] = {};  // the last few, padded
     float range_m[kMost], azimuth_rad[kMost];
     std::uint8_t row[kMost];
     std::copy(beams.x_m + i, beams.x_m + count, x_m);
@@ -175,6 +175,7 @@ void Scan::clear() {
         values->clear();
     }
     row.clear();
+    beams = {};
 }
 
 void Scan::reserve(std::size_t returns) {
@@ -184,12 +185,13 @@ void Scan::reserve(std::size_t returns) {
     row.reserve(returns);
 }
 
-// Fast because nothing is done a point that a vector of points cannot do together: the row needs no
-// angle (RowTable), the azimuth is a polynomial.
+// Fast because all of it is done for a vector of points at a time: the row needs no angle
+// (RowTable), the azimuth is a polynomial.
 void locateBeams(const SensorModel& sensor, Scan& scan) {
     scan.range_m.resize(scan.size());
     scan.azimuth_rad.resize(scan.size());
     scan.row.resize(scan.size());
+    scan.beams = beamSpan(sensor);
     const RowTable table(sensor);
     HWY_DYNAMIC_DISPATCH(locateAll)
     (table,

@@ -13,14 +13,14 @@ constexpr int kBlockCells = 4;
 constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
 constexpr int kReach = 6;                      // blocks to each side
 
-constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of what may be a canopy
+constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
 constexpr float kLeastShare = 0.35f;                  // of the cells seen around
-constexpr float kLeastCells = 30;                     // seen around; fewer tell nothing
+constexpr float kLeastCells = 30;                     // seen around; with fewer, no canopy
 constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
 
-/// What stands in the cells of a block, or of many. Sums are double, so that what is taken away
-/// again leaves next to nothing behind.
+/// The plants in the cells of one block or of several. Sums are double, so that subtracting blocks
+/// again leaves hardly any rounding error.
 struct Stand {
     float seen = 0;     ///< cells with returns
     float plants = 0;   ///< of those, cells whose highest return is that of a low plant
@@ -46,7 +46,7 @@ struct Stand {
         sum_m -= other.sum_m;
         sum_m2 -= other.sum_m2;
     }
-    /// The height that no plant exceeds; 0 where there is no canopy.
+    /// The height that plants do not exceed; 0 where there is no canopy.
     float canopy_m() const {
         if (seen < kLeastCells || plants < kLeastShare * static_cast<float>(seen)) return 0;
         const double mean_m = sum_m / plants;
@@ -73,8 +73,8 @@ void findStands(const CellTops& tops, Stands& stands) {
     }
 }
 
-/// The sums over kReach blocks to each side along a line of blocks that lie `stride` apart: from
-/// one to the next, one block comes in and one goes out.
+/// Sums over kReach blocks to each side along a line of blocks that are `stride` apart: from one to
+/// the next, one block is added and one removed.
 void sumAlong(const Stand* stands, int stride, Stand* sums) {
     Stand around;
     for (int k = 0; k < kReach; ++k) around.add(stands[k * stride]);
@@ -87,7 +87,8 @@ void sumAlong(const Stand* stands, int stride, Stand* sums) {
 
 }  // namespace
 
-void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<float>& tolerance_m) {
+void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<float>& tolerance_m,
+                    CanopyWorkspace& work) {
     Stands stands{}, sums;
     findStands(tops, stands);
     for (int j = 0; j < kBlocks; ++j) sumAlong(&stands[j * kBlocks], 1, &sums[j * kBlocks]);
@@ -99,8 +100,7 @@ void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<fl
     }
     if (*std::max_element(canopy_m.begin(), canopy_m.end()) == 0) return;  // as nearly everywhere
 
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local Eigen::ArrayXXf of_cells_m;
+    Eigen::ArrayXXf& of_cells_m = work.canopy_m;
     of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         of_cells_m.block<kBlockCells, kBlockCells>(

@@ -1,4 +1,4 @@
-#include "CriticalPixels.h"
+#include <hagen/segmentation/CriticalPixels.h>
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE
@@ -14,10 +14,10 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Some columns side by side, all of which have their neighbours on the left (and right) earlier or
-/// later in the image than themselves. Positive floats order as their bits do, and of two equal
-/// ones the earlier is older: so a neighbour is older if its bits, plus 1 if it is earlier, are
-/// more. No branch a pixel: what was found in 64 of them is a word of bits.
+/// For adjacent columns that all have their left (and right) neighbours earlier, or all later, in
+/// the image. Positive floats order as their bits do, and the earlier of two equal ones is older:
+/// so a neighbour is older if its bits, plus 1 if it is earlier, are more. There is no branch per
+/// pixel: the findings in 64 of them are one word of bits.
 void FindCriticalIn(int begin, int end, int stride, bool left_is_earlier, bool right_is_earlier,
                     const float* HWY_RESTRICT level, CriticalPixels& critical) {
     const hn::ScalableTag<std::int32_t> d;
@@ -65,7 +65,7 @@ void FindCriticalIn(int begin, int end, int stride, bool left_is_earlier, bool r
                                        hn::Or(bit(left, 6), bit(above_left, 7)));
             hn::StoreU(hn::Or(right_bits, left_bits), d, older_neighbours + i);
 
-            // Going round, a stretch of older neighbours begins after a side that is not older.
+            // Going around, a stretch of older neighbours begins after an edge that is not older.
             const auto begins = [&](V side, V corner, V next)
                                     HWY_ATTR { return hn::AndNot(side, hn::Or(corner, next)); };
             const V minus_stretches = hn::Add(
@@ -106,7 +106,7 @@ constexpr int kSlack =
 
 }  // namespace
 
-void frame(const Image<float>& image, FramedLevels& framed) {
+void frameLevels(const Image<float>& image, FramedLevels& framed) {
     framed.rows = static_cast<int>(image.rows());
     framed.columns = static_cast<int>(image.cols());
     const int stride = framed.stride();
@@ -125,7 +125,7 @@ void frame(const Image<float>& image, FramedLevels& framed) {
     if (framed.columns > 1) {
         frameColumn(framed.columns - 1, -1);
         frameColumn(0, framed.columns);
-    } else {  // nothing is its own neighbour
+    } else {  // no pixel is its own neighbour
         std::fill_n(level + framed.indexOf(0, -1), stride, 0.0f);
         std::fill_n(level + framed.indexOf(0, framed.columns), stride, 0.0f);
     }
@@ -148,10 +148,10 @@ void findCriticalPixels(const FramedLevels& framed, CriticalPixels& critical) {
     };
     const int last = framed.columns - 1;
     if (last < 0) return;
-    findIn(0, std::min(1, last), false, false);  // left of the first column is the last
+    findIn(0, std::min(1, last), false, false);  // the last column is left of the first
     findIn(std::min(1, last), last, true, false);
     findIn(last, last + 1, true, true);
-    for (int row = 0; row < framed.rows; ++row) {  // from the frame to the pixels it repeats
+    for (int row = 0; row < framed.rows; ++row) {  // from the frame to the pixels it copies
         critical.ascent[framed.indexOf(row, -1)] = framed.indexOf(row, last);
         critical.ascent[framed.indexOf(row, framed.columns)] = framed.indexOf(row, 0);
     }

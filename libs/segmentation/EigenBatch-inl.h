@@ -1,51 +1,20 @@
-// Eigenvectors of several small symmetric matrices at once, a matrix a lane: once for each
+// Eigenvectors of several small symmetric matrices at once, one matrix per lane; compiled once per
 // instruction set.
 
 #ifndef HAGEN_EIGEN_BATCH_H
 #define HAGEN_EIGEN_BATCH_H
-#include <vector>
+#include <hagen/segmentation/RunBatch.h>
 
 namespace hagen {
 
-/// So many matrices at once, in several vectors even where vectors are widest: while one waits for
-/// a root or a division, the others go on.
-template <class Real>
-constexpr int kLanes = 128 / sizeof(Real);
-
-/// The same number of each matrix.
-template <class Real>
-struct alignas(64) Lanes {
-    Real of[kLanes<Real>];
-};
-
-/// Turns coordinates i and i + 1 of a vector.
-template <class Real>
-struct Rotation {
-    Lanes<Real> cosine, sine;
-    int i;
-};
-
-/// What is beside the diagonal counts as 0 where it is so small a share of the matrix; of doubles,
-/// far below what the squares of floats tell.
+/// Off-diagonal elements count as 0 where they are this small a share of the matrix; for doubles,
+/// that is far below what the squares of floats resolve.
 template <class Real>
 constexpr double kNegligible = sizeof(Real) == sizeof(float) ? 0x1p-23 : 0x1p-44;
 
-/// Less is not divided by. Its square root still has a square.
+/// The least divisor. Its square root can still be squared.
 template <class Real>
 constexpr double kTiny = sizeof(Real) == sizeof(float) ? 1e-30 : 1e-280;
-
-/// The memory of eigenvectors(), of matrices m x m.
-template <class Real>
-struct EigenBatch {
-    using Row = std::vector<Lanes<Real>>;
-    Row matrix;        ///< m x m, row by row, of which the lower triangle counts
-    Row vectors;       ///< the eigenvectors found, one after the other
-    Lanes<Real> last;  ///< the eigenvalue of the last of them,
-    Lanes<Real> next;  ///< and the one that would have come next
-
-    Row scale, diagonal, beside, product;
-    std::vector<Rotation<Real>> rotations;
-};
 
 }  // namespace hagen
 #endif
@@ -66,7 +35,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Arithmetic on Lanes, as one would write it for a single number.
+/// Arithmetic on Lanes, written as for single numbers.
 template <class Real>
 using D = hn::CappedTag<Real, kLanes<Real>>;
 template <class Real>
@@ -76,7 +45,7 @@ constexpr int kVectors = kLanes<Real> / kVectorLanes<Real>;
 
 template <class Real>
 struct Pack {
-    HWY_INLINE Pack() {}  // the one that a compiler makes is not for this instruction set
+    HWY_INLINE Pack() {}  // the compiler's own is not for this instruction set
     hn::Vec<D<Real>> part[kVectors<Real>];
 };
 template <class Real>
@@ -161,8 +130,8 @@ HWY_INLINE bool allOf(const PackMask<Real>& mask) {
 #undef HAGEN_EACH_PART
 
 /// Householder's reduction Q^T A Q = T to a tridiagonal matrix, from the last row upwards: that
-/// leaves the large eigenvalues at the lower end of T, where QL wants them. Row k of the matrix
-/// keeps the reflection's vector v, `scale` its 2 / v^T v (0: none).
+/// leaves the large eigenvalues at the lower end of T, where QL needs them. Row k of the matrix
+/// keeps the reflection's vector v, `scale` its 2 / v^T v (0: no reflection).
 template <class Real>
 void tridiagonalise(int m, EigenBatch<Real>& batch) {
     const auto row = [&](int i) { return &batch.matrix[i * m]; };
@@ -181,7 +150,7 @@ void tridiagonalise(int m, EigenBatch<Real>& batch) {
         store(last + norm, v[k - 1]);
         store(scale, batch.scale[k]);
 
-        // p = A v, of which only the lower triangle counts
+        // p = A v, of whose A only the lower triangle counts
         for (int i = 0; i < k; ++i) {
             Pack<Real> sum = zero;
             for (int j = 0; j <= i; ++j) sum = sum + load(row(i)[j]) * load(v[j]);
@@ -204,16 +173,16 @@ void tridiagonalise(int m, EigenBatch<Real>& batch) {
     if (m > 1) store(load(row(1)[0]), batch.beside[0]);
 }
 
-/// What diagonaliseTridiagonal() is to do next: the rotations of [first, end).
+/// The next sweep of diagonaliseTridiagonal(): the rotations in [first, end).
 template <class Real>
 struct Sweep {
     int first, end;
     Pack<Real> shift;
 };
 
-/// Sets off-diagonal entries that are as good as 0 to 0, and leaves out where all lanes have them.
-/// Wilkinson's shift for each lane: the eigenvalue of its first 2 x 2 block that is not done,
-/// nearer to the first entry of the two.
+/// Sets negligible off-diagonal entries to 0, and leaves out those that are 0 in all lanes.
+/// Wilkinson's shift for each lane: the eigenvalue of its first unfinished 2 x 2 block that is
+/// nearer to the block's first entry.
 template <class Real>
 HWY_INLINE void planSweep(const Pack<Real>& negligible, EigenBatch<Real>& batch,
                           Sweep<Real>& sweep) {
@@ -239,11 +208,11 @@ HWY_INLINE void planSweep(const Pack<Real>& negligible, EigenBatch<Real>& batch,
     sweep = {first, end, upper - zeroIf(below == zero, square / below)};
 }
 
-/// One implicit QL sweep. A lane's rotation is the identity, exactly, where its off-diagonal entry
-/// is 0, and the chase begins anew above: so a lane never feels how far others are.
+/// One implicit QL sweep. Where a lane's off-diagonal entry is 0, its rotation is exactly the
+/// identity, and the chase starts anew above: so no lane is affected by the progress of others.
 template <class Real>
-HWY_INLINE Rotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Real>& batch,
-                                   Rotation<Real>* to) {
+HWY_INLINE GivensRotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Real>& batch,
+                                         GivensRotation<Real>* to) {
     const Pack<Real> zero = all<Real>(0.0), one = all<Real>(1.0);
     Lanes<Real>*const diagonal = batch.diagonal.data(), *const beside = batch.beside.data();
     Pack<Real> s = one, c = one, p = zero, g = load(diagonal[sweep.end]) - sweep.shift;
@@ -275,8 +244,8 @@ HWY_INLINE Rotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Real>& b
     return to;
 }
 
-/// T becomes diagonal, by rotations that are kept; returns how many. Should rounding be in its way,
-/// a lane may keep entries beside its diagonal; its vectors are orthonormal all the same.
+/// Diagonalises T by rotations, which are kept; returns their number. If rounding prevents it, a
+/// lane may keep off-diagonal entries; its vectors are orthonormal all the same.
 template <class Real>
 std::size_t diagonaliseTridiagonal(int m, EigenBatch<Real>& batch) {
     Pack<Real> largest = all<Real>(0.0);
@@ -296,7 +265,7 @@ std::size_t diagonaliseTridiagonal(int m, EigenBatch<Real>& batch) {
     return rotations;
 }
 
-/// Unit vectors, in each lane where its `count` smallest (or largest) diagonal entries are.
+/// Unit vectors along the `count` smallest (or largest) diagonal entries of each lane.
 template <class Real>
 void pickEigenvectors(int m, int count, bool smallest, EigenBatch<Real>& batch) {
     const Pack<Real> zero = all<Real>(0.0), one = all<Real>(1.0), taken = all<Real>(HUGE_VAL);
@@ -324,11 +293,11 @@ void pickEigenvectors(int m, int count, bool smallest, EigenBatch<Real>& batch) 
     }
 }
 
-/// What diagonalised T, undone on the vectors, from the last rotation to the first.
+/// Undoes the rotations that diagonalised T on the vectors, from the last to the first.
 template <class Real>
 void undoRotations(int m, int count, std::size_t rotations, EigenBatch<Real>& batch) {
-    const Rotation<Real>* const first = batch.rotations.data();
-    for (const Rotation<Real>* rotation = first + rotations; rotation != first;) {
+    const GivensRotation<Real>* const first = batch.rotations.data();
+    for (const GivensRotation<Real>* rotation = first + rotations; rotation != first;) {
         --rotation;
         const Pack<Real> c = load(rotation->cosine), s = load(rotation->sine);
         for (int v = 0; v < count; ++v) {
@@ -340,7 +309,7 @@ void undoRotations(int m, int count, std::size_t rotations, EigenBatch<Real>& ba
     }
 }
 
-/// What made the matrix tridiagonal, undone.
+/// Undoes the reflections that made the matrix tridiagonal.
 template <class Real>
 void undoReflections(int m, int count, EigenBatch<Real>& batch) {
     for (int k = 2; k < m; ++k) {
@@ -355,9 +324,9 @@ void undoReflections(int m, int count, EigenBatch<Real>& batch) {
     }
 }
 
-/// The orthonormal eigenvectors of the `count` smallest (or largest) eigenvalues of batch.matrix,
-/// which is lost, into batch.vectors: by Householder's reduction and the implicit QL method, whose
-/// rotations are applied to the wanted vectors alone.
+/// Writes the orthonormal eigenvectors of the `count` smallest (or largest) eigenvalues of
+/// batch.matrix, which is overwritten, to batch.vectors: by Householder's reduction and the
+/// implicit QL method, whose rotations are applied to the wanted vectors only.
 template <class Real>
 void eigenvectors(int m, int count, bool smallest, EigenBatch<Real>& batch) {
     batch.scale.resize(m);

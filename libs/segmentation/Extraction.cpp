@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Appends `first` + n for each bit n that is set. Eight bits at a time come from a table, all of
-/// them: what is too much is written over, or lies behind the end.
+/// Appends `first` + n for each bit n that is set. A table gives eight entries per byte; those
+/// beyond the byte's set bits are overwritten, or lie behind the end.
 HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
                                      std::uint32_t* HWY_RESTRICT list) {
     const hn::CappedTag<std::uint32_t, 8> d;
@@ -34,8 +34,8 @@ HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
     return list;
 }
 
-/// Labels whole words of returns, the first of which is return `first`. A scan's returns change
-/// label at every turn, so nothing branches on one.
+/// Labels whole words of returns, of which return `first` is the first. Labels are unpredictable,
+/// so nothing branches on one.
 template <bool kHasOwnLabel>
 HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput& in,
                              std::uint32_t first, std::size_t words, std::uint64_t last_word_mask,
@@ -120,16 +120,8 @@ namespace {
 
 HWY_EXPORT(LabelWords);
 
-/// All that is made of one scan. Kept from scan to scan, so that none is allocated; holds nothing
-/// between them.
-struct Workspace {
-    std::vector<std::int32_t> verdict;  ///< for no pixel, then for each
-    std::vector<std::int32_t> number;   ///< of each component
-    std::vector<std::uint32_t> roi, rou, unclassified;
-};
-
-/// Of each pixel 2 * component + 1 if it is ROU, so that a return looks it up once. What has no
-/// pixel is ROU.
+/// 2 * component + 1 if ROU, for each pixel, so that a return needs one look-up. Returns without a
+/// pixel are ROU.
 void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& components,
                   std::vector<std::int32_t>& verdict) {
     verdict.resize(static_cast<std::size_t>(labels.size()) + 1);
@@ -141,8 +133,8 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
     }
 }
 
-/// Numbers components 1, 2, ... in their order, without those that no return is in: they are of
-/// repaired pixels alone. Only RoI has any.
+/// Numbers components 1, 2, ... in their order, without those that have no return because all their
+/// pixels were repaired. Only RoI returns have any.
 void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
     number.assign(static_cast<std::size_t>(most) + 1, 0);
@@ -153,64 +145,66 @@ void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int3
     for (const std::uint32_t i : returns.roi) component[i] = number[component[i]];
 }
 
+/// The last returns, less than a word of them, on copies as long as a word.
+void labelRest(const ExtractionRules& rules, ExtractionInput in, std::size_t first,
+               std::size_t rest, ExtractionOutput& out) {
+    std::array<float, kReturnsPerWord> range_m{};
+    std::array<std::int32_t, kReturnsPerWord> pixel{}, component{};
+    std::array<std::uint8_t, kReturnsPerWord> own{}, label{};
+    std::copy_n(in.range_m + first, rest, range_m.data());
+    std::copy_n(in.pixel + first, rest, pixel.data());
+    if (in.own_label != nullptr) std::copy_n(in.own_label + first, rest, own.data());
+    in.range_m = range_m.data();
+    in.pixel = pixel.data();
+    if (in.own_label != nullptr) in.own_label = own.data();
+    std::uint8_t* const last_labels = out.label + first;
+    std::int32_t* const last_components = out.component + first;
+    out.label = label.data();
+    out.component = component.data();
+    HWY_DYNAMIC_DISPATCH(LabelWords)
+    (rules, in, static_cast<std::uint32_t>(first), 1, (std::uint64_t{1} << rest) - 1, out);
+    std::copy_n(label.data(), rest, last_labels);
+    std::copy_n(component.data(), rest, last_components);
+}
+
+void labelReturns(const ExtractionRules& rules, const ExtractionInput& in, std::size_t size,
+                  ExtractionOutput& out) {
+    const std::size_t words = size / kReturnsPerWord, whole = words * kReturnsPerWord;
+    HWY_DYNAMIC_DISPATCH(LabelWords)(rules, in, 0, words, ~std::uint64_t{0}, out);
+    if (size > whole) labelRest(rules, in, whole, size - whole, out);
+}
+
 }  // namespace
 
-void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
-                    const Image<Label>& labels, const Image<std::int32_t>& components,
-                    const std::vector<Label>& own_label, float zone_m, float component_gap_m,
-                    LabelledReturns& returns) {
+void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabels& own_labels,
+                    const ExtractionRules& rules, LabelledReturns& returns,
+                    ExtractionWorkspace& work) {
     static_assert(RangeImage::kNoPixel == -1 && static_cast<int>(Label::Roi) == 2 &&
                   static_cast<int>(Label::Rou) == 1 && static_cast<int>(Label::Unclassified) == 0);
-    thread_local Workspace workspace;
-    Workspace& w = workspace;
     const std::size_t size = scan.size();
-    for (auto* list : {&w.roi, &w.rou, &w.unclassified}) {
+    for (auto* list : {&work.roi, &work.rou, &work.unclassified}) {
         if (list->size() < size + kReturnsPerWord) list->resize(size + kReturnsPerWord);
     }
     returns.label.resize(size);
     returns.component.resize(size);
-    findVerdicts(labels, components, w.verdict);
+    findVerdicts(image.labels, image.components, work.verdict);
 
-    const ExtractionRules rules{sensor.min_range_m, sensor.max_range_m, zone_m, component_gap_m};
-    ExtractionInput in{};
-    in.range_m = scan.range_m.data();
-    in.pixel = image.depth_mapper.data();
-    in.own_label =
-        own_label.empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(own_label.data());
-    in.verdict_of_pixel = w.verdict.data() + 1;
-    in.depth_of_pixel_m = image.depth_m.data();
-    ExtractionOutput out{};
-    out.label = reinterpret_cast<std::uint8_t*>(returns.label.data());
-    out.component = returns.component.data();
-    out.roi = w.roi.data();
-    out.rou = w.rou.data();
-    out.unclassified = w.unclassified.data();
-    const std::size_t words = size / kReturnsPerWord, whole = words * kReturnsPerWord;
-    HWY_DYNAMIC_DISPATCH(LabelWords)(rules, in, 0, words, ~std::uint64_t{0}, out);
-
-    if (const std::size_t rest = size - whole; rest > 0) {  // on copies as long as a word
-        std::array<float, kReturnsPerWord> range_m{};
-        std::array<std::int32_t, kReturnsPerWord> pixel{}, component{};
-        std::array<std::uint8_t, kReturnsPerWord> own{}, label{};
-        std::copy_n(in.range_m + whole, rest, range_m.data());
-        std::copy_n(in.pixel + whole, rest, pixel.data());
-        if (in.own_label != nullptr) std::copy_n(in.own_label + whole, rest, own.data());
-        in.range_m = range_m.data();
-        in.pixel = pixel.data();
-        if (in.own_label != nullptr) in.own_label = own.data();
-        std::uint8_t* const last_labels = out.label + whole;
-        std::int32_t* const last_components = out.component + whole;
-        out.label = label.data();
-        out.component = component.data();
-        HWY_DYNAMIC_DISPATCH(LabelWords)
-        (rules, in, static_cast<std::uint32_t>(whole), 1, (std::uint64_t{1} << rest) - 1, out);
-        std::copy_n(label.data(), rest, last_labels);
-        std::copy_n(component.data(), rest, last_components);
-    }
-    returns.roi.assign(w.roi.data(), out.roi);
-    returns.rou.assign(w.rou.data(), out.rou);
-    returns.unclassified.assign(w.unclassified.data(), out.unclassified);
-    renumber(out.most_components, returns, w.number);
+    const std::vector<Label>& own = own_labels.label;
+    const ExtractionInput in{
+        scan.range_m.data(), image.range_image.depth_mapper.data(),
+        own.empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(own.data()),
+        work.verdict.data() + 1, image.range_image.depth_m.data()};
+    ExtractionOutput out{reinterpret_cast<std::uint8_t*>(returns.label.data()),
+                         returns.component.data(),
+                         work.roi.data(),
+                         work.rou.data(),
+                         work.unclassified.data(),
+                         0};
+    labelReturns(rules, in, size, out);
+    returns.roi.assign(work.roi.data(), out.roi);
+    returns.rou.assign(work.rou.data(), out.rou);
+    returns.unclassified.assign(work.unclassified.data(), out.unclassified);
+    renumber(out.most_components, returns, work.number);
 }
 
 }  // namespace hagen

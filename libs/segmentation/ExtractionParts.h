@@ -4,12 +4,8 @@
 
 namespace hagen {
 
-/// What of Extraction.cpp all instruction sets share. Labels are their numbers.
+/// The parts of Extraction.cpp that all instruction sets share. Labels are their numbers.
 constexpr std::size_t kReturnsPerWord = 64;
-
-struct ExtractionRules {
-    float min_range_m, max_range_m, zone_m, component_gap_m;
-};
 
 struct ExtractionInput {
     const float* range_m;
@@ -22,8 +18,8 @@ struct ExtractionInput {
 struct ExtractionOutput {
     std::uint8_t* label;
     std::int32_t* component;
-    std::uint32_t *roi, *rou, *unclassified;  ///< the lists' ends; a word more is written there
-    std::int32_t most_components;             ///< the greatest number met so far
+    std::uint32_t *roi, *rou, *unclassified;  ///< the lists' ends; up to a word more is written
+    std::int32_t most_components;             ///< the greatest number so far
 };
 
 }  // namespace hagen

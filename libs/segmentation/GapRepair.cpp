@@ -3,9 +3,9 @@
 
 namespace hagen {
 
-// Columns lie one behind the other, so that all pixels are one row of numbers: each is computed
-// from those beside it, empty or not, without a branch. Where that mixed two columns, at their
-// ends, the pixel is put back.
+// Columns are stored one after the other, so all pixels are computed as one array, each from the
+// two beside it, empty or not, without a branch. At the ends of columns, where that mixes two of
+// them, the pixel is then restored.
 void repairGaps(const Image<float>& depth_m, float max_step_m, Image<float>& repaired_m) {
     const Eigen::Index rows = depth_m.rows(), pixels = depth_m.size();
     if (!(max_step_m > 0)) {

@@ -20,54 +20,33 @@ constexpr float kCell_m = 0.75f;
 constexpr float kReach_m = 40.0f;
 constexpr int kCells = 107;  // 2 kReach_m / kCell_m, rounded up
 
-constexpr Eigen::Index kColumns = 200;  // of an image; of so many or more, its points do
+constexpr Eigen::Index kColumns = 200;  // of an image: as many or more are enough
 
 constexpr int kRounds = 6;
 constexpr double kFirstScale_m = 1.0;  // of residuals, in the first round
 constexpr double kScaleStep = 0.8;
 constexpr double kLeastScale_m = 0.3;
-constexpr double kAbove = 2.0, kBelow = 1.0;  // what is above the ground counts less, sooner
+constexpr double kAbove = 2.0, kBelow = 1.0;  // weights fall faster above the ground
 constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
 
-// What can be ground.
+// Conditions for ground.
 constexpr float kLeastHeight_m = 0.1f;   // of the sensor above it
-constexpr float kLeastCosine = 0.7071f;  // of the tilt against it, 45 degrees
+constexpr float kLeastCosine = 0.7071f;  // of its tilt, 45 degrees
 constexpr Eigen::Index kLeastPixels = 50;
 
-/// The points that a plane is fitted to, and what each weighs for its distance. Sums over them are
-/// taken in kParts parts, the same on every machine; points of weight 0 fill the last of each up.
-constexpr int kParts = 4;
-struct Points {
-    std::vector<double> x_m, y_m, z_m, nearness;
-    std::size_t size = 0;
+using Points = GroundFrameWorkspace::Points;
 
-    std::size_t filledUp() const { return (size + kParts - 1) / kParts * kParts; }
-    void resize(std::size_t points) {
-        size = points;
-        for (auto* values : {&x_m, &y_m, &z_m, &nearness}) {
-            values->resize(std::max(values->size(), filledUp()));
-            std::fill(values->begin() + size, values->begin() + filledUp(), 0.0);
-        }
-    }
-    void set(std::size_t k, const Eigen::Vector3d& point_m) {
-        x_m[k] = point_m.x();
-        y_m[k] = point_m.y();
-        z_m[k] = point_m.z();
-    }
-    void weigh() {
-        for (std::size_t k = 0; k < size; ++k) {
-            nearness[k] = 1 / (1 + (x_m[k] * x_m[k] + y_m[k] * y_m[k]) / kRangeScale_m2);
-        }
-    }
-};
+/// Sums over points are taken in so many parts, the same on every machine; so points are padded.
+constexpr std::size_t kParts = 4;
+std::size_t paddedSize(std::size_t points) { return (points + kParts - 1) / kParts * kParts; }
 
-/// How a point weighs that is off the plane z = a x + b y + c.
-struct Doubt {
+/// How weights fall with the residual from the plane z = a x + b y + c.
+struct RobustWeight {
     double a = 0, b = 0, c = 0;
     double above_per_m2 = 0, below_per_m2 = 0;
 };
 
-/// The parts of the sums over w, w x, w y, w x x, w x y, w y y, w z, w x z, w y z.
+/// The partial sums over w, w x, w y, w x x, w x y, w y y, w z, w x z, w y z.
 constexpr int kSums = 9;
 using PartialSums = double[kSums][kParts];
 
@@ -80,8 +59,8 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The cell of each pixel and its height, both in a level frame, as whole numbers: heights so that
-/// they order as the floats do. The cell is kCells * kCells for what is not within reach.
+/// The cell of each pixel and its height, both in a level frame, as integers; heights order as
+/// their floats do. The cell is kCells * kCells for pixels out of reach.
 void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                    const float* HWY_RESTRICT z_m, const Eigen::Matrix3f& level,
                    std::int32_t* HWY_RESTRICT cell, std::int32_t* HWY_RESTRICT height) {
@@ -114,25 +93,26 @@ void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const floa
     });
 }
 
-void SumUpIn(const Points& points, const Doubt& doubt, PartialSums& sums) {
+void SumUpIn(const Points& points, const RobustWeight& weight, PartialSums& sums) {
     const hn::CappedTag<double, kParts> d;
     using V = hn::Vec<decltype(d)>;
-    const V one = hn::Set(d, 1.0), a = hn::Set(d, doubt.a), b = hn::Set(d, doubt.b);
-    const V c = hn::Set(d, doubt.c);
-    const V above_per_m2 = hn::Set(d, doubt.above_per_m2);
-    const V below_per_m2 = hn::Set(d, doubt.below_per_m2);
+    const V one = hn::Set(d, 1.0), a = hn::Set(d, weight.a), b = hn::Set(d, weight.b);
+    const V c = hn::Set(d, weight.c);
+    const V above_per_m2 = hn::Set(d, weight.above_per_m2);
+    const V below_per_m2 = hn::Set(d, weight.below_per_m2);
+    const std::size_t size = paddedSize(points.size);
     for (std::size_t part = 0; part < kParts; part += hn::Lanes(d)) {
         V w_ = hn::Zero(d), wx = w_, wy = w_, wxx = w_, wxy = w_, wyy = w_, wz = w_, wxz = w_,
           wyz = w_;
-        for (std::size_t k = part; k < points.filledUp(); k += kParts) {
+        for (std::size_t k = part; k < size; k += kParts) {
             const V x = hn::LoadU(d, points.x_m.data() + k),
                     y = hn::LoadU(d, points.y_m.data() + k);
             const V z = hn::LoadU(d, points.z_m.data() + k);
             const V residual_m = hn::Sub(z, hn::Add(hn::Add(hn::Mul(a, x), hn::Mul(b, y)), c));
             const V per_m2 =
                 hn::IfThenElse(hn::Gt(residual_m, hn::Zero(d)), above_per_m2, below_per_m2);
-            const V doubts = hn::Add(one, hn::Mul(per_m2, hn::Mul(residual_m, residual_m)));
-            const V w = hn::Div(hn::LoadU(d, points.nearness.data() + k), hn::Mul(doubts, doubts));
+            const V doubt = hn::Add(one, hn::Mul(per_m2, hn::Mul(residual_m, residual_m)));
+            const V w = hn::Div(hn::LoadU(d, points.nearness.data() + k), hn::Mul(doubt, doubt));
             const V x_w = hn::Mul(w, x), y_w = hn::Mul(w, y);
             w_ = hn::Add(w_, w);
             wx = hn::Add(wx, x_w);
@@ -161,17 +141,31 @@ namespace {
 HWY_EXPORT(LevelPixelsIn);
 HWY_EXPORT(SumUpIn);
 
-/// The lowest point of each cell that has one.
-void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level, Points& points) {
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local std::vector<std::int32_t> kept_cell, kept_height;
-    thread_local std::vector<std::int64_t> kept_lowest;
+void resize(std::size_t size, Points& points) {
+    const std::size_t padded = paddedSize(size);
+    points.size = size;
+    for (auto* values : {&points.x_m, &points.y_m, &points.z_m, &points.nearness}) {
+        values->resize(std::max(values->size(), padded));
+        std::fill(values->begin() + size, values->begin() + padded, 0.0);
+    }
+}
+
+void weighByDistance(Points& points) {
+    for (std::size_t k = 0; k < points.size; ++k) {
+        const double x_m = points.x_m[k], y_m = points.y_m[k];
+        points.nearness[k] = 1 / (1 + (x_m * x_m + y_m * y_m) / kRangeScale_m2);
+    }
+}
+
+/// The lowest point of each cell that has one, in work.points.
+void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
+                       GroundFrameWorkspace& work) {
     const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
     const Eigen::Index step = std::max<Eigen::Index>(1, columns / kColumns);
     const std::size_t size = static_cast<std::size_t>((columns + step - 1) / step * rows);
-    kept_cell.resize(std::max(kept_cell.size(), size));
-    kept_height.resize(std::max(kept_height.size(), size));
-    std::int32_t *const cell = kept_cell.data(), *const height = kept_height.data();
+    work.cell.resize(std::max(work.cell.size(), size));
+    work.height.resize(std::max(work.height.size(), size));
+    std::int32_t *const cell = work.cell.data(), *const height = work.height.data();
     Eigen::Index n_level = 0;
     for (Eigen::Index column = 0; column < columns; column += step, n_level += rows) {
         const Eigen::Index first = column * rows;
@@ -180,12 +174,12 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level, 
          pixels.z_m.data() + first, level, cell + n_level, height + n_level);
     }
 
-    // A height with the pixel's number after it: the least of them is the first of the lowest.
+    // A height with the pixel's index after it: the least of these is the first of the lowest.
     constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
-    kept_lowest.assign(kCells * kCells + 1, kNone);
-    std::int64_t* const lowest = kept_lowest.data();
-    thread_local std::vector<std::int32_t> kept_occupied(kCells * kCells + 1);
-    std::int32_t* const occupied = kept_occupied.data();
+    work.lowest.assign(kCells * kCells + 1, kNone);
+    work.occupied.resize(kCells * kCells + 1);
+    std::int64_t* const lowest = work.lowest.data();
+    std::int32_t* const occupied = work.occupied.data();
     std::size_t n = 0;
     visitByTurns(
         size, [&, cell, height, lowest, occupied ](std::size_t k) __attribute__((always_inline)) {
@@ -196,30 +190,34 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level, 
             n += (low == kNone) & (cell[k] != kCells * kCells);
             low = std::min(low, own);
         });
-    points.resize(n);
+    Points& points = work.points;
+    resize(n, points);
     for (std::size_t k = 0; k < n; ++k) {
         const Eigen::Index listed = lowest[occupied[k]] & 0xffffffff;
         const Eigen::Index pixel = listed / rows * step * rows + listed % rows;
-        points.set(k, (level * pixels.at(pixel)).cast<double>());
+        const Eigen::Vector3d point_m = (level * pixels.at(pixel)).cast<double>();
+        points.x_m[k] = point_m.x();
+        points.y_m[k] = point_m.y();
+        points.z_m[k] = point_m.z();
     }
-    points.weigh();
+    weighByDistance(points);
 }
 
 /// The plane z = a x + b y + c through the points, by weighted least squares.
-Eigen::Vector3d planeThrough(const Points& points, const Doubt& doubt) {
+Eigen::Vector3d planeThrough(const Points& points, const RobustWeight& weight) {
     PartialSums parts;
-    HWY_DYNAMIC_DISPATCH(SumUpIn)(points, doubt, parts);
+    HWY_DYNAMIC_DISPATCH(SumUpIn)(points, weight, parts);
     double sum[kSums];
     for (int k = 0; k < kSums; ++k)
         sum[k] = (parts[k][0] + parts[k][1]) + (parts[k][2] + parts[k][3]);
     const auto& [w, wx, wy, wxx, wxy, wyy, wz, wxz, wyz] = sum;
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // points on a line are no error
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // allows points on a line
     normal += (Eigen::Matrix3d() << wxx, wxy, wx, wxy, wyy, wy, wx, wy, w).finished();
     return normal.ldlt().solve(Eigen::Vector3d(wxz, wyz, wz));
 }
 
 Eigen::Vector3d fitPlane(const Points& points) {
-    Eigen::Vector3d plane = planeThrough(points, Doubt{});
+    Eigen::Vector3d plane = planeThrough(points, RobustWeight{});
     double scale_m = kFirstScale_m;
     for (int round = 0; round < kRounds; ++round) {
         const double per_m2 = 1 / (scale_m * scale_m);
@@ -232,11 +230,11 @@ Eigen::Vector3d fitPlane(const Points& points) {
 
 }  // namespace
 
-Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude) {
+Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
+                                 GroundFrameWorkspace& work) {
     const Eigen::Matrix3f level = levelFromSensor(attitude);
-    // Kept from scan to scan, so that none is allocated; holds nothing between them.
-    thread_local Points points;
-    findLowestOfCells(pixels, level, points);
+    findLowestOfCells(pixels, level, work);
+    const Points& points = work.points;
 
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();
     if (points.size >= 3) {

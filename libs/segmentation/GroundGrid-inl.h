@@ -1,4 +1,4 @@
-// The grid that the ground's surface and the tops of its cells are kept on, many pixels at a time.
+// The grid of the ground's surface and of the tops of its cells, for many pixels at a time.
 // For files that Highway compiles once per instruction set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
@@ -6,8 +6,12 @@
 #include <hagen/segmentation/GroundSurface.h>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace hagen {
+
+/// The height of a cell that has none.
+constexpr float kNoHeight = std::numeric_limits<float>::infinity();
 
 /// The grid has a border of one cell all around, so that every cell has eight neighbours; cells lie
 /// column by column.
@@ -16,20 +20,20 @@ constexpr int kStride = kSide + 2;
 constexpr int kGridStride = kStride<GroundSurface::kCells>;
 constexpr int kGridSize = kGridStride * kGridStride;
 
-/// The square has kSide cells along each side, a power of 2.
+/// The logarithm of a side's number of cells, a power of 2.
 template <int kSide>
 constexpr int kLog2 = kLog2<kSide / 2> + 1;
 template <>
 constexpr int kLog2<1> = 0;
 
-/// Where column j of the grid begins, the border left out: -1 and kCells are the border's.
+/// The index of cell (0, j). Columns -1 and kSide are the border's.
 template <int kSide = GroundSurface::kCells>
 constexpr int gridColumn(int j) {
     return (j + 1) * kStride<kSide> + 1;
 }
 
-/// Calls visit(k) for each k below `size`, in four places by turns: what follows in an image often
-/// lies in the same cell, and would have to wait for it.
+/// Calls visit(k) for each k below `size`, at four places in turn: neighbours in an image are often
+/// in the same cell, and would have to wait for one another.
 template <class Visit>
 __attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit visit) {
     const std::size_t quarter = size / 4;
@@ -61,12 +65,12 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What a lambda needs to become part of the loop that calls it.
+// Makes a lambda part of the loop that calls it.
 #undef HAGEN_INLINE
 #define HAGEN_INLINE HWY_ATTR __attribute__((always_inline))
 
-/// Calls visit(d, i) for `size` floats: i is the first of a vector, d its tag. What is left over at
-/// the end comes one by one, as vectors of one lane. `visit` is HAGEN_INLINE.
+/// Calls visit(d, i) for `size` floats: i is the first of a vector, d its tag. The last few come
+/// one by one, as vectors of one lane. `visit` is HAGEN_INLINE.
 template <class Visit>
 HWY_INLINE void forEachVector(std::size_t size, Visit visit) {
     const hn::ScalableTag<float> d;
@@ -75,8 +79,8 @@ HWY_INLINE void forEachVector(std::size_t size, Visit visit) {
     for (; i < size; ++i) visit(hn::CappedTag<float, 1>(), i);
 }
 
-/// The lanes of two vectors that `is_chosen`, to the front of each; returns how many. Highway's own
-/// Compress() would copy its table of 1 KB at every call where GCC compiles it for AVX2.
+/// Moves the chosen lanes of two vectors to the front of each; returns their number. Highway's own
+/// Compress() would copy its table of 1 KB on every call when GCC compiles it for AVX2.
 template <class D, class VF, class VI>
 HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& integers) {
     const hn::RebindToSigned<D> di;
@@ -94,7 +98,7 @@ HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& inte
     return hn::CountTrue(d, is_chosen);
 }
 
-/// The cells that points lie in.
+/// The cells of points.
 template <class D>
 struct GridCells {
     hn::Vec<hn::RebindToSigned<D>> cell;  ///< of the border where a point is not on the grid

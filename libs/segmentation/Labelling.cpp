@@ -7,23 +7,12 @@
 #include <cstring>
 #include <vector>
 
-#include "ColumnBits.h"
+#include "FindColumnBits.h"
 
 namespace hagen {
 namespace {
 
 constexpr float kNoGate_rad = static_cast<float>(radians(90));
-
-/// What is made of one image. Kept from scan to scan, so that none is allocated; holds nothing
-/// between them.
-struct Workspace {
-    ColumnBits present;  ///< the pixels with a depth
-    ColumnLinks angles;  ///< those with an angle, and the steps between them that are small
-    std::vector<int> seeds;
-    ColumnBits reached;
-    std::vector<int> waiting;     ///< columns that have more to give to those beside them
-    std::vector<int> is_waiting;  ///< of each column
-};
 
 void setPixel(int column, int row, int rows, ColumnBits& bits) {
     bits[column * wordsOf(rows) + row / kWordRows] |= std::uint64_t{1} << row % kWordRows;
@@ -75,10 +64,10 @@ void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_
     }
 }
 
-/// The pixels of a column that are reached from those that are, up and down along its links.
+/// Extends what is reached in a column, up and down along its links.
 template <class Words>
 void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reached) {
-    // A carry runs up along the links that follow each other.
+    // Upwards: the carry of an addition runs along consecutive links.
     std::uint64_t from_below = 0;
     for (int word = 0; word < words; ++word) {
         const std::uint64_t links = above[word], from = reached[word];
@@ -86,7 +75,7 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
         reached[word] = from | (sum ^ links);
         from_below = leaving < links || sum < leaving;
     }
-    // Nothing carries down: there, links are joined to ways twice as long at every turn.
+    // Downwards there is no carry: the length of the steps doubles in each turn instead.
     std::uint64_t from_above = 0;
     for (int word = words - 1; word >= 0; --word) {
         std::uint64_t links = above[word], down = reached[word];
@@ -103,12 +92,12 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
     }
 }
 
-/// Lets regions grow from the pixels that are reached. It ends with the same ones, in whatever
-/// order they are come to: so columns give all they have to those beside them, and the ones that
-/// get more by that wait to do so in turn.
+/// Grows the regions from the pixels reached so far. The order does not change the result, so whole
+/// columns spread to the columns beside them; a column that gains pixels by this waits for its turn
+/// to spread.
 template <class Words>
-void growRegions(Words words, int columns, const ColumnLinks& links, Workspace* w) {
-    w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // each once, and one to overwrite
+void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWorkspace* w) {
+    w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // each once, and a scratch entry
     w->is_waiting.assign(static_cast<std::size_t>(columns), false);
     int* const waiting = w->waiting.data();
     int* const is_waiting = w->is_waiting.data();
@@ -130,7 +119,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, Workspace* 
         is_waiting[to] |= more != 0;
     };
     for (int column = 0; column < columns; ++column) spread(column);
-    for (int column = 0; column < columns; ++column) {  // most have nothing to give then
+    for (int column = 0; column < columns; ++column) {  // most have nothing left to give
         const int on_right = column + 1 < columns ? column + 1 : 0;
         std::uint64_t differ = 0;
         for (int word = 0; word < words; ++word) {
@@ -152,7 +141,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, Workspace* 
     }
 }
 
-/// Of each byte of bits eight numbers, 1 where there is one.
+/// For each byte its eight bits as bytes, 0 or 1.
 using Bytes = std::array<std::uint8_t, 8>;
 constexpr std::array<Bytes, 256> makeBytesOfBits() {
     std::array<Bytes, 256> table{};
@@ -183,8 +172,9 @@ void writeLabels(std::uint64_t present, std::uint64_t rou, int pixels, Label* la
     }
 }
 
-/// ROU is what is reached from the ground, or what is not from RoI; without an angle it is RoI.
-void writeLabels(const Workspace& w, bool from_ground, Image<Label>* labels) {
+/// ROU is what was reached from the ground, or not reached from the RoI; pixels without an angle
+/// are RoI.
+void writeLabels(const LabellingWorkspace& w, bool from_ground, Image<Label>* labels) {
     const int rows = static_cast<int>(labels->rows()), columns = static_cast<int>(labels->cols());
     const std::uint64_t turned = from_ground ? 0 : ~std::uint64_t{0};
     std::size_t word = 0;
@@ -201,15 +191,13 @@ void writeLabels(const Workspace& w, bool from_ground, Image<Label>* labels) {
 
 }  // namespace
 
-// What is linked with what is found for many pixels at once, and regions grow by whole columns.
+// Fast because links are found for many pixels at once, and regions grow by whole columns.
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
-                  Seeds seeds, float seed_gate_rad, Image<Label>& labels) {
+                  Seeds seeds, float seed_gate_rad, Image<Label>& labels, LabellingWorkspace& w) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
     const bool from_ground = seeds == Seeds::Lowest;
-    thread_local Workspace workspace;
-    Workspace& w = workspace;
-    findPresent(depth_m, w.present);
-    findLinks(pixel_angle_rad, beta_rad, w.angles);
+    findPresent(depth_m, w.present, w.seam);
+    findLinks(pixel_angle_rad, beta_rad, w.angles, w.seam);
     w.reached.resize(w.present.size());
     if (from_ground) {
         lowestPixels(w.present, w.angles.present, wordsOf(rows), w.reached);

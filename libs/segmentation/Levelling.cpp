@@ -14,7 +14,8 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Of one column, the plane of two level unit vectors: `outwards` and `upwards`.
+/// One column, which lies in the plane of two unit vectors given in the level frame: `outwards` and
+/// `upwards`.
 void columnLevelAngles(const float* depth_m, const float* sine, const float* cosine,
                        const float* outwards, const float* upwards, int angles, float* angle_rad) {
     coverRows(angles, [=](auto d, int row) HWY_ATTR {

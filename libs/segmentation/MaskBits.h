@@ -1,4 +1,5 @@
-// For files that Highway compiles once per instruction set: included after highway.h, each time.
+// For files that Highway compiles once per instruction set: to be included after highway.h, each
+// time.
 #if defined(HAGEN_MASK_BITS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HAGEN_MASK_BITS_H
 #undef HAGEN_MASK_BITS_H
@@ -13,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
-/// A bit a lane of at most 64, the first lane's the lowest.
+/// One bit per lane of at most 64 lanes, the first lane's the lowest.
 template <class D, class Mask>
 HWY_INLINE std::uint64_t BitsOf(D d, Mask mask) {
     std::uint8_t bytes[8] = {};
@@ -23,7 +24,7 @@ HWY_INLINE std::uint64_t BitsOf(D d, Mask mask) {
     return bits;
 }
 
-/// Appends `first` + n for each bit n that is set; gives the new end.
+/// Appends `first` + n for each bit n that is set; returns the new end.
 template <class Index>
 HWY_INLINE Index* AppendBits(std::uint64_t bits, Index first, Index* list) {
     for (; bits != 0; bits &= bits - 1) {

@@ -2,32 +2,12 @@
 #include <array>
 #include <cstdint>
 
-#include "CriticalPixels.h"
 #include "RadixSort.h"
 
 namespace hagen {
 namespace {
 
-/// Where the components born at two maxima meet. Maxima go by their number in the list of critical
-/// pixels, which is in the order of pixels.
-struct Meeting {
-    float level_m;
-    std::int32_t maximum, other;
-};
-
-/// All that is made of one scan. Kept from scan to scan, so that none is allocated; holds nothing
-/// between them.
-struct Workspace {
-    FramedLevels proximity_m;
-    CriticalPixels critical;
-    std::vector<Meeting> meetings;
-    std::vector<std::int32_t> elder;  ///< of each maximum, an older one it has met; or itself
-    std::vector<float> birth_m, death_m;
-    std::vector<std::uint64_t> order, swap;
-};
-
-/// The neighbours of a saddle that stand for all older ones: one of each stretch of them that lie
-/// side by side.
+/// One neighbour of a saddle from each stretch of adjacent older neighbours.
 struct Arms {
     int count = 0;
     std::array<std::uint8_t, 4> neighbour{};
@@ -47,8 +27,8 @@ constexpr std::array<Arms, 256> makeArmsByOlderNeighbours() {
 }
 constexpr std::array<Arms, 256> kArmsByOlderNeighbours = makeArmsByOlderNeighbours();
 
-/// The number of the maximum that the way up from a pixel ends at, if maxima hold ~number. Makes
-/// the way half as long for the next one who goes it.
+/// The number of the maximum at the end of the way up from a pixel, where maxima hold ~number.
+/// Halves the way for the next search (path halving).
 std::int32_t maximumAbove(std::int32_t pixel, std::vector<std::int32_t>& ascent) {
     while (true) {
         const std::int32_t next = ascent[pixel];
@@ -60,8 +40,8 @@ std::int32_t maximumAbove(std::int32_t pixel, std::vector<std::int32_t>& ascent)
     }
 }
 
-/// Where maxima meet, in the order of pixels.
-void findMeetings(Workspace& w) {
+/// Where maxima meet, in pixel order.
+void findMeetings(MaximaWorkspace& w) {
     CriticalPixels& critical = w.critical;
     for (std::size_t n = 0; n < critical.maxima; ++n) {
         critical.ascent[critical.maximum[n]] = ~static_cast<std::int32_t>(n);
@@ -83,7 +63,7 @@ void findMeetings(Workspace& w) {
     }
 }
 
-/// The maximum at which the component that this one has become part of was born.
+/// The maximum at which the component that now contains this one was born.
 std::int32_t eldest(std::int32_t maximum, std::vector<std::int32_t>& elder) {
     while (elder[maximum] != maximum) {
         elder[maximum] = elder[elder[maximum]];
@@ -92,17 +72,17 @@ std::int32_t eldest(std::int32_t maximum, std::vector<std::int32_t>& elder) {
     return maximum;
 }
 
-/// The elder rule, meeting by meeting as the level sinks.
-void letTheYoungerDie(Workspace& w) {
+/// The elder rule, from meeting to meeting as the level sinks: the younger component dies.
+void applyElderRule(MaximaWorkspace& w) {
     w.order.clear();
-    for (const Meeting& meeting : w.meetings) {
+    for (const MaximaWorkspace::Meeting& meeting : w.meetings) {
         w.order.push_back(sinkingKey(meeting.level_m, w.order.size()));
     }
     radixSort(w.order, w.swap);
     w.elder.resize(w.critical.maxima);
     for (std::size_t n = 0; n < w.elder.size(); ++n) w.elder[n] = static_cast<std::int32_t>(n);
     for (const std::uint64_t key : w.order) {
-        const Meeting& meeting = w.meetings[itemOf(key)];
+        const MaximaWorkspace::Meeting& meeting = w.meetings[itemOf(key)];
         const std::int32_t a = eldest(meeting.maximum, w.elder), b = eldest(meeting.other, w.elder);
         if (a == b) continue;
         const bool a_is_older =
@@ -126,14 +106,12 @@ void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proxim
     }
 }
 
-// Of all pixels, few matter: a component is born where no neighbour is older, and two can only meet
-// where the older neighbours of a pixel are not side by side. Those are found for many pixels at
+// Fast because few pixels matter: a component is born where no neighbour is older, and two can only
+// meet where the older neighbours of a pixel are not adjacent. These are found for many pixels at
 // once, and only the meetings are sorted, not the pixels.
 void findPersistentMaxima(const Image<float>& proximity_m, float min_persistence_m,
-                          std::vector<Maximum>& maxima) {
-    thread_local Workspace workspace;
-    Workspace& w = workspace;
-    frame(proximity_m, w.proximity_m);
+                          std::vector<Maximum>& maxima, MaximaWorkspace& w) {
+    frameLevels(proximity_m, w.proximity_m);
     findCriticalPixels(w.proximity_m, w.critical);
     w.birth_m.clear();
     for (std::size_t n = 0; n < w.critical.maxima; ++n) {
@@ -141,7 +119,7 @@ void findPersistentMaxima(const Image<float>& proximity_m, float min_persistence
     }
     w.death_m.assign(w.critical.maxima, 0.0f);
     findMeetings(w);
-    letTheYoungerDie(w);
+    applyElderRule(w);
 
     w.order.clear();
     for (std::size_t n = 0; n < w.critical.maxima; ++n) {

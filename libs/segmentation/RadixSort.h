@@ -7,8 +7,7 @@
 
 namespace hagen {
 
-/// A number above or equal to 0 and what goes with it, to be sorted by the number, the greatest
-/// first.
+/// A key of a number, which is at least 0, and its item; sorts by the number, the greatest first.
 inline std::uint64_t sinkingKey(float number, std::size_t item) {
     std::uint32_t bits;  // order as the numbers do
     std::memcpy(&bits, &number, sizeof bits);
@@ -17,8 +16,7 @@ inline std::uint64_t sinkingKey(float number, std::size_t item) {
 
 inline std::size_t itemOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-/// Sorts by the numbers, and keeps the order of equal ones: a digit of 8 bits at a time, so that
-/// time goes with the count of keys. `swap` is a buffer.
+/// Stable sort by the numbers, one digit of 8 bits at a time, in linear time. `swap` is a buffer.
 inline void radixSort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& swap) {
     constexpr int kDigits = 4, kValues = 256;
     const auto digitOf = [](std::uint64_t key, int digit) { return key >> (32 + 8 * digit) & 255; };

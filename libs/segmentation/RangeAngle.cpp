@@ -1,5 +1,5 @@
-// Vectors go along a column, over pixels without a value as well: a branch a pixel would cost more
-// than the arithmetic.
+// Vectors run along a column, over empty pixels as well: a branch per pixel would cost more than
+// the arithmetic.
 #include <hagen/segmentation/RangeAngle.h>
 
 #undef HWY_TARGET_INCLUDE
@@ -14,7 +14,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Of one column: I_h depths make I_h - 1 angles.
+/// One column: I_h - 1 angles from I_h depths.
 void columnAngles(const float* depth_m, const float* sine, const float* cosine, int angles,
                   float* angle_rad) {
     coverRows(angles, [=](auto d, int row) HWY_ATTR {
@@ -23,7 +23,7 @@ void columnAngles(const float* depth_m, const float* sine, const float* cosine, 
     });
 }
 
-/// Of one column's pixels that have a beam above and one below.
+/// The pixels of one column that have a beam above and one below.
 void columnCarried(const float* angle_rad, int pixels, float* pixel_angle_rad) {
     coverRows(pixels, [=](auto d, int row) HWY_ATTR {
         const auto with_below = hn::LoadU(d, angle_rad + row);

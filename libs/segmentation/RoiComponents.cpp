@@ -5,30 +5,15 @@
 #include <cstring>
 #include <vector>
 
-#include "ColumnBits.h"
+#include "FindColumnBits.h"
 #include "RadixSort.h"
 
 namespace hagen {
 namespace {
 
-/// All that is made of one image. Kept from scan to scan, so that none is allocated; holds nothing
-/// between them. A run is a stretch of RoI pixels of a column, linked one above the other. The
-/// lists may be longer than what is in them.
-struct Workspace {
-    ColumnBits roi, lowest;  ///< RoI pixels with a depth, and those that are their run's lowest
-    ColumnLinks links;       ///< of RoI with RoI; on the right only the lowest that says the same
-    std::size_t runs = 0;
-    std::vector<std::int32_t> run;       ///< of each pixel of the image
-    std::vector<std::uint32_t> nearest;  ///< of each run: its least depth, as bits, which order so
-    std::vector<std::int32_t> first;     ///< of each run: an earlier one linked with it, or itself
-    std::vector<std::uint64_t> closest;  ///< of a component's first run: its nearest run
-    std::vector<std::int32_t> number;    ///< of each run: its component
-    std::vector<std::uint64_t> order, swap;
-};
-
-/// Leaves the links of RoI with RoI.
+/// Keeps only the links between RoI pixels.
 template <class Words>
-void keepRoiLinks(Words words, int columns, Workspace* w) {
+void keepRoiLinks(Words words, int columns, ComponentsWorkspace* w) {
     std::uint64_t *const roi = w->roi.data(), *const lowest = w->lowest.data();
     std::uint64_t *const above = w->links.above.data(), *const right = w->links.right.data();
     const std::uint64_t* const present = w->links.present.data();
@@ -58,7 +43,7 @@ void keepRoiLinks(Words words, int columns, Workspace* w) {
     }
 }
 
-/// Calls visit(first, word) for each word of an image's columns, in the order of pixels.
+/// Calls visit(first, word) for each word of an image's columns, in pixel order.
 template <class Visit>
 void forEachWord(int rows, int columns, Visit visit) {
     int word = 0;
@@ -67,8 +52,8 @@ void forEachWord(int rows, int columns, Visit visit) {
     }
 }
 
-/// Runs, in the order of pixels, and how near they come.
-void findRuns(const float* depth_m, int rows, int columns, Workspace* w) {
+/// The runs, in pixel order, and their least depths.
+void findRuns(const float* depth_m, int rows, int columns, ComponentsWorkspace* w) {
     std::uint32_t* const nearest = w->nearest.data();
     std::ptrdiff_t run = -1;
     std::uint32_t least = 0;
@@ -89,7 +74,7 @@ void findRuns(const float* depth_m, int rows, int columns, Workspace* w) {
     w->runs = static_cast<std::size_t>(run + 1);
 }
 
-/// The first of the runs that this one is joined with so far.
+/// The first of the runs that this one has been joined with.
 std::int32_t firstOf(std::int32_t run, std::int32_t* first) {
     while (first[run] != run) {
         first[run] = first[first[run]];
@@ -98,8 +83,8 @@ std::int32_t firstOf(std::int32_t run, std::int32_t* first) {
     return run;
 }
 
-/// Joins the runs of columns side by side.
-void joinRuns(int rows, int columns, Workspace* w) {
+/// Joins the runs of adjacent columns.
+void joinRuns(int rows, int columns, ComponentsWorkspace* w) {
     const int to_first_column = rows - rows * columns, last_column = rows * (columns - 1);
     const std::int32_t* const run_of = w->run.data();
     std::int32_t* const first = w->first.data();
@@ -120,16 +105,16 @@ void joinRuns(int rows, int columns, Workspace* w) {
     });
 }
 
-/// Components, from the nearest on. Runs are in the order of pixels: so of two equally near ones
-/// the earlier has the first pixel.
-void numberRuns(Workspace* w) {
+/// Numbers the components from the nearest on. Runs are in pixel order, so of two equally near ones
+/// the earlier has the smaller pixel index.
+void numberRuns(ComponentsWorkspace* w) {
     std::int32_t *const first = w->first.data(), *const number = w->number.data();
     std::uint64_t* const closest = w->closest.data();
     const std::uint32_t* const nearest = w->nearest.data();
     const std::size_t runs = w->runs;
     std::fill_n(closest, runs, ~std::uint64_t{0});
     for (std::size_t run = 0; run < runs; ++run) {
-        first[run] = first[first[run]];  // that of an earlier run is found already
+        first[run] = first[first[run]];  // an earlier run's is final already
         const std::uint64_t key = std::uint64_t{nearest[run]} << 32 | run;
         if (key < closest[first[run]]) closest[first[run]] = key;
     }
@@ -150,16 +135,14 @@ void numberRuns(Workspace* w) {
 
 }  // namespace
 
-// Links are found for many pixels at once; then runs are joined and not pixels, and components
-// sorted and not pixels.
+// Fast because links are found for many pixels at once; what is joined is runs, what is sorted is
+// components, not pixels.
 void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels, float max_gap_m,
-                         Image<std::int32_t>& components) {
-    thread_local Workspace workspace;
-    Workspace& w = workspace;
+                         Image<std::int32_t>& components, ComponentsWorkspace& w) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
     const auto pixels = static_cast<std::size_t>(depth_m.size());
-    findLinks(depth_m, max_gap_m, w.links);
-    findLabelled(labels, Label::Roi, w.roi);
+    findLinks(depth_m, max_gap_m, w.links, w.depth_seam);
+    findLabelled(labels, Label::Roi, w.roi, w.label_seam);
     w.lowest.resize(w.roi.size());
     for (auto* list : {&w.run, &w.first, &w.number}) list->resize(pixels);
     w.nearest.resize(pixels);

@@ -34,7 +34,7 @@ void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& 
                 weights += weight;
             }
         }
-        // Neighbours many sigmas away weigh nothing at all in floats: the same as having none.
+        // The weights of neighbours many sigmas away underflow to 0: the same as having none.
         if (weights > 0.0f) {
             sharpened_m(maximum.row, maximum.column) = centre_m + weighted_sum / weights;
         }

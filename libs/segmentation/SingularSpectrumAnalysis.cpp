@@ -1,6 +1,6 @@
-// Runs are smoothed many at once, a run a lane. A trajectory matrix and its transpose have the same
-// components, so the shorter side is the window, and of the components the fewer are computed, the
-// leading ones or those to be taken away. Projection and hankelization are one linear filter.
+// Many runs are smoothed at once, one per lane. A trajectory matrix and its transpose have the same
+// components, so the shorter side is the window; of the components, only the smaller set is
+// computed: those to keep or those to remove. Projection and hankelization are one linear filter.
 // All of this is done with floats, and again with doubles for the few runs that need them.
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
 #include <algorithm>
@@ -16,47 +16,19 @@
 #include "EigenBatch-inl.h"
 #include "MaskBits.h"
 
-#ifndef HAGEN_RUN_BATCH
-#define HAGEN_RUN_BATCH
-namespace hagen {
-namespace {
-
-/// No more than kLanes runs, and what smoothing them needs.
-template <class Real>
-struct RunBatch {
-    using Values = std::vector<Lanes<Real>>;
-    int m = 0;            ///< the window; each run has at least 2 m - 1 values
-    int values = 0;       ///< of the longest run
-    Values series;        ///< with zeros behind the shorter ones
-    Values tail;          ///< the last 2 (m - 1) values of each
-    Lanes<Real> columns;  ///< of each trajectory matrix
-
-    Values smooth;        ///< the result but for the last m - 1 values of each,
-    Values smooth_tail;   ///< and those
-    Lanes<Real> error{};  ///< how far rounding may have moved a value of the result
-
-    Lanes<Real> trace;
-    Values head, filter;
-    EigenBatch<Real> eigen;
-};
-
-}  // namespace
-}  // namespace hagen
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The m x m products of the trajectory matrix's rows, along each diagonal from the one before,
-/// over their trace.
+/// The m x m products of the trajectory matrix's rows, each from the one before it along the
+/// diagonal, divided by their trace.
 template <class Real>
 void rowProducts(RunBatch<Real>& batch) {
     const int m = batch.m, columns = batch.values - m + 1;
     const Pack<Real> zero = all<Real>(0);
     const Lanes<Real>* const series = batch.series.data();
-    const Lanes<Real>* const tail = batch.tail.data() + m - 1;  // what the first row has not
+    const Lanes<Real>* const tail = batch.tail.data() + m - 1;  // the values not in the first row
     batch.head.resize(columns);                                 // the first row
     for (int k = 0; k < columns; ++k) {
         const auto is_within = all<Real>(k) < load(batch.columns);
@@ -83,7 +55,7 @@ void rowProducts(RunBatch<Real>& batch) {
     }
 }
 
-/// The projection onto the eigenvectors, m x m, where the matrix was.
+/// The projection onto the eigenvectors, m x m; overwrites the matrix.
 template <class Real>
 void projection(int m, int vectors, EigenBatch<Real>& eigen) {
     const Lanes<Real>* const v = eigen.vectors.data();
@@ -106,9 +78,9 @@ HWY_INLINE Pack<Real> weightedSum(const Lanes<Real>* weights, const Lanes<Real>*
 }
 
 /// The means along the antidiagonals of the trajectory matrix's projection. They are a filter of
-/// the series: the sum along each diagonal of the m x m projection weighs the value so far away.
-/// Over the first m - 1 values the filter grows by a row of the projection each, over the last it
-/// loses them again.
+/// the series: the sum along each diagonal of the m x m projection is the weight of the value at
+/// that distance. For each of the first m - 1 values the filter gains a row of the projection, for
+/// each of the last it loses one.
 template <class Real>
 void antidiagonalMeans(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -135,9 +107,9 @@ void antidiagonalMeans(RunBatch<Real>& batch) {
     }
 }
 
-/// To their residuals, where what was to be taken away is what was computed.
+/// The series less what was computed, where that is the components to remove.
 template <class Real>
-void takeAway(RunBatch<Real>& batch) {
+void subtractSmooth(RunBatch<Real>& batch) {
     const int m = batch.m;
     for (int n = 0; n <= batch.values - m; ++n) {
         store(load(batch.series[n]) - load(batch.smooth[n]), batch.smooth[n]);
@@ -147,10 +119,10 @@ void takeAway(RunBatch<Real>& batch) {
     }
 }
 
-/// Rounding turns the cut between the components by a rounding error of the matrix over the gap
-/// between the eigenvalues there. So much of the last component that is kept may be lost, no entry
-/// of which is greater than its singular value.
-void judgeRounding(RunBatch<float>& batch) {
+/// Rounding rotates the kept components by a rounding error of the matrix, divided by the gap
+/// between the eigenvalues PC and PC + 1. That share of the last kept component may be lost; none
+/// of its entries exceeds its singular value.
+void boundRoundingError(RunBatch<float>& batch) {
     constexpr double rounding = 0x1p-24, of_eigenvalue = 16 * rounding;
     const Pack<float> last = load(batch.eigen.last), next = load(batch.eigen.next);
     const Pack<float> gap = absolute(last - next) - all<float>(of_eigenvalue);
@@ -169,12 +141,12 @@ void smoothBatch(int principal_components, RunBatch<Real>& batch) {
     eigenvectors(batch.m, vectors, removes, batch.eigen);
     projection(batch.m, vectors, batch.eigen);
     antidiagonalMeans(batch);
-    if (removes) takeAway(batch);
+    if (removes) subtractSmooth(batch);
 }
 
 }  // namespace
 
-/// A bit a pixel, set where it has a value.
+/// One bit per pixel, set where it has a value.
 void findValues(const float* pixels, std::size_t count, std::uint64_t* words) {
     const hn::CappedTag<float, 64> d;
     for (std::size_t first = 0; first < count; first += 64) {
@@ -192,7 +164,7 @@ void findValues(const float* pixels, std::size_t count, std::uint64_t* words) {
 
 void smoothWithFloats(int principal_components, RunBatch<float>& batch) {
     smoothBatch(principal_components, batch);
-    judgeRounding(batch);
+    boundRoundingError(batch);
 }
 void smoothWithDoubles(int principal_components, RunBatch<double>& batch) {
     smoothBatch(principal_components, batch);
@@ -210,17 +182,13 @@ HWY_EXPORT(findValues);
 HWY_EXPORT(smoothWithFloats);
 HWY_EXPORT(smoothWithDoubles);
 
-/// What rounding may change, in the values' unit. On scans changes were less than a fifth of it.
+/// How much rounding may change a value, in its unit. On real scans it was less than a fifth of it.
 constexpr float kTolerance = 2e-4f;
 
-/// A run of `values` pixels with a value.
-struct Run {
-    float* begin;
-    int values;
-};
+using Run = SsaWorkspace::Run;
 
-/// The first bit of [from, end) that differs from those of `same`, 0 or all; `end` if there is
-/// none.
+/// The first bit in [from, end) that differs from the bits of `same`, which are all 0 or all 1;
+/// `end` if there is none.
 std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t end,
                      std::uint64_t same) {
     for (; from < end; from = (from / 64 + 1) * 64) {
@@ -232,16 +200,11 @@ std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t e
     return end;
 }
 
-/// Those of at least `fewest` values, in order of their length.
-void findRuns(Image<float>& image, int fewest, std::vector<Run>& runs) {
-    // Kept from scan to scan, so that none is allocated; hold nothing between them.
-    thread_local std::vector<std::uint64_t> kept_words;
-    thread_local std::vector<Run> kept_found;
-    thread_local std::vector<int> kept_start_of;
-    std::vector<std::uint64_t>& words = kept_words;
-    std::vector<Run>& found = kept_found;
-    std::vector<int>& start_of = kept_start_of;  // the place of the next run of this length
-
+/// Fills work.runs with the runs of at least `fewest` values, in order of length.
+void findRuns(Image<float>& image, int fewest, SsaWorkspace& work) {
+    std::vector<std::uint64_t>& words = work.has_value;
+    std::vector<Run>&found = work.found, &runs = work.runs;
+    std::vector<int>& start_of = work.next_of_length;
     const auto rows = static_cast<std::size_t>(image.rows());
     const auto pixels = static_cast<std::size_t>(image.size());
     words.resize((pixels + 63) / 64);
@@ -273,7 +236,7 @@ void smooth(int principal_components, RunBatch<double>& batch) {
     HWY_DYNAMIC_DISPATCH(smoothWithDoubles)(principal_components, batch);
 }
 
-/// Memory for whatever runs come, so that none is allocated in a later scan.
+/// Reserves memory for any runs, so that no later scan allocates.
 template <class Real>
 void reserve(int window_size, int rows, RunBatch<Real>& batch) {
     const int m = std::min(window_size, (rows + 1) / 2);
@@ -285,10 +248,10 @@ void reserve(int window_size, int rows, RunBatch<Real>& batch) {
     }
     eigen.matrix.reserve(m * m);
     eigen.vectors.reserve(m * m);
-    eigen.rotations.reserve(4 * m * m);  // two sweeps an eigenvalue are usual
+    eigen.rotations.reserve(4 * m * m);  // usually two sweeps per eigenvalue
 }
 
-/// Lanes without a run of their own repeat the last one.
+/// Lanes without a run of their own repeat the last run.
 template <class Real>
 void fillLanes(const Run* runs, int count, RunBatch<Real>& batch) {
     const int tail_values = 2 * (batch.m - 1);
@@ -316,8 +279,8 @@ void takeLane(const RunBatch<Real>& batch, int lane, const Run& run) {
     }
 }
 
-/// Of runs in order of their length. What rounding may have moved too far stays as it is, and in
-/// `runs`.
+/// Smooths runs, which are in order of length. Those that rounding may have moved too far stay as
+/// they are, and in `runs`.
 template <class Real>
 void smoothRuns(int window_size, int principal_components, RunBatch<Real>& batch,
                 std::vector<Run>& runs) {
@@ -346,21 +309,15 @@ void smoothRuns(int window_size, int principal_components, RunBatch<Real>& batch
 }  // namespace
 
 void smoothColumns(const Image<float>& values, int window_size, int principal_components,
-                   Image<float>& smoothed) {
-    // Kept from scan to scan, so that none is allocated; hold nothing between them.
-    thread_local std::vector<Run> kept_runs;
-    thread_local RunBatch<float> floats;
-    thread_local RunBatch<double> doubles;
-    std::vector<Run>& runs = kept_runs;
-
+                   Image<float>& smoothed, SsaWorkspace& work) {
     smoothed = values;
     if (principal_components == window_size) return;
-    // A shorter run's trajectory matrix has no more rows or columns than components are kept.
-    findRuns(smoothed, window_size + principal_components, runs);
-    reserve(window_size, static_cast<int>(values.rows()), floats);
-    reserve(window_size, static_cast<int>(values.rows()), doubles);
-    smoothRuns(window_size, principal_components, floats, runs);
-    smoothRuns(window_size, principal_components, doubles, runs);
+    // The trajectory matrix of a shorter run has no more components than are kept.
+    findRuns(smoothed, window_size + principal_components, work);
+    reserve(window_size, static_cast<int>(values.rows()), work.floats);
+    reserve(window_size, static_cast<int>(values.rows()), work.doubles);
+    smoothRuns(window_size, principal_components, work.floats, work.runs);
+    smoothRuns(window_size, principal_components, work.doubles, work.runs);
 }
 
 }  // namespace hagen

@@ -311,6 +311,7 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
 
     SimulatedScan out;
     reserve(turn.beams.size(), out);
+    out.scan.beams = beamSpan(sensor);
     out.pose = pose_at(time_s);
     out.altitude_m = out.pose.position_m.z() -
                      scene.terrain().height_m(out.pose.position_m.x(), out.pose.position_m.y());

@@ -38,12 +38,13 @@ void expectNoAllocations(const std::string& model, const Options& options,
                          const std::optional<Attitude>& attitude) {
     const auto scans = drive(model);
     HagenFilter filter(observations::sensorOf(*scans.front()), options);
+    observations::DecoderWorkspace decoder;
     Scan scan;
     std::size_t before = 0, roi = 0;
     for (int round = 0; round < 3; ++round) {
         if (round == 1) before = allocations();
         for (const auto& observation : scans) {
-            observations::decodePackets(*observation, scan);
+            observations::decodePackets(*observation, scan, decoder);
             roi += filter.segment(scan, attitude).returns.roi.size();
         }
     }

@@ -15,6 +15,7 @@ namespace hagen {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
+ProjectionWorkspace work;  // one for all tests, as a filter has one for all scans
 
 /// A scan known by its beams alone, all that the projection looks at.
 Scan randomScan(unsigned seed, int returns) {
@@ -24,7 +25,7 @@ Scan randomScan(unsigned seed, int returns) {
         scan.row.push_back(static_cast<std::uint8_t>(random.whole(0, 15)));
         scan.azimuth_rad.push_back(random.real(-3.14159f, 3.14159f));
         scan.range_m.push_back(random.chance(0.05) ? kNoValue : random.real(0.0f, 150.0f));
-        scan.x_m.push_back(0.0f);
+        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
     }
     return scan;
 }
@@ -63,7 +64,7 @@ TEST(RangeImage, KeepsTheClosestReturnOfEachPixel) {
     const SensorModel sensor = sensorModel("VLP-16");
     const Scan scan = randomScan(4, 20000);
     RangeImage image;
-    projectScan(scan, sensor, 100, kFar, image);
+    projectScan(scan, sensor, 100, kFar, image, work);
 
     Image<float> closest;
     closest.setConstant(16, 100, kFar);
@@ -92,10 +93,10 @@ TEST(RangeImage, OfTwoEquallyCloseReturnsTheEarlierCounts) {
         scan.row.push_back(3);
         scan.azimuth_rad.push_back(0.1f);
         scan.range_m.push_back(range_m);
-        scan.x_m.push_back(0.0f);
+        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
     }
     RangeImage image;
-    projectScan(scan, sensorModel("VLP-16"), 100, kFar, image);
+    projectScan(scan, sensorModel("VLP-16"), 100, kFar, image, work);
     EXPECT_EQ(image.closest_return.data()[image.depth_mapper[0]], 1);
     EXPECT_EQ((image.closest_return == RangeImage::kNoReturn).count(), 16 * 100 - 1);
 }
@@ -112,18 +113,18 @@ TEST(RangeImage, DepthDoesNotDependOnTheOrderOfReturns) {
         shuffled.row.push_back(scan.row[i]);
         shuffled.azimuth_rad.push_back(scan.azimuth_rad[i]);
         shuffled.range_m.push_back(scan.range_m[i]);
-        shuffled.x_m.push_back(0.0f);
+        for (auto* values : {&shuffled.x_m, &shuffled.y_m, &shuffled.z_m}) values->push_back(0.0f);
     }
     RangeImage image, shuffled_image;
-    projectScan(scan, sensor, 870, kFar, image);
-    projectScan(shuffled, sensor, 870, kFar, shuffled_image);
+    projectScan(scan, sensor, 870, kFar, image, work);
+    projectScan(shuffled, sensor, 870, kFar, shuffled_image, work);
     EXPECT_TRUE(test::same(image.depth_m, shuffled_image.depth_m));
 }
 
 TEST(RangeImage, ReturnsBeyondTheContextStayOut) {
     const Scan scan = randomScan(6, 3000);
     RangeImage image;
-    projectScan(scan, sensorModel("VLP-16"), 870, 20.0f, image);
+    projectScan(scan, sensorModel("VLP-16"), 870, 20.0f, image, work);
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const bool inside = scan.range_m[i] >= 0.5f && scan.range_m[i] <= 20.0f;
         EXPECT_EQ(image.depth_mapper[i] != RangeImage::kNoPixel, inside);
@@ -173,7 +174,7 @@ Scan scanWithTies(test::Random& random, int rows, int returns) {
         scan.range_m.push_back(random.chance(0.05)   ? kNoValue
                                : random.chance(0.05) ? kFar
                                                      : range_m);
-        scan.x_m.push_back(0.0f);
+        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
     }
     return scan;
 }
@@ -190,7 +191,7 @@ TEST(RangeImage, IsThatOfTheDefinitionReturnByReturn) {
         const Scan scan = scanWithTies(random, rows, returns);
         const float context_m = random.chance(0.5) ? kFar : 30.0f;
         projectPlainly(scan, sensor, columns, context_m, plain);
-        projectScan(scan, sensor, columns, context_m, image);
+        projectScan(scan, sensor, columns, context_m, image, work);
         expectSameImage(image, plain);
     }
 }
@@ -200,11 +201,11 @@ TEST(RangeImage, IsTheSameOnEveryInstructionSet) {
     const SensorModel sensor = sensorOfRows(64);
     const Scan scan = scanWithTies(random, 64, 20003);
     RangeImage best;
-    projectScan(scan, sensor, 870, 40.0f, best);
+    projectScan(scan, sensor, 870, 40.0f, best, work);
     forEachInstructionSet([&](const std::string& name) {
         SCOPED_TRACE(name);
         RangeImage image;
-        projectScan(scan, sensor, 870, 40.0f, image);
+        projectScan(scan, sensor, 870, 40.0f, image, work);
         expectSameImage(image, best);
     });
 }
@@ -212,7 +213,7 @@ TEST(RangeImage, IsTheSameOnEveryInstructionSet) {
 TEST(RangeImage, ReturnsByPixelHoldEachReturnOnceInItsPixel) {
     const Scan scan = randomScan(7, 5000);
     RangeImage image;
-    projectScan(scan, sensorModel("VLP-16"), 50, kFar, image);
+    projectScan(scan, sensorModel("VLP-16"), 50, kFar, image, work);
     const ReturnsByPixel by_pixel = returnsByPixel(image);
     std::set<int> seen;
     for (int pixel = 0; pixel < image.depth_m.size(); ++pixel) {
@@ -228,7 +229,7 @@ TEST(RangeImage, ReturnsByPixelHoldEachReturnOnceInItsPixel) {
 
 TEST(RangeImage, AnEmptyScanGivesAnEmptyImage) {
     RangeImage image;
-    projectScan(Scan(), sensorModel("VLP-16"), 870, kFar, image);
+    projectScan(Scan(), sensorModel("VLP-16"), 870, kFar, image, work);
     EXPECT_EQ(image.depth_m.rows(), 16);
     EXPECT_EQ(image.depth_m.cols(), 870);
     EXPECT_TRUE(image.depth_m.isNaN().all());

@@ -16,6 +16,7 @@ using test::cellFromSensor;
 using test::pixelsAt;
 
 constexpr float kBefore_m = 0.2f;  // tolerance before the canopy
+CanopyWorkspace work;              // one for all tests, as a filter has one for all scans
 
 /// The tolerances over the plane z = 0.
 Image<float> tolerated(const PixelPoints& pixels) {
@@ -23,7 +24,7 @@ Image<float> tolerated(const PixelPoints& pixels) {
         kNoValue, Image<float>::Constant(pixels.z_m.rows(), pixels.z_m.cols(), kBefore_m));
     CellTops tops;
     findCellTops(pixels, pixels.z_m, tops);
-    tolerateCanopy(tops, pixels.z_m, tolerance_m);
+    tolerateCanopy(tops, pixels.z_m, tolerance_m, work);
     return tolerance_m;
 }
 
@@ -103,7 +104,7 @@ TEST(CanopyLayer, NeverToleratesLess) {
     Image<float> tolerance_m = Image<float>::Constant(1, pixels.z_m.cols(), 5.0f);
     CellTops tops;
     findCellTops(pixels, pixels.z_m, tops);
-    tolerateCanopy(tops, pixels.z_m, tolerance_m);
+    tolerateCanopy(tops, pixels.z_m, tolerance_m, work);
     EXPECT_TRUE((tolerance_m == 5.0f).all());
 }
 

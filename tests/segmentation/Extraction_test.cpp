@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/segmentation/Extraction.h>
+#include <hagen/segmentation/FilterWorkspace.h>
 
 #include <algorithm>
 #include <limits>
@@ -12,6 +13,8 @@
 namespace hagen {
 namespace {
 
+FilterWorkspace work;  // one for all tests, as a filter has one for all scans
+
 /// Six returns in two pixels of a 2 x 8 image, and out of it.
 struct Example {
     SensorModel sensor = customSensorModel({-1, 1});
@@ -23,7 +26,7 @@ struct Example {
 
     Example() {
         const auto add = [&](float range_m, std::uint8_t row) {
-            scan.x_m.push_back(range_m);
+            for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(range_m);
             scan.range_m.push_back(range_m);
             scan.azimuth_rad.push_back(0.1f);
             scan.row.push_back(row);
@@ -35,11 +38,17 @@ struct Example {
         add(0.1f, 1);    // nearer than the sensor sees
         add(500.0f, 1);  // farther
         add(kNoValue, 1);
-        projectScan(scan, sensor, 8, 1000.0f, image);
+        projectScan(scan, sensor, 8, 1000.0f, image, work.projection);
         labels.data()[image.depth_mapper[0]] = Label::Roi;
         labels.data()[image.depth_mapper[3]] = Label::Rou;
         components.data()[image.depth_mapper[0]] = 7;
-        extractReturns(scan, sensor, image, labels, components, {}, 20.0f, 1.0f, returns);
+        extract();
+    }
+
+    void extract(const OwnLabels& own_labels = {}, float component_gap_m = 1.0f) {
+        extractReturns(scan, {image, labels, components}, own_labels,
+                       {sensor.min_range_m, sensor.max_range_m, 20.0f, component_gap_m}, returns,
+                       work.extraction);
     }
 };
 
@@ -96,7 +105,7 @@ TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
         std::vector<Label> own_label;
         const bool has_own = random.chance(0.5);
         for (int i = 0; i < size; ++i) {
-            scan.x_m.push_back(0.0f);
+            for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
             scan.range_m.push_back(random.chance(0.05) ? kNoValue : random.real(0.0f, 140.0f));
             if (random.chance(0.7)) scan.range_m.back() = random.real(1.0f, 25.0f);
             scan.azimuth_rad.push_back(random.real(-3.1f, 3.1f));
@@ -104,7 +113,7 @@ TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
             if (has_own) own_label.push_back(static_cast<Label>(random.whole(0, 2)));
         }
         RangeImage image;
-        projectScan(scan, sensor, columns, random.real(10.0f, 100.0f), image);
+        projectScan(scan, sensor, columns, random.real(10.0f, 100.0f), image, work.projection);
         Image<Label> labels(16, columns);
         Image<std::int32_t> components(16, columns);
         for (int pixel = 0; pixel < labels.size(); ++pixel) {
@@ -115,8 +124,9 @@ TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
             plainReturns(scan, sensor, image, labels, components, own_label, 20.0f, 1.0f);
         forEachInstructionSet([&](const std::string& name) {
             SCOPED_TRACE(name + ", returns: " + std::to_string(size));
-            extractReturns(scan, sensor, image, labels, components, own_label, 20.0f, 1.0f,
-                           returns);
+            extractReturns(scan, {image, labels, components}, {own_label},
+                           {sensor.min_range_m, sensor.max_range_m, 20.0f, 1.0f}, returns,
+                           work.extraction);
             ASSERT_EQ(returns.label, expected.label);
             ASSERT_EQ(returns.component, expected.component);
             ASSERT_EQ(returns.roi, expected.roi);
@@ -139,16 +149,15 @@ TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
     Example example;
     example.labels.data()[example.image.depth_mapper[3]] = Label::Roi;
     example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other, 7
-    extractReturns(example.scan, example.sensor, example.image, example.labels, example.components,
-                   {}, 20.0f, 1.0f, example.returns);
+    example.extract();
     EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
 }
 
 TEST(Extraction, WhatTheImageDoesNotReachIsRou) {
     Example example;
-    projectScan(example.scan, example.sensor, 8, 10.0f, example.image);  // cut before the zone
-    extractReturns(example.scan, example.sensor, example.image, example.labels, example.components,
-                   {}, 20.0f, 1.0f, example.returns);
+    projectScan(example.scan, example.sensor, 8, 10.0f, example.image,
+                work.projection);  // cut before the zone
+    example.extract();
     EXPECT_EQ(example.returns.label[0], Label::Roi);
     EXPECT_EQ(example.returns.label[1], Label::Rou);
 }
@@ -156,8 +165,7 @@ TEST(Extraction, WhatTheImageDoesNotReachIsRou) {
 TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
     Example example;
     const auto extracted = [&](const std::vector<Label>& own_label) {
-        extractReturns(example.scan, example.sensor, example.image, example.labels,
-                       example.components, own_label, 20.0f, 1.0f, example.returns);
+        example.extract({own_label});
         return example.returns;
     };
     std::vector<Label> own_label(7, Label::Unclassified);
@@ -178,8 +186,7 @@ TEST(Extraction, WhatIsSeenPastAnObstacleIsOfNoComponent) {
     Example example;  // its second return is 10 m behind the first, of component 7
     const std::vector<Label> own_label(7, Label::Roi);
     const auto component = [&](float component_gap_m) {
-        extractReturns(example.scan, example.sensor, example.image, example.labels,
-                       example.components, own_label, 20.0f, component_gap_m, example.returns);
+        example.extract({own_label}, component_gap_m);
         EXPECT_EQ(example.returns.label[1], Label::Roi);
         return example.returns.component[1];
     };

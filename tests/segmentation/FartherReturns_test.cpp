@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/segmentation/FartherReturns.h>
+#include <hagen/segmentation/FilterWorkspace.h>
 
 #include <cmath>
 
@@ -14,6 +15,7 @@ struct TwoMetresUp {
     Ground ground;
 
     TwoMetresUp() {
+        ground.has_surface = true;
         ground.from_sensor = Eigen::Isometry3f::Identity();
         ground.from_sensor.translation().z() = 2;
         ground.surface.height_m =
@@ -21,13 +23,16 @@ struct TwoMetresUp {
         ground.tolerance_m.setConstant(16, 870, 0.2f);
     }
 
-    std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m) const {
+    std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m,
+                              float least_clearance_m = 0) const {
+        static FilterWorkspace work;  // one for all tests, as a filter has one for all scans
         const Scan scan = test::scanOf(sensor, points_m);
         RangeImage image;
-        projectScan(scan, sensor, 870, 48.0f, image);
-        std::vector<Label> own_label(99, Label::Roi);  // of a scan before
-        judgeFartherReturns(scan, image, ground, own_label);
-        return own_label;
+        projectScan(scan, sensor, 870, 48.0f, image, work.projection);
+        OwnLabels own_labels{std::vector<Label>(99, Label::Roi)};  // of a scan before
+        judgeFartherReturns(scan, image, ground, {Eigen::Vector3f::UnitZ(), least_clearance_m},
+                            own_labels, work.farther_returns);
+        return own_labels.label;
     }
     Eigen::Vector3f on(int row, double range_m) const {
         return test::onBeam(sensor, row, 30.1, range_m);
@@ -71,7 +76,8 @@ TEST(FartherReturns, TheToleranceIsThePixels) {
     TwoMetresUp example;
     const Scan scan = test::scanOf(example.sensor, {example.on(0, 7)});
     RangeImage image;
-    projectScan(scan, example.sensor, 870, 48.0f, image);
+    ProjectionWorkspace work;
+    projectScan(scan, example.sensor, 870, 48.0f, image, work);
     example.ground.tolerance_m.data()[image.depth_mapper[0]] = 0.1f;
     EXPECT_EQ(example.judged({example.on(0, 3), example.on(0, 7)})[1], Label::Roi);
 }
@@ -80,6 +86,21 @@ TEST(FartherReturns, WhatTheImageDoesNotReachIsNotJudged) {
     const TwoMetresUp example;
     EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 60)}),
               (std::vector<Label>{kAsItsPixel, kAsItsPixel}));
+}
+
+// 2 m above level ground: of what lies on it, all is 2 m below.
+TEST(FartherReturns, GroundThatIsTooCloseIsRoi) {
+    const TwoMetresUp example;
+    const double to_ground_m = 2 / std::sin(radians(15));  // of the lowest beam
+    const std::vector<Eigen::Vector3f> points{example.on(0, to_ground_m), example.on(0, 3)};
+    EXPECT_EQ(example.judged(points, 1.9f), (std::vector<Label>{Label::Rou, kAsItsPixel}));
+    EXPECT_EQ(example.judged(points, 2.1f), (std::vector<Label>{Label::Roi, kAsItsPixel}));
+}
+
+TEST(FartherReturns, WithoutASurfaceNoneIsJudged) {
+    TwoMetresUp example;
+    example.ground.has_surface = false;
+    EXPECT_TRUE(example.judged({example.on(8, 5), example.on(8, 12)}, 3).empty());
 }
 
 TEST(FartherReturns, AnEmptyScanHasNone) { EXPECT_TRUE(TwoMetresUp().judged({}).empty()); }

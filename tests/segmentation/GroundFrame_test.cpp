@@ -43,6 +43,8 @@ float greatestHeight(const Eigen::Isometry3f& ground_from_sensor,
     return greatest_m;
 }
 
+GroundFrameWorkspace work;  // one for all tests, as a filter has one for all scans
+
 TEST(GroundFrame, APlaneHasNoHeightWhateverTheTilt) {
     test::Random random(70);
     for (int round = 0; round < 20; ++round) {
@@ -50,7 +52,7 @@ TEST(GroundFrame, APlaneHasNoHeightWhateverTheTilt) {
         const float below_m = random.real(0.5f, 10.0f);
         const auto points = ringsOnPlane(attitude, below_m);
         for (const Attitude& start : {Attitude{}, attitude}) {
-            const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), start);
+            const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), start, work);
             EXPECT_LT(greatestHeight(frame, points), 0.01f);
             EXPECT_NEAR(frame.translation().z(), below_m, 0.01f);
             EXPECT_NEAR(frame.translation().head<2>().norm(), 0, 1e-5);
@@ -60,7 +62,7 @@ TEST(GroundFrame, APlaneHasNoHeightWhateverTheTilt) {
 
 TEST(GroundFrame, IsAFrame) {
     const Eigen::Isometry3f frame =
-        fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, -0.1f}, 2)), Attitude{});
+        fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, -0.1f}, 2)), Attitude{}, work);
     const Eigen::Matrix3f product = frame.linear() * frame.linear().transpose();
     EXPECT_TRUE(product.isIdentity(1e-5f));
     EXPECT_NEAR(frame.linear().determinant(), 1, 1e-5);
@@ -69,7 +71,7 @@ TEST(GroundFrame, IsAFrame) {
 TEST(GroundFrame, DoesNotTurnTheSensorsHeading) {
     // The normal goes to z by the shortest turn: forward stays forward, as seen from above.
     const Eigen::Isometry3f frame =
-        fitGroundFrame(pixelsAt(ringsOnPlane({0, 0.2f}, 2)), Attitude{});
+        fitGroundFrame(pixelsAt(ringsOnPlane({0, 0.2f}, 2)), Attitude{}, work);
     EXPECT_NEAR(frame.linear()(1, 0), 0, 1e-3);
     EXPECT_GT(frame.linear()(0, 0), 0.97f);
 }
@@ -97,7 +99,7 @@ TEST(GroundFrame, WallsAndCrownsAboveThePlaneDoNotTiltIt) {
             ++raised;
         }
         ASSERT_GT(raised, 0.3 * static_cast<double>(points.size()));
-        const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), attitude);
+        const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), attitude, work);
         for (const Eigen::Vector3f& p : ground) {
             const float height_m = (frame * p).z();
             ASSERT_LT(std::abs(height_m), 0.02f + 0.01f * p.norm());
@@ -112,7 +114,7 @@ TEST(GroundFrame, StrayReturnsBelowThePlaneDoNotLowerIt) {
     for (Eigen::Vector3f& p : points) {
         if (random.chance(0.05)) p.z() -= 3;
     }
-    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}), ground), 0.05f);
+    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 0.05f);
 }
 
 TEST(GroundFrame, WhatIsAboveThePlaneMovesItLessThanWhatIsBelow) {
@@ -120,7 +122,7 @@ TEST(GroundFrame, WhatIsAboveThePlaneMovesItLessThanWhatIsBelow) {
         auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });
         for (std::size_t i = 0; i < points.size(); i += 4) points[i].z() += off_m;
         const PixelPoints pixels = pixelsAt(points, 49);  // of each side of the square
-        return std::abs(fitGroundFrame(pixels, Attitude{}).translation().z() - 2);
+        return std::abs(fitGroundFrame(pixels, Attitude{}, work).translation().z() - 2);
     };
     EXPECT_GT(movedBy(0.5f), 0.001f);
     EXPECT_LT(movedBy(0.5f), 0.8f * movedBy(-0.5f));
@@ -132,35 +134,35 @@ TEST(GroundFrame, WhatIsBeyondFortyMetresDoesNotCount) {
     for (int step = 0; step < 100; ++step) {
         points.emplace_back(41, static_cast<float>(step) - 50, -15);
     }
-    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}), ground), 1e-4f);
+    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 1e-4f);
 }
 
 TEST(GroundFrame, EmptyPixelsDoNotCount) {
     auto points = ringsOnPlane({}, 2);
     const auto ground = points;
     points.insert(points.end(), 1000, test::kEmptyPixel);
-    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}), ground), 1e-4f);
+    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 1e-4f);
 }
 
 TEST(GroundFrame, OfFewerThanThreeCellsIsALevelPlaneThroughTheLowest) {
-    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt({{5, 0, -1.5f}, {8, 3, -2}}), {});
+    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt({{5, 0, -1.5f}, {8, 3, -2}}), {}, work);
     EXPECT_TRUE(frame.linear().isIdentity());
     EXPECT_FLOAT_EQ(frame.translation().z(), 2);
-    EXPECT_FLOAT_EQ(fitGroundFrame(pixelsAt({{5, 0, -1.5f}}), {}).translation().z(), 1.5f);
+    EXPECT_FLOAT_EQ(fitGroundFrame(pixelsAt({{5, 0, -1.5f}}), {}, work).translation().z(), 1.5f);
 }
 
 TEST(GroundFrame, OfNoPixelIsThatOfALevelPlaneThroughTheSensor) {
     const PixelPoints none = pixelsAt({test::kEmptyPixel, test::kEmptyPixel});
-    EXPECT_TRUE(fitGroundFrame(none, {}).isApprox(Eigen::Isometry3f::Identity()));
+    EXPECT_TRUE(fitGroundFrame(none, {}, work).isApprox(Eigen::Isometry3f::Identity()));
     const Attitude attitude{0.1f, 0.2f};
-    EXPECT_TRUE(fitGroundFrame(none, attitude).linear().isApprox(levelFromSensor(attitude)));
-    EXPECT_TRUE(fitGroundFrame(none, attitude).translation().isZero());
+    EXPECT_TRUE(fitGroundFrame(none, attitude, work).linear().isApprox(levelFromSensor(attitude)));
+    EXPECT_TRUE(fitGroundFrame(none, attitude, work).translation().isZero());
 }
 
 TEST(GroundFrame, PointsOnALineAreNoError) {
     std::vector<Eigen::Vector3f> line;
     for (int i = 1; i < 20; ++i) line.emplace_back(static_cast<float>(i), 0, -2);
-    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(line), {});
+    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(line), {}, work);
     EXPECT_TRUE(frame.matrix().allFinite());
     EXPECT_LT(greatestHeight(frame, line), 0.01f);
 }
@@ -189,13 +191,15 @@ TEST(CanBeGround, IsSaidOfWhatLiesBelowAndIsNotTooSteep) {
 }
 
 TEST(Upwards, WithoutAttitudeIsTheGroundsNormal) {
-    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, 0.1f}, 2)), {});
+    const Eigen::Isometry3f frame =
+        fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, 0.1f}, 2)), {}, work);
     EXPECT_EQ(upwards(frame, std::nullopt), Eigen::Vector3f::UnitZ());
 }
 
 TEST(Upwards, OverLevelGroundATiltedSensorThatKnowsItFindsTheNormal) {
     const Attitude attitude{0.2f, -0.15f};
-    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(ringsOnPlane(attitude, 2)), attitude);
+    const Eigen::Isometry3f frame =
+        fitGroundFrame(pixelsAt(ringsOnPlane(attitude, 2)), attitude, work);
     EXPECT_LT((upwards(frame, attitude) - Eigen::Vector3f::UnitZ()).norm(), 1e-3f);
 }
 
@@ -204,7 +208,7 @@ TEST(Upwards, OverASlopeIsAsFarOffTheNormalAsTheSlopeIsSteep) {
     // leans ahead of the ground's normal.
     const Attitude against_slope{0, static_cast<float>(radians(10))};
     const Eigen::Isometry3f frame =
-        fitGroundFrame(pixelsAt(ringsOnPlane(against_slope, 2)), Attitude{});
+        fitGroundFrame(pixelsAt(ringsOnPlane(against_slope, 2)), Attitude{}, work);
     const Eigen::Vector3f up = upwards(frame, Attitude{});
     EXPECT_NEAR(up.z(), std::cos(radians(10)), 1e-3);
     EXPECT_NEAR(up.x(), std::sin(radians(10)), 1e-3);

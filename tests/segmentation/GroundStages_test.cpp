@@ -1,11 +1,7 @@
 // The stages of the ground, which work on whole vectors, against plain ones; and on every
 // instruction set.
 #include <gtest/gtest.h>
-#include <hagen/segmentation/CanopyLayer.h>
-#include <hagen/segmentation/CellTops.h>
-#include <hagen/segmentation/GroundFrame.h>
-#include <hagen/segmentation/GroundSurface.h>
-#include <hagen/segmentation/HeightLabels.h>
+#include <hagen/segmentation/FilterWorkspace.h>
 
 #include <cmath>
 #include <cstring>
@@ -88,6 +84,7 @@ void expectNear(const Image<float>& a, const Image<float>& b, float most) {
 }
 
 const HeightTolerance kTolerance;
+FilterWorkspace work;  // one for all tests, as a filter has one for all scans
 
 /// Everything from the pixels to the labels.
 struct Judged {
@@ -101,23 +98,23 @@ struct Judged {
 Judged judged(const Sight& sight) {
     Judged j;
     PixelPoints pixels = sight.pixels;
-    j.frame = fitGroundFrame(pixels, Attitude{0.02f, -0.03f});
+    j.frame = fitGroundFrame(pixels, Attitude{0.02f, -0.03f}, work.ground_frame);
     movePixels(j.frame, pixels);
-    fitGroundSurface(pixels, sight.labels, j.surface);
+    fitGroundSurface(pixels, sight.labels, j.surface, work.ground_surface);
     heightsAbove(j.surface, pixels, j.height_m);
     findCellTops(pixels, j.height_m, j.tops);
-    toleratedHeights(pixels, j.tops, kTolerance, j.tolerance_m);
-    tolerateCanopy(j.tops, j.height_m, j.tolerance_m);
+    toleratedHeights(pixels, j.tops, kTolerance, j.tolerance_m, work.tolerance);
+    tolerateCanopy(j.tops, j.height_m, j.tolerance_m, work.canopy);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
-    growFeet(pixels, j.height_m, j.labels);
-    removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels);
+    growFeet(pixels, j.height_m, j.labels, work.feet);
+    removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels, work.specks);
     return j;
 }
 
 TEST(GroundStages, TheFrameIsThatOfAPlainFit) {
     forManySights([](const Sight& sight) {
         const Attitude attitude{0.02f, -0.03f};
-        const Eigen::Isometry3f fast = fitGroundFrame(sight.pixels, attitude);
+        const Eigen::Isometry3f fast = fitGroundFrame(sight.pixels, attitude, work.ground_frame);
         const Eigen::Isometry3f plain = test::plain::fitGroundFrame(sight.pixels, attitude);
         EXPECT_TRUE(fast.isApprox(plain, 1e-4f)) << fast.matrix() << "\n\n" << plain.matrix();
     });
@@ -130,7 +127,7 @@ TEST(GroundStages, TheSurfaceIsThatOfAPlainFit) {
         up.translation().z() = 2;
         movePixels(up, in_ground.pixels);
         GroundSurface fast, plain;
-        fitGroundSurface(in_ground.pixels, in_ground.labels, fast);
+        fitGroundSurface(in_ground.pixels, in_ground.labels, fast, work.ground_surface);
         test::plain::fitGroundSurface(in_ground.pixels, in_ground.labels, plain);
         expectNear(fast.height_m, plain.height_m, 1e-3f);  // a pixel may be just close, or just not
 
@@ -152,12 +149,12 @@ TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
         CellTops tops;
         Image<float> fast_m, plain_m;
         findCellTops(pixels, height_m, tops);
-        toleratedHeights(pixels, tops, kTolerance, fast_m);
+        toleratedHeights(pixels, tops, kTolerance, fast_m, work.tolerance);
         test::plain::toleratedHeights(pixels, height_m, kTolerance, plain_m);
         expectNear(fast_m, plain_m, 1e-5f);
         const Image<float> before_m = plain_m;
         fast_m = plain_m;
-        tolerateCanopy(tops, height_m, fast_m);
+        tolerateCanopy(tops, height_m, fast_m, work.canopy);
         test::plain::tolerateCanopy(pixels, height_m, plain_m);
         expectNear(fast_m, plain_m, 1e-3f);
         canopies += !test::same(before_m, plain_m);
@@ -167,12 +164,12 @@ TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
         test::plain::labelByHeight(height_m, plain_m, plain);
         EXPECT_TRUE((fast == plain).all());
         Image<Label> labels = plain;
-        growFeet(pixels, height_m, fast);
+        growFeet(pixels, height_m, fast, work.feet);
         test::plain::growFeet(pixels, height_m, plain);
         EXPECT_TRUE((fast == plain).all());
         feet += (labels != plain).any();
         labels = plain;
-        removeSpecks(pixels, height_m, plain_m, fast);
+        removeSpecks(pixels, height_m, plain_m, fast, work.specks);
         test::plain::removeSpecks(pixels, height_m, plain_m, plain);
         EXPECT_TRUE((fast == plain).all());
         specks += (labels != plain).any();

@@ -19,13 +19,14 @@ constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 using Grid = Eigen::ArrayXXf;
+GroundSurfaceWorkspace work;  // one for all tests, as a filter has one for all scans
 
 /// The surface under all points.
 GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
     GroundSurface surface;
     const PixelPoints pixels = pixelsAt(points_m);
     const Image<bool> all = Image<bool>::Constant(1, pixels.x_m.cols(), true);
-    fitGroundSurface(pixels, all, surface);
+    fitGroundSurface(pixels, all, surface, work);
     return surface;
 }
 
@@ -78,7 +79,7 @@ TEST(GroundSurface, OfNoCandidateIsThePlane) {
     EXPECT_TRUE((surfaceUnder({test::kEmptyPixel}).height_m == 0).all());
     GroundSurface surface;
     const PixelPoints high = pixelsAt({{5, 0, 3}});
-    fitGroundSurface(high, Image<bool>::Constant(1, 1, false).eval(), surface);
+    fitGroundSurface(high, Image<bool>::Constant(1, 1, false).eval(), surface, work);
     EXPECT_EQ(surface.height_m.rows(), kCells);
     EXPECT_EQ(surface.height_m.cols(), kCells);
     EXPECT_TRUE((surface.height_m == 0).all());
@@ -87,7 +88,8 @@ TEST(GroundSurface, OfNoCandidateIsThePlane) {
 TEST(GroundSurface, OfAnEmptyLabelledImageIsThePlane) {
     PixelPoints pixels = pixelsAt(std::vector<Eigen::Vector3f>(16 * 20, test::kEmptyPixel), 16);
     GroundSurface surface;
-    fitGroundSurface(pixels, Image<Label>::Constant(16, 20, Label::Unclassified).eval(), surface);
+    fitGroundSurface(pixels, Image<Label>::Constant(16, 20, Label::Unclassified).eval(), surface,
+                     work);
     EXPECT_TRUE((surface.height_m == 0).all());
     Image<float> height_m;
     heightsAbove(surface, pixels, height_m);
@@ -310,7 +312,7 @@ TEST(GroundSurface, OnlyCandidatesCount) {
     is_candidate.leftCols(static_cast<Eigen::Index>(ground)) = true;
     is_candidate.rightCols(static_cast<Eigen::Index>(ground)) = false;
     GroundSurface surface;
-    fitGroundSurface(pixelsAt(points), is_candidate, surface);
+    fitGroundSurface(pixelsAt(points), is_candidate, surface, work);
     EXPECT_TRUE((surface.height_m == 0).all());
 }
 
@@ -332,8 +334,8 @@ TEST(GroundSurface, GroundThatTheLabelsCutOffComesBack) {
         Eigen::Map<Image<Label>>(labels.data(), 1, static_cast<Eigen::Index>(labels.size()));
     const PixelPoints pixels = pixelsAt(points);
     GroundSurface of_rou, surface;
-    fitGroundSurface(pixels, (image == Label::Rou).eval(), of_rou);
-    fitGroundSurface(pixels, image, surface);
+    fitGroundSurface(pixels, (image == Label::Rou).eval(), of_rou, work);
+    fitGroundSurface(pixels, image, surface, work);
     EXPECT_LT(of_rou.at(8, 0), 0.1f);
     EXPECT_LT(greatestError(surface, 18, mound), 0.03f);
 }
@@ -353,7 +355,7 @@ TEST(GroundSurface, WhatTheLabelsCutOffAndIsNotCloseStaysCutOff) {
         fitGroundSurface(
             pixelsAt(points),
             Eigen::Map<Image<Label>>(labels.data(), 1, static_cast<Eigen::Index>(labels.size())),
-            surface);
+            surface, work);
         EXPECT_LT(greatestError(surface, 18, kLevel), 0.01f);
     }
 }

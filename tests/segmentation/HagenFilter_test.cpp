@@ -1,17 +1,11 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
-#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/Clearance.h>
-#include <hagen/segmentation/FartherReturns.h>
 #include <hagen/segmentation/GapRepair.h>
-#include <hagen/segmentation/GroundFrame.h>
 #include <hagen/segmentation/HagenFilter.h>
-#include <hagen/segmentation/HeightLabels.h>
-#include <hagen/segmentation/Labelling.h>
 #include <hagen/segmentation/RangeAngle.h>
-#include <hagen/segmentation/RoiComponents.h>
 #include <hagen/segmentation/Sharpening.h>
-#include <hagen/segmentation/SingularSpectrumAnalysis.h>
 
 #include <algorithm>
 #include <cmath>
@@ -309,8 +303,8 @@ TEST(HagenFilter, EveryReturnOfARandomScanEndsInExactlyOneList) {
                     ++seen[i];
                     ASSERT_EQ(returns.label[i], label);
                     // Of RoI, only what was judged apart from its pixel may be of no component.
-                    const bool is_behind =
-                        !result.own_label.empty() && result.own_label[i] != Label::Unclassified;
+                    const bool is_behind = !result.own_labels.label.empty() &&
+                                           result.own_labels.label[i] != Label::Unclassified;
                     ASSERT_TRUE(returns.component[i] == 0 || label == Label::Roi);
                     ASSERT_TRUE(returns.component[i] > 0 || label != Label::Roi || is_behind);
                 }
@@ -492,27 +486,30 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
         HagenFilter filter(sensor, o);
         const SegmentationResult& r = filter.segment(scan, attitude);
 
+        FilterWorkspace work;
         RangeImage image;
         Image<float> repaired, proximity, sharpened, merged, angles, smoothed, carried;
         std::vector<Maximum> maxima;
         Image<Label> labels;
         Image<std::int32_t> components;
         LabelledReturns returns;
-        projectScan(scan, sensor, 400, 25.0f, image);
+        projectScan(scan, sensor, 400, 25.0f, image, work.projection);
         repairGaps(image.depth_m, 3.0f, repaired);
         proximityOf(repaired, 15.0f, proximity);
-        findPersistentMaxima(proximity, 0.3f, maxima);
+        findPersistentMaxima(proximity, 0.3f, maxima, work.maxima);
         sharpenMaxima(proximity, maxima, 0.7f, 2.5f, sharpened);
         mergeMaxima(repaired, proximity, sharpened, maxima, 2.0f, merged);
         rangeAngles(merged, pixelDirections(sensor, static_cast<int>(merged.cols())), attitude,
                     angles);
-        smoothColumns(angles, 10, 3, smoothed);
+        smoothColumns(angles, 10, 3, smoothed, work.ssa);
         carryAngles(smoothed, carried);
         labelRegions(repaired, carried, static_cast<float>(radians(12.0)), seeds,
-                     static_cast<float>(radians(50.0)), labels);
+                     static_cast<float>(radians(50.0)), labels, work.labelling);
         limitToZone(repaired, 15.0f, labels);
-        numberRoiComponents(repaired, labels, 0.4f, components);
-        extractReturns(scan, sensor, image, labels, components, {}, 15.0f, 0.4f, returns);
+        numberRoiComponents(repaired, labels, 0.4f, components, work.components);
+        extractReturns(scan, {image, labels, components}, {},
+                       {sensor.min_range_m, sensor.max_range_m, 15.0f, 0.4f}, returns,
+                       work.extraction);
 
         EXPECT_TRUE(test::same(r.range_image.depth_m, image.depth_m));
         EXPECT_TRUE(test::same(r.repaired_m, repaired));
@@ -548,34 +545,37 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         HagenFilter filter(sensor, o);
         const SegmentationResult& r = filter.segment(scan, attitude);
 
+        FilterWorkspace work;
         Image<Label> labels;
         Ground g;
-        std::vector<Label> own_label;
+        OwnLabels own_labels;
         Image<std::int32_t> components;
         LabelledReturns returns;
         labelRegions(r.repaired_m, r.pixel_angle_rad, static_cast<float>(radians(12.0)),
-                     Seeds::Lowest, static_cast<float>(radians(50.0)), labels);
+                     Seeds::Lowest, static_cast<float>(radians(50.0)), labels, work.labelling);
         locatePixels(scan, pixelDirections(sensor, static_cast<int>(r.repaired_m.cols())),
                      r.range_image, r.repaired_m, g.pixels);
-        g.from_sensor = fitGroundFrame(g.pixels, attitude);
+        g.from_sensor = fitGroundFrame(g.pixels, attitude, work.ground_frame);
         movePixels(g.from_sensor, g.pixels);
-        fitGroundSurface(g.pixels, labels, g.surface);
+        fitGroundSurface(g.pixels, labels, g.surface, work.ground_surface);
         heightsAbove(g.surface, g.pixels, g.height_m);
         findCellTops(g.pixels, g.height_m, g.tops);
-        toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.tolerance_m);
-        if ((switches & 1) != 0) tolerateCanopy(g.tops, g.height_m, g.tolerance_m);
+        toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.tolerance_m, work.tolerance);
+        if ((switches & 1) != 0) tolerateCanopy(g.tops, g.height_m, g.tolerance_m, work.canopy);
         labelByHeight(g.height_m, g.tolerance_m, labels);
-        if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels);
-        if ((switches & 4) != 0) removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels);
-        judgeFartherReturns(scan, r.range_image, g, own_label);
-        const Eigen::Vector3f up = upwards(g.from_sensor, attitude);
-        const float least_m = (switches & 8) != 0 ? 0.0f : 1.2f;
-        alarmLowGround(g, up, least_m, labels);
-        alarmLowGround(scan, g, up, least_m, own_label);
+        if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels, work.feet);
+        if ((switches & 4) != 0)
+            removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels, work.specks);
+        const Clearance clearance{upwards(g.from_sensor, attitude),
+                                  (switches & 8) != 0 ? 0.0f : 1.2f};
+        alarmLowGround(g, clearance, labels);
+        g.has_surface = true;
+        judgeFartherReturns(scan, r.range_image, g, clearance, own_labels, work.farther_returns);
         limitToZone(r.repaired_m, 15.0f, labels);
-        numberRoiComponents(r.repaired_m, labels, 0.4f, components);
-        extractReturns(scan, sensor, r.range_image, labels, components, own_label, 15.0f, 0.4f,
-                       returns);
+        numberRoiComponents(r.repaired_m, labels, 0.4f, components, work.components);
+        extractReturns(scan, {r.range_image, labels, components}, own_labels,
+                       {sensor.min_range_m, sensor.max_range_m, 15.0f, 0.4f}, returns,
+                       work.extraction);
 
         EXPECT_TRUE(r.ground.from_sensor.isApprox(g.from_sensor));
         EXPECT_TRUE((r.ground.surface.height_m == g.surface.height_m).all());
@@ -583,7 +583,7 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         EXPECT_TRUE(test::same(r.ground.tolerance_m, g.tolerance_m));
         EXPECT_TRUE((r.labels == labels).all());
         EXPECT_TRUE((r.components == components).all());
-        EXPECT_EQ(r.own_label, own_label);
+        EXPECT_EQ(r.own_labels.label, own_labels.label);
         EXPECT_EQ(r.returns.label, returns.label);
         EXPECT_EQ(r.returns.component, returns.component);
         all_labels.push_back(returns.label);
@@ -592,6 +592,42 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
     for (std::size_t a = 0; a < all_labels.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b)
             EXPECT_TRUE(all_labels[a] != all_labels[b]) << a << " " << b;
+    }
+}
+
+TEST(HagenFilter, RefusesAScanThatWasNotLocatedAndSaysWhatToCall) {
+    HagenFilter filter(sensorModel("VLP-16"));
+    Scan scan;
+    scan.x_m = {5.0f, 6.0f};
+    scan.y_m = {0.0f, 0.0f};
+    scan.z_m = {0.1f, 0.1f};
+    try {
+        filter.segment(scan);
+        FAIL() << "segmented a scan without rows";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("locateBeams()"));
+    }
+    locateBeams(filter.sensor(), scan);
+    EXPECT_EQ(filter.segment(scan).returns.label.size(), 2u);
+}
+
+TEST(HagenFilter, RefusesRowsOfAnotherSensorAndKeepsItsResult) {
+    for (const auto& [own, other] : {std::pair{"VLP-16", "HDL-64E"}, {"HDL-64E", "VLP-16"}}) {
+        HagenFilter filter(sensorModel(own));
+        const auto ground = test::scanScene({}, sensorModel(own), 870, kTwoMetresUp);
+        const SegmentationResult& result = filter.segment(ground.scan);
+        const std::vector<Label> labels = result.returns.label;
+        auto others = test::scanScene({}, sensorModel(other), 870, kTwoMetresUp);
+        try {
+            filter.segment(others.scan);
+            FAIL() << "segmented a scan of the " << other;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(own));
+        }
+        EXPECT_EQ(result.returns.label, labels);
+        EXPECT_EQ(filter.segment(ground.scan).returns.label, labels);
+        locateBeams(filter.sensor(), others.scan);  // as the message says
+        EXPECT_NO_THROW(filter.segment(others.scan));
     }
 }
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 #include <hagen/segmentation/HeightLabels.h>
+#include <hagen/segmentation/ObstacleFeet.h>
+#include <hagen/segmentation/SpeckRemoval.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +18,11 @@ using test::pixelsAt;
 
 /// Over the plane z = 0, where a pixel's height is its z.
 Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {}) {
+    static ToleranceWorkspace work;  // one for all tests, as a filter has one for all scans
     Image<float> tolerance_m;
     CellTops tops;
     findCellTops(pixels, pixels.z_m, tops);
-    toleratedHeights(pixels, tops, tolerance, tolerance_m);
+    toleratedHeights(pixels, tops, tolerance, tolerance_m, work);
     return tolerance_m;
 }
 
@@ -95,9 +98,10 @@ TEST(LabelByHeight, HigherThanTheToleranceIsRoi) {
 /// before are those of a tolerance of 0.2 m.
 std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
     const PixelPoints pixels = pixelsAt(column, static_cast<int>(column.size()));
+    static FeetWorkspace work;
     Image<Label> labels;
     labelByHeight(pixels.z_m, Image<float>::Constant(pixels.z_m.rows(), 1, 0.2f).eval(), labels);
-    growFeet(pixels, pixels.z_m, labels);
+    growFeet(pixels, pixels.z_m, labels, work);
     return {labels.data(), labels.data() + labels.size()};
 }
 
@@ -149,9 +153,10 @@ Image<Label> voted(const Image<float>& height_m, float distance_step_m = 0) {
     }
     pixels.x_m = height_m.isNaN().select(kNoValue, pixels.x_m);
     const Image<float> tolerance_m = Image<float>::Constant(3, 5, 0.2f);
+    static SpeckWorkspace work;
     Image<Label> labels;
     labelByHeight(height_m, tolerance_m, labels);
-    removeSpecks(pixels, height_m, tolerance_m, labels);
+    removeSpecks(pixels, height_m, tolerance_m, labels, work);
     return labels;
 }
 

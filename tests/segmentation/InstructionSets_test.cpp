@@ -86,7 +86,7 @@ Bytes bytesOf(const Scan& scan, const SegmentationResult& r, bool has_ground) {
         bytes.add("z", r.ground.pixels.z_m);
         bytes.add("height", r.ground.height_m);
         bytes.add("tolerance", r.ground.tolerance_m);
-        bytes.add("own label", r.own_label);
+        bytes.add("own label", r.own_labels.label);
     }
     bytes.add("labels", r.labels);
     bytes.add("components", r.components);

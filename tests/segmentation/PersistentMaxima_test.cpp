@@ -13,8 +13,9 @@ namespace hagen {
 namespace {
 
 std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persistence_m = 0.0f) {
+    static MaximaWorkspace work;  // one for all tests, as a filter has one for all scans
     std::vector<Maximum> maxima;
-    findPersistentMaxima(proximity_m, min_persistence_m, maxima);
+    findPersistentMaxima(proximity_m, min_persistence_m, maxima, work);
     return maxima;
 }
 

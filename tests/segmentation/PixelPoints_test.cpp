@@ -22,9 +22,10 @@ struct Located {
 template <class Fill>
 Located located(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& points_m,
                 Fill fill) {
+    static ProjectionWorkspace work;
     Located l;
     l.scan = test::scanOf(sensor, points_m);
-    projectScan(l.scan, sensor, kColumns, 100.0f, l.image);
+    projectScan(l.scan, sensor, kColumns, 100.0f, l.image, work);
     l.depth_m = l.image.depth_m;
     fill(l.depth_m);
     locatePixels(l.scan, pixelDirections(sensor, static_cast<int>(l.depth_m.cols())), l.image,

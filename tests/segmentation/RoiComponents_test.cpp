@@ -15,8 +15,9 @@ namespace {
 
 Image<std::int32_t> numbered(const Image<float>& depth_m, const Image<Label>& labels,
                              float max_gap_m = 1.0f) {
+    static ComponentsWorkspace work;  // one for all tests, as a filter has one for all scans
     Image<std::int32_t> components;
-    numberRoiComponents(depth_m, labels, max_gap_m, components);
+    numberRoiComponents(depth_m, labels, max_gap_m, components, work);
     return components;
 }
 

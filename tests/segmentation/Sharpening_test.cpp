@@ -73,12 +73,13 @@ TEST(Merge, StopsAtTheSensorsMinimumRange) {
 
 TEST(SharpeningAndMerge, OnlyMaximaMoveAndOnlyNearer) {
     test::Random random(11);
+    MaximaWorkspace work;
     for (int round = 0; round < 20; ++round) {
         const Image<float> depth_m = random.image(16, 60, 0.5f, 30.0f, 0.2);
         Image<float> proximity_m, sharpened_m, merged_m;
         std::vector<Maximum> maxima;
         proximityOf(depth_m, 20.0f, proximity_m);
-        findPersistentMaxima(proximity_m, 0.5f, maxima);
+        findPersistentMaxima(proximity_m, 0.5f, maxima, work);
         ASSERT_FALSE(maxima.empty());
         sharpenMaxima(proximity_m, maxima, 1.2f, 1.3f, sharpened_m);
         mergeMaxima(depth_m, proximity_m, sharpened_m, maxima, 0.5f, merged_m);

@@ -13,8 +13,9 @@ namespace hagen {
 namespace {
 
 Image<float> smoothed(const Image<float>& values, int window_size, int principal_components) {
+    static SsaWorkspace work;  // one for all tests, as a filter has one for all scans
     Image<float> result;
-    smoothColumns(values, window_size, principal_components, result);
+    smoothColumns(values, window_size, principal_components, result, work);
     return result;
 }
 

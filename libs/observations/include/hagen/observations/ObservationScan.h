@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/observations/Settings.h>
+#include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <mrpt/core/Clock.h>
@@ -8,6 +9,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,16 +23,25 @@ bool isLidarScan(const mrpt::obs::CObservation& observation);
 struct ObservedScan {
     Scan scan;
     SensorModel sensor;
-    bool is_sensor_assumed = false;  ///< neither the recording nor the settings tell the sensor
+    bool is_sensor_assumed = false;  ///< neither the recording nor the settings name the sensor
     /// What a user should know: packet blocks left out, or settings that the recording overrules.
-    /// Empty where there is nothing.
+    /// Empty if there is nothing.
     std::string remark;
+
+    /// Memory that readObservation() keeps from scan to scan.
+    struct Workspace {
+        DecoderWorkspace decoder;
+        /// The sensor made of these settings, which is made anew only where they change.
+        std::optional<Settings::Sensor> settings;
+        SensorModel sensor_of_settings;
+    };
+    Workspace work;
 };
 
-/// Reads a scan in its sensor's frame. The sensor is the recording's own where it tells (packets),
-/// else that of the settings (clouds). A Velodyne scan without packets but with a stored cloud
+/// Reads a scan in its sensor's frame. The sensor is the recording's own if it names one (packets),
+/// otherwise that of the settings (clouds). A Velodyne scan without packets but with a stored cloud
 /// gives that cloud. Throws std::runtime_error, saying why, for packets that cannot be decoded and
-/// for a cloud that is missing; `observed` is used again, so that reading many scans allocates
+/// for a missing cloud. Reuses the memory of `observed`, so that reading many scans allocates
 /// little.
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed);

@@ -4,7 +4,7 @@ namespace hagen {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Angles are radians in code and degrees in files and flags; these two are the border.
+/// Angles are radians in code and degrees in files and flags; these two convert between them.
 constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
 constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
 

@@ -3,7 +3,7 @@
 
 namespace hagen {
 
-/// What the filter says of a return. The numbers are those of label files.
+/// The filter's label of a return. The numbers are those of label files.
 enum class Label : std::uint8_t {
     Unclassified = 0,  ///< no valid range, or out of the sensor's
     Rou = 1,           ///< region of uninterest: ground, far returns

@@ -23,13 +23,21 @@ struct RangeImage {
     static constexpr std::int32_t kNoReturn = -1;
 };
 
-/// Stage 1, the depth image: every return to its beam's row and the closest of `columns` azimuths;
-/// the closest return of a pixel is kept. Column 0 looks backwards, the middle one along x, and
-/// columns go clockwise, so that left of the image is left of the sensor.
-/// Returns out of the sensor's range, or farther than `context_m`, stay out.
-/// Requires scan.row below sensor.rows(). Writes into `image`, whose memory is used again.
+/// The memory of projectScan(). Keep it from scan to scan, so that none is allocated; it carries
+/// nothing over.
+struct ProjectionWorkspace {
+    /// The closest return of each pixel so far: its range and its index, packed into one number.
+    std::vector<double> closest;
+};
+
+/// Stage 1, the depth image: each return goes to the row of its beam and the closest of `columns`
+/// azimuths; a pixel keeps its closest return. Column 0 looks backwards, the middle one along x;
+/// columns run clockwise, so that left in the image is left of the sensor.
+/// Returns out of the sensor's range, or farther than `context_m`, are left out.
+/// Throws std::invalid_argument unless the scan was located with this sensor (checkLocated() in
+/// Scan.h). Writes into `image` and reuses its memory.
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
-                 RangeImage& image);
+                 RangeImage& image, ProjectionWorkspace& work);
 
 /// The column of `columns` whose centre is closest to this azimuth.
 int nearestColumn(float azimuth_rad, int columns);

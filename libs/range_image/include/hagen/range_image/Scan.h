@@ -6,8 +6,15 @@
 
 namespace hagen {
 
-/// The returns of one scan in the sensor's frame (x forward, y left, z up), an array a quantity.
-/// All arrays have the same size, but for those marked optional, which may be empty.
+/// The beams of a sensor in brief: enough to notice rows that another sensor's beams gave.
+struct BeamSpan {
+    int rows = 0;                           ///< number of beams; 0: unknown
+    float lowest_rad = 0, highest_rad = 0;  ///< elevation of the lowest and of the highest beam
+};
+BeamSpan beamSpan(const SensorModel& sensor);
+
+/// The returns of one scan in the sensor's frame (x forward, y left, z up), one array per quantity.
+/// All arrays have the same size, except that optional ones may be empty.
 struct Scan {
     std::vector<float> x_m, y_m, z_m;
     std::vector<float> intensity;  ///< 0..1
@@ -15,15 +22,23 @@ struct Scan {
     std::vector<float> azimuth_rad;  ///< atan2(y, x) of the firing, counter-clockwise from x
     std::vector<std::uint8_t> row;   ///< image row: the beam, counted from the lowest
     std::vector<float> time_s;       ///< optional: time of the return since the scan's first firing
+    /// Optional: the beams that `row` counts. Set by whoever sets `row`, as locateBeams() does.
+    BeamSpan beams;
 
     std::size_t size() const { return x_m.size(); }
     void clear();
     void reserve(std::size_t returns);
 };
 
-/// Fills range, azimuth and row from the coordinates, where the sensor did not tell them
+/// Computes range, azimuth and row from the coordinates, for sensors that do not report them
 /// (section III-A: angle_x = asin(z / d), angle_y = atan2(y, x), closest beam).
-/// A return with a coordinate that is not finite, or at the origin, gets range NaN.
+/// A return at the origin, or with a coordinate that is not finite, gets range NaN.
 void locateBeams(const SensorModel& sensor, Scan& scan);
+
+/// Throws std::invalid_argument, saying what to call, unless every return has a range, an azimuth
+/// and a row of this sensor. Rows of another sensor are noticed by `scan.beams` (another number of
+/// beams, or a span that is off by more than 1 degree); where that is unknown, by rows that this
+/// sensor does not have.
+void checkLocated(const Scan& scan, const SensorModel& sensor);
 
 }  // namespace hagen

@@ -4,9 +4,9 @@
 
 namespace hagen {
 
-/// Of each byte: which bits are set, from the lowest on (0 behind the last), and how many. What
-/// moves chosen lanes of a vector to its front, for Highway 1.0's own Compress() copies its table
-/// to the stack at every call where GCC 12 compiles it for AVX2.
+/// For each byte: which bits are set, from the lowest up (then zeros), and how many. Used to move
+/// chosen lanes of a vector to its front: Highway 1.0's own Compress() copies its table to the
+/// stack on every call when GCC 12 compiles it for AVX2.
 struct SetBits {
     std::array<std::array<std::uint8_t, 8>, 256> place{};
     std::array<std::uint8_t, 256> count{};

@@ -2,29 +2,50 @@
 #include <hagen/range_image/Label.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/Scan.h>
+#include <hagen/segmentation/OwnLabels.h>
 #include <cstdint>
 #include <vector>
 
 namespace hagen {
 
-/// What the filter says of each return of a scan, and the returns of each kind.
+/// The labels of a scan's returns, and the returns of each label.
 struct LabelledReturns {
-    std::vector<Label> label;             ///< an entry a return, in the scan's order
+    std::vector<Label> label;             ///< one entry per return, in the scan's order
     std::vector<std::int32_t> component;  ///< RoI component, 1 the nearest; 0 for none
-    /// Indices of the returns with each label, ascending; together every return once.
+    /// Indices of the returns with each label, ascending; every return is in exactly one of them.
+    std::vector<std::uint32_t> roi, rou, unclassified;
+};
+
+/// A labelled image, and the returns that its pixels stand for.
+struct LabelledImage {
+    const RangeImage& range_image;
+    const Image<Label>& labels;
+    const Image<std::int32_t>& components;  ///< numbered obstacles (RoiComponents.h)
+};
+
+/// What holds of a return whatever its pixel is.
+struct ExtractionRules {
+    float min_range_m, max_range_m;  ///< of the sensor; out of these, a return is Unclassified
+    float zone_m;                    ///< farther away, a return is ROU
+    /// A return with a label of its own belongs to its pixel's component if it is less than this
+    /// behind it: what is seen past an obstacle is not part of it.
+    float component_gap_m;
+};
+
+/// The memory of extractReturns(). Keep it from scan to scan, so that none is allocated; it carries
+/// nothing over. Lists may be longer than their contents.
+struct ExtractionWorkspace {
+    std::vector<std::int32_t> verdict;  ///< 2 * component + 1 if ROU: for no pixel, then for each
+    std::vector<std::int32_t> number;   ///< for each component
     std::vector<std::uint32_t> roi, rou, unclassified;
 };
 
 /// Stage 9, extraction: a return takes the label and the component of its pixel, through the
-/// depth_mapper. Farther than `zone_m`, or than the image reaches, it is ROU; out of the sensor's
-/// range Unclassified. `own_label` overrules the pixel's where it is not Unclassified
-/// (FartherReturns.h); it has an entry a return, or none at all. A return so labelled RoI is of its
-/// pixel's component where it is less than `component_gap_m` behind, else of none: what is seen
-/// past an obstacle is no part of it. Components keep their order and are numbered 1, 2, ...
-/// without gaps.
-void extractReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
-                    const Image<Label>& labels, const Image<std::int32_t>& components,
-                    const std::vector<Label>& own_label, float zone_m, float component_gap_m,
-                    LabelledReturns& returns);
+/// depth_mapper, unless it has a label of its own. Returns that the image does not reach are ROU.
+/// Components keep their order and are numbered 1, 2, ... without gaps.
+/// Requires `image` and `own_labels` to be those of this scan.
+void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabels& own_labels,
+                    const ExtractionRules& rules, LabelledReturns& returns,
+                    ExtractionWorkspace& work);
 
 }  // namespace hagen

@@ -6,16 +6,19 @@
 
 namespace hagen {
 
-/// What is known of the ground under a scan, beyond the paper. Images are I_h x I_w, NaN where a
-/// pixel is empty.
+/// The ground under a scan, beyond the paper. Images are I_h x I_w, NaN where a pixel is empty.
 struct Ground {
-    bool is_seen = false;  ///< else nothing was judged by it, and all but the first three are old
-    Eigen::Isometry3f from_sensor;  ///< into the frame of the plane that the ground lies about
-    PixelPoints pixels;             ///< where the pixels lie, in that frame
-    GroundSurface surface;          ///< under the ROU
-    Image<float> height_m;          ///< of each pixel above the surface
-    CellTops tops;                  ///< how high what stands in each cell reaches
-    Image<float> tolerance_m;       ///< a pixel so high is still ground
+    bool is_seen = false;  ///< whether the plane below can be ground
+    /// From the sensor's frame to the ground's: its z = 0 is the mean plane of the ground.
+    Eigen::Isometry3f from_sensor = Eigen::Isometry3f::Identity();
+    PixelPoints pixels;  ///< in the ground's frame
+
+    /// Whether a surface was fitted. If not, what follows is that of an older scan.
+    bool has_surface = false;
+    GroundSurface surface;     ///< under the ROU
+    Image<float> height_m;     ///< of each pixel above the surface
+    CellTops tops;             ///< the highest point in each cell
+    Image<float> tolerance_m;  ///< up to this height a pixel is ground
 };
 
 }  // namespace hagen

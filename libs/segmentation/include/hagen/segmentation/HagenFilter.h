@@ -4,17 +4,19 @@
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/Extraction.h>
+#include <hagen/segmentation/FilterWorkspace.h>
 #include <hagen/segmentation/Ground.h>
 #include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/Options.h>
+#include <hagen/segmentation/OwnLabels.h>
 #include <hagen/segmentation/PersistentMaxima.h>
 #include <optional>
 #include <vector>
 
 namespace hagen {
 
-/// Everything the filter made of one scan: each stage's image, and in the end each return's label.
-/// Images are I_h x I_w (range angles: I_h - 1 rows), NaN where a pixel has no value.
+/// Everything the filter made of one scan: each stage's image, and finally the label of each
+/// return. Images are I_h x I_w (range angles: I_h - 1 rows), NaN where a pixel has no value.
 struct SegmentationResult {
     RangeImage range_image;          ///< stage 1
     Image<float> repaired_m;         ///< stage 2, the depth image without its one-pixel holes
@@ -28,12 +30,13 @@ struct SegmentationResult {
     Image<Label> labels;             ///< stage 8, judged again by height, limited to the zone
     Ground ground;                   ///< beyond the paper, see Ground.h
     Image<std::int32_t> components;  ///< obstacles, numbered from the nearest
-    std::vector<Label> own_label;    ///< of returns behind their pixel's; Unclassified elsewhere
+    OwnLabels own_labels;            ///< of returns behind their pixel's closest
     LabelledReturns returns;         ///< stage 9, for each return of the scan
 };
 
 /// The filter "Hagen" for one sensor: separates near obstacles (RoI) from ground and far returns
-/// (ROU). It keeps no memory from scan to scan but for its buffers.
+/// (ROU). It keeps nothing from scan to scan but the memory of its result and its workspace.
+/// Filters are independent of one another and of the thread that runs them.
 ///
 ///     HagenFilter filter(sensorModel("VLP-16"));
 ///     Scan scan = ...;                       // coordinates; locateBeams() for the rest
@@ -41,13 +44,13 @@ struct SegmentationResult {
 ///     for (const auto i : result.returns.roi) avoid(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
 class HagenFilter {
  public:
-    /// Throws std::invalid_argument where options and sensor do not fit together; see
-    /// checkOptions().
+    /// Throws std::invalid_argument if options and sensor do not fit together; see checkOptions().
     explicit HagenFilter(SensorModel sensor, Options options = {});
 
-    /// The result stays valid until the next call. Any scan will do, an empty one too; its rows
-    /// must be those of this filter's sensor. `attitude` is how the sensor was tilted, where that
-    /// is known.
+    /// Segments one scan, which may be empty. `attitude` is how the sensor was tilted, where that
+    /// is known. The result stays valid until the next call. Throws std::invalid_argument, saying
+    /// what to call, for a scan that has no ranges, azimuths and rows yet, or rows of another
+    /// sensor (checkLocated()); the result is then that of the scan before.
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
 
@@ -55,13 +58,14 @@ class HagenFilter {
     const Options& options() const { return options_; }
 
  private:
-    void findGround(const Scan& scan, const std::optional<Attitude>& horizon);
-    void judgeByGround(const Scan& scan);
+    void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon);
+    void judgeByHeight();
 
     SensorModel sensor_;
     Options options_;
     PixelDirections directions_;
     SegmentationResult result_;
+    FilterWorkspace work_;
 };
 
 }  // namespace hagen

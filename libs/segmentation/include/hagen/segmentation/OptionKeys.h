@@ -7,7 +7,7 @@
 namespace hagen {
 
 /// One key of a settings file that sets an option. Parsing, range checks, sweeps and
-/// `rawlog-segment --config-keys` all go by this table.
+/// `rawlog-segment --config-keys` all use this table.
 struct OptionKey {
     std::string name, unit;
     double least, most;        ///< allowed range, both included
@@ -16,9 +16,9 @@ struct OptionKey {
 };
 const std::vector<OptionKey>& optionKeys();
 
-/// The value of an option, as a settings file has it: "20", "true", "lowest".
+/// The value of an option, as written in a settings file: "20", "true", "lowest".
 std::string textOf(const OptionKey& key, const Options& options);
-/// The values that a settings file may give: "0.1 ... 1000", "lowest, top_and_nearest".
+/// The values that a settings file may have: "0.1 ... 1000", "lowest, top_and_nearest".
 std::string rangeOf(const OptionKey& key);
 
 }  // namespace hagen

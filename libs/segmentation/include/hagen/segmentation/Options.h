@@ -1,21 +1,21 @@
 #pragma once
 namespace hagen {
 
-/// How the labelling reads section III-E; see Labelling.h.
+/// How the labelling interprets section III-E; see Labelling.h.
 enum class Seeds {
     Lowest,        ///< the lowest pixel of a column is ground: what grows from it is ROU
     TopAndNearest  ///< the literal text: what grows from the top and the nearest pixel is RoI
 };
 
-/// Every setting of the filter, under the names that settings files use. Defaults are ours;
-/// config/paper.yaml holds those of the paper.
+/// All settings of the filter, named as in settings files. The defaults are ours; config/paper.yaml
+/// has those of the paper.
 struct Options {
     /// Radius of the avoidance zone: returns farther than this are ROU.
     float zone_m = 20.0f;
     /// Returns up to this range enter the image, as context of the zone; never less than zone_m.
     float context_m = 48.0f;
-    /// I_w, the image's columns in a full turn; no more than the sensor fires in one, for a column
-    /// without returns separates its neighbours.
+    /// I_w, the image's columns in a full turn; at most the sensor's firings per turn, because a
+    /// column without returns separates its neighbours.
     int columns = 870;
     /// Fill one-pixel holes of the depth image between two vertical neighbours that differ by less;
     /// 0 repairs nothing.
@@ -29,36 +29,36 @@ struct Options {
     int window_size = 8;
     /// PC, leading components kept; PC = W smooths nothing.
     int principal_components = 5;
-    /// beta: neighbours whose range angles differ by less are one region.
+    /// beta: neighbours whose range angles differ by less belong to one region.
     float beta_deg = 10.0f;
-    /// Where the regions grow from.
+    /// The pixels that regions grow from.
     Seeds seeds = Seeds::Lowest;
-    /// A seed is ground only where its angle is below this; 90 lets all pass.
+    /// A seed is ground only if its angle is below this; 90 lets all pass.
     float seed_gate_deg = 30.0f;
-    /// Whether angles are about the horizon, where the sensor's attitude is known.
+    /// Whether angles are relative to the horizon where the sensor's attitude is known.
     bool level_by_attitude = true;
-    /// Whether all pixels are judged again, by their height above a surface fitted to the ROU.
+    /// Whether all pixels are labelled again, by their height above a surface fitted to the ROU.
     bool ground_surface = true;
     /// How high above that surface a return may be and still be ground; see HeightTolerance.
     float ground_tolerance_m = 0.17f;
     float ground_tolerance_per_m = 0.005f;
     float ground_tolerance_beside_tall = 0.12f;
-    /// Whether a low layer that covers nearly everything around is a crop's canopy, and no
+    /// Whether a low layer that covers most of the surroundings is a crop's canopy, not an
     /// obstacle.
     bool canopy_layer = true;
-    /// Whether obstacles are followed down to their feet, and lone specks removed.
+    /// Whether obstacles are extended down to their feet, and lone specks removed.
     bool grow_feet = true;
     bool remove_specks = true;
-    /// Ground that is less than this below the sensor is RoI; 0: none ever.
+    /// Ground less than this below the sensor is RoI; 0: never.
     float ground_is_roi_below_m = 0.0f;
-    /// RoI pixels side by side are one component where their depths differ by less.
+    /// Adjacent RoI pixels belong to one component if their depths differ by less.
     float component_gap_m = 1.0f;
     /// K, consecutive scans that are segmented together; needs poses beyond 1.
     int window_scans = 1;
 };
 
-/// Throws std::invalid_argument, naming the setting, where one is out of its range (OptionKeys.h),
-/// or they contradict one another or the sensor's number of beams (principal_components >
+/// Throws std::invalid_argument, naming the setting, if one is out of its range (OptionKeys.h), or
+/// if they contradict one another or the sensor's number of beams (principal_components >
 /// window_size, window_size >= beams).
 void checkOptions(const Options& options, int beams);
 

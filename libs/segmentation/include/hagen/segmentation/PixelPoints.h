@@ -6,8 +6,7 @@
 
 namespace hagen {
 
-/// Where the pixels of a depth image lie in space: an image a coordinate, NaN where a pixel is
-/// empty.
+/// The positions of a depth image's pixels: one image per coordinate, NaN where a pixel is empty.
 struct PixelPoints {
     Image<float> x_m, y_m, z_m;
 
@@ -21,12 +20,12 @@ struct PixelPoints {
     }
 };
 
-/// The pixels in the sensor's frame: where their closest return is or, where a hole of the image
-/// was filled, where the beam meets `depth_m`.
+/// The pixels in the sensor's frame: each at its closest return or, where a hole of the image was
+/// filled, at `depth_m` along its beam. Requires `image` to be that of this scan.
 void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
                   const Image<float>& depth_m, PixelPoints& pixels);
 
-/// The same pixels in another frame.
+/// Transforms the pixels to another frame.
 void movePixels(const Eigen::Isometry3f& to_from_here, PixelPoints& pixels);
 
 }  // namespace hagen

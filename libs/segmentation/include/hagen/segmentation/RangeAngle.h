@@ -14,8 +14,8 @@ namespace hagen {
 void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  Image<float>& range_angle_rad);
 
-/// The angle each of the I_h x I_w pixels carries: that with the beam above it; where there is
-/// none, that with the beam below; NaN where there is neither, and where the pixel itself is empty.
+/// The angle that each of the I_h x I_w pixels carries: the one with the beam above it; where there
+/// is none, the one with the beam below; NaN where there is neither, or the pixel itself is empty.
 void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad);
 
 }  // namespace hagen

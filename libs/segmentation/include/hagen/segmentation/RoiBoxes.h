@@ -7,7 +7,7 @@
 
 namespace hagen {
 
-/// What a RoI component fills in space.
+/// The space that a RoI component fills.
 struct RoiBox {
     std::int32_t component;         ///< its number, 1 the nearest
     std::uint32_t returns;          ///< how many
@@ -15,7 +15,8 @@ struct RoiBox {
     Eigen::AlignedBox3f extents_m;  ///< in the sensor's frame, along its axes
 };
 
-/// A box for each component, in the order of their numbers.
+/// One box per component, in the order of their numbers. Requires `returns` to be those of this
+/// scan.
 std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& returns);
 
 }  // namespace hagen

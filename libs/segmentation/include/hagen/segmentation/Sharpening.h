@@ -9,15 +9,15 @@ namespace hagen {
 ///
 ///   I_f(x) = I(x) + sum_i I(x_i) g_r(|I(x_i) - I(x)|) g_s(|x_i - x|) / sum_i g_r g_s
 ///
-/// over those of the 8 neighbours x_i (azimuth wrapped) that are there; g_s and g_r are Gaussians
-/// of `sigma_px` pixels and `sigma_m` metres. A maximum without a neighbour, and every pixel that
-/// is no maximum, keeps its value. `sharpened_m` must not be `proximity_m`.
+/// over those of the 8 neighbours x_i (azimuth wrapped) that have a value; g_s and g_r are
+/// Gaussians of `sigma_px` pixels and `sigma_m` metres. Maxima without neighbours, and pixels that
+/// are not maxima, keep their values. `sharpened_m` must not be the same image as `proximity_m`.
 void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& maxima,
                    float sigma_px, float sigma_m, Image<float>& sharpened_m);
 
-/// Stage 5, merge: the mean of proximity and sharpened proximity, turned back into depth. Only the
+/// Stage 5, merge: the mean of proximity and sharpened proximity, converted back to depth. Only
 /// maxima move, and only nearer; none comes nearer than `min_range_m`, where the sharpening usually
-/// ends ("maximizing intensities"). `merged_m` must not be `depth_m`.
+/// ends ("maximizing intensities"). `merged_m` must not be the same image as `depth_m`.
 void mergeMaxima(const Image<float>& depth_m, const Image<float>& proximity_m,
                  const Image<float>& sharpened_m, const std::vector<Maximum>& maxima,
                  float min_range_m, Image<float>& merged_m);

@@ -1,28 +1,46 @@
 #pragma once
 #include <hagen/range_image/Image.h>
+#include <hagen/segmentation/RunBatch.h>
 #include <Eigen/Core>
+#include <cstdint>
+#include <vector>
 
 namespace hagen {
+
+/// The memory of smoothColumns(). Keep it from scan to scan, so that none is allocated; it carries
+/// nothing over.
+struct SsaWorkspace {
+    /// A run of `values` pixels of a column, all with a value.
+    struct Run {
+        float* begin;
+        int values;
+    };
+
+    std::vector<std::uint64_t> has_value;  ///< one bit per pixel
+    std::vector<Run> found, runs;          ///< in pixel order, and in order of length
+    std::vector<int> next_of_length;       ///< for each length, the place of its next run in `runs`
+    RunBatch<float> floats;
+    RunBatch<double> doubles;
+};
 
 /// Stage 7, singular spectrum analysis (section III-D) of each column of angles: the trajectory
 /// matrix X (W x K, K = N - W + 1) of a series of N values, its projection onto the
 /// `principal_components` (PC) leading eigenvectors of X X^T, and the means along its antidiagonals
-/// (hankelization). A series is a run of values without a gap; a run shorter than W stays as it is,
-/// and one shorter than W + PC, whose matrix has no more than PC components. PC = W gives the input
-/// back.
+/// (hankelization). A series is a run of values without a gap. A run shorter than W + PC stays as
+/// it is: its matrix has at most PC components, or there is none. PC = W returns the input.
 /// Requires 1 <= PC <= W. Where the eigenvalues PC and PC + 1 coincide, the leading components, and
-/// so the result, are not unique; where they do not, it is that of the definition to 2e-4.
-/// `smoothed` has the size and the gaps (NaN) of `values`, and must not be it.
+/// so the result, are not unique; elsewhere the result is that of the definition to 2e-4.
+/// `smoothed` gets the size and the gaps (NaN) of `values`, and must not be the same image.
 void smoothColumns(const Image<float>& values, int window_size, int principal_components,
-                   Image<float>& smoothed);
+                   Image<float>& smoothed, SsaWorkspace& work);
 
-/// What stage 7 sees of one series of N values.
+/// The components of one series of N values, as stage 7 sees them.
 struct SeriesComponents {
-    /// W eigenvalues of X X^T, descending; each over their sum is the component's share of X.
+    /// W eigenvalues of X X^T, descending; each divided by their sum is the component's share of X.
     Eigen::VectorXd eigenvalues;
     /// N x W: column c is the elementary series of component c, the hankelized projection of X onto
-    /// its eigenvector. The sum of the first PC columns is what smoothColumns() makes of the
-    /// series, that of all W is the series.
+    /// its eigenvector. The sum of the first PC columns is the result of smoothColumns(), the sum
+    /// of all W is the series.
     Eigen::MatrixXd elementary;
 };
 

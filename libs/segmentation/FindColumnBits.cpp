@@ -1,8 +1,8 @@
-#include "ColumnBits.h"
+#include "FindColumnBits.h"
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "ColumnBits.cpp"
+#define HWY_TARGET_INCLUDE "FindColumnBits.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// So many bits, from the lowest on.
+/// The lowest `bits` bits.
 HWY_INLINE std::uint64_t Lowest(int bits) { return ~std::uint64_t{0} >> (kWordRows - bits); }
 
 void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max_step,
@@ -50,7 +50,7 @@ void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max
     }
 }
 
-/// The pixels of which `isSet` holds.
+/// The pixels for which `isSet` holds.
 template <class D, class IsSet>
 HWY_INLINE void FindPixels(D d, const hn::TFromD<D>* HWY_RESTRICT image, int rows, int columns,
                            IsSet isSet, std::uint64_t* HWY_RESTRICT bits) {
@@ -97,20 +97,18 @@ HWY_EXPORT(FindPresent);
 HWY_EXPORT(FindLabelled);
 
 /// Calls find(first pixel, columns, first word) for parts of an image. Vectors read past a column,
-/// into the next ones: so the last columns are found on a copy, after which comes the first again.
+/// into the next ones; so the last columns are copied to `seam`, followed by the first one.
 template <class T, class Find>
-void findInParts(const T* image, int rows, int columns, Find find) {
+void findInParts(const T* image, int rows, int columns, std::vector<T>& seam, Find find) {
     constexpr int kPast = kWordRows;  // no vector has more lanes
     if (rows == 0) return;
     const int last = std::min(columns, 2 + (kPast + rows - 1) / rows), rest = columns - last;
-    thread_local std::vector<T> workspace;  // kept from scan to scan, so that none is allocated
-    std::vector<T>& copy = workspace;
     const T* const first_of_last = image + static_cast<std::ptrdiff_t>(rest) * rows;
-    copy.resize(static_cast<std::size_t>((last + 2) * rows + kPast));
-    std::copy_n(first_of_last, last * rows, copy.data());
-    std::copy_n(image, columns > 0 ? rows : 0, copy.data() + last * rows);
+    seam.resize(static_cast<std::size_t>((last + 2) * rows + kPast));
+    std::copy_n(first_of_last, last * rows, seam.data());
+    std::copy_n(image, columns > 0 ? rows : 0, seam.data() + last * rows);
     find(image, rest, 0);
-    find(copy.data(), last, static_cast<std::size_t>(rest) * wordsOf(rows));
+    find(seam.data(), last, static_cast<std::size_t>(rest) * wordsOf(rows));
 }
 
 template <class T>
@@ -120,34 +118,39 @@ std::size_t wordsOfAll(const Image<T>& image) {
 
 }  // namespace
 
-void findLinks(const Image<float>& image, float max_step, ColumnLinks& links) {
+void findLinks(const Image<float>& image, float max_step, ColumnLinks& links,
+               std::vector<float>& seam) {
     const int rows = static_cast<int>(image.rows()), columns = static_cast<int>(image.cols());
     for (ColumnBits* bits : {&links.present, &links.above, &links.right}) {
         bits->resize(wordsOfAll(image));
     }
-    findInParts(image.data(), rows, columns, [&](const float* first, int part, std::size_t word) {
-        HWY_DYNAMIC_DISPATCH(FindLinks)
-        (first, rows, part, max_step, links.present.data() + word, links.above.data() + word,
-         links.right.data() + word);
-    });
+    findInParts(image.data(), rows, columns, seam,
+                [&](const float* first, int part, std::size_t word) {
+                    HWY_DYNAMIC_DISPATCH(FindLinks)
+                    (first, rows, part, max_step, links.present.data() + word,
+                     links.above.data() + word, links.right.data() + word);
+                });
 }
 
-void findPresent(const Image<float>& image, ColumnBits& present) {
+void findPresent(const Image<float>& image, ColumnBits& present, std::vector<float>& seam) {
     const int rows = static_cast<int>(image.rows()), columns = static_cast<int>(image.cols());
     present.resize(wordsOfAll(image));
-    findInParts(image.data(), rows, columns, [&](const float* first, int part, std::size_t word) {
-        HWY_DYNAMIC_DISPATCH(FindPresent)(first, rows, part, present.data() + word);
-    });
+    findInParts(image.data(), rows, columns, seam,
+                [&](const float* first, int part, std::size_t word) {
+                    HWY_DYNAMIC_DISPATCH(FindPresent)(first, rows, part, present.data() + word);
+                });
 }
 
-void findLabelled(const Image<Label>& labels, Label label, ColumnBits& labelled) {
+void findLabelled(const Image<Label>& labels, Label label, ColumnBits& labelled,
+                  std::vector<std::uint8_t>& seam) {
     const int rows = static_cast<int>(labels.rows()), columns = static_cast<int>(labels.cols());
     labelled.resize(wordsOfAll(labels));
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(labels.data());
-    findInParts(bytes, rows, columns, [&](const std::uint8_t* first, int part, std::size_t word) {
-        HWY_DYNAMIC_DISPATCH(FindLabelled)
-        (first, rows, part, static_cast<std::uint8_t>(label), labelled.data() + word);
-    });
+    findInParts(bytes, rows, columns, seam,
+                [&](const std::uint8_t* first, int part, std::size_t word) {
+                    HWY_DYNAMIC_DISPATCH(FindLabelled)
+                    (first, rows, part, static_cast<std::uint8_t>(label), labelled.data() + word);
+                });
 }
 
 }  // namespace hagen

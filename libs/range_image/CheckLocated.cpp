@@ -1,0 +1,65 @@
+#include <hagen/range_image/Angle.h>
+#include <hagen/range_image/Scan.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace hagen {
+namespace {
+
+constexpr float kSameBeam_rad = static_cast<float>(radians(1));
+
+/// Whether both can be the same sensor, whose calibration may have moved its beams a little.
+bool areAlike(const BeamSpan& a, const BeamSpan& b) {
+    return a.rows == b.rows && std::abs(a.lowest_rad - b.lowest_rad) <= kSameBeam_rad &&
+           std::abs(a.highest_rad - b.highest_rad) <= kSameBeam_rad;
+}
+
+std::string textOf(const BeamSpan& beams) {
+    const auto wholeDegrees = [](float angle_rad) {
+        return std::to_string(std::lround(degrees(static_cast<double>(angle_rad))));
+    };
+    return std::to_string(beams.rows) + " beams from " + wholeDegrees(beams.lowest_rad) + " to " +
+           wholeDegrees(beams.highest_rad) + " degrees";
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw std::invalid_argument(what + "; call locateBeams() with the sensor that took the scan");
+}
+
+[[noreturn]] void refuseRows(const std::string& rows, const SensorModel& sensor) {
+    refuse("the scan has " + rows + ", but the sensor " + sensor.name + " has " +
+           textOf(beamSpan(sensor)));
+}
+
+}  // namespace
+
+BeamSpan beamSpan(const SensorModel& sensor) {
+    if (sensor.rows() == 0) return {};
+    return {sensor.rows(), sensor.elevations_rad.front(), sensor.elevations_rad.back()};
+}
+
+void checkLocated(const Scan& scan, const SensorModel& sensor) {
+    if (scan.y_m.size() != scan.size() || scan.z_m.size() != scan.size()) {
+        throw std::invalid_argument("the scan's x, y and z coordinates differ in number");
+    }
+    for (const std::size_t size : {scan.range_m.size(), scan.azimuth_rad.size(), scan.row.size()}) {
+        if (size == scan.size()) continue;
+        refuse("the scan has " + std::to_string(scan.size()) +
+               " returns, but ranges, azimuths or " + "rows of " + std::to_string(size));
+    }
+    if (scan.beams.rows > 0) {
+        if (!areAlike(scan.beams, beamSpan(sensor))) {
+            refuseRows("rows of " + textOf(scan.beams), sensor);
+        }
+        return;
+    }
+    std::uint8_t most = 0;
+    for (const std::uint8_t row : scan.row) most = std::max(most, row);
+    if (scan.size() > 0 && most >= sensor.rows()) {
+        refuseRows("a return in row " + std::to_string(most), sensor);
+    }
+}
+
+}  // namespace hagen

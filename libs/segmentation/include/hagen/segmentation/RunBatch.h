@@ -1,0 +1,58 @@
+#pragma once
+#include <vector>
+
+namespace hagen {
+
+// Stage 7 smooths many runs of values at once, one per lane of its vectors.
+
+/// The number of lanes: several vectors even where vectors are widest, so that while one waits for
+/// a root or a division, the others go on.
+template <class Real>
+constexpr int kLanes = 128 / sizeof(Real);
+
+/// One number per lane.
+template <class Real>
+struct alignas(64) Lanes {
+    Real of[kLanes<Real>];
+};
+
+/// Rotates coordinates i and i + 1 of a vector.
+template <class Real>
+struct GivensRotation {
+    Lanes<Real> cosine, sine;
+    int i;
+};
+
+/// The leading eigenvectors of symmetric m x m matrices, one matrix per lane.
+template <class Real>
+struct EigenBatch {
+    using Row = std::vector<Lanes<Real>>;
+    Row matrix;        ///< m x m, row by row; only the lower triangle counts
+    Row vectors;       ///< the eigenvectors found, one after the other
+    Lanes<Real> last;  ///< the eigenvalue of the last of them,
+    Lanes<Real> next;  ///< and the one that would have come next
+
+    Row scale, diagonal, beside, product;
+    std::vector<GivensRotation<Real>> rotations;
+};
+
+/// At most kLanes runs, and the memory to smooth them.
+template <class Real>
+struct RunBatch {
+    using Values = std::vector<Lanes<Real>>;
+    int m = 0;            ///< the window; each run has at least 2 m - 1 values
+    int values = 0;       ///< of the longest run
+    Values series;        ///< the runs; zeros behind the shorter ones
+    Values tail;          ///< the last 2 (m - 1) values of each
+    Lanes<Real> columns;  ///< of each trajectory matrix
+
+    Values smooth;        ///< the result except for the last m - 1 values of each,
+    Values smooth_tail;   ///< and those
+    Lanes<Real> error{};  ///< how far rounding may have moved a value of the result
+
+    Lanes<Real> trace;
+    Values head, filter;
+    EigenBatch<Real> eigen;
+};
+
+}  // namespace hagen
