@@ -2,6 +2,7 @@
 #include <hagen/observations/Deskew.h>
 #include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/core/initializer.h>
+#include <mrpt/rtti/CObject.h>
 
 namespace hagen::observations {
 
@@ -11,6 +12,10 @@ MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses()
 
 void registerHagenClasses() {
     mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
+    // The name that it had before libraries had namespaces.
+    mrpt::rtti::registerClassCustomName(
+        "hagen::ObservationSegmenter",
+        CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
 }
 
 namespace {

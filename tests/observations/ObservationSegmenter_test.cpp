@@ -33,13 +33,17 @@ Trajectory standingAt(const mrpt::poses::CPose3D& pose, double from_s, double to
 
 TEST(ObservationSegmenter, IsMadeByItsName) {
     registerHagenClasses();
-    const auto object = mrpt::rtti::classFactory("hagen::ObservationSegmenter");
-    ASSERT_NE(object, nullptr);
-    const auto segmenter = std::dynamic_pointer_cast<ObservationSegmenter>(object);
-    ASSERT_NE(segmenter, nullptr);
-    ObservationSegmenter::Output out;
-    EXPECT_TRUE(segmenter->process(*scanFrom(0), out));
-    EXPECT_EQ(std::string(segmenter->GetRuntimeClass()->className), "hagen::ObservationSegmenter");
+    for (const char* name :
+         {"hagen::observations::ObservationSegmenter", "hagen::ObservationSegmenter"}) {
+        const auto object = mrpt::rtti::classFactory(name);
+        ASSERT_NE(object, nullptr) << name;
+        const auto segmenter = std::dynamic_pointer_cast<ObservationSegmenter>(object);
+        ASSERT_NE(segmenter, nullptr) << name;
+        ObservationSegmenter::Output out;
+        EXPECT_TRUE(segmenter->process(*scanFrom(0), out));
+        EXPECT_EQ(std::string(segmenter->GetRuntimeClass()->className),
+                  "hagen::observations::ObservationSegmenter");
+    }
 }
 
 TEST(ObservationSegmenter, LeavesAloneWhatIsNoLidarScan) {
