@@ -1,5 +1,5 @@
-// Planners in closed loop through random forests that they know all of: how many arrive, how near
-// they come, what a plan costs. The forests: trunks of 0.15 m radius, 40 m from start to goal.
+// Flies planners in closed loop through random forests of which they know every tree: success,
+// minimum distance, cost of a plan. The forests: trunks of 0.15 m radius, 40 m from start to goal.
 #include <ctime>
 
 #include <algorithm>

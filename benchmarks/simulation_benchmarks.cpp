@@ -1,5 +1,5 @@
-// How long a simulated scan takes: in every scene, in some of at least 150 000 triangles, and along
-// courses; how long courses take to make, and true distances in them.
+// Times a simulated scan: in every scene, in scenes of at least 150 000 triangles, and along
+// courses; also the generation of courses, and exact distances in them.
 #include <benchmark/benchmark.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
@@ -9,15 +9,16 @@
 
 namespace {
 
-/// The scene with a ground that is finely meshed farther out.
+/// The scene with ground that is finely meshed farther out.
 hagen::simulation::Scene withWideGround(const hagen::simulation::Scene& scene) {
     constexpr double kFineLength_m = 85, kFineWidth_m = 65, kReach_m = 140;
     hagen::simulation::SceneContent content = scene.content();
     hagen::simulation::Random random(1);
-    const auto ground = std::find_if(content.objects.begin(), content.objects.end(),
-                                     [](const hagen::simulation::SceneObject& object) {
-                                         return object.kind == hagen::simulation::Kind::Terrain;
-                                     });
+    const auto ground =
+        std::find_if(content.objects.begin(), content.objects.end(),
+                     [](const hagen::simulation::SceneObject& object) {
+                         return object.kind == hagen::simulation::ObjectClass::Terrain;
+                     });
     content.shapes.at(ground->shape) =
         content.terrain.mesh(kFineLength_m, kFineWidth_m, kReach_m, random);
     return hagen::simulation::Scene(std::move(content));
@@ -42,7 +43,7 @@ void makeCourses(benchmark::State& state, const std::string& name) {
     for (auto _ : state) benchmark::DoNotOptimize(hagen::trials::makeCourse(name, seed++));
 }
 
-/// From start to goal along the straight line, as if nothing stood there.
+/// From start to goal on a straight line, ignoring obstacles.
 void scanCourse(benchmark::State& state, const std::string& name) {
     const hagen::trials::Course course = hagen::trials::makeCourse(name, 1);
     const hagen::SensorModel model = hagen::sensorModel("VLP-16");
@@ -56,7 +57,7 @@ void scanCourse(benchmark::State& state, const std::string& name) {
     double time_s = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(hagen::simulation::simulateScan(
-            course.scene, model, pose_at, time_s, random, hagen::trials::trialFaults()));
+            course.scene, model, pose_at, time_s, random, hagen::trials::trialErrorModel()));
         time_s += 0.7;
     }
 }
@@ -76,9 +77,7 @@ void measureDistances(benchmark::State& state, const std::string& name) {
 
 int main(int argc, char** argv) {
     const auto add = [](const std::string& name, const auto& makeScene) {
-        const auto run = [=](benchmark::State& state) {
-            simulate(state, makeScene(), "VLP-16");
-        };
+        const auto run = [=](benchmark::State& state) { simulate(state, makeScene(), "VLP-16"); };
         benchmark::RegisterBenchmark((name + ", VLP-16").c_str(), run)
             ->Unit(benchmark::kMillisecond);
     };

@@ -1,4 +1,4 @@
-// What each world model costs on a simulated flight: time of an update and of a query, memory.
+// Measures each world model on a simulated flight: time of an update and of a query, memory.
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/segmentation/HagenFilter.h>
@@ -77,7 +77,8 @@ void measure(const std::string& name, const std::vector<mapping::MappedScan>& sc
         model->update(scan);
         const double updated = cpu_ms();
         constexpr int kQueries = 2000;
-        for (int i = 0; i < kQueries; ++i) {  // as a planner asks: about and ahead of the vehicle
+        for (int i = 0; i < kQueries;
+             ++i) {  // like a planner's queries: around and ahead of the vehicle
             const double x = random.uniform(-6, 6);
             const double y = random.uniform(-6, 6);
             const double z = random.uniform(-1, 1);
@@ -106,7 +107,7 @@ int main(int argc, char** argv) {
         points += scan.points_m.size();
         for (const Label label : scan.labels) roi += label == Label::Roi;
     }
-    std::printf("%s, %d scans, %zu points a scan, of them RoI %zu\n", scenario.c_str(), scans,
+    std::printf("%s, %d scans, %zu points per scan, %zu of them RoI\n", scenario.c_str(), scans,
                 points / flight.size(), roi / flight.size());
     std::printf("%-15s %23s %8s %8s %8s\n", "", "update ms p50, p95, max", "query us", "MB",
                 "heap");

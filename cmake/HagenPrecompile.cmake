@@ -1,25 +1,20 @@
-# Headers that most sources include are parsed once per kind of target, not once per source: that is
-# more than half of what a build costs. The sets are in cmake/precompiled.
+# Headers that most sources include are parsed once per build, not once per source: that is more than
+# half of what a build costs. The sets are in cmake/precompiled.
 option(HAGEN_PRECOMPILED_HEADERS "Parse common headers once; off: each source includes what it names" ON)
 
 # hagen_precompile(TARGET SET): the target's sources see the headers of cmake/precompiled/SET.h.
-# Targets of one set share what is compiled; libraries are position-independent, programs are not.
+# All targets of one set share what is compiled, and so all are position-independent.
 function(hagen_precompile target set)
   if(NOT HAGEN_PRECOMPILED_HEADERS)
     return()
   endif()
-  get_target_property(is_pic ${target} POSITION_INDEPENDENT_CODE)
-  if(is_pic)
-    set(shared hagen_precompiled_${set}_pic)
-  else()
-    set(shared hagen_precompiled_${set})
-  endif()
+  set(shared hagen_precompiled_${set})
   if(NOT TARGET ${shared})
     set(source ${PROJECT_BINARY_DIR}/precompiled/${set}.cpp)
     file(GENERATE OUTPUT ${source} CONTENT "// Nothing but the headers.\n")
     add_library(${shared} OBJECT ${source})
     hagen_target(${shared})
-    set_target_properties(${shared} PROPERTIES POSITION_INDEPENDENT_CODE ${is_pic})
+    set_target_properties(${shared} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_precompile_headers(${shared} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${set}.h)
     target_link_libraries(${shared} PRIVATE Eigen3::Eigen)
     if(set MATCHES mrpt)
@@ -28,6 +23,12 @@ function(hagen_precompile target set)
     if(set MATCHES tests)
       target_link_libraries(${shared} PRIVATE GTest::gmock)
     endif()
+  endif()
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE)
+    target_compile_options(${target} PRIVATE -fPIC)  # CMake's own would be -fPIE: another set
+  else()
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()
   target_precompile_headers(${target} REUSE_FROM ${shared})
 endfunction()

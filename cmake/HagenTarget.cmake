@@ -18,6 +18,17 @@ function(hagen_target target)
   endif()
 endfunction()
 
+# hagen_not_hot(TARGET NAME | SOURCES SOURCE...): code in which no time is spent. -O1 compiles it in half the
+# time, to the same results.
+set(HAGEN_NOT_HOT $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+function(hagen_not_hot what)
+  if(what STREQUAL TARGET)
+    target_compile_options(${ARGN} PRIVATE ${HAGEN_NOT_HOT})
+  else()
+    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS ${HAGEN_NOT_HOT})
+  endif()
+endfunction()
+
 # hagen_library(NAME SOURCE...): the library hagen::NAME of this folder, with its headers in
 # include/hagen/NAME, exported and installed.
 function(hagen_library name)

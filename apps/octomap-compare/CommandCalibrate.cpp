@@ -42,7 +42,8 @@ void printProfile(const trials::LatencyProfile& profile) {
     }
 }
 
-int run(const Flags& flags) {
+int run(const Flags& flags, bool has_output) {
+    if (!has_output) throw UsageError("an output (-o or --memory) is required");
     std::vector<std::string> models = flags.models;
     if (models == std::vector<std::string>{"all"}) models = avoidance::worldModelNames();
     std::optional<base::OutputPath> profile_file, memory_file;
@@ -82,31 +83,24 @@ int run(const Flags& flags) {
 
 }  // namespace
 
-void addCalibrate(CLI::App& app, Command& command) {
+void addCalibrate(Program& program) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* sub = app.add_subcommand(
+    Command sub = program.subcommand(
         "calibrate", "measure what each stage takes on this machine; let nothing else run");
-    const auto file = sub->add_option("-o,--output", flags->file, "latency profile (JSON)");
-    const auto memory = sub->add_option("--memory", flags->memory,
-                                        "CSV of the heap that each model holds along a flight");
-    sub->add_option("--models", flags->models, "world models, or all")
-        ->delimiter(',')
-        ->check(CLI::IsMember([] {
-            std::vector<std::string> names = avoidance::worldModelNames();
-            names.emplace_back("all");
-            return names;
-        }()));
-    sub->add_option("--path-m", flags->path_m, "length of that flight")
-        ->check(CLI::Range(10.0, 10000.0))
-        ->capture_default_str();
-    sub->add_flag("--quick", flags->is_quick, "one course instead of three");
-    sub->add_flag("--overwrite", flags->overwrites, "replace files that exist");
-    sub->callback([flags, file, memory, &command] {
-        if (file->count() + memory->count() == 0) {
-            throw CLI::RequiredError("an output (-o or --memory)");
-        }
-        command = [flags] { return run(*flags); };
-    });
+    const Flag file = sub.option("-o,--output", flags->file, "latency profile (JSON)");
+    const Flag memory = sub.option("--memory", flags->memory,
+                                   "CSV of the heap that each model holds along a flight");
+    sub.option("--models", flags->models, "world models, or all").delimiter(',').oneOf([] {
+        std::vector<std::string> names = avoidance::worldModelNames();
+        names.emplace_back("all");
+        return names;
+    }());
+    sub.option("--path-m", flags->path_m, "length of that flight")
+        .between(10.0, 10000.0)
+        .showDefault();
+    sub.flag("--quick", flags->is_quick, "one course instead of three");
+    sub.flag("--overwrite", flags->overwrites, "replace files that exist");
+    sub.does([flags, file, memory] { return run(*flags, file.isGiven() || memory.isGiven()); });
 }
 
 }  // namespace hagen

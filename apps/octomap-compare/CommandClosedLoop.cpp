@@ -33,7 +33,7 @@ std::pair<std::uint64_t, std::uint64_t> pairFrom(const std::string& flag, const 
                                                  const std::string& form, const std::string& what) {
     std::smatch parts;
     if (!std::regex_match(text, parts, std::regex(form))) {
-        throw CLI::ValidationError(flag, "'" + text + "' is not " + what);
+        throw UsageError(flag, "'" + text + "' is not " + what);
     }
     const std::uint64_t first = std::stoull(parts[1]);
     return {first, parts[2].matched ? std::stoull(parts[2]) : first};
@@ -61,7 +61,7 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     try {
         return trials::flightsOf(plan, {static_cast<int>(number), static_cast<int>(of)});
     } catch (const std::invalid_argument& e) {
-        throw CLI::ValidationError("closedloop", e.what());
+        throw UsageError("closedloop", e.what());
     }
 }
 
@@ -127,51 +127,50 @@ int run(Flags flags) {
     return 0;
 }
 
-void addFlags(CLI::App& app, Flags& flags) {
+void addFlags(Command& app, Flags& flags) {
     const auto list = [&](const char* flag, std::vector<std::string>& names, const char* what) {
-        return app.add_option(flag, names, what)->delimiter(',')->capture_default_str();
+        return app.option(flag, names, what).delimiter(',').showDefault();
     };
     trials::CampaignPlan& plan = flags.plan;
-    list("--scenario", plan.scenarios, "courses, or all")->required();
-    app.add_option("--seeds", flags.seeds, "courses' seeds A-B; the same seeds make the same runs")
-        ->required();
-    app.add_option("--speed", plan.speeds_m_s, "m/s, at most")->delimiter(',');
+    list("--scenario", plan.scenarios, "courses, or all").required();
+    app.option("--seeds", flags.seeds, "courses' seeds A-B; the same seeds make the same runs")
+        .required();
+    app.option("--speed", plan.speeds_m_s, "m/s, at most").delimiter(',');
     list("--models", plan.models, "world models, or all");
     list("--guidance", plan.guidances, "straight, astar, or all");
     list("--planner", plan.planners, "primitives, 3dvfh, or all");
     list("--pose-error", flags.pose_errors,
          "of believed poses: none, noise (5 cm, 0.5 deg), drift (1 %)")
-        ->check(CLI::IsMember({"none", "noise", "drift"}));
-    app.add_option("--latency-scale", plan.latency_scales,
-                   "times the profile's latencies; 4: an embedded computer")
-        ->delimiter(',');
-    app.add_option("--unknown", flags.unknown,
-                   "space that was never seen: optimistic: free; brake-known: braking must end in "
-                   "space that was seen")
-        ->check(CLI::IsMember({"optimistic", "brake-known"}))
-        ->capture_default_str();
-    app.add_option(
+        .oneOf({"none", "noise", "drift"});
+    app.option("--latency-scale", plan.latency_scales,
+               "times the profile's latencies; 4: an embedded computer")
+        .delimiter(',');
+    app.option("--unknown", flags.unknown,
+               "space that was never seen: optimistic: free; brake-known: braking must end in "
+               "space that was seen")
+        .oneOf({"optimistic", "brake-known"})
+        .showDefault();
+    app.option(
         "--profile", flags.profile,
         "latencies to draw from, made by `calibrate`; without it those that come with the program");
-    app.add_option("--shard", flags.shard, "fly part i of n, for several machines; then `merge`")
-        ->capture_default_str();
-    app.add_option("--jobs", flags.jobs, "processes; without it one a core")
-        ->check(CLI::Range(1, 1024));
-    app.add_option("-o,--output", flags.folder,
-                   "folder; the same command goes on where one was stopped, another one adds to it")
-        ->required();
-    app.add_flag("--overwrite", flags.overwrites, "begin the folder anew");
-    app.add_flag("-q,--quiet", flags.is_quiet, "print errors only");
+    app.option("--shard", flags.shard, "fly part i of n, for several machines; then `merge`")
+        .showDefault();
+    app.option("--jobs", flags.jobs, "processes; without it one a core").between(1, 1024);
+    app.option("-o,--output", flags.folder,
+               "folder; the same command goes on where one was stopped, another one adds to it")
+        .required();
+    app.flag("--overwrite", flags.overwrites, "begin the folder anew");
+    app.flag("-q,--quiet", flags.is_quiet, "print errors only");
 }
 
 }  // namespace
 
-void addClosedLoop(CLI::App& app, Command& command) {
+void addClosedLoop(Program& program) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* sub =
-        app.add_subcommand("closedloop", "fly courses in simulation, model against model");
-    addFlags(*sub, *flags);
-    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
+    Command sub =
+        program.subcommand("closedloop", "fly courses in simulation, model against model");
+    addFlags(sub, *flags);
+    sub.does([flags] { return run(*flags); });
 }
 
 }  // namespace hagen

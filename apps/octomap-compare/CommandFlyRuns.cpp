@@ -29,16 +29,15 @@ int run(const Flags& flags) {
 
 }  // namespace
 
-void addFlyRuns(CLI::App& app, Command& command) {
+void addFlyRuns(Program& program) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* sub = app.add_subcommand("fly-runs", "fly runs for a campaign");
-    sub->group("");  // not in the help: closedloop alone uses it
-    sub->add_option("--parent", flags->parent_pid, "process that this one ends with")->required();
-    sub->add_option("--profile", flags->profile, "latencies to draw from")->required();
-    sub->add_option("--journal", flags->journal, "file that finished runs are appended to")
-        ->required();
-    sub->add_option("runs", flags->keys, "keys of runs")->required();
-    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
+    Command sub = program.subcommand("fly-runs", "fly runs for a campaign");
+    sub.hide();  // not in the help: closedloop alone uses it
+    sub.option("--parent", flags->parent_pid, "process that this one ends with").required();
+    sub.option("--profile", flags->profile, "latencies to draw from").required();
+    sub.option("--journal", flags->journal, "file that finished runs are appended to").required();
+    sub.option("runs", flags->keys, "keys of runs").required();
+    sub.does([flags] { return run(*flags); });
 }
 
 }  // namespace hagen

@@ -23,13 +23,13 @@ int run(const Flags& flags) {
 
 }  // namespace
 
-void addMerge(CLI::App& app, Command& command) {
+void addMerge(Program& program) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* sub = app.add_subcommand("merge", "join folders of one campaign, such as its shards");
-    sub->add_option("folders", flags->folders, "folders of `closedloop`")->required();
-    sub->add_option("-o,--output", flags->into, "folder for all runs")->required();
-    sub->add_flag("--overwrite", flags->overwrites, "begin that folder anew");
-    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
+    Command sub = program.subcommand("merge", "join folders of one campaign, such as its shards");
+    sub.option("folders", flags->folders, "folders of `closedloop`").required();
+    sub.option("-o,--output", flags->into, "folder for all runs").required();
+    sub.flag("--overwrite", flags->overwrites, "begin that folder anew");
+    sub.does([flags] { return run(*flags); });
 }
 
 }  // namespace hagen

@@ -91,45 +91,42 @@ int runChecked(const Flags& flags) {
     try {
         return run(flags);
     } catch (const observations::SettingsError& e) {
-        throw CLI::ValidationError("--config", e.what());
+        throw UsageError("--config", e.what());
     } catch (const std::invalid_argument& e) {
-        throw CLI::ValidationError("openloop", e.what());
+        throw UsageError("openloop", e.what());
     }
 }
 
 }  // namespace
 
-void addOpenLoop(CLI::App& app, Command& command) {
+void addOpenLoop(Program& program) {
     const auto flags = std::make_shared<Flags>();
     openloop::LogSource& source = flags->open_loop.source;
-    CLI::App* sub = app.add_subcommand(
+    Command sub = program.subcommand(
         "openloop", "let all world models digest a recorded log: what they cost, what they know");
-    sub->add_option("-i,--input", source.log, "a .rawlog, or a scan folder (KITTI layout)")
-        ->check(CLI::ExistingPath)
-        ->required();
-    sub->add_option("--poses", source.poses,
-                    "where the vehicle was (TUM), or the sensor scan by scan (KITTI); wins over "
-                    "the log's own")
-        ->check(CLI::ExistingFile);
-    sub->add_option("--sensor-label", source.sensor_label, "this LiDAR alone");
-    sub->add_option("--own-reach-m", source.own_reach_m,
-                    "returns nearer to the sensor are the vehicle's own")
-        ->check(CLI::Range(0.0, 5.0))
-        ->capture_default_str();
-    sub->add_option("--models", flags->open_loop.models, "world models (default: all)")
-        ->delimiter(',');
-    auto* scenario = sub->add_option("--truth-scenario", flags->scenario,
+    sub.option("-i,--input", source.log, "a .rawlog, or a scan folder (KITTI layout)")
+        .existingPath()
+        .required();
+    sub.option("--poses", source.poses,
+               "where the vehicle was (TUM), or the sensor scan by scan (KITTI); wins over "
+               "the log's own")
+        .existingFile();
+    sub.option("--sensor-label", source.sensor_label, "this LiDAR alone");
+    sub.option("--own-reach-m", source.own_reach_m,
+               "returns nearer to the sensor are the vehicle's own")
+        .between(0.0, 5.0)
+        .showDefault();
+    sub.option("--models", flags->open_loop.models, "world models (default: all)").delimiter(',');
+    const Flag scenario = sub.option("--truth-scenario", flags->scenario,
                                      "scene that rawlog-simulate made the log in: the truth "
                                      "(default: the raw points of later scans)");
-    sub->add_option("--truth-seed", flags->seed, "its seed")
-        ->needs(scenario)
-        ->capture_default_str();
-    sub->add_option("-c,--config", flags->configs, "settings file; may be repeated, later ones win")
-        ->allow_extra_args(false);
-    sub->add_option("-o,--output", flags->folder, "folder for tables and summary.json")->required();
-    sub->add_flag("--overwrite", flags->overwrites, "replace tables that exist");
-    sub->add_flag("-q,--quiet", flags->is_quiet, "print errors only");
-    sub->callback([flags, &command] { command = [flags] { return runChecked(*flags); }; });
+    sub.option("--truth-seed", flags->seed, "its seed").needs(scenario).showDefault();
+    sub.option("-c,--config", flags->configs, "settings file; may be repeated, later ones win")
+        .once();
+    sub.option("-o,--output", flags->folder, "folder for tables and summary.json").required();
+    sub.flag("--overwrite", flags->overwrites, "replace tables that exist");
+    sub.flag("-q,--quiet", flags->is_quiet, "print errors only");
+    sub.does([flags] { return runChecked(*flags); });
 }
 
 }  // namespace hagen

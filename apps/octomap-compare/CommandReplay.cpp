@@ -26,7 +26,7 @@ trials::Run chosen(const fs::path& folder, const replays::RunWanted& wanted) {
     try {
         return replays::chooseRun(runs, wanted);
     } catch (const std::invalid_argument& e) {
-        throw CLI::ValidationError(folder.string(), e.what());
+        throw UsageError(folder.string(), e.what());
     }
 }
 
@@ -58,28 +58,28 @@ int run(const Flags& flags) {
 
 }  // namespace
 
-void addReplay(CLI::App& app, Command& command) {
+void addReplay(Program& program) {
     const auto flags = std::make_shared<Flags>();
     replays::RunWanted& wanted = flags->wanted;
-    CLI::App* sub = app.add_subcommand(
+    Command sub = program.subcommand(
         "replay", "fly one run again: replay-RUN.html, a page, and replay-RUN.3Dscene");
-    sub->add_option("DIR", flags->folder, "folder of `closedloop`, finished or not")->required();
-    sub->add_option("--seed", wanted.seed, "seed of the run")->required();
-    sub->add_option("--scenario", wanted.scenario, "where several have that seed");
-    sub->add_option("--model", wanted.model, "where several flew it");
-    sub->add_option("--guidance", wanted.guidance, "straight or astar");
-    sub->add_option("--speed", wanted.speed_m_s, "m/s");
-    sub->add_option("--planner", wanted.planner, "primitives or 3dvfh");
-    sub->add_option("--pose-error", wanted.pose_error, "none, noise or drift");
-    sub->add_option("--latency-scale", wanted.latency_scale, "of the latency profile");
-    sub->add_option("--unknown", wanted.unknown, "space that was never seen, as for `closedloop`")
-        ->transform([](const std::string& name) {
+    sub.option("DIR", flags->folder, "folder of `closedloop`, finished or not").required();
+    sub.option("--seed", wanted.seed, "seed of the run").required();
+    sub.option("--scenario", wanted.scenario, "where several have that seed");
+    sub.option("--model", wanted.model, "where several flew it");
+    sub.option("--guidance", wanted.guidance, "straight or astar");
+    sub.option("--speed", wanted.speed_m_s, "m/s");
+    sub.option("--planner", wanted.planner, "primitives or 3dvfh");
+    sub.option("--pose-error", wanted.pose_error, "none, noise or drift");
+    sub.option("--latency-scale", wanted.latency_scale, "of the latency profile");
+    sub.option("--unknown", wanted.unknown, "space that was never seen, as for `closedloop`")
+        .transform([](const std::string& name) {
             return name == "brake_known" ? "brake-known" : name;  // as runs.csv has it
         })
-        ->check(CLI::IsMember({"optimistic", "brake-known"}));
-    sub->add_option("-o,--output", flags->output, "folder to write to; without: DIR");
-    sub->add_flag("--overwrite", flags->overwrite, "replace the replay of this run");
-    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
+        .oneOf({"optimistic", "brake-known"});
+    sub.option("-o,--output", flags->output, "folder to write to; without: DIR");
+    sub.flag("--overwrite", flags->overwrite, "replace the replay of this run");
+    sub.does([flags] { return run(*flags); });
 }
 
 }  // namespace hagen

@@ -16,19 +16,19 @@ int run(reports::ReportRequest request) {
 
 }  // namespace
 
-void addReport(CLI::App& app, Command& command) {
+void addReport(Program& program) {
     const auto flags = std::make_shared<reports::ReportRequest>();
-    CLI::App* sub = app.add_subcommand(
+    Command sub = program.subcommand(
         "report", "what runs tell: report.html, summary.json and summary.csv in their folder");
-    sub->add_option("DIR", flags->folder, "folder of `closedloop`, finished or not")->required();
-    sub->add_option("--memory", flags->memory,
-                    "CSV of `calibrate --memory`; without: DIR/memory.csv, where there is one");
-    sub->add_option("--markdown", flags->markdown, "file for the main tables as Markdown");
-    sub->add_option("--worst", flags->worst, "worst runs to fly again for a look from above")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 100));
-    sub->add_flag("--overwrite", flags->overwrite, "replace outputs that exist");
-    sub->callback([flags, &command] { command = [flags] { return run(*flags); }; });
+    sub.option("DIR", flags->folder, "folder of `closedloop`, finished or not").required();
+    sub.option("--memory", flags->memory,
+               "CSV of `calibrate --memory`; without: DIR/memory.csv, where there is one");
+    sub.option("--markdown", flags->markdown, "file for the main tables as Markdown");
+    sub.option("--worst", flags->worst, "worst runs to fly again for a look from above")
+        .showDefault()
+        .between(0, 100);
+    sub.flag("--overwrite", flags->overwrite, "replace outputs that exist");
+    sub.does([flags] { return run(*flags); });
 }
 
 }  // namespace hagen

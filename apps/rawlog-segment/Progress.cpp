@@ -9,7 +9,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMostRemarks = 10;  // one a scan would bury everything else
+constexpr std::size_t kMostRemarks = 10;  // one per scan would bury everything else
 constexpr Seconds kBetweenLines{0.1}, kBeforeRate{1.0};
 
 std::string clockOf(double seconds) {
@@ -81,7 +81,7 @@ void Progress::finish() {
     if (is_on_terminal_) std::cerr << "\r\033[K";
     for (const auto& [remark, times] : remarks_) {
         if (times < 2) continue;
-        std::cerr << input_ << ": the same of " << times - 1 << " more: " << remark << "\n";
+        std::cerr << input_ << ": the same for " << times - 1 << " more: " << remark << "\n";
     }
-    if (untold_ > 0) std::cerr << input_ << ": and " << untold_ << " remarks more\n";
+    if (untold_ > 0) std::cerr << input_ << ": and " << untold_ << " more warnings\n";
 }

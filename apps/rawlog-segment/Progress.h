@@ -4,16 +4,16 @@
 #include <map>
 #include <string>
 
-/// What a conversion tells on standard error: remarks, and on a terminal a line of progress.
+/// Reports a conversion on standard error: warnings, and on a terminal a progress line.
 class Progress {
  public:
     Progress(std::string input, bool quiet);
 
-    /// The listener of a conversion; holds a reference to this object.
+    /// Returns the listener of a conversion; it keeps a reference to this object.
     hagen::logs::ConversionListener listener();
 
-    /// Clears the line, and tells what was held back: the same remark of many scans is printed
-    /// where it first comes up, and counted from then on.
+    /// Clears the line and reports the pending warnings: a warning that many scans share is printed
+    /// at its first occurrence and counted afterwards.
     void finish();
 
  private:
@@ -23,7 +23,7 @@ class Progress {
 
     std::string input_;
     bool is_quiet_, is_on_terminal_;
-    std::map<std::string, std::size_t> remarks_;  ///< and how often they came
+    std::map<std::string, std::size_t> remarks_;  ///< and number of occurrences
     std::size_t untold_ = 0;
     std::chrono::steady_clock::time_point start_, shown_;
 };

@@ -23,7 +23,7 @@ void printEntries(const Conversion& conversion, const ConversionReport& report) 
                 counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
                 counted(report.entries, "entry", "entries").c_str(),
                 is_cut ? (" (" + std::to_string(report.left_out_before) + " to " +
-                          std::to_string(last) + " of the input; the others are left out)")
+                          std::to_string(last) + " of the input; the others are skipped)")
                              .c_str()
                        : "",
                 report.returns);
@@ -43,9 +43,9 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     std::snprintf(zone, sizeof zone, "%g", static_cast<double>(report.settings.options.zone_m));
     line(report.roi, "region of interest: near obstacles");
     line(report.rou, std::string("region of uninterest: ground, or farther than ") + zone + " m");
-    line(report.unclassified, "unclassified: out of the sensor's range");
+    line(report.unclassified, "unclassified: outside the sensor's range limits");
     if (report.unreadable_scans > 0) {
-        std::printf("%s could not be read, kept as before\n",
+        std::printf("%s could not be read, kept unchanged\n",
                     counted(report.unreadable_scans, "scan", "scans").c_str());
     }
     for (const auto& [label, sensor] : report.sensors) {
@@ -60,8 +60,8 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
                     counted(report.scans, "scan", "scans").c_str());
     }
     if (report.scans_with_attitude > 0 && report.settings.options.level_by_attitude) {
-        std::printf("levelled by the vehicle's attitude: %zu of %s\n", report.scans_with_attitude,
-                    counted(report.scans, "scan", "scans").c_str());
+        std::printf("gravity-aligned by the vehicle's attitude: %zu of %s\n",
+                    report.scans_with_attitude, counted(report.scans, "scan", "scans").c_str());
     }
     const auto output = [](const char* what, const std::filesystem::path& path) {
         if (!path.empty()) std::printf("%s: %s\n", what, path.c_str());

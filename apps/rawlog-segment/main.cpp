@@ -2,7 +2,6 @@
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/ScanFolder.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <string>
@@ -10,13 +9,12 @@
 
 #include "Progress.h"
 #include "Reports.h"
+#include "common/CommandLine.h"
 #include "common/Interrupt.h"
 
 namespace {
 
 using namespace hagen;
-
-constexpr int kFailed = 1, kWrongUsage = 2;
 
 logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool quiet) {
     Progress progress(conversion.input.string(), quiet);
@@ -32,14 +30,14 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
     progress.finish();
     if (!quiet && report.scans == 0) {
         std::cerr << conversion.input.string()
-                  << ": no LiDAR scan was segmented; scans are CObservationVelodyneScan or "
+                  << ": no LiDAR scan was segmented; scans must be CObservationVelodyneScan or "
                      "CObservationPointCloud\n";
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
-                  << ": is not used: only a window (window_scans), --kitti and --octomap need it; "
+                  << ": ignored: only a window (window_scans), --kitti and --octomap need it; "
                      "angles are "
-                     "levelled by poses with times (TUM) alone\n";
+                     "gravity-aligned only with timed poses (TUM)\n";
     }
     return report;
 }
@@ -56,170 +54,161 @@ void printSettings(const logs::Conversion& conversion) {
     std::cout << observations::dumpSettings(settings);
 }
 
-int fail(int exit_code, const std::string& message) {
-    std::cerr << "rawlog-segment: " << message << "\n";
-    return exit_code;
-}
-
-/// What the command line says.
-struct CommandLine {
+struct Flags {
     logs::Conversion conversion;
     std::vector<std::string> configs;
     bool is_quiet = false, dumps_settings = false;
 };
 
-/// Reads a name as what it stands for. CLI11's own tells the numbers behind the names, too.
-template <class Value>
-CLI::Validator oneOf(const std::vector<std::pair<std::string, Value>>& values) {
-    return CLI::Validator(
-        [values](std::string& name) -> std::string {
-            std::string names;
-            for (const auto& [known, value] : values) {
-                if (name == known) {
-                    name = std::to_string(static_cast<int>(value));
-                    return "";
-                }
-                names += (names.empty() ? "" : ", ") + known;
-            }
-            return "'" + name + "' is none of " + names;
-        },
-        "");
-}
+void declare(Program& app, Flags& flags) {
+    logs::Conversion& conversion = flags.conversion;
+    const auto not_empty = [](const std::string& name) {
+        return name.empty() ? "the name is empty" : "";
+    };
 
-void declare(CLI::App& app, CommandLine& line) {
-    logs::Conversion& conversion = line.conversion;
-    const CLI::Validator not_empty(
-        [](const std::string& name) { return name.empty() ? "the name is empty" : ""; }, "PATH");
+    app.option("-i,--input", conversion.input, "a .rawlog, or a scan folder (KITTI layout)")
+        .existingPath()
+        .group("Input");
+    app.option("--from", conversion.from,
+               "first entry to convert, from 0; for a scan "
+               "folder: scan")
+        .notNegative()
+        .group("Input");
+    app.option("--to", conversion.to, "last entry to convert").notNegative().group("Input");
+    app.option("--sensor-label", conversion.sensor_labels,
+               "segment only this LiDAR; may be repeated")
+        .once()
+        .group("Input");
+    app.option("--poses", conversion.poses,
+               "vehicle trajectory (TUM), or sensor pose per scan (KITTI); overrides the "
+               "log's own")
+        .existingFile()
+        .group("Input");
 
-    app.add_option("-i,--input", conversion.input, "a .rawlog, or a scan folder (KITTI layout)")
-        ->check(CLI::ExistingPath)
-        ->group("Input");
-    app.add_option("--from", conversion.from,
-                   "first entry to convert, counted from 0; of a scan "
-                   "folder: scan")
-        ->check(CLI::NonNegativeNumber)
-        ->group("Input");
-    app.add_option("--to", conversion.to, "last entry to convert")
-        ->check(CLI::NonNegativeNumber)
-        ->group("Input");
-    app.add_option("--sensor-label", conversion.sensor_labels,
-                   "segment this LiDAR alone; may be repeated")
-        ->allow_extra_args(false)
-        ->group("Input");
-    app.add_option("--poses", conversion.poses,
-                   "where the vehicle was (TUM), or the sensor scan by scan (KITTI); wins over the "
-                   "log's own")
-        ->check(CLI::ExistingFile)
-        ->group("Input");
-
-    auto* rawlog = app.add_option("-o,--output", conversion.rawlog,
-                                  "segmented rawlog: all entries, and two clouds a scan")
-                       ->check(not_empty)
-                       ->group("Output");
-    app.add_flag("--preview", conversion.preview,
-                 "add a scene to each scan, which RawLogViewer shows in colour")
-        ->needs(rawlog)
-        ->group("Output");
-    app.add_option("--cloud", conversion.cloud_class,
-                   "clouds of coordinates (simple), or with "
-                   "intensities (xyzi)")
-        ->transform(
-            oneOf<observations::CloudClass>({{"simple", observations::CloudClass::Simple},
-                                             {"xyzi", observations::CloudClass::WithIntensity}}))
-        ->option_text("simple|xyzi")
-        ->needs(rawlog)
-        ->group("Output");
-    app.add_option("--kitti", conversion.folder,
-                   "scan folder: velodyne/*.bin, labels/*.label; of several LiDARs one each in it")
-        ->check(not_empty)
-        ->group("Output");
-    auto* pictures = app.add_option("--pictures", conversion.pictures,
-                                    "folder of PNGs, a folder a scan: what each stage made of it")
-                         ->check(not_empty)
-                         ->group("Output");
-    app.add_option("--picture-azimuth", conversion.picture_azimuth_deg,
-                   "column whose principal components are drawn: degrees to the left of ahead "
-                   "(default: that of the nearest obstacle)")
-        ->check(CLI::Range(-360.0, 360.0))
-        ->needs(pictures)
-        ->group("Output");
-    auto* octomap =
-        app.add_option("--octomap", conversion.octomaps,
-                       "OctoMap of the scans, which need poses: .bt, .ot, or .3Dscene for "
-                       "SceneViewer3D; may be repeated")
-            ->allow_extra_args(false)
-            ->check(CLI::Validator(
+    const Flag rawlog = app.option("-o,--output", conversion.rawlog,
+                                   "segmented rawlog: all entries, plus two clouds per scan")
+                            .check(not_empty, "PATH")
+                            .group("Output");
+    app.flag("--preview", conversion.preview, "add a coloured scene for RawLogViewer to each scan")
+        .needs(rawlog)
+        .group("Output");
+    app.choice<observations::CloudClass>("--cloud", conversion.cloud_class,
+                                         {{"simple", observations::CloudClass::Simple},
+                                          {"xyzi", observations::CloudClass::WithIntensity}},
+                                         "clouds with coordinates only (simple) or with "
+                                         "intensities (xyzi)")
+        .valueName("simple|xyzi")
+        .needs(rawlog)
+        .group("Output");
+    app.option("--kitti", conversion.folder,
+               "scan folder: velodyne/*.bin, labels/*.label; one subfolder per LiDAR if there "
+               "are several")
+        .check(not_empty, "PATH")
+        .group("Output");
+    const Flag pictures =
+        app.option("--pictures", conversion.pictures,
+                   "folder of PNGs, one subfolder per scan: the result of each stage")
+            .check(not_empty, "PATH")
+            .group("Output");
+    app.option("--picture-azimuth", conversion.picture_azimuth_deg,
+               "column whose principal components are drawn: degrees left of straight ahead "
+               "(default: that of the nearest obstacle)")
+        .between(-360.0, 360.0)
+        .needs(pictures)
+        .group("Output");
+    const Flag octomap =
+        app.option("--octomap", conversion.octomaps,
+                   "OctoMap of the scans (requires poses): .bt, .ot, or .3Dscene for "
+                   "SceneViewer3D; may be repeated")
+            .once()
+            .check(
                 [](const std::string& name) {
                     return mapping::isMapFile(name)
                                ? ""
                                : name + " does not end in .bt, .ot or .3Dscene";
                 },
-                "PATH"))
-            ->group("Output");
-    app.add_option("--octomap-content", conversion.octomap.content,
-                   "every return (full), RoI returns alone (roi), or RoI returns, and free space "
-                   "from all rays (roi+rays, the default)")
-        ->transform(oneOf<mapping::MapContent>({{"full", mapping::MapContent::Full},
-                                                {"roi", mapping::MapContent::Roi},
-                                                {"roi+rays", mapping::MapContent::RoiAndRays}}))
-        ->option_text("full|roi|roi+rays")
-        ->needs(octomap)
-        ->group("Output");
-    app.add_option("--octomap-resolution", conversion.octomap.resolution_m,
-                   "edge of its voxels in metres (default: 0.2)")
-        ->check(CLI::Range(0.01, 100.0))
-        ->option_text("M")
-        ->needs(octomap)
-        ->group("Output");
-    app.add_option("--stats", conversion.stats, "JSON: settings, counts, latencies, each scan")
-        ->check(not_empty)
-        ->group("Output");
-    app.add_flag("--overwrite", conversion.overwrite, "replace outputs that exist")
-        ->group("Output");
-    app.add_option("--jobs", conversion.jobs,
-                   "threads (default: as many as there are cores); results do not depend on it")
-        ->check(CLI::Range(1, 1024))
-        ->option_text("N")
-        ->group("Output");
-    app.add_flag("-q,--quiet", line.is_quiet, "print errors only")->group("Output");
+                "PATH")
+            .group("Output");
+    app.choice<mapping::MapContent>(
+           "--octomap-content", conversion.octomap.content,
+           {{"full", mapping::MapContent::Full},
+            {"roi", mapping::MapContent::Roi},
+            {"roi+rays", mapping::MapContent::RoiAndRays}},
+           "all returns (full), RoI returns only (roi), or RoI returns plus free space "
+           "from all rays (roi+rays, the default)")
+        .valueName("full|roi|roi+rays")
+        .needs(octomap)
+        .group("Output");
+    app.option("--octomap-resolution", conversion.octomap.resolution_m,
+               "voxel size in metres (default: 0.2)")
+        .between(0.01, 100.0)
+        .valueName("M")
+        .needs(octomap)
+        .group("Output");
+    app.option("--stats", conversion.stats, "JSON: settings, counts, latencies, per-scan data")
+        .check(not_empty, "PATH")
+        .group("Output");
+    app.flag("--overwrite", conversion.overwrite, "replace existing outputs").group("Output");
+    app.option("--jobs", conversion.jobs,
+               "threads (default: all cores); does not affect the output")
+        .between(1, 1024)
+        .valueName("N")
+        .group("Output");
+    app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
 
-    app.add_option("-c,--config", line.configs, "settings file; may be repeated, later ones win")
-        ->allow_extra_args(false)
-        ->group("Settings");
-    app.add_flag("--config-dump", line.dumps_settings, "print the settings in force, and stop")
-        ->group("Settings");
-    app.add_flag_callback(
-           "--config-keys",
-           [] {
-               printSettingsKeys();
-               throw CLI::Success();
-           },
-           "print the table of all settings, and stop")
-        ->group("Settings");
-    app.set_version_flag("--version", "rawlog-segment " HAGEN_VERSION);
+    app.option("-c,--config", flags.configs,
+               "settings file; may be repeated, later files override earlier ones")
+        .once()
+        .group("Settings");
+    app.flag("--config-dump", flags.dumps_settings, "print the current settings and exit")
+        .group("Settings");
+    app.printer("--config-keys", printSettingsKeys, "print the table of all settings and exit")
+        .group("Settings");
+    app.version(HAGEN_VERSION);
 }
 
 /// What one flag alone cannot tell.
-void check(const CommandLine& line) {
-    const logs::Conversion& conversion = line.conversion;
-    if (line.dumps_settings) return;
-    if (conversion.input.empty()) throw CLI::RequiredError("--input");
+void check(const Flags& flags) {
+    const logs::Conversion& conversion = flags.conversion;
+    if (flags.dumps_settings) return;
+    if (conversion.input.empty()) throw UsageError("--input is required");
     if (conversion.rawlog.empty() && conversion.folder.empty() && conversion.pictures.empty() &&
         conversion.octomaps.empty() && conversion.stats.empty()) {
-        throw CLI::RequiredError("an output (-o, --kitti, --pictures, --octomap or --stats)");
+        throw UsageError("an output (-o, --kitti, --pictures, --octomap or --stats) is required");
     }
     if (!(conversion.octomap.resolution_m > 0)) {  // not a number is in any range
-        throw CLI::ValidationError("--octomap-resolution", "is not more than 0");
+        throw UsageError("--octomap-resolution", "must be more than 0");
     }
     if (conversion.from > conversion.to) {
-        throw CLI::ValidationError("--from", "is beyond --to");
+        throw UsageError("--from", "must not be greater than --to");
+    }
+}
+
+int run(const Program& program, Flags& flags) {
+    check(flags);
+    try {
+        for (const std::string& config : flags.configs) {
+            observations::mergeSettings(config, flags.conversion.settings);
+        }
+        if (flags.dumps_settings) {
+            printSettings(flags.conversion);
+            return kDone;
+        }
+        catchSignals();
+        const logs::ConversionReport report = convertAloud(flags.conversion, flags.is_quiet);
+        if (!flags.is_quiet) printSummary(flags.conversion, report);
+        if (report.scans > 0 || report.unreadable_scans == 0) return kDone;
+        return program.fail(kFailed, "none of the LiDAR scans could be read");
+    } catch (const observations::SettingsError& e) {
+        return program.fail(kWrongUsage, e.what());
     }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{
+    Program program(
+        "rawlog-segment",
         "Examples:\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview --stats flight.json\n"
@@ -229,42 +218,9 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
         "\n"
         "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
-        "log."};
-    app.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
-    CommandLine line;
-    declare(app, line);
-    try {
-        app.parse(argc, argv);
-        check(line);
-        for (const std::string& config : line.configs) {
-            observations::mergeSettings(config, line.conversion.settings);
-        }
-        if (line.dumps_settings) {
-            printSettings(line.conversion);
-        } else {
-            catchSignals();
-            const logs::ConversionReport report = convertAloud(line.conversion, line.is_quiet);
-            if (!line.is_quiet) printSummary(line.conversion, report);
-            if (report.scans == 0 && report.unreadable_scans > 0) {
-                return fail(kFailed, "none of the LiDAR scans could be read");
-            }
-        }
-        if (std::fflush(stdout) != 0 || !std::cout.flush()) {
-            return fail(kFailed, "the summary cannot be printed");
-        }
-        return 0;
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        const bool is_printed = std::fflush(stdout) == 0 && std::cout.flush();
-        return is_printed ? 0 : fail(kFailed, "the text cannot be printed");
-    } catch (const CLI::ParseError& e) {
-        app.exit(e);
-        return kWrongUsage;
-    } catch (const observations::SettingsError& e) {
-        return fail(kWrongUsage, e.what());
-    } catch (const std::filesystem::filesystem_error& e) {
-        return fail(kFailed, e.path1().string() + ": " + e.code().message());
-    } catch (const std::exception& e) {
-        return fail(kFailed, e.what());
-    }
+        "log.");
+    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    Flags flags;
+    declare(program, flags);
+    return program.run(argc, argv, [&] { return run(program, flags); });
 }

@@ -6,16 +6,16 @@
 
 namespace hagen {
 
-Progress::Progress(const std::vector<evaluation::ScanSource>& sources)
+Progress::Progress(const std::vector<evaluation::LabelledScanSource>& sources)
     : is_on_terminal_(isatty(STDERR_FILENO) == 1) {
-    for (const evaluation::ScanSource& source : sources) all_ += source.scans;
+    for (const evaluation::LabelledScanSource& source : sources) all_ += source.scans;
 }
 
 Progress::~Progress() {
     if (is_on_terminal_) std::cerr << "\r\033[K" << std::flush;
 }
 
-void Progress::show(const evaluation::LabelledView& view) {
+void Progress::show(const evaluation::MethodOutput& view) {
     if (!is_on_terminal_ || view.method + 1 < view.methods) return;
     std::cerr << "\rscan " << ++done_ << " of " << all_ << std::flush;
 }

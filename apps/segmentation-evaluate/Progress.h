@@ -5,16 +5,16 @@
 
 namespace hagen {
 
-/// A line on standard error that says how far a run is, gone at its end; nothing where that is no
+/// A progress line on standard error, removed at the end; silent unless standard error is a
 /// terminal.
 class Progress {
  public:
-    explicit Progress(const std::vector<evaluation::ScanSource>& sources);
+    explicit Progress(const std::vector<evaluation::LabelledScanSource>& sources);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void show(const evaluation::LabelledView& view);
+    void show(const evaluation::MethodOutput& view);
 
  private:
     bool is_on_terminal_;

@@ -8,7 +8,7 @@
 namespace hagen {
 namespace {
 
-constexpr std::size_t kMostColumns = 5;  // methods side by side within 100 columns
+constexpr std::size_t kMostColumns = 5;  // adjacent methods within 100 columns
 
 std::string format(const char* pattern, ...) {
     char text[512];
@@ -19,7 +19,7 @@ std::string format(const char* pattern, ...) {
     return text;
 }
 
-/// Text that fills a column on the left, and one on the right.
+/// Pads text on the right, and on the left.
 std::string left(const std::string& text, std::size_t width) {
     return text + std::string(width - std::min(width, text.size()), ' ');
 }
@@ -27,13 +27,13 @@ std::string right(const std::string& text, std::size_t width) {
     return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
-/// A line without the blanks at its end.
+/// Returns a line without trailing blanks.
 std::string trimmed(std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";
 }
 
-/// A dash for what is not defined.
+/// A dash for undefined values.
 std::string figure(double value, int digits = 4) {
     return std::isnan(value) ? "-" : format("%.*f", digits, value);
 }
@@ -57,22 +57,22 @@ std::size_t widthOf(const std::string& heading, const std::vector<std::string>& 
     return width;
 }
 
-std::vector<std::string> namesOf(const std::vector<labelled_scans::SummedMethod>& methods) {
+std::vector<std::string> namesOf(const std::vector<labelled_scans::MethodTotals>& methods) {
     std::vector<std::string> names;
-    for (const labelled_scans::SummedMethod& method : methods) names.push_back(method.name);
+    for (const labelled_scans::MethodTotals& method : methods) names.push_back(method.name);
     return names;
 }
 
 /// Scores of each method, over returns or pixels.
 std::string scoreTable(const labelled_scans::Summary& summary,
-                       labelled_scans::SummedScores labelled_scans::SummedMethod::*which) {
+                       labelled_scans::ScoreTotals labelled_scans::MethodTotals::*which) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text = left("", width) +
                        "  RoI                        ROU                        " +
                        "95 % interval of F1\n" + left("method", width) +
                        "  precision  recall      F1  precision  recall      F1  RoI          ROU\n";
-    for (const labelled_scans::SummedMethod& method : summary.methods) {
-        const labelled_scans::SummedGroup& all = (method.*which).all;
+    for (const labelled_scans::MethodTotals& method : summary.methods) {
+        const labelled_scans::GroupTotals& all = (method.*which).all;
         text += left(method.name, width) + figuresOf(all.scores) + "  " +
                 left(interval(all.intervals.roi.f1), 11) + "  " + interval(all.intervals.rou.f1) +
                 "\n";
@@ -84,7 +84,7 @@ std::string latencyTable(const labelled_scans::Summary& summary) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text =
         left("method", width) + "     mean +- sd           p50       p95       p99       max\n";
-    for (const labelled_scans::SummedMethod& method : summary.methods) {
+    for (const labelled_scans::MethodTotals& method : summary.methods) {
         const evaluation::Latency& latency = method.latency;
         text += left(method.name, width) + right(figure(latency.mean_ms, 3), 9) + " +- " +
                 left(figure(latency.sd_ms, 3), 7);
@@ -96,31 +96,31 @@ std::string latencyTable(const labelled_scans::Summary& summary) {
     return text;
 }
 
-using Part = std::vector<labelled_scans::SummedGroup> labelled_scans::SummedScores::*;
+using Part = std::vector<labelled_scans::GroupTotals> labelled_scans::ScoreTotals::*;
 struct PartName {
     const char* title;
     const char* heading;
     Part part;
 };
 constexpr PartName kParts[] = {
-    {"By range", "range", &labelled_scans::SummedScores::by_range},
-    {"By altitude of the sensor", "altitude", &labelled_scans::SummedScores::by_altitude},
-    {"By folder", "folder", &labelled_scans::SummedScores::by_folder}};
+    {"By range", "range", &labelled_scans::ScoreTotals::by_range},
+    {"By altitude of the sensor", "altitude", &labelled_scans::ScoreTotals::by_altitude},
+    {"By folder", "folder", &labelled_scans::ScoreTotals::by_folder}};
 
-std::vector<std::string> namesOf(const std::vector<labelled_scans::SummedGroup>& groups) {
+std::vector<std::string> namesOf(const std::vector<labelled_scans::GroupTotals>& groups) {
     std::vector<std::string> names;
-    for (const labelled_scans::SummedGroup& group : groups) names.push_back(group.name);
+    for (const labelled_scans::GroupTotals& group : groups) names.push_back(group.name);
     return names;
 }
 
 std::string partTable(const PartName& part,
-                      const std::vector<labelled_scans::SummedGroup>& groups) {
+                      const std::vector<labelled_scans::GroupTotals>& groups) {
     const std::size_t width = widthOf(part.heading, namesOf(groups));
     std::string text =
         "\n" + std::string(part.title) + "\n" + left("", width) + "         returns of   " +
         "          RoI                        ROU\n" + left(part.heading, width) + "  scans" +
         "       RoI       ROU  precision  recall      F1  precision  recall      F1\n";
-    for (const labelled_scans::SummedGroup& group : groups) {
+    for (const labelled_scans::GroupTotals& group : groups) {
         const evaluation::Scores& scores = group.scores;
         text += left(group.name, width) + right(count(static_cast<std::int64_t>(group.scans)), 7) +
                 right(count(scores.roi.hits + scores.roi.misses), 10) +
@@ -129,18 +129,19 @@ std::string partTable(const PartName& part,
     return text;
 }
 
-/// What the returns of a kind are: RoI or ROU, or both where true labels do not go by kind.
+/// Returns the label of a class: RoI or ROU, or both if ground-truth labels do not follow the
+/// classes.
 std::string labelOf(const evaluation::Scores& scores) {
     const bool is_roi = scores.roi.hits + scores.roi.misses > 0;
     const bool is_rou = scores.rou.hits + scores.rou.misses > 0;
     return is_roi && is_rou ? "both" : is_roi ? "RoI" : "ROU";
 }
 
-std::string kindTable(const std::vector<labelled_scans::SummedGroup>& kinds) {
-    const std::size_t width = widthOf("kind", namesOf(kinds));
-    std::string text = "\nBy kind of object\n" + left("kind", width) +
+std::string kindTable(const std::vector<labelled_scans::GroupTotals>& kinds) {
+    const std::size_t width = widthOf("class", namesOf(kinds));
+    std::string text = "\nBy object class\n" + left("class", width) +
                        "  is    scans   returns     found  recall  95 % interval\n";
-    for (const labelled_scans::SummedGroup& kind : kinds) {
+    for (const labelled_scans::GroupTotals& kind : kinds) {
         const std::int64_t found = kind.scores.roi.hits + kind.scores.rou.hits;
         text += left(kind.name, width) + "  " + left(labelOf(kind.scores), 4) +
                 right(count(static_cast<std::int64_t>(kind.scans)), 7) +
@@ -151,24 +152,24 @@ std::string kindTable(const std::vector<labelled_scans::SummedGroup>& kinds) {
     return text;
 }
 
-/// A row a group, a column a method.
+/// One row per group, one column per method.
 template <class Cell>
 std::string matrix(const std::string& title, const std::string& heading,
                    const labelled_scans::Summary& summary, Part part, Cell cell) {
     std::vector<std::string> groups;
-    for (const labelled_scans::SummedGroup& group : summary.methods.front().returns.*part) {
+    for (const labelled_scans::GroupTotals& group : summary.methods.front().returns.*part) {
         groups.push_back(group.name);
     }
     if (groups.empty()) return "";
     const std::size_t width = widthOf(heading, groups);
     std::string heads = left(heading, width), text = "\n" + title + "\n";
-    for (const labelled_scans::SummedMethod& method : summary.methods) {
+    for (const labelled_scans::MethodTotals& method : summary.methods) {
         heads += "  " + left(method.name, 15).substr(0, 15);
     }
     text += trimmed(heads);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::string line = left(groups[g], width);
-        for (const labelled_scans::SummedMethod& method : summary.methods) {
+        for (const labelled_scans::MethodTotals& method : summary.methods) {
             line += "  " + left(cell((method.returns.*part)[g].scores), 15);
         }
         text += trimmed(line);
@@ -186,12 +187,12 @@ std::string comparison(const labelled_scans::Summary& summary) {
                        part.part, f1);
     }
     text +=
-        matrix("By kind of object: recall", "kind", summary, &labelled_scans::SummedScores::by_kind,
+        matrix("By object class: recall", "class", summary, &labelled_scans::ScoreTotals::by_kind,
                [](const evaluation::Scores& scores) { return figure(scores.correct()); });
     return text;
 }
 
-std::string partsOf(const labelled_scans::SummedScores& scores) {
+std::string partsOf(const labelled_scans::ScoreTotals& scores) {
     std::string text;
     for (const PartName& part : kParts) {
         if (!(scores.*part.part).empty()) text += partTable(part, scores.*part.part);
@@ -209,16 +210,16 @@ std::string reportOf(const labelled_scans::Summary& summary) {
                summary.folders.size(), summary.folders.size() == 1 ? "" : "s",
                static_cast<double>(summary.range.max_range_m),
                static_cast<long long>(summary.methods.front().returns.all.scores.returns()));
-    text += scoreTable(summary, &labelled_scans::SummedMethod::returns);
+    text += scoreTable(summary, &labelled_scans::MethodTotals::returns);
     if (has_pixels) {
-        text += format("\nIn the camera's image, a return a pixel: %lld pixels\n",
+        text += format("\nIn the camera image, one return per pixel: %lld pixels\n",
                        static_cast<long long>(summary.methods.front().pixels.all.scores.returns()));
-        text += scoreTable(summary, &labelled_scans::SummedMethod::pixels);
+        text += scoreTable(summary, &labelled_scans::MethodTotals::pixels);
     }
-    text += "\nRun time of the segmentation alone, ms a scan\n" + latencyTable(summary);
+    text += "\nRun time of the segmentation alone, ms per scan\n" + latencyTable(summary);
     if (summary.methods.size() == 1) return text + partsOf(summary.methods.front().returns);
     if (summary.methods.size() <= kMostColumns) return text + comparison(summary);
-    return text + "\nParts by range, altitude, folder and kind are in --json.\n";
+    return text + "\nScores by range, altitude, folder and class are in --json.\n";
 }
 
 }  // namespace hagen

@@ -1,4 +1,4 @@
-// The tables that people read.
+// The tables for people.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace hagen {
 
-/// Tables of at most 100 columns: scores and run times of each method, and where there is one
-/// method alone the parts of its scores; where there are more, F1 of each by part.
+/// Tables of at most 100 columns: scores and run times of each method; the parts of its scores if
+/// there is only one method, otherwise F1 of each method by part.
 std::string reportOf(const labelled_scans::Summary& summary);
 
 }  // namespace hagen

@@ -1,7 +1,6 @@
 // Scores the filter on labelled scan folders, with one setting or a sweep of them.
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <hagen/labelled_scans/SummaryJson.h>
 #include "Progress.h"
 #include "Report.h"
+#include "common/CommandLine.h"
 
 namespace {
 
@@ -30,30 +30,31 @@ struct Flags {
     bool with_baselines = false, overwrite = false;
 };
 
-void addFlags(CLI::App& app, Flags& flags) {
-    app.add_option("-i,--input", flags.folders, "labelled scan folders")->required();
-    app.add_option("-c,--config", flags.configs, "settings file; may be repeated, later ones win");
-    app.add_option("--sweep", flags.sweeps,
-                   "KEY=VALUE,VALUE,...: a row for each value; each sweep by itself");
-    app.add_flag("--baselines", flags.with_baselines,
-                 "rows of segmenters of others, as published and as tuned");
-    app.add_option("--max-range-m", flags.max_range_m, "score returns up to this range")
-        ->capture_default_str()
-        ->check(CLI::Range(0.1, 1000.0));
-    app.add_option("--label-map", flags.label_map,
-                   "YAML file: which classes of semantic/ (or else labels/) are RoI and ROU");
-    const auto camera =
-        app.add_option("--camera", flags.camera,
-                       "YAML file of a camera: scores its pixels too, as the paper does");
-    app.add_option("--overlay", flags.overlay,
-                   "folder for a PNG a scan of what the camera sees: hits, misses, false alarms")
-        ->needs(camera);
-    app.add_option("--json", flags.json, "file for all figures, counts and intervals");
-    app.add_option("--charts", flags.charts, "folder for SVG charts");
-    app.add_option("--bootstrap", flags.resamples, "resamples for intervals; 0: no intervals")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 1000000));
-    app.add_flag("--overwrite", flags.overwrite, "replace outputs that exist");
+void addFlags(Command& app, Flags& flags) {
+    app.option("-i,--input", flags.folders, "labelled scan folders").required();
+    app.option("-c,--config", flags.configs,
+               "settings file; may be repeated, later files override earlier ones");
+    app.option("--sweep", flags.sweeps,
+               "KEY=VALUE,VALUE,...: one row per value; sweeps are independent");
+    app.flag("--baselines", flags.with_baselines,
+             "add rows of published segmenters, as published and as tuned");
+    app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
+        .showDefault()
+        .between(0.1, 1000.0);
+    app.option("--label-map", flags.label_map,
+               "YAML file: which classes of semantic/ (otherwise labels/) are RoI and ROU");
+    const Flag camera =
+        app.option("--camera", flags.camera,
+                   "YAML file of a camera: also score its pixels, as the paper does");
+    app.option("--overlay", flags.overlay,
+               "folder for one PNG per scan in the camera's view: hits, misses, false alarms")
+        .needs(camera);
+    app.option("--json", flags.json, "file for all scores, counts and intervals");
+    app.option("--charts", flags.charts, "folder for SVG charts");
+    app.option("--bootstrap", flags.resamples, "bootstrap resamples for intervals; 0: no intervals")
+        .showDefault()
+        .between(0, 1000000);
+    app.flag("--overwrite", flags.overwrite, "replace existing outputs");
 }
 
 /// A file that a flag names and that cannot be taken as it is is wrong usage.
@@ -93,21 +94,21 @@ struct Outputs {
 int run(const Flags& flags, labelled_scans::Summary summary) {
     for (const std::string& config : flags.configs)
         observations::mergeSettings(config, summary.settings);
-    labelled_scans::MethodRows rows{labelled_scans::rowsOf(summary.settings, flags.sweeps),
-                                    std::nullopt};
+    labelled_scans::MethodSet rows{labelled_scans::rowsOf(summary.settings, flags.sweeps),
+                                   std::nullopt};
     if (flags.with_baselines) rows.baselines = summary.settings;
     const auto label_map = fromFlag(flags.label_map, evaluation::readLabelMap);
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
     options.camera = fromFlag(flags.camera, evaluation::readCamera);
-    const std::vector<evaluation::ScanSource> sources =
+    const std::vector<evaluation::LabelledScanSource> sources =
         labelled_scans::sourcesOf(flags.folders, rows, label_map);
     Outputs outputs(flags);
 
     std::vector<evaluation::MethodScores> methods;
     {
         Progress progress(sources);
-        methods = evaluation::evaluate(sources, options, [&](const evaluation::LabelledView& view) {
+        methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
             progress.show(view);
             if (!outputs.overlay) return;
             labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source], view,
@@ -116,13 +117,13 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     }
 
     summary.folders = flags.folders;
-    for (const evaluation::ScanSource& source : sources)
+    for (const evaluation::LabelledScanSource& source : sources)
         summary.folder_names.push_back(source.name);
     summary.range = options.range;
     summary.label_map = flags.label_map;
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
-    labelled_scans::sumUp(methods, rows.filter, summary);
+    labelled_scans::addScores(methods, rows.filter, summary);
     if (outputs.json) labelled_scans::writeJson(outputs.json->temporary(), summary);
     if (outputs.charts) labelled_scans::drawCharts(outputs.charts->temporary(), summary);
     outputs.commit();
@@ -133,33 +134,29 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Score the filter on labelled scan folders (KITTI layout; labels 1 ROU, 2 RoI)."};
-    app.footer(
+    Program program(
+        "segmentation-evaluate",
+        "Score the filter on labelled scan folders (KITTI layout; labels 1 ROU, 2 RoI).");
+    program.footer(
         "Prints precision, recall and F1 of each class over all returns of all scans; returns with "
-        "true label 0 are left out.\n"
+        "ground-truth label 0 are excluded.\n"
         "Example:\n"
         "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10\n"
         "  segmentation-evaluate -i scans/* --baselines --label-map config/semantic_kitti.yaml "
         "--json "
         "all.json");
-    app.set_version_flag("--version", "segmentation-evaluate " HAGEN_VERSION);
+    program.version(HAGEN_VERSION);
     Flags flags;
-    addFlags(app, flags);
-    try {
-        app.parse(argc, argv);
+    addFlags(program, flags);
+    return program.run(argc, argv, [&] {
         labelled_scans::Summary summary;
         summary.command_line.assign(argv, argv + argc);
-        return run(flags, summary);
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        app.exit(e);
-        return 2;
-    } catch (const observations::SettingsError& e) {
-        std::cerr << "segmentation-evaluate: " << e.what() << "\n";
-        return 2;
-    } catch (const std::exception& e) {
-        std::cerr << "segmentation-evaluate: " << e.what() << "\n";
-        return 1;
-    }
+        try {
+            return run(flags, summary);
+        } catch (const observations::SettingsError& e) {
+            return program.fail(kWrongUsage, e.what());
+        } catch (const fs::filesystem_error& e) {
+            return program.fail(kFailed, e.what());
+        }
+    });
 }

@@ -10,7 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kEvery_s = 6;  // so far apart that a flight's few scans are of all its ways
+constexpr double kEvery_s =
+    6;  // interval long enough that a flight's few scans cover its entire path
 
 std::string text(double value) {
     std::ostringstream stream;
@@ -18,7 +19,7 @@ std::string text(double value) {
     return stream.str();
 }
 
-/// What a flight's stamp says: a command that makes it.
+/// Content of a flight's stamp: the command that simulates it.
 std::string commandOf(const simulated_logs::SimulatedLog& flight) {
     return "rawlog-simulate --scenario " + flight.scenario + " --sensor " + flight.sensor +
            " --seed " + std::to_string(flight.seed) + " --scans " + std::to_string(flight.scans) +
@@ -38,12 +39,12 @@ DataSet recording(const fs::path& labelled, const std::string& beams, const std:
     set.preset = preset;
     set.folder = (labelled / ("beams" + beams)).string();
     if (!fs::is_directory(set.folder)) {
-        throw std::runtime_error(set.folder +
-                                 ": there is no such folder; HAGEN_LABELLED_DATA names the folder "
-                                 "that holds it, or is not set");
+        throw std::runtime_error(
+            set.folder +
+            ": no such folder; set HAGEN_LABELLED_DATA to its parent folder, or leave it unset");
     }
     set.is_timed = true;
-    scanFolders(set);  // throws now, and not after minutes of simulation
+    scanFolders(set);  // throws now instead of after minutes of simulation
     return set;
 }
 
@@ -108,7 +109,7 @@ std::vector<DataSet> dataSets(const fs::path& labelled, const fs::path& data,
         DataSet set =
             flights("simulated, " + text(altitude_m) + " m",
                     data / ("altitude-" + text(altitude_m)), places, {altitude_m}, "VLP-16", size);
-        // The lowest beam meets level ground 27 m away from 7 m up: nothing but air is nearer.
+        // From 7 m up, the lowest beam meets level ground 27 m away: nothing but air is nearer.
         if (altitude_m > 5) {
             set.zone_m = set.max_range_m = 40;
             set.about += "; zone and score up to 40 m";
@@ -136,7 +137,7 @@ void makeFlights(const DataSet& set, const std::string& tag) {
         const fs::path stamp = flight.folder.string() + ".stamp";
         const std::string made_by = commandOf(flight) + "\nsimulation " + tag + "\n";
         if (fs::is_directory(flight.folder) && contentOf(stamp) == made_by) continue;
-        fs::remove(stamp);  // not true any more from here on
+        fs::remove(stamp);  // outdated from here on
         flight.overwrite = true;
         simulated_logs::simulateLog(flight, [] { return true; });
         std::ofstream out(stamp);
@@ -156,7 +157,7 @@ std::vector<std::string> scanFolders(const DataSet& set) {
     for (const auto& entry : fs::directory_iterator(set.folder)) {
         if (entry.is_directory()) folders.push_back(entry.path().string());
     }
-    if (folders.empty()) throw std::runtime_error(set.folder + ": holds no scan folders");
+    if (folders.empty()) throw std::runtime_error(set.folder + ": contains no scan folders");
     std::sort(folders.begin(), folders.end());
     return folders;
 }

@@ -18,7 +18,7 @@ namespace {
 using ScoreList = std::vector<evaluation::ScanScores> evaluation::MethodScores::*;
 using Sets = std::vector<const Measured*>;
 
-/// The scans of a row in several sets, as one; none where a set lacks the row.
+/// Returns the scans of a row in several sets, concatenated; none if a set lacks the row.
 std::vector<evaluation::ScanScores> scansOf(const Sets& sets, const std::string& row,
                                             ScoreList list = &evaluation::MethodScores::returns) {
     std::vector<evaluation::ScanScores> scans;
@@ -32,7 +32,7 @@ std::vector<evaluation::ScanScores> scansOf(const Sets& sets, const std::string&
 
 evaluation::Scores sumOf(const Sets& sets, const std::string& row,
                          ScoreList list = &evaluation::MethodScores::returns) {
-    return evaluation::wholeOf(scansOf(sets, row, list)).sum();
+    return evaluation::overallScores(scansOf(sets, row, list)).sum();
 }
 
 double recallOfKind(const Measured& set, const std::string& row, const std::string& kind) {
@@ -67,7 +67,7 @@ bool isWires(const Measured& measured) { return measured.set.name == "wires"; }
 // ---- the data
 
 std::string dataSection(const std::vector<Measured>& all, const Provenance& provenance) {
-    Table table({"data", "what it is", "scans", "returns scored"});
+    Table table({"data", "description", "scans", "scored returns"});
     for (const Measured& m : all) {
         table.add({m.set.name, m.set.about, std::to_string(m.scans()),
                    std::to_string(m.scoredReturns())});
@@ -76,16 +76,16 @@ std::string dataSection(const std::vector<Measured>& all, const Provenance& prov
     for (const auto seed : provenance.seeds)
         seeds += (seeds.empty() ? "" : ", ") + std::to_string(seed);
     return "## Data\n\n" + table.text() + "Simulated flights have the seeds " + seeds +
-           " (ours was tuned on others, 1 and 2), a tilt of 4 degrees standard deviation, and a "
-           "scan every 6 s. A flight's poses tell the attitude; `default` uses it, no other method "
-           "does. "
-           "On the recordings both our own stages and the baselines' `tuned` rows were tuned.\n\n" +
+           " (ours was tuned on other seeds, 1 and 2), roll and pitch with 4 degrees standard "
+           "deviation, and one scan every 6 s. The poses of a flight provide the attitude; "
+           "only `default` uses it. Both our own stages and the baselines' `tuned` rows were "
+           "tuned on the recordings.\n\n" +
            (those(all, [](const DataSet& set) { return set.flights.empty(); }).empty()
-                ? "No real scans were at hand: `HAGEN_LABELLED_DATA` was not set.\n\n"
+                ? "There are no real scans, because `HAGEN_LABELLED_DATA` was not set.\n\n"
                 : "");
 }
 
-// ---- side by side
+// ---- comparison
 
 struct Best {
     double roi = NAN, rou = NAN;
@@ -132,7 +132,7 @@ std::string intervalTable(const std::vector<Measured>& all) {
     Table table({"`default`", "F1 of RoI", "95 % interval", "precision", "recall", "F1 of ROU",
                  "95 % interval"});
     for (const Measured& measured : all) {
-        const evaluation::Group group = evaluation::wholeOf(scansOf({&measured}, kDefault));
+        const evaluation::Group group = evaluation::overallScores(scansOf({&measured}, kDefault));
         const evaluation::ScoreIntervals intervals = evaluation::bootstrapIntervals(group.scans);
         const evaluation::Scores scores = group.sum();
         table.add({measured.set.name, cell(scores.roi.f1()), cell(intervals.roi.f1),
@@ -142,14 +142,14 @@ std::string intervalTable(const std::vector<Measured>& all) {
     return table.text();
 }
 
-/// What scores higher than a filter, data set by data set.
+/// Lists the methods with higher scores than a filter, per data set.
 std::string losses(const std::vector<Measured>& all, const std::string& filter) {
     std::string text;
     for (const Measured& measured : all) {
         const evaluation::Scores own = sumOf({&measured}, filter);
         std::string better;
         for (const std::string& name : headlineNames(all)) {
-            if (name == filter || name == kDefault) continue;  // that is no news
+            if (name == filter || name == kDefault) continue;  // `default` is known to be better
             const evaluation::Scores other = sumOf({&measured}, name);
             const bool is_roi = other.roi.f1() > own.roi.f1();
             const bool is_rou = other.rou.f1() > own.rou.f1();
@@ -162,7 +162,7 @@ std::string losses(const std::vector<Measured>& all, const std::string& filter) 
         }
         if (!better.empty()) text += "- " + measured.set.name + ": " + better + "\n";
     }
-    return text.empty() ? "- nowhere\n" : text;
+    return text.empty() ? "- none\n" : text;
 }
 
 /// PCL is optional.
@@ -170,30 +170,30 @@ std::string pclNote(const std::vector<Measured>& all) {
     for (const std::string& name : headlineNames(all)) {
         if (name.rfind("pcl", 0) == 0) return "";
     }
-    return "The Point Cloud Library was not installed, so that its rows are missing.\n\n";
+    return "The Point Cloud Library was not installed, so its rows are missing.\n\n";
 }
 
 std::string headlineSection(const std::vector<Measured>& all) {
-    return "## The filter beside others\n\n"
-           "`paper` is the filter as published (`config/paper.yaml`), `default` ours "
-           "(`config/vlp16.yaml`, `hdl32e.yaml` or `hdl64e.yaml`, by the sensor). The others are "
-           "described in [baselines.md](baselines.md); their `tuned` rows are tuned on the real "
-           "scans that they are scored on here, which favours them there. The same holds of "
-           "`default`, "
-           "which was tuned on simulated flights too, of other seeds. Bold is the highest of a "
-           "line.\n\n" +
+    return "## Comparison with other methods\n\n"
+           "`paper` is the filter as published "
+           "(`config/paper.yaml`), `default` is ours (`config/vlp16.yaml`, `hdl32e.yaml` or "
+           "`hdl64e.yaml`, depending on the sensor). The other methods are described in "
+           "[baselines.md](baselines.md). Their `tuned` rows were tuned on the same real "
+           "scans that are scored here, which favours them on these scans. The same is true "
+           "of `default`, which was also tuned on simulated flights with other seeds. Bold "
+           "marks the highest score of a row.\n\n" +
            headlineTable(all) + pclNote(all) + wiresTable(all) +
-           "Intervals are of a bootstrap over scans; scans of one flight or drive are alike, so "
-           "that the true intervals are wider.\n\n" +
+           "Intervals are from a bootstrap over scans. Scans of one flight or drive are "
+           "similar, so the true intervals are wider.\n\n" +
            intervalTable(all) +
-           "Where a method of others has a higher F1 than `paper`, of RoI, ROU or both:\n\n" +
-           losses(all, kPaper) + "\nWhere any method has a higher F1 than `default`:\n\n" +
+           "Other methods with a higher F1 than `paper`, for RoI, ROU or both:\n\n" +
+           losses(all, kPaper) + "\nMethods with a higher F1 than `default`:\n\n" +
            losses(all, kDefault) + "\n![F1 of RoI of each scan](results/by_scan.svg)\n\n";
 }
 
 // ---- the paper's tables
 
-/// What the paper's tables are repeated on: real scans of 16 beams, and simulated ones.
+/// The data of the paper's tables: real scans with 16 beams, and simulated ones.
 std::vector<std::pair<std::string, Sets>> paperColumns(const std::vector<Measured>& all) {
     const Sets real = those(all, [](const DataSet& set) {
         return set.flights.empty() && set.has_all_rows && set.preset == "vlp16.yaml";
@@ -211,7 +211,7 @@ const Change& bestOf(const std::vector<Change>& changes, const Sets& sets, Score
                              [&](const Change& a, const Change& b) { return f1(a) < f1(b); });
 }
 
-/// A table of a sweep: precision, recall and F1 of RoI, and where F1 is highest.
+/// Returns a table of a sweep: precision, recall and F1 of RoI, and the value with the highest F1.
 std::string sweepTable(const std::vector<Measured>& all, const std::vector<Change>& changes,
                        const std::string& head, ScoreList list) {
     const auto columns = paperColumns(all);
@@ -247,31 +247,28 @@ std::string literalTable(const std::vector<Measured>& all) {
 
 std::string paperSection(const std::vector<Measured>& all) {
     return "## The paper's tables\n\n"
-           "The paper varies beta and PC of the filter and scores the region of interest over "
-           "fifty "
-           "hand-labelled camera images. Its scans and images are not public, and the cells of its "
-           "tables are not reproduced here. What it states: the best scores are at beta = 10 "
-           "degrees "
-           "and PC = 5, and a scan takes 25 ms on a laptop. Below is the same variation on other "
-           "data: `real` is SemanticKITTI at 16 beams, `simulated` the flights at 1.5, 2.5 and 4 "
-           "m. "
-           "W is 8, so that PC = 8 smooths nothing.\n\n"
-           "Over returns:\n\n" +
+           "The paper varies beta and PC of the filter and scores "
+           "the region of interest over fifty hand-labelled camera images. Its scans and "
+           "images are not public, and the cells of its tables are not reproduced here. It "
+           "reports the best scores at beta = 10 degrees and PC = 5, and 25 ms per scan on a "
+           "laptop. The tables below repeat the variation on other data: `real` is "
+           "SemanticKITTI at 16 beams, `simulated` are the flights at 1.5, 2.5 and 4 m. W is "
+           "8, so PC = 8 means no smoothing.\n\nOver returns:\n\n" +
            sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::returns) +
            sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::returns) +
-           "Over the pixels of a camera that looks ahead (`config/camera_forward.yaml`), as the "
-           "paper scores:\n\n" +
+           "Over the pixels of a forward-looking camera (`config/camera_forward.yaml`), as in "
+           "the paper:\n\n" +
            sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::pixels) +
            sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::pixels) +
-           "The paper's text can be read so that the topmost and the nearest pixel of a column "
-           "seed "
-           "the region of interest. That reading, beside the one that the filter takes:\n\n" +
+           "According to one reading of the paper's text, the topmost and the nearest pixel "
+           "of a column seed the region of interest. This table compares that reading with "
+           "the one that the filter uses:\n\n" +
            literalTable(all);
 }
 
 // ---- run times
 
-/// The methods whose median is below that of a filter.
+/// Lists the methods with a lower median than a filter.
 std::string fasterThan(const std::string& filter, const Measured& times) {
     const double own_ms = evaluation::latencyOf(times.row(filter)->latency_ms).p50_ms;
     std::string names;
@@ -300,9 +297,10 @@ std::string timeTable(const Measured& times) {
 std::string timeSection(const std::vector<Measured>& all) {
     std::string text =
         "## Run time\n\n"
-        "Of the call that labels a scan, in one thread, every method on the same scans in the same "
-        "run, after one call to warm up. The paper states 25 ms a scan, on a laptop. Of fewer than "
-        "a hundred scans p99 is the longest time.\n\n";
+        "Run time of the call that labels a scan, in one thread. All "
+        "methods process the same scans in the same run, after one warm-up call. The paper "
+        "reports 25 ms per scan on a laptop. For fewer than a hundred scans, p99 is the "
+        "maximum.\n\n";
     for (const Measured& times : all) text += timeTable(times);
     return text + "![Run time over the number of returns](results/by_returns.svg)\n\n";
 }
@@ -313,14 +311,14 @@ struct Pair {
     double first, second;
 };
 
-/// F1 of RoI and ROU; on wires the recall of RoI and of wires, for there a miss is what counts.
+/// F1 of RoI and ROU; on wires the recall of RoI and of wires, because misses matter there.
 Pair ablationPair(const Measured& set, const std::string& row) {
     const evaluation::Scores scores = sumOf({&set}, row);
     if (isWires(set)) return {scores.roi.recall(), recallOfKind(set, row, "wire")};
     return {scores.roi.f1(), scores.rou.f1()};
 }
 
-/// A line a change; figures above those of the first line are bold.
+/// One row per change; scores above those of the first row are bold.
 std::string ablationTable(const std::vector<Measured>& all, const std::string& first_what,
                           const std::string& first_row, const std::string& filter,
                           const std::vector<std::vector<Change>>& groups) {
@@ -349,21 +347,21 @@ std::string ablationTable(const std::vector<Measured>& all, const std::string& f
 }
 
 std::string ablationSection(const std::vector<Measured>& all) {
-    return "## What each stage is worth\n\n"
-           "The `default` filter without one stage at a time: first ours, then those of the paper. "
-           "Bold is what is higher without the stage. Where nearly every line is that of "
-           "`default`, as with "
-           "the stages of the paper, the surface makes up for what is taken away.\n\n" +
+    return "## Ablation\n\n"
+           "The `default` filter with one stage removed at a time: first our "
+           "stages, then those of the paper. Bold scores are higher without the stage. If "
+           "nearly every row equals that of `default`, as with the stages of the paper, the "
+           "ground surface compensates for what was removed.\n\n" +
            ablationTable(all, "`default`", kDefault, kDefault,
                          {ownStagesOfSurface(), ownStages(), paperStages()}) +
-           "The surface judges every pixel again, and so hides what happens before it. The same "
-           "without the surface (then there are no canopy layer, feet, specks and tolerances "
-           "either):\n\n" +
+           "The ground surface relabels every pixel and thus hides the effect of earlier "
+           "stages. The same without the surface, and therefore also without canopy layer, "
+           "extension of obstacles to the ground, speckle filter and tolerances:\n\n" +
            ablationTable(all, "no ground surface", nameOf(kDefault, ownStagesOfSurface().front()),
                          kWithoutSurface, {ownStages(), paperStages()});
 }
 
-// ---- what made it
+// ---- provenance
 
 std::string provenanceSection(const Provenance& provenance) {
     Table table({"", ""});
@@ -377,7 +375,7 @@ std::string provenanceSection(const Provenance& provenance) {
     table.add({"Embree", RTC_VERSION_STRING});
     table.add({"compiler", HAGEN_COMPILER});
     table.add({"processor", processor()});
-    return "## What made these figures\n\n" + table.text();
+    return "## Provenance\n\n" + table.text();
 }
 
 }  // namespace
@@ -386,14 +384,15 @@ std::string documentOf(const std::vector<Measured>& scores, const std::vector<Me
                        const Provenance& provenance) {
     return "<!-- Made by scripts/reproduce-paper, which replaces it. -->\n"
            "# Results\n\n"
-           "RoI is the region of interest (what a drone must avoid), ROU the region of uninterest. "
-           "Scores are F1 over all returns up to 20 m, where nothing else is said; "
-           "[evaluation.md](evaluation.md) says how they are counted. `scripts/reproduce-paper` "
-           "makes this page and its figures.\n\n" +
-           std::string(provenance.is_quick
-                           ? "**A quick run of few scans: to see that it works, not "
-                             "to quote.**\n\n"
-                           : "") +
+           "RoI is "
+           "the region of interest (what a drone must avoid), ROU the region of uninterest. "
+           "Unless stated otherwise, scores are F1 over all returns up to 20 m; "
+           "[evaluation.md](evaluation.md) defines them. This page and its figures are "
+           "written by `scripts/reproduce-paper`.\n\n" +
+           std::string(
+               provenance.is_quick
+                   ? "**A quick run with few scans, to check that it works: do not cite.**\n\n"
+                   : "") +
            headlineSection(scores) + paperSection(scores) + timeSection(times) +
            ablationSection(scores) + dataSection(scores, provenance) +
            provenanceSection(provenance);

@@ -1,4 +1,4 @@
-// The document that is made from the measurement.
+// The document generated from the measurements.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace hagen {
 
-/// What made the figures.
+/// The provenance of the figures.
 struct Provenance {
     std::string revision;  ///< of the project
     std::vector<std::uint64_t> seeds;
     bool is_quick = false;
 };
 
-/// The Markdown of docs/results.md. The charts' files are named as drawResults() names them.
+/// Returns the Markdown of docs/results.md. The charts' files are named as by drawResults().
 std::string documentOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
                        const Provenance& provenance);
 

@@ -20,7 +20,7 @@ struct Line {
     std::vector<Point> points;
 };
 
-// Colours that the colour-blind tell apart (Okabe and Ito), and points of different shapes.
+// Colour-blind safe palette (Okabe and Ito), and points of different shapes.
 constexpr std::array<const char*, 6> kColours{"#D55E00", "#0072B2", "#009E73",
                                               "#CC79A7", "#E69F00", "#333333"};
 constexpr std::array<int, 6> kShapes{7, 5, 9, 11, 13, 4};
@@ -47,7 +47,7 @@ std::string number(double value) {
     return text.str();
 }
 
-/// Blocks of data, and the plot of them.
+/// Data blocks and the plot of them.
 std::string plot(const std::vector<Line>& lines, const std::string& style) {
     std::ostringstream data, command;
     data.imbue(std::locale::classic());
@@ -69,12 +69,12 @@ std::string plot(const std::vector<Line>& lines, const std::string& style) {
     return data.str() + command.str() + "\n";
 }
 
-/// The part of a flight's folder name that tells its scenario.
+/// Returns the part of a flight's folder name that identifies its scenario.
 std::string scenarioOf(const std::string& folder, bool is_simulated) {
     return is_simulated ? folder.substr(0, folder.rfind('-', folder.rfind('-') - 1)) : folder;
 }
 
-/// F1 of RoI over the scans of a set; where another scenario begins is told below the axis.
+/// F1 of RoI over the scans of a set; scenarios are marked below the axis.
 std::string scanPanel(const Measured& measured) {
     std::vector<Line> lines;
     for (const evaluation::MethodScores& method : measured.methods) {
@@ -88,7 +88,7 @@ std::string scanPanel(const Measured& measured) {
     double least = 0.8;
     for (const Line& line : lines) {
         for (const Point& point : line.points) {
-            if (point.y < least) least = std::floor(point.y * 10) / 10;  // not for NaN
+            if (point.y < least) least = std::floor(point.y * 10) / 10;  // false for NaN
         }
     }
     std::string tics, last;

@@ -7,12 +7,12 @@
 
 namespace hagen {
 
-/// Draws into a folder that exists
+/// Draws into an existing folder
 ///
-///     by_scan.svg      F1 of RoI of each scan, a line a method
-///     by_returns.svg   run time over the number of returns, a point a scan
+///     by_scan.svg      F1 of RoI of each scan, one line per method
+///     by_returns.svg   run time over the number of returns, one point per scan
 ///
-/// of the filters and the baselines as published. Throws std::runtime_error as runGnuplot() does.
+/// for the filters and the published baselines. Throws std::runtime_error like runGnuplot().
 void drawResults(const std::filesystem::path& folder, const std::vector<Measured>& scores,
                  const std::vector<Measured>& times);
 

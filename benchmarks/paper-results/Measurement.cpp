@@ -14,7 +14,7 @@
 namespace hagen {
 namespace {
 
-Measured measure(const DataSet& set, const labelled_scans::MethodRows& rows,
+Measured measure(const DataSet& set, const labelled_scans::MethodSet& rows,
                  const MeasurementOptions& options, bool has_camera) {
     std::optional<evaluation::LabelMap> label_map;
     if (!set.label_map.empty())
@@ -23,19 +23,20 @@ Measured measure(const DataSet& set, const labelled_scans::MethodRows& rows,
     evaluation.range.max_range_m = set.max_range_m;
     if (has_camera)
         evaluation.camera = evaluation::readCamera(options.config / "camera_forward.yaml");
-    const std::vector<evaluation::ScanSource> sources =
+    const std::vector<evaluation::LabelledScanSource> sources =
         labelled_scans::sourcesOf(scanFolders(set), rows, label_map);
 
     Measured measured{set, {}, {}, {}};
-    for (const evaluation::ScanSource& source : sources) measured.folders.push_back(source.name);
+    for (const evaluation::LabelledScanSource& source : sources)
+        measured.folders.push_back(source.name);
     measured.methods =
-        evaluation::evaluate(sources, evaluation, [&](const evaluation::LabelledView& view) {
+        evaluation::evaluate(sources, evaluation, [&](const evaluation::MethodOutput& view) {
             if (view.method == 0) measured.returns.push_back(view.truth.input.scan.size());
         });
     return measured;
 }
 
-/// Calls `work` for 0 ... count - 1, several at a time; what one throws is thrown at the end.
+/// Calls `work` for 0 ... count - 1 in several threads; rethrows an exception at the end.
 template <class Work>
 void inParallel(std::size_t count, unsigned jobs, Work work) {
     std::atomic<std::size_t> next{0};
@@ -69,16 +70,16 @@ const evaluation::MethodScores* Measured::row(const std::string& name) const {
 }
 
 std::int64_t Measured::scoredReturns() const {
-    return evaluation::wholeOf(methods.front().returns).sum().returns();
+    return evaluation::overallScores(methods.front().returns).sum().returns();
 }
 
 std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
                                     const MeasurementOptions& options) {
-    // Settings that cannot be read are told before minutes of simulation.
+    // Reports invalid settings before minutes of simulation.
     for (const DataSet& set : sets) rowsFor(set, options.config);
     std::vector<Measured> all(sets.size());
     std::mutex guard;
-    // What takes longest is started first.
+    // The slowest sets are started first.
     std::vector<std::size_t> order(sets.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = order.size() - 1 - i;
     inParallel(sets.size(), options.jobs, [&](std::size_t i) {

@@ -9,16 +9,16 @@
 
 namespace hagen {
 
-/// What the rows reached on a data set.
+/// The results of all rows on a data set.
 struct Measured {
     DataSet set;
     std::vector<std::string> folders;               ///< names of its scan folders
-    std::vector<evaluation::MethodScores> methods;  ///< a row each
+    std::vector<evaluation::MethodScores> methods;  ///< one per row
     std::vector<std::size_t> returns;               ///< of each scan
 
-    /// The row of this name, or nullptr.
+    /// Returns the row of this name, or nullptr.
     const evaluation::MethodScores* row(const std::string& name) const;
-    /// Scans, and how many of their returns are scored.
+    /// Number of scans, and of their scored returns.
     std::size_t scans() const { return returns.size(); }
     std::int64_t scoredReturns() const;
 };
@@ -26,15 +26,15 @@ struct Measured {
 struct MeasurementOptions {
     std::filesystem::path config;  ///< the folder of settings files, label maps and cameras
     std::string simulation_tag;    ///< see makeFlights()
-    unsigned jobs = 1;             ///< data sets that are scored at the same time
+    unsigned jobs = 1;             ///< data sets that are scored in parallel
 };
 
-/// Makes what is missing of the sets, and scores every row on each.
+/// Simulates missing sets and scores every row on each set.
 std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
                                     const MeasurementOptions& options);
 
-/// Takes the run times of the methods side by side on the sets that are made for it: one set after
-/// the other, nothing else running. Its scores count for nothing more than measureScores()'s.
+/// Measures run times of the methods on the sets that are meant for it: one set after the other,
+/// nothing in parallel. Its scores are identical to measureScores()'s and not used.
 std::vector<Measured> measureTimes(const std::vector<DataSet>& sets,
                                    const MeasurementOptions& options);
 

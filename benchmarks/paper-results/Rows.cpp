@@ -24,24 +24,23 @@ observations::Settings settingsOf(const DataSet& set, const std::filesystem::pat
     return settings;
 }
 
-/// The row `paper` is the published filter, or there is no table.
+/// Ensures that the row `paper` is the published filter.
 void checkPaper(const Options& paper, const std::filesystem::path& file) {
     const bool is_published = !paper.ground_surface && !paper.level_by_attitude &&
                               paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
                               paper.context_m <= paper.zone_m;
     if (is_published) return;
-    throw std::runtime_error(file.string() +
-                             ": has a stage that the paper has not; ground_surface, "
-                             "level_by_attitude, the seed gate, gap repair and context beyond the "
-                             "zone are to be off");
+    throw std::runtime_error(
+        file.string() +
+        ": has a stage that the paper does not have; switch off ground_surface, "
+        "level_by_attitude, the seed gate, gap repair and context beyond the zone");
 }
 
 void addChanges(const std::string& filter, const observations::Settings& settings,
-                const std::vector<Change>& changes,
-                std::vector<labelled_scans::SettingsRow>& rows) {
+                const std::vector<Change>& changes, std::vector<labelled_scans::SweepPoint>& rows) {
     for (const Change& change : changes) {
-        labelled_scans::SettingsRow row{nameOf(filter, change), settings, "", ""};
-        // "zone" and "W" stand for what the settings have there.
+        labelled_scans::SweepPoint row{nameOf(filter, change), settings, "", ""};
+        // "zone" and "W" are placeholders for the values in the settings.
         const std::string value = change.value == "zone" ? std::to_string(settings.options.zone_m)
                                   : change.value == "W"
                                       ? std::to_string(settings.options.window_size)
@@ -66,7 +65,7 @@ const std::vector<Change>& componentSweep() {
     return changes;
 }
 const Change& literalSeeds() {
-    static const Change change{"the text read literally", "seeds", "top_and_nearest"};
+    static const Change change{"literal reading of the text", "seeds", "top_and_nearest"};
     return change;
 }
 const std::vector<Change>& ownStages() {
@@ -79,9 +78,9 @@ const std::vector<Change>& ownStagesOfSurface() {
     static const std::vector<Change> changes{
         kNoSurface,
         {"no canopy layer", "canopy_layer", "false"},
-        {"feet not grown", "grow_feet", "false"},
-        {"specks left", "remove_specks", "false"},
-        {"same tolerance beside what is tall", "ground_tolerance_beside_tall", "0"}};
+        {"obstacles not extended to the ground", "grow_feet", "false"},
+        {"no speckle filter", "remove_specks", "false"},
+        {"same tolerance next to tall obstacles", "ground_tolerance_beside_tall", "0"}};
     return changes;
 }
 const std::vector<Change>& paperStages() {
@@ -93,16 +92,15 @@ const std::vector<Change>& paperStages() {
     return changes;
 }
 
-labelled_scans::MethodRows headlineRowsFor(const DataSet& set,
-                                           const std::filesystem::path& config) {
+labelled_scans::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
     const observations::Settings ours = settingsOf(set, config / set.preset);
     const observations::Settings paper = settingsOf(set, config / "paper.yaml");
     checkPaper(paper.options, config / "paper.yaml");
     return {{{kDefault, ours, "", ""}, {kPaper, paper, "", ""}}, ours};
 }
 
-labelled_scans::MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config) {
-    labelled_scans::MethodRows all = headlineRowsFor(set, config);
+labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config) {
+    labelled_scans::MethodSet all = headlineRowsFor(set, config);
     if (!set.has_all_rows) return all;
     const observations::Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
     for (const auto& changes : {betaSweep(), componentSweep(), {literalSeeds()}}) {

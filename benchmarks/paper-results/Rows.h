@@ -1,4 +1,4 @@
-// What is scored: the filter with its settings, and what it is compared with.
+// The scored methods: the filter with its settings, and the baselines.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -10,29 +10,30 @@
 
 namespace hagen {
 
-/// The filter with one setting changed; `what` says it in words.
+/// The filter with one setting changed; `what` describes it in words.
 struct Change {
     std::string what, key, value;
 };
 
-/// Names of rows: the two filters, and a filter with a change, as "paper, beta_deg=5".
+/// Names of rows: the two filters, and a filter with a change, for example "paper, beta_deg=5".
 extern const std::string kDefault, kPaper, kWithoutSurface;
 std::string nameOf(const std::string& filter, const Change& change);
 
-/// The paper's own two tables, and its text read literally.
+/// The paper's own two sweeps, and the literal reading of its text.
 const std::vector<Change>& betaSweep();
 const std::vector<Change>& componentSweep();
 const Change& literalSeeds();
-/// Each stage taken away: of ours, those that work without the ground surface too first.
+/// Ablations: each stage switched off. Of our stages, those that do not depend on the ground
+/// surface are separate.
 const std::vector<Change>& ownStages();
 const std::vector<Change>& ownStagesOfSurface();
 const std::vector<Change>& paperStages();
 
-/// The rows for a data set, with the settings files in `config`; baselines included. Throws
-/// std::runtime_error where paper.yaml has a stage of ours on: its figures would not be the
+/// Returns the rows for a data set, with the settings files in `config`, including the baselines.
+/// Throws std::runtime_error if paper.yaml switches on a stage of ours: its scores would not be the
 /// paper's.
-labelled_scans::MethodRows rowsFor(const DataSet& set, const std::filesystem::path& config);
-/// Of these the two filters and the baselines alone.
-labelled_scans::MethodRows headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
+labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config);
+/// Only the two filters and the baselines of these.
+labelled_scans::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
 
 }  // namespace hagen

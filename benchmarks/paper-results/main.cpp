@@ -1,13 +1,13 @@
-// Measures what docs/results.md says, and writes it. Run by scripts/reproduce-paper.
+// Measures the results in docs/results.md and writes that page. Run by scripts/reproduce-paper.
 #include <hagen/base/OutputPath.h>
 #include <hagen/labelled_scans/Charts.h>
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 #include <thread>
 
 #include "Document.h"
 #include "Figures.h"
+#include "common/CommandLine.h"
 
 namespace {
 
@@ -19,26 +19,26 @@ struct Flags {
     bool is_quick = false, overwrite = false;
 };
 
-void addFlags(CLI::App& app, Flags& flags) {
-    app.add_option("-o,--output", flags.output, "folder for results.md and the charts in results/")
-        ->required()
-        ->check(CLI::ExistingDirectory);
-    app.add_option("--data", flags.data, "folder for simulated scans; what is there is used again")
-        ->required();
-    app.add_option("--config", flags.config, "the project's folder of settings files")
-        ->required()
-        ->check(CLI::ExistingDirectory);
-    app.add_option("--labelled", flags.labelled,
-                   "folder of beams16/ and beams64/, real scans with labels; without it none");
-    app.add_option("--revision", flags.revision, "of the project, for the document");
-    app.add_option("--simulation", flags.simulation, "of the simulation; others' scans are remade");
-    app.add_flag("--quick", flags.is_quick, "a scan a flight, to see that it works");
-    app.add_flag("--overwrite", flags.overwrite, "replace results that exist");
+void addFlags(Command& app, Flags& flags) {
+    app.option("-o,--output", flags.output, "folder for results.md and the charts in results/")
+        .required()
+        .existingFolder();
+    app.option("--data", flags.data, "folder for simulated scans; existing scans are reused")
+        .required();
+    app.option("--config", flags.config, "the project's folder of settings files")
+        .required()
+        .existingFolder();
+    app.option("--labelled", flags.labelled,
+               "folder with beams16/ and beams64/: labelled real scans (default: none)");
+    app.option("--revision", flags.revision, "revision of the project, for the document");
+    app.option("--simulation", flags.simulation,
+               "version of the simulation; scans of other versions are simulated again");
+    app.flag("--quick", flags.is_quick, "one scan per flight, to check that it works");
+    app.flag("--overwrite", flags.overwrite, "replace existing results");
 }
 
 int run(const Flags& flags) {
-    base::OutputPath document(fs::path(flags.output) / "results.md", base::kFile,
-                              flags.overwrite);
+    base::OutputPath document(fs::path(flags.output) / "results.md", base::kFile, flags.overwrite);
     base::OutputPath charts(fs::path(flags.output) / "results", labelled_scans::kCharts,
                             flags.overwrite);
     Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick};
@@ -72,20 +72,9 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Measures what docs/results.md says, and writes it."};
-    app.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    Program program("paper-results", "Measures what docs/results.md says, and writes it.");
+    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
     Flags flags;
-    addFlags(app, flags);
-    try {
-        app.parse(argc, argv);
-        return run(flags);
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        app.exit(e);
-        return 2;
-    } catch (const std::exception& e) {
-        std::cerr << "paper-results: " << e.what() << "\n";
-        return 1;
-    }
+    addFlags(program, flags);
+    return program.run(argc, argv, [&] { return run(flags); });
 }

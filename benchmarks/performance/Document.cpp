@@ -37,12 +37,13 @@ std::vector<std::string> sensorsOf(const Performance& p) {
 std::string wholeSection(const Performance& p) {
     std::string text =
         "## From packets to labels\n\n"
-        "One scan on one core, microseconds: raw packets (of an HDL-64E, which MRPT has no packets "
-        "of, coordinates) to a label for each return and lists of indices. `mrpt decode` is MRPT's "
-        "`generatePointCloud()` on the same scan, which decodes half of it; `floor` reads the "
-        "input "
-        "once and writes a label a return; `zermas ground fit` has decoded returns given. "
-        "`VLP-16` is a real scan, the others are four simulated ones each.\n\n";
+        "Microseconds per scan on one core, from raw packets "
+        "(for an HDL-64E, whose packets MRPT does not support, from coordinates) to one "
+        "label per return and lists of indices. `mrpt decode` is MRPT's "
+        "`generatePointCloud()` on the same scan, which decodes half of it. `floor` reads "
+        "the input once and writes one label per return. `zermas ground fit` starts from "
+        "decoded returns. `VLP-16` is a real scan; the others are four simulated scans "
+        "each.\n\n";
     Table table({"sensor", "", "median", "p95", "p99", "max", "/ mrpt decode", "p99 / median",
                  "allocations"});
     for (const std::string& sensor : sensorsOf(p)) {
@@ -82,9 +83,9 @@ std::string stageSection(const Performance& p) {
         table.add(line);
     }
     return "## Each stage\n\n"
-           "Of the paper's stages with the paper's settings, of `own` ones with the default "
-           "settings. `decode` gives every return with its coordinates, beam, azimuth and "
-           "time.\n\n" +
+           "The paper's stages run with the paper's settings, `own` stages "
+           "with the default settings. `decode` outputs every return with its coordinates, "
+           "beam, azimuth and time.\n\n" +
            table.text();
 }
 
@@ -103,12 +104,12 @@ std::string growthTable(const Performance& p, const std::string& what_grows,
 }
 
 std::string growthSection(const Performance& p) {
-    return "## Growth\n\n"
-           "From coordinates to labels over the size of the image, a return a pixel, one simulated "
-           "scan of an orchard each. An exponent of 1 is cost in proportion. From 16 to 32 beams "
-           "the "
-           "paper's grows by more than that: few runs of 16 beams are long enough for stage 7 to "
-           "change them.\n\n" +
+    return "## Scaling\n\n"
+           "Run time from coordinates to labels by image size, with one return "
+           "per pixel, on one simulated scan of an orchard each. An exponent of 1 means that "
+           "cost is proportional to size. From 16 to 32 beams the paper's pipeline grows "
+           "faster than that: with 16 beams, few segments without gaps are long enough for "
+           "stage 7 to change them.\n\n" +
            growthTable(
                p, "beams x columns",
                {{435, "16 x 435"}, {870, "16 x 870"}, {1740, "16 x 1740"}, {3480, "16 x 3480"}}) +
@@ -123,8 +124,9 @@ std::string latencySection(const Performance& p) {
                    microseconds(t.p99_ms), microseconds(t.max_ms)});
     }
     return "## Latency\n\n"
-           "From a scan's last packet to its labels, microseconds, over a simulated flight of a "
-           "VLP-16. `rawlog-segment --stats` gives the same of your own log.\n\n" +
+           "Microseconds from a scan's last packet to its labels, over a "
+           "simulated flight with a VLP-16. `rawlog-segment --stats` reports the same for "
+           "your own log.\n\n" +
            table.text();
 }
 
@@ -138,12 +140,13 @@ std::string flightSection(const Performance& p) {
         table.add({method.name, cell(t.mean_ms) + " +- " + cell(t.sd_ms), cell(t.p50_ms),
                    cell(t.p95_ms), cell(t.p99_ms), cell(t.max_ms)});
     }
-    return "## Beside other methods\n\n"
-           "The paper's run-time table anew, over a simulated flight of " +
+    return "## Comparison with other methods\n\n"
+           "The paper's run-time table, repeated on a "
+           "simulated flight of " +
            std::to_string(scans) + " VLP-16 scans of " +
            std::to_string(returns / std::max<std::size_t>(scans, 1)) +
-           " returns on average: every method labels each scan, one after the other, from returns "
-           "that know their beam. The paper states 25 ms a scan, on a laptop.\n\n" +
+           " returns on average. The methods label each scan in turn, from returns with known "
+           "beam indices. The paper reports 25 ms per scan on a laptop.\n\n" +
            table.text() + "Three flights of " + std::to_string(p.chart.front().returns.size()) +
            " scans, medians of ten scans:\n\n![Run time along three "
            "flights](performance/by_flight.svg)\n\n";
@@ -152,7 +155,7 @@ std::string flightSection(const Performance& p) {
 std::string conversionSection(const Performance& p) {
     if (p.conversions.empty()) return "";
     const ConversionTimes& first = p.conversions.front();
-    Table table({"settings", "jobs", "conversion [s]", "times real time", "of it labelling [s]",
+    Table table({"settings", "jobs", "conversion [s]", "times real time", "of which labelling [s]",
                  "copy [s]", "conversion / copy", "peak memory [MB]"});
     for (const ConversionTimes& t : p.conversions) {
         table.add({t.settings, std::to_string(t.jobs), cell(t.conversion_s, 2),
@@ -163,9 +166,9 @@ std::string conversionSection(const Performance& p) {
     return "## Converting a log\n\n"
            "`rawlog-segment` on " +
            std::to_string(first.scans) + " simulated VLP-16 scans, " + cell(first.flight_s, 0) +
-           " s of flight. The copy reads the same log, every object of it, and writes the same "
-           "output, byte for byte, without segmenting, in one thread; with one job both had one "
-           "core. Labelling is summed over jobs.\n\n" +
+           " s of flight. The copy reads every object of the same log and writes the same "
+           "output, byte for byte, without segmentation, in one thread. With one job, both "
+           "ran on one core. Labelling time is summed over jobs.\n\n" +
            table.text();
 }
 
@@ -177,7 +180,7 @@ std::string provenanceSection(const Performance& p) {
     table.add({"MRPT", HAGEN_MRPT_VERSION});
     table.add({"compiler", HAGEN_COMPILER});
     table.add({"processor", processor()});
-    return "## What made these figures\n\n" + table.text();
+    return "## Provenance\n\n" + table.text();
 }
 
 std::vector<double> mediansOfTen(const std::vector<double>& values) {
@@ -196,18 +199,19 @@ std::vector<double> mediansOfTen(const std::vector<double>& values) {
 std::string documentOf(const Performance& performance) {
     return "<!-- Made by scripts/measure-performance, which replaces it. -->\n"
            "# Performance\n\n"
-           "`scripts/measure-performance` makes this page and its figure; `scripts/benchmark` the "
-           "first tables alone. Ratios are of one run on one machine.\n\n" +
-           std::string(performance.is_quick ? "**A quick run: to see that it works, not to "
-                                              "quote.**\n\n"
-                                            : "") +
+           "This page and its figure are written by "
+           "`scripts/measure-performance`; `scripts/benchmark` prints only the first tables. "
+           "Ratios are from one run on one machine.\n\n" +
+           std::string(performance.is_quick
+                           ? "**A quick run, to check that it works: do not cite.**\n\n"
+                           : "") +
            wholeSection(performance) + stageSection(performance) + growthSection(performance) +
            latencySection(performance) + flightSection(performance) +
            conversionSection(performance) + provenanceSection(performance);
 }
 
 void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTimes>& flights) {
-    // Colours that the colour-blind tell apart (Okabe and Ito).
+    // Colour-blind safe palette (Okabe and Ito).
     constexpr std::array<const char*, 6> kColours{"#D55E00", "#0072B2", "#009E73",
                                                   "#CC79A7", "#E69F00", "#333333"};
     std::ostringstream script;

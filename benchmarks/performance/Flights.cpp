@@ -24,7 +24,7 @@ double millisecondsOf(Work work) {
     return took.count();
 }
 
-/// Scans of a flight, one after the other.
+/// The scans of a flight, one after the other.
 class FlyingLidar {
  public:
     FlyingLidar(const std::string& scenario, std::uint64_t seed)
@@ -68,7 +68,7 @@ FlightTimes timeFlight(const std::string& scenario, std::uint64_t seed, int scan
         const evaluation::ScanInput input{lidar.next().scan, {}};
         times.returns.push_back(input.scan.size());
         for (std::size_t m = 0; m < all.size(); ++m) {
-            if (scan == 0) all[m].segment(input);  // to warm up
+            if (scan == 0) all[m].segment(input);  // warm-up
             times.methods[m].runs_ms.push_back(millisecondsOf([&] { all[m].segment(input); }));
         }
     }
@@ -79,14 +79,14 @@ std::vector<double> packetsToLabels_ms(const Options& options, int runs) {
     FlyingLidar lidar("orchard", 1);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> packets;
     for (int scan = 0; scan < kDistinctScans; ++scan) {
-        packets.push_back(
-            simulated_logs::encodeSimulated(lidar.next(), lidar.sensor(), kScanPeriod_s * scan));
+        packets.push_back(simulated_logs::encodeSimulatedScan(lidar.next(), lidar.sensor(),
+                                                              kScanPeriod_s * scan));
     }
     HagenFilter filter(observations::sensorOf(*packets.front()), options);
     observations::DecoderWorkspace decoder;
     Scan scan;
     std::vector<double> runs_ms;
-    for (int run = -kDistinctScans; run < runs; ++run) {  // the first round is to warm up
+    for (int run = -kDistinctScans; run < runs; ++run) {  // the first round is a warm-up
         const auto& observation = *packets[(run + kDistinctScans) % kDistinctScans];
         const double run_ms = millisecondsOf([&] {
             observations::decodePackets(observation, scan, decoder);

@@ -35,7 +35,7 @@ Input realVlp16() {
     const char* const file = "/usr/share/mrpt/datasets/test_velodyne_VLP16.rawlog";
     const auto scan =
         std::dynamic_pointer_cast<CObservationVelodyneScan>(logs::RawlogReader(file).next());
-    if (!scan) throw std::runtime_error(std::string(file) + ": holds no Velodyne scan");
+    if (!scan) throw std::runtime_error(std::string(file) + ": contains no Velodyne scan");
     return {"VLP-16", observations::sensorOf(*scan), {scan}, {}};
 }
 
@@ -52,7 +52,8 @@ Input simulatedScans(const std::string& sensor) {
         if (sensor == "HDL-64E") {
             input.points.push_back(coordinatesOf(scan.scan));
         } else {
-            input.packets.push_back(simulated_logs::encodeSimulated(scan, input.model, start_s));
+            input.packets.push_back(
+                simulated_logs::encodeSimulatedScan(scan, input.model, start_s));
         }
     }
     if (!input.packets.empty()) input.model = observations::sensorOf(*input.packets.front());
@@ -83,7 +84,7 @@ Input gridScan(int beams, int columns) {
         }
     }
     std::vector<simulation::RayHit> hits;
-    scene.during(5, 0.1).cast(rays, input.model.max_range_m, hits);
+    scene.snapshotOver(5, 0.1).cast(rays, input.model.max_range_m, hits);
     simulation::Random random(kSeed, 4);
     Scan scan;
     for (std::size_t i = 0; i < hits.size(); ++i) {

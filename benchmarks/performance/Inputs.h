@@ -1,4 +1,4 @@
-// The scans that are timed.
+// The scans used for timing.
 #pragma once
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
@@ -8,25 +8,26 @@
 
 namespace hagen {
 
-/// Scans of one sensor as they come from it: packets where MRPT knows them, else coordinates.
+/// Scans of one sensor in its native format: packets if MRPT supports them, otherwise coordinates.
 struct Input {
     std::string sensor;  ///< for tables, such as "VLP-16 simulated"
     SensorModel model;
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> packets;
-    std::vector<Scan> points;  ///< coordinates and intensities alone; empty where there are packets
+    std::vector<Scan> points;  ///< coordinates and intensities only; empty if there are packets
 
     std::size_t size() const { return packets.empty() ? points.size() : packets.size(); }
 };
 
-/// The real VLP-16 scan of Debian's mrpt-common. Throws std::runtime_error where it is missing.
+/// Returns the real VLP-16 scan of Debian's mrpt-common. Throws std::runtime_error if it is
+/// missing.
 Input realVlp16();
 
-/// Simulated scans, one of each of four scenes. Of "VLP-16" and "HDL-32E" packets, of "HDL-64E"
-/// coordinates.
+/// Returns simulated scans, one of each of four scenes. Packets for "VLP-16" and "HDL-32E",
+/// coordinates for "HDL-64E".
 Input simulatedScans(const std::string& sensor);
 
-/// One scan of an orchard by a sensor of `beams` beams between 25 degrees down and 15 up that fires
-/// `columns` times a turn: a return a pixel. Its name is "16 x 870".
+/// Returns one scan of an orchard by a sensor with `beams` beams between -25 and 15 degrees that
+/// fires `columns` times per revolution: one return per pixel. Its name is "16 x 870".
 Input gridScan(int beams, int columns);
 
 }  // namespace hagen

@@ -15,7 +15,7 @@
 namespace hagen {
 namespace {
 
-/// The memory of stages that are run alone: one for all scans, as a filter has.
+/// Buffers of stages that run alone: one for all scans, as in a filter.
 FilterWorkspace& work() {
     static FilterWorkspace kept;
     return kept;
@@ -23,7 +23,7 @@ FilterWorkspace& work() {
 
 float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
 
-/// Sums up `bytes` bytes, eight at a time: as fast as memory is read.
+/// Sums `bytes` bytes, eight at a time: as fast as memory can be read.
 std::uint64_t readAll(const void* memory, std::size_t bytes) {
     std::uint64_t sum = 0, word;
     const auto* at = static_cast<const char*>(memory);

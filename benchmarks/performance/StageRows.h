@@ -1,4 +1,4 @@
-// What is timed: each stage of the filter, the whole, and what it is held against.
+// The timed rows: each stage of the filter, the complete filter, and references.
 #pragma once
 #include <hagen/segmentation/HagenFilter.h>
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace hagen {
 
-/// A scan, and what each stage made of it: the input of the next. Stages write where they read
-/// nothing, so that a run of one is like the next.
+/// A scan and the result of each stage, the input of the next. Stages do not write what they read,
+/// so that all runs of a stage do the same work.
 struct Case {
     Case(const Input& input, std::size_t scan, const Options& with);
 
@@ -24,7 +24,7 @@ struct Case {
     std::vector<Label> floor_labels;
 };
 
-/// From what the sensor sent to beams, azimuths and ranges.
+/// Computes beams, azimuths and ranges from the sensor's data.
 void readReturns(Case& one);
 
 struct StageRow {
@@ -34,10 +34,10 @@ struct StageRow {
     std::function<void(Case&)> run;
 };
 
-/// "mrpt decode" (MRPT's own decoder, which reads half of each scan), "floor" (every byte of the
-/// input read once, a label a return written), "zermas ground fit"; the stages of the paper and
-/// those of our own; "paper pipeline" and "default pipeline", from packets (or coordinates) to
-/// labels and lists of indices.
+/// Returns all rows: "mrpt decode" (MRPT's own decoder, which reads half of each scan), "floor"
+/// (every byte of the input read once, one label per return written), "zermas ground fit"; the
+/// stages of the paper and our own; "paper pipeline" and "default pipeline", from packets (or
+/// coordinates) to labels and lists of indices.
 const std::vector<StageRow>& stageRows();
 
 /// The settings of config/paper.yaml.

@@ -1,4 +1,4 @@
-// What was timed, as a table for people and as JSON for programs.
+// Measured times, as a table for people and as JSON for programs.
 #pragma once
 #include <hagen/evaluation/Latency.h>
 #include <filesystem>
@@ -9,24 +9,25 @@ namespace hagen {
 
 struct TimedRow {
     std::string sensor, what;
-    evaluation::Latency latency;  ///< of a run: a scan
-    double allocations = 0;       ///< a run, after the first pass over the scans
+    evaluation::Latency latency;  ///< per run, which is one scan
+    double allocations = 0;       ///< per run, after the first pass over the scans
 };
 
-/// The row of this name, or nullptr.
+/// Returns the row of this name, or nullptr.
 const TimedRow* find(const std::vector<TimedRow>& rows, const std::string& sensor,
                      const std::string& what);
 
-/// A block a sensor, medians and percentiles in microseconds.
+/// Prints one block per sensor, medians and percentiles in microseconds.
 std::string tableOf(const std::vector<TimedRow>& rows);
 
-/// A list of {"sensor", "what", "median_ms", "p95_ms", "p99_ms", "max_ms", "runs", "allocations"},
-/// the last a run.
+/// Writes a list of {"sensor", "what", "median_ms", "p95_ms", "p99_ms", "max_ms", "runs",
+/// "allocations"}; allocations are per run.
 std::string jsonOf(const std::vector<TimedRow>& rows);
-/// Reads that list. Throws std::runtime_error, naming the file.
+/// Reads that list. Throws std::runtime_error; the message names the file.
 std::vector<TimedRow> readTimedRows(const std::filesystem::path& file);
 
-/// The slope of the line that fits log(y) over log(x) best: 1 where y grows as x does.
+/// Returns the slope of the least-squares line through log(y) over log(x): 1 if y is proportional
+/// to x.
 double exponentOf(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace hagen

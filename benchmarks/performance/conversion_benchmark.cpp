@@ -1,5 +1,5 @@
-// How long a conversion takes, beside reading the log and writing the same bytes without
-// segmenting.
+// Measures the run time of a conversion, compared with reading the log and writing the same bytes
+// without segmentation.
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/RawlogWriter.h>
@@ -7,7 +7,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -23,13 +22,14 @@
 #include <vector>
 
 #include "ConversionTimes.h"
+#include "common/CommandLine.h"
 
 namespace {
 
 using namespace hagen;
 namespace fs = std::filesystem;
 
-/// A folder for what is written, gone with it.
+/// A temporary folder for outputs.
 struct WorkFolder {
     fs::path path =
         fs::temp_directory_path() / ("conversion-benchmark-" + std::to_string(getpid()));
@@ -45,8 +45,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Times of something that is done again and again. Those of the processor tell more than the
-/// clock's on a machine that is busy with other things.
+/// Times of repeated runs. On a busy machine, CPU times are more reliable than wall time.
 struct Times {
     std::vector<double> seconds, processor_s;
 
@@ -74,7 +73,8 @@ bool isResult(const mrpt::serialization::CSerializable& entry) {
     return false;
 }
 
-/// What a segmented log holds, the bytes of each entry of its input with the results behind it.
+/// The content of a segmented log: for each entry of its input, the bytes of the entry and of its
+/// results.
 std::vector<logs::Bytes> groupsOf(const fs::path& segmented) {
     std::vector<logs::Bytes> groups;
     logs::RawlogReader reader(segmented);
@@ -85,7 +85,7 @@ std::vector<logs::Bytes> groupsOf(const fs::path& segmented) {
     return groups;
 }
 
-/// Reads a log, every object of it, and writes these bytes in its place.
+/// Reads every object of a log, and writes these bytes instead.
 void copyThrough(const fs::path& log, const std::vector<logs::Bytes>& groups, const fs::path& out) {
     logs::RawlogReader reader(log);
     logs::RawlogWriter writer(out, true);
@@ -121,7 +121,7 @@ void measure(logs::Conversion conversion, bool copies_through, int repetitions,
     conversion.rawlog = folder.path / "segmented.rawlog";
     conversion.overwrite = true;
     const logs::ConversionReport report =
-        logs::convert(conversion);  // warms up, and says what there is
+        logs::convert(conversion);  // warms up, and provides the counts
     if (report.scans == 0) throw std::runtime_error("the log has no LiDAR scan");
     const double peak_megabytes = peakMegabytes();  // before all results are loaded
     const double flight_s = report.scan_reports.back().time_s - report.scan_reports.front().time_s;
@@ -148,7 +148,7 @@ void measure(logs::Conversion conversion, bool copies_through, int repetitions,
                 conversion.jobs, repetitions);
     const auto line = [&](const char* what, const Times& times) {
         const double seconds = median(times.seconds);
-        std::printf("  %-28s %8.3f s, of the processor %8.3f s, %7.3f ms a scan\n", what, seconds,
+        std::printf("  %-28s %8.3f s, CPU time %8.3f s, %7.3f ms per scan\n", what, seconds,
                     median(times.processor_s), 1000 * median(times.processor_s) / scans);
     };
     if (!json_lines.empty()) {
@@ -168,13 +168,13 @@ void measure(logs::Conversion conversion, bool copies_through, int repetitions,
         appendTo(json_lines, times);
     }
     line("conversion", converting);
-    std::printf("  %-28s %8.3f s, summed over jobs\n", "of it, packets to labels",
+    std::printf("  %-28s %8.3f s, summed over jobs\n", "of which packets to labels",
                 median(labelled_s));
     std::printf("  %-28s %8.1f x\n", "real time", flight_s / median(converting.seconds));
     std::printf("  %-28s %8.0f MB\n", "peak memory", peak_megabytes);
     if (!copies_through) return;
     line("copy of the same bytes, 1 job", copying);
-    std::printf("  %-28s %8.2f    of the processor %8.2f\n", "conversion / copy",
+    std::printf("  %-28s %8.2f    CPU time %8.2f\n", "conversion / copy",
                 median(converting.seconds) / median(copying.seconds),
                 median(converting.processor_s) / median(copying.processor_s));
 }
@@ -182,33 +182,31 @@ void measure(logs::Conversion conversion, bool copies_through, int repetitions,
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Times the conversion of a rawlog, as rawlog-segment does it."};
+    Program app("conversion-benchmark",
+                "Times the conversion of a rawlog, as rawlog-segment does it.");
     logs::Conversion conversion;
     std::vector<std::string> configs;
     bool copies_through = false;
     int repetitions = 5;
     conversion.jobs = 1;
-    app.add_option("log", conversion.input, "a .rawlog")->check(CLI::ExistingFile)->required();
-    app.add_flag("--copy-through", copies_through,
-                 "beside it: reading the log, and writing the same bytes without segmenting");
-    app.add_option("--jobs", conversion.jobs, "threads of the conversion; 0: all cores")
-        ->capture_default_str();
-    app.add_option("--repetitions", repetitions, "of which medians are printed")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    app.add_option("-c,--config", configs, "settings file; may be repeated, later ones win")
-        ->allow_extra_args(false);
+    app.option("log", conversion.input, "a .rawlog").existingFile().required();
+    app.flag("--copy-through", copies_through,
+             "compare with reading the log and writing the same bytes without segmentation");
+    app.option("--jobs", conversion.jobs, "threads of the conversion; 0: all cores").showDefault();
+    app.option("--repetitions", repetitions, "number of repetitions; medians are printed")
+        .positive()
+        .showDefault();
+    app.option("-c,--config", configs,
+               "settings file; may be repeated, later files override earlier ones")
+        .once();
     std::string settings = "default", json_lines;
-    app.add_option("--json", json_lines, "file to which a line of JSON is added");
-    app.add_option("--name", settings, "of the settings, for that line")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    try {
-        for (const std::string& config : configs)
+    app.option("--json", json_lines, "file to append one line of JSON to");
+    app.option("--name", settings, "name of the settings, for that line").showDefault();
+    return app.run(argc, argv, [&] {
+        for (const std::string& config : configs) {
             observations::mergeSettings(config, conversion.settings);
+        }
         measure(conversion, copies_through, repetitions, settings, json_lines);
-    } catch (const std::exception& e) {
-        std::cerr << "conversion-benchmark: " << e.what() << "\n";
-        return 1;
-    }
-    return 0;
+        return kDone;
+    });
 }

@@ -1,13 +1,13 @@
-// Times whole flights, and writes docs/performance.md of that and of what stage-benchmarks and
-// conversion-benchmark measured. Run by scripts/measure-performance.
+// Times entire flights, and writes docs/performance.md from these times and the output of
+// stage-benchmarks and conversion-benchmark. Run by scripts/measure-performance.
 #include <hagen/base/OutputPath.h>
 #include <hagen/labelled_scans/Charts.h>
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 
 #include "Document.h"
 #include "StageRows.h"
+#include "common/CommandLine.h"
 
 namespace {
 
@@ -19,19 +19,19 @@ struct Flags {
     bool is_quick = false, overwrite = false;
 };
 
-void addFlags(CLI::App& app, Flags& flags) {
-    app.add_option("-o,--output", flags.output,
-                   "folder for performance.md and the figure in performance/")
-        ->required()
-        ->check(CLI::ExistingDirectory);
-    app.add_option("--stages", flags.stages, "what stage-benchmarks --json wrote")
-        ->required()
-        ->check(CLI::ExistingFile);
-    app.add_option("--conversion", flags.conversion, "what conversion-benchmark --json wrote")
-        ->check(CLI::ExistingFile);
-    app.add_option("--revision", flags.revision, "of the project, for the document");
-    app.add_flag("--quick", flags.is_quick, "few scans, to see that it works");
-    app.add_flag("--overwrite", flags.overwrite, "replace results that exist");
+void addFlags(Command& app, Flags& flags) {
+    app.option("-o,--output", flags.output,
+               "folder for performance.md and the figure in performance/")
+        .required()
+        .existingFolder();
+    app.option("--stages", flags.stages, "output of stage-benchmarks --json")
+        .required()
+        .existingFile();
+    app.option("--conversion", flags.conversion, "output of conversion-benchmark --json")
+        .existingFile();
+    app.option("--revision", flags.revision, "revision of the project, for the document");
+    app.flag("--quick", flags.is_quick, "few scans, to check that it works");
+    app.flag("--overwrite", flags.overwrite, "replace existing results");
 }
 
 Performance measure(const Flags& flags) {
@@ -55,9 +55,9 @@ Performance measure(const Flags& flags) {
     return p;
 }
 
-void run(const Flags& flags) {
-    base::OutputPath document(fs::path(flags.output) / "performance.md",
-                              base::kFile, flags.overwrite);
+int run(const Flags& flags) {
+    base::OutputPath document(fs::path(flags.output) / "performance.md", base::kFile,
+                              flags.overwrite);
     base::OutputPath charts(fs::path(flags.output) / "performance", labelled_scans::kCharts,
                             flags.overwrite);
     const Performance performance = measure(flags);
@@ -72,26 +72,15 @@ void run(const Flags& flags) {
     }
     charts.commit();
     document.commit();
+    return kDone;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Times whole flights, and writes performance.md."};
-    app.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    Program program("performance-report", "Times whole flights, and writes performance.md.");
+    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
     Flags flags;
-    addFlags(app, flags);
-    try {
-        app.parse(argc, argv);
-        run(flags);
-        return 0;
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        app.exit(e);
-        return 2;
-    } catch (const std::exception& e) {
-        std::cerr << "performance-report: " << e.what() << "\n";
-        return 1;
-    }
+    addFlags(program, flags);
+    return program.run(argc, argv, [&] { return run(flags); });
 }

@@ -1,5 +1,6 @@
-// Times each stage and the whole, and counts allocations; beside them, in the same run, MRPT's own
-// decoder, a published ground segmenter and the floor under any method. Run by scripts/benchmark.
+// Times each stage and the complete filter and counts allocations; in the same run also MRPT's own
+// decoder, a published ground segmenter, and a lower bound for any method. Run by
+// scripts/benchmark.
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <fstream>
@@ -15,22 +16,22 @@ namespace {
 
 using namespace hagen;
 
-/// Every run of a row.
+/// All runs of a row.
 struct Runs {
     std::string sensor, what;
     std::vector<double> runs_ms;
     std::size_t allocations = 0;
 };
 
-/// The rows in the order in which they were added; filled as they run.
+/// The rows in the order in which they were added; filled while they run.
 std::vector<std::unique_ptr<Runs>>& measured() {
     static std::vector<std::unique_ptr<Runs>> rows;
     return rows;
 }
 
-/// A scan after the other, each timed by itself.
+/// Runs one scan after the other, each timed separately.
 void time(benchmark::State& state, const StageRow& row, std::vector<Case>& cases, Runs& to) {
-    for (Case& one : cases) row.run(one);  // memory is taken now, and not again
+    for (Case& one : cases) row.run(one);  // allocates all memory in advance
     to.runs_ms.reserve(to.runs_ms.size() + static_cast<std::size_t>(state.max_iterations));
     std::size_t next = 0;
     for (auto _ : state) {
@@ -74,7 +75,7 @@ void addSensor(const Input& input) {
     }
 }
 
-/// The two pipelines alone, over the size of the image.
+/// Adds only the two pipelines, over the size of the image.
 void addGrid(int beams, int columns) {
     const Input input = gridScan(beams, columns);
     for (const StageRow& row : stageRows()) {
@@ -103,7 +104,7 @@ std::vector<TimedRow> results() {
     return rows;
 }
 
-/// What is reported is in measured().
+/// The results are in measured().
 class Silent : public benchmark::BenchmarkReporter {
  public:
     bool ReportContext(const Context&) override { return true; }

@@ -3,9 +3,9 @@
 
 namespace hagen {
 
-/// How often this program asked for memory on the heap so far, all threads together: by malloc()
-/// and its kin, which operator new and Eigen end in. Always 0 where a sanitizer has taken malloc()
-/// for itself; see countsAllocations().
+/// Number of heap allocations of this program so far, all threads together: malloc() and related
+/// functions, which operator new and Eigen use. Always 0 if a sanitizer has replaced malloc(); see
+/// countsAllocations().
 std::size_t allocations();
 bool countsAllocations();
 

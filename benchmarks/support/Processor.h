@@ -3,7 +3,7 @@
 
 namespace hagen {
 
-/// What Linux calls this machine's processor; "unknown" where it does not say.
+/// Name of this machine's processor according to Linux; "unknown" if not available.
 std::string processor();
 
 }  // namespace hagen

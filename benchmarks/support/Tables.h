@@ -1,4 +1,4 @@
-// Tables in Markdown, and figures as their cells.
+// Markdown tables, and numbers as their cells.
 #pragma once
 #include <hagen/evaluation/Bootstrap.h>
 #include <string>
@@ -9,23 +9,23 @@ namespace hagen {
 class Table {
  public:
     explicit Table(std::vector<std::string> heads) : lines_{std::move(heads)} {}
-    /// A line; `cells` as many as heads.
+    /// Adds a row with as many cells as the head.
     void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
-    /// Aligned, so that it can be read as it is too, with a blank line behind.
+    /// Returns the table with aligned columns, followed by a blank line.
     std::string text() const;
 
  private:
     std::vector<std::vector<std::string>> lines_;
 };
 
-/// "0.958", and a dash for what is not defined.
+/// "0.958"; a dash for undefined values.
 std::string cell(double value, int digits = 3);
 /// "0.951 to 0.964".
 std::string cell(const evaluation::Interval& interval);
-/// "0.958 / 0.977"; those that reach `best` as it is printed are bold.
+/// "0.958 / 0.977"; values that equal `best` as printed are bold.
 std::string pairCell(double roi, double rou, double best_roi, double best_rou);
 std::string pairCell(double roi, double rou);
-/// "0.958"; bold where it is above `other` as it is printed.
+/// "0.958"; bold if above `other` as printed.
 std::string boldAbove(double value, double other);
 
 }  // namespace hagen

@@ -49,7 +49,7 @@ Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& go
     const auto isFree = [&](const Eigen::Vector3d& at_m) {
         return world.clearance_m(at_m.cast<float>()) >= options.least_clearance_m;
     };
-    const Eigen::Vector3d inside_m =
+    Eigen::Vector3d inside_m =
         goal_m.cwiseMax(options.bounds_m.min()).cwiseMin(options.bounds_m.max());
     if (isFree(inside_m)) return inside_m;
     std::vector<Eigen::Vector3d> places_m;

@@ -10,15 +10,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first thing in a folder that is no part of such an output, `depth` folders down; empty where
-/// there is none.
+/// Returns the first entry in a folder that does not belong to such an output, searched `depth`
+/// folders deep; empty if there is none.
 fs::path foreignPart(const fs::path& folder, const fs::path& output, const OutputKind& kind,
                      int depth) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         const bool is_file = fs::is_regular_file(fs::symlink_status(entry.path()));
         if (is_file && kind.holds(entry.path().lexically_relative(output))) continue;
         if (depth == 0 || !entry.is_directory() || entry.is_symlink()) return entry.path();
-        const fs::path foreign = foreignPart(entry.path(), output, kind, depth - 1);
+        fs::path foreign = foreignPart(entry.path(), output, kind, depth - 1);
         if (!foreign.empty()) return foreign;
     }
     return {};
@@ -28,23 +28,24 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
     if (kind.holds == nullptr) {
         if (!fs::is_regular_file(path)) {
             throw std::runtime_error(path.string() +
-                                     ": is no file, and is not replaced; give another name");
+                                     ": not a file, so it is not replaced; choose another name");
         }
         return;
     }
     if (!fs::is_directory(path)) {
         throw std::runtime_error(path.string() +
-                                 ": is no folder, and is not replaced; give another name");
+                                 ": not a folder, so it is not replaced; choose another name");
     }
     const fs::path foreign = foreignPart(path, path, kind, 2);
     if (!foreign.empty()) {
-        throw std::runtime_error(path.string() + ": holds '" +
-                                 foreign.lexically_relative(path).string() + "', no part of " +
-                                 kind.what + ", and is not replaced; give another name");
+        throw std::runtime_error(path.string() + ": contains '" +
+                                 foreign.lexically_relative(path).string() +
+                                 "', which is not part of " + kind.what +
+                                 ", so it is not replaced; choose another name");
     }
 }
 
-/// `stem` `mark` `extension`, or with a number behind the mark: the first that nothing has.
+/// Returns `stem` `mark` `extension`, with a number after the mark if needed: the first free name.
 fs::path freeName(const fs::path& stem, const std::string& mark, const fs::path& extension) {
     for (int number = 1;; ++number) {
         fs::path name = stem;
@@ -54,7 +55,7 @@ fs::path freeName(const fs::path& stem, const std::string& mark, const fs::path&
     }
 }
 
-/// Whether `inner` is `outer`, or lies in it.
+/// True if `inner` is `outer` or lies in it.
 bool isWithin(const fs::path& inner, const fs::path& outer) {
     const auto resolved = [](const fs::path& path) {
         const fs::path whole = fs::weakly_canonical(fs::absolute(path));
@@ -79,14 +80,14 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
 }
 
 OutputPath::~OutputPath() {
-    std::error_code ignored;  // a destructor has nobody to tell
+    std::error_code ignored;  // destructors must not throw
     fs::remove_all(temporary_, ignored);
 }
 
 void OutputPath::checkFree() const {
     if (!fs::exists(fs::symlink_status(path_))) return;
     if (!overwrites_) {
-        throw std::runtime_error(path_.string() + " exists; give --overwrite to replace it");
+        throw std::runtime_error(path_.string() + " exists; use --overwrite to replace it");
     }
     checkReplaceable(path_, kind_);
 }
@@ -94,15 +95,16 @@ void OutputPath::checkFree() const {
 void OutputPath::commit() {
     try {
         checkFree();
-    } catch (const std::runtime_error& e) {  // it appeared since
-        throw std::runtime_error(std::string(e.what()) + "; this run's is " +
+    } catch (
+        const std::runtime_error& e) {  // created by someone else since the constructor's check
+        throw std::runtime_error(std::string(e.what()) + "; this run's output is " +
                                  keepPartial().string());
     }
     if (!fs::is_directory(path_)) {
         fs::rename(temporary_, path_);
         return;
     }
-    // rename() does not replace a folder with something in it.
+    // rename() does not replace a non-empty folder.
     const fs::path old = freeName(path_, ".old-" + std::to_string(getpid()), "");
     fs::rename(path_, old);
     fs::rename(temporary_, path_);
@@ -113,7 +115,7 @@ fs::path OutputPath::keepPartial() {
     const bool is_folder = fs::is_directory(temporary_);
     fs::path stem = path_;
     if (!is_folder) stem.replace_extension();
-    const fs::path name = freeName(stem, ".partial", is_folder ? fs::path() : path_.extension());
+    fs::path name = freeName(stem, ".partial", is_folder ? fs::path() : path_.extension());
     fs::rename(temporary_, name);
     return name;
 }
@@ -124,13 +126,13 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
         for (const fs::path& input : inputs) {
             if (input.empty() || !isWithin(input, *output)) continue;
             throw std::runtime_error(output->string() +
-                                     ": is the input, or holds it; give the output another name");
+                                     ": is or contains the input; choose another output");
         }
         for (auto other = output + 1; other != outputs.end(); ++other) {
             if (other->empty()) continue;
             if (!isWithin(*output, *other) && !isWithin(*other, *output)) continue;
             throw std::runtime_error(output->string() + " and " + other->string() +
-                                     ": one output lies in the other; give them apart");
+                                     ": one output is inside the other; use separate paths");
         }
     }
 }

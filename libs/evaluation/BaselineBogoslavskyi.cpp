@@ -3,7 +3,7 @@
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/RangeAngle.h>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -16,12 +16,21 @@ float radiansOf(float angle_deg) {
     return static_cast<float>(radians(static_cast<double>(angle_deg)));
 }
 
-/// What each of the rows -half ... half weighs in the value at 0 of the parabola that fits all of
-/// them best: the first row of the pseudo-inverse of (1, k, k^2).
+/// Weights of the rows -half ... half in the value at 0 of the least-squares parabola through them
+/// (Savitzky and Golay's smoothing weights).
 Eigen::VectorXf parabolaWeights(int half) {
-    Eigen::MatrixXd powers(2 * half + 1, 3);
-    for (int k = -half; k <= half; ++k) powers.row(k + half) << 1.0, k, k * k;
-    return powers.completeOrthogonalDecomposition().pseudoInverse().row(0).cast<float>();
+    if (half == 0) return Eigen::VectorXf::Ones(1);
+    double squares = 0, fourth_powers = 0;
+    for (int k = -half; k <= half; ++k) {
+        squares += k * k;
+        fourth_powers += static_cast<double>(k * k) * (k * k);
+    }
+    const double determinant = (2 * half + 1) * fourth_powers - squares * squares;
+    Eigen::VectorXf weights(2 * half + 1);
+    for (int k = -half; k <= half; ++k) {
+        weights[k + half] = static_cast<float>((fourth_powers - squares * (k * k)) / determinant);
+    }
+    return weights;
 }
 
 /// Breadth-first from the lowest pixel of each column.
@@ -53,14 +62,14 @@ Image<bool> growGround(const Image<float>& depth_m, const Image<float>& angle_ra
     return ground;
 }
 
-/// Whether two neighbours, seen `apart_rad` from each other, are of one object.
+/// True if two neighbours, seen `apart_rad` from each other, belong to one object.
 bool isOneObject(float a_m, float b_m, float apart_rad, float theta_rad) {
     const float far_m = std::max(a_m, b_m), near_m = std::min(a_m, b_m);
     return std::atan2(near_m * std::sin(apart_rad), far_m - near_m * std::cos(apart_rad)) >
            theta_rad;
 }
 
-/// Gives `number` to the pixel and all that are of one object with it.
+/// Assigns `number` to the pixel and to all pixels of the same object.
 void growCluster(const Image<float>& depth_m, const SensorModel& sensor, float theta_rad, int pixel,
                  std::int32_t number, Image<std::int32_t>& clusters) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
@@ -89,7 +98,7 @@ void growCluster(const Image<float>& depth_m, const SensorModel& sensor, float t
 
 Image<float> savitzkyGolay(const Image<float>& image, int window) {
     if (window < 1 || window % 2 == 0) {
-        throw std::invalid_argument("a smoothing window has an odd number of rows, not " +
+        throw std::invalid_argument("the number of rows of a smoothing window must be odd, not " +
                                     std::to_string(window));
     }
     const Eigen::VectorXf weights = parabolaWeights(window / 2);
@@ -98,7 +107,7 @@ Image<float> savitzkyGolay(const Image<float>& image, int window) {
         for (Eigen::Index row = window / 2; row + window / 2 < image.rows(); ++row) {
             const float value =
                 image.col(column).segment(row - window / 2, window).matrix().dot(weights);
-            if (hasValue(value)) smooth(row, column) = value;  // else one of the window is missing
+            if (hasValue(value)) smooth(row, column) = value;  // otherwise the window has a gap
         }
     }
     return smooth;
@@ -132,7 +141,7 @@ std::vector<std::int32_t> bogoslavskyiClusters(const Scan& scan, const SensorMod
         throw std::invalid_argument("clusters: " + std::to_string(scan.size()) + " returns, but " +
                                     std::to_string(labels.size()) + " labels");
     }
-    Scan roi = scan;  // the ground is taken out of the image
+    Scan roi = scan;  // the ground is removed from the image
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (labels[i] != Label::Roi) roi.range_m[i] = kNoValue;
     }

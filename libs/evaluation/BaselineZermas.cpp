@@ -21,18 +21,18 @@ Eigen::Vector3f point(const Scan& scan, std::int32_t i) {
 void requirePositive(int value, const char* name) {
     if (value < 1) {
         throw std::invalid_argument(std::string("zermas: ") + name + " is " +
-                                    std::to_string(value) + "; it has to be 1 or more");
+                                    std::to_string(value) + "; it must be at least 1");
     }
 }
 
-/// Points on it satisfy normal . p = offset_m; the normal points upwards.
+/// A plane: its points satisfy normal . p = offset_m; the normal points upwards.
 struct Plane {
     Eigen::Vector3f normal;
     float offset_m;
     float heightOf(const Eigen::Vector3f& p) const { return normal.dot(p) - offset_m; }
 };
 
-/// EstimatePlane: through the points' mean, across the direction in which they spread least.
+/// EstimatePlane: through the mean of the points, normal to the direction of least spread.
 std::optional<Plane> estimatePlane(const Scan& scan, const Indices& points) {
     if (points.size() < 3) return std::nullopt;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -50,12 +50,12 @@ std::optional<Plane> estimatePlane(const Scan& scan, const Indices& points) {
     return Plane{normal.cast<float>(), static_cast<float>(normal.dot(mean))};
 }
 
-/// Whether a return takes part.
+/// True if a return is processed at all.
 bool isInZone(const Scan& scan, const SensorModel& sensor, std::size_t i, float zone_m) {
     return sensor.sees(scan.range_m[i]) && scan.range_m[i] <= zone_m;
 }
 
-/// The returns in the zone, a list a stretch of the x axis, from the rearmost to the foremost;
+/// The returns in the zone, one list per stretch of the x axis, from the rearmost to the foremost;
 /// stretches are equally long.
 std::vector<Indices> alongX(const Scan& scan, const SensorModel& sensor,
                             const ZermasOptions& options) {
@@ -71,7 +71,8 @@ std::vector<Indices> alongX(const Scan& scan, const SensorModel& sensor,
     for (const std::int32_t i : in_zone) {
         const float share = most_m > least_m ? (scan.x_m[i] - least_m) / (most_m - least_m) : 0.0f;
         const int stretch = static_cast<int>(share * static_cast<float>(options.segments));
-        stretches[std::min(stretch, options.segments - 1)].push_back(i);  // the foremost belongs
+        stretches[std::min(stretch, options.segments - 1)].push_back(
+            i);  // the foremost return belongs to the last stretch
     }
     return stretches;
 }
@@ -94,10 +95,10 @@ Indices initialSeeds(const Scan& scan, const Indices& points, const ZermasOption
     return seeds;
 }
 
-/// Which clusters have turned out to be one. Linked to the smaller number, as in algorithm 2.
-class Unions {
+/// Clusters that were merged. Each is linked to the smaller number, as in algorithm 2.
+class UnionFind {
  public:
-    explicit Unions(std::size_t size) : parent_(size) {
+    explicit UnionFind(std::size_t size) : parent_(size) {
         std::iota(parent_.begin(), parent_.end(), 0);
     }
     std::int32_t find(std::int32_t i) {
@@ -118,16 +119,17 @@ float distance(const Scan& scan, std::int32_t a, std::int32_t b) {
     return (point(scan, a) - point(scan, b)).norm();
 }
 
-/// FindRuns: neighbours in azimuth, the last and the first too, that are closer than Th_run.
-void joinRuns(const Scan& scan, const Indices& line, float run_distance_m, Unions& clusters) {
+/// FindRuns: neighbours in azimuth that are closer than Th_run, including the last and the first.
+void joinRuns(const Scan& scan, const Indices& line, float run_distance_m, UnionFind& clusters) {
     for (std::size_t k = 0; k < line.size(); ++k) {
         const std::int32_t next = line[(k + 1) % line.size()];
         if (distance(scan, line[k], next) < run_distance_m) clusters.join(line[k], next);
     }
 }
 
-/// The return of `line` (ascending azimuths, not empty) nearest to return i, if nearer than
-/// `limit_m`; else -1. From i's azimuth outwards to both sides, no farther than its sphere reaches.
+/// Returns the return of `line` (ascending azimuths, not empty) nearest to return i, if nearer than
+/// `limit_m`; otherwise -1. Searches outwards from i's azimuth to both sides, no farther than its
+/// sphere reaches.
 std::int32_t nearestInLine(const Scan& scan, const Indices& line, std::int32_t i, float limit_m) {
     const float from_axis_m = std::hypot(scan.x_m[i], scan.y_m[i]);
     const float reach_rad =
@@ -158,7 +160,7 @@ std::int32_t nearestInLine(const Scan& scan, const Indices& line, std::int32_t i
     return nearest;
 }
 
-/// The Roi returns of each row, by azimuth.
+/// The Roi returns of each row, sorted by azimuth.
 std::vector<Indices> scanLines(const Scan& scan, int rows, const std::vector<Label>& labels) {
     std::vector<Indices> lines(rows);
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -187,7 +189,7 @@ std::vector<Label> zermasGroundFit(const Scan& scan, const SensorModel& sensor,
             ground.clear();
             if (!plane) break;
             for (const std::int32_t i : stretch) {
-                // Signed: what lies below the plane is ground, too.
+                // Signed: points below the plane are ground, too.
                 if (plane->heightOf(point(scan, i)) < options.ground_distance_m) {
                     ground.push_back(i);
                 }
@@ -207,7 +209,7 @@ std::vector<std::int32_t> scanLineRuns(const Scan& scan, const SensorModel& sens
                                     std::to_string(labels.size()) + " labels");
     }
     const std::vector<Indices> lines = scanLines(scan, sensor.rows(), labels);
-    Unions clusters(scan.size());
+    UnionFind clusters(scan.size());
     for (int row = sensor.rows() - 1; row >= 0; --row) {
         joinRuns(scan, lines[row], options.run_distance_m, clusters);
         if (row + 1 == sensor.rows() || lines[row + 1].empty()) continue;
@@ -222,7 +224,7 @@ std::vector<std::int32_t> scanLineRuns(const Scan& scan, const SensorModel& sens
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (labels[i] != Label::Roi) continue;
         const auto index = static_cast<std::int32_t>(i);
-        const std::int32_t first = clusters.find(index);  // the smallest of its cluster
+        const std::int32_t first = clusters.find(index);  // the smallest index of its cluster
         numbers[i] = first == index ? ++count : numbers[first];
     }
     return numbers;

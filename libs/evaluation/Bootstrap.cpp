@@ -20,8 +20,9 @@ Interval intervalOf(const std::vector<Scores>& resamples, double level, Figure f
     return {base::quantileOfSorted(values, tail), base::quantileOfSorted(values, 1 - tail)};
 }
 
-std::vector<Scores> resamplesOf(const std::vector<Scores>& scans, const BootstrapOptions& options) {
-    std::mt19937_64 random(options.seed);  // its numbers are the same on every machine
+std::vector<Scores> bootstrapResamples(const std::vector<Scores>& scans,
+                                       const BootstrapOptions& options) {
+    std::mt19937_64 random(options.seed);  // same numbers on every machine
     std::vector<Scores> resamples(static_cast<std::size_t>(options.resamples));
     for (Scores& sum : resamples) {
         for (std::size_t i = 0; i < scans.size(); ++i) sum += scans[random() % scans.size()];
@@ -35,7 +36,7 @@ ScoreIntervals bootstrapIntervals(const std::vector<Scores>& scans,
                                   const BootstrapOptions& options) {
     ScoreIntervals intervals;
     if (scans.size() < 2 || options.resamples <= 0) return intervals;
-    const std::vector<Scores> resamples = resamplesOf(scans, options);
+    const std::vector<Scores> resamples = bootstrapResamples(scans, options);
     const auto of = [&](auto figure) { return intervalOf(resamples, options.level, figure); };
     const auto ofClass = [&](ClassScore Scores::*c) {
         return ScoreIntervals::OfClass{of([c](const Scores& s) { return (s.*c).precision(); }),

@@ -31,7 +31,7 @@ Scores Group::sum() const {
     return sum;
 }
 
-Group wholeOf(const std::vector<ScanScores>& scans) {
+Group overallScores(const std::vector<ScanScores>& scans) {
     Group whole{"all", {}};
     for (const ScanScores& scan : scans) whole.scans.push_back(scan.all);
     return whole;

@@ -19,9 +19,9 @@ double numberOf(const YAML::Node& node, const std::string& key) {
     return value;
 }
 
-constexpr int kMostPixels = 20000;  // a side; more is a slip of the keyboard
+constexpr int kMostPixels = 20000;  // per side; more is a typo
 
-int sideOf(double value, const std::string& key) {
+int checkImageSize(double value, const std::string& key) {
     if (!(value >= 1 && value <= kMostPixels) || value != std::floor(value)) {
         throw std::invalid_argument(key + " must be a whole number of pixels from 1 to " +
                                     std::to_string(kMostPixels));
@@ -47,7 +47,7 @@ PinholeCamera readCamera(const std::filesystem::path& file) {
         const auto value = values.find(key);
         if (value == values.end()) throw std::invalid_argument("unknown key '" + key + "'");
         value->second = numberOf(node, key);
-        if (key == "width" || key == "height") sideOf(value->second, key);
+        if (key == "width" || key == "height") checkImageSize(value->second, key);
         if ((key == "fx" || key == "fy") && !(value->second > 0)) {
             throw std::invalid_argument(key + " must be above 0");
         }
@@ -59,8 +59,8 @@ PinholeCamera readCamera(const std::filesystem::path& file) {
     if (position_m.hasNaN()) throw std::runtime_error(file.string() + ": has no key 'position_m'");
 
     PinholeCamera camera;
-    camera.width_px = sideOf(values["width"], "width");
-    camera.height_px = sideOf(values["height"], "height");
+    camera.width_px = checkImageSize(values["width"], "width");
+    camera.height_px = checkImageSize(values["height"], "height");
     camera.fx_px = values["fx"];
     camera.fy_px = values["fy"];
     camera.cx_px = values["cx"];
@@ -85,8 +85,8 @@ std::vector<CameraPixel> visibleReturns(const PinholeCamera& camera, const Scan&
         if (std::isnan(scan.range_m[i])) continue;
         const Eigen::Vector3d body =
             to_camera * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]).cast<double>();
-        if (!(body.x() > 0)) continue;  // behind
-        // Of the body's axes, right is -y and down is -z.
+        if (!(body.x() > 0)) continue;  // behind the camera
+        // In the body frame, right is -y and down is -z.
         const double u = std::floor(camera.cx_px - camera.fx_px * body.y() / body.x() + 0.5);
         const double v = std::floor(camera.cy_px - camera.fy_px * body.z() / body.x() + 0.5);
         if (!(u >= 0 && u < camera.width_px && v >= 0 && v < camera.height_px)) continue;

@@ -5,7 +5,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// The labels that a method finds, and how long it took.
+/// The labels that a method assigns, and its run time.
 std::vector<Label> timed(const Method& method, const ScanInput& input,
                          std::vector<double>& latency_ms) {
     using Clock = std::chrono::steady_clock;
@@ -24,7 +24,9 @@ void checkMethods(const std::vector<Method>& methods, const std::string& source,
     for (std::size_t m = 0; are_same && m < methods.size(); ++m) {
         are_same = methods[m].name == scores[m].name;
     }
-    if (!are_same) throw std::invalid_argument(source + ": its methods are not those before it");
+    if (!are_same)
+        throw std::invalid_argument(source +
+                                    ": its methods differ from those of the previous source");
 }
 
 std::vector<std::size_t> returnsOf(const std::vector<CameraPixel>& pixels) {
@@ -36,17 +38,17 @@ std::vector<std::size_t> returnsOf(const std::vector<CameraPixel>& pixels) {
 
 }  // namespace
 
-std::vector<MethodScores> evaluate(const std::vector<ScanSource>& sources,
+std::vector<MethodScores> evaluate(const std::vector<LabelledScanSource>& sources,
                                    const EvaluationOptions& options,
                                    const EvaluationListener& listener) {
     if (sources.empty()) throw std::invalid_argument("there are no scans to evaluate");
     std::vector<MethodScores> all;
     for (std::size_t s = 0; s < sources.size(); ++s) {
-        const ScanSource& source = sources[s];
+        const LabelledScanSource& source = sources[s];
         const std::vector<Method> methods = source.makeMethods();
         checkMethods(methods, source.name, all);
         for (std::size_t i = 0; i < source.scans; ++i) {
-            const TrueScan scan = source.read(i);
+            const GroundTruthScan scan = source.read(i);
             std::vector<CameraPixel> pixels;
             if (options.camera) pixels = visibleReturns(*options.camera, scan.input.scan);
             const std::vector<std::size_t> seen = returnsOf(pixels);

@@ -12,10 +12,10 @@ constexpr const char* kExample = "70: {name: vegetation, label: 2}";
 
 std::uint16_t kindNumber(const std::string& text) {
     if (const auto number = base::numberFrom<std::uint16_t>(text)) return *number;
-    throw std::invalid_argument("'" + text + "' is no number of a kind (0 to 65535)");
+    throw std::invalid_argument("'" + text + "' is not a class number (0 to 65535)");
 }
 
-Kind kindOf(const YAML::Node& node) {
+SemanticClass classOf(const YAML::Node& node) {
     if (!node.IsMap() || node.size() != 2 || !node["name"] || !node["label"] ||
         !node["name"].IsScalar() || !node["label"].IsScalar() || node["name"].Scalar().empty()) {
         throw std::invalid_argument(std::string("name and label are expected, as in '") + kExample +
@@ -23,8 +23,7 @@ Kind kindOf(const YAML::Node& node) {
     }
     const std::string label = node["label"].Scalar();
     if (label != "0" && label != "1" && label != "2") {
-        throw std::invalid_argument("label '" + label +
-                                    "' is none of 0 (left out), 1 (ROU), 2 (RoI)");
+        throw std::invalid_argument("label '" + label + "' is not 0 (ignored), 1 (ROU) or 2 (RoI)");
     }
     return {node["name"].Scalar(), static_cast<Label>(label[0] - '0')};
 }
@@ -35,16 +34,16 @@ LabelMap readLabelMap(const std::filesystem::path& file) {
     LabelMap map;
     std::set<std::string> names;
     forEachYamlEntry(file, kExample, [&](const std::string& key, const YAML::Node& value) {
-        const Kind kind = kindOf(value);
+        const SemanticClass kind = classOf(value);
         if (!names.insert(kind.name).second) {
-            throw std::invalid_argument("two kinds are called '" + kind.name + "'");
+            throw std::invalid_argument("two classes are called '" + kind.name + "'");
         }
         map.emplace(kindNumber(key), kind);
     });
     return map;
 }
 
-std::vector<Label> labelsOfKinds(const std::vector<std::uint16_t>& kinds, const LabelMap& map) {
+std::vector<Label> labelsOfClasses(const std::vector<std::uint16_t>& kinds, const LabelMap& map) {
     std::vector<Label> labels;
     labels.reserve(kinds.size());
     for (const std::uint16_t kind : kinds) {
@@ -64,7 +63,7 @@ std::vector<Label> labelsOfNumbers(const std::vector<std::uint16_t>& numbers) {
     for (const std::uint16_t number : numbers) {
         if (number > static_cast<std::uint16_t>(Label::Roi)) {
             throw std::invalid_argument("label " + std::to_string(number) +
-                                        " is none of 0 (unclassified), 1 (ROU), 2 (RoI); other "
+                                        " is not 0 (unclassified), 1 (ROU) or 2 (RoI); other "
                                         "classes need a --label-map");
         }
         labels.push_back(static_cast<Label>(number));

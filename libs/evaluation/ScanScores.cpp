@@ -28,10 +28,11 @@ std::string RangeBands::nameOf(std::size_t band) const {
            base::shortestText(std::min(from_m + width_m, max_range_m)) + " m";
 }
 
-ScanScores scoreScan(const TrueScan& scan, const std::vector<Label>& found, const LabelMap& kinds,
-                     const RangeBands& bands, const std::vector<std::size_t>* chosen) {
+ScanScores scoreScan(const GroundTruthScan& scan, const std::vector<Label>& found,
+                     const LabelMap& kinds, const RangeBands& bands,
+                     const std::vector<std::size_t>* chosen) {
     const std::vector<float>& range_m = scan.input.scan.range_m;
-    checkSizes(range_m.size(), scan.truth.size(), "true labels");
+    checkSizes(range_m.size(), scan.truth.size(), "ground-truth labels");
     checkSizes(range_m.size(), found.size(), "found labels");
     if (!scan.kinds.empty()) checkSizes(range_m.size(), scan.kinds.size(), "kinds");
 
@@ -53,7 +54,7 @@ ScanScores scoreScan(const TrueScan& scan, const std::vector<Label>& found, cons
     for (const auto& [number, of_kind] : by_kind) {
         const auto kind = kinds.find(number);
         if (kind == kinds.end()) {
-            throw std::invalid_argument("kind " + std::to_string(number) +
+            throw std::invalid_argument("class " + std::to_string(number) +
                                         " has no name; add a line for it");
         }
         scores.by_kind[kind->second.name] += of_kind;

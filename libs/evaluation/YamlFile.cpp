@@ -33,7 +33,7 @@ void forEachYamlEntry(
         const YAML::Node &key = pair.first, &value = pair.second;
         const std::string name = key.IsScalar() ? key.Scalar() : "";
         if (!seen.insert(name).second) {
-            throw std::runtime_error(yamlPlace(file, key) + "'" + name + "' is there twice");
+            throw std::runtime_error(yamlPlace(file, key) + "'" + name + "' occurs twice");
         }
         try {
             entry(name, value);

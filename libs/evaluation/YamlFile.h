@@ -10,9 +10,10 @@ namespace hagen::evaluation {
 /// "file:line: ", for messages.
 std::string yamlPlace(const std::filesystem::path& file, const YAML::Node& node);
 
-/// Calls `entry(key, key node, value node)` for each entry of the map that a file holds. Throws
-/// std::runtime_error, naming file and line, where it cannot be read, is not YAML, holds no map, or
-/// a key twice; what `entry` throws goes on with the value's place before it.
+/// Calls `entry(key, key node, value node)` for each entry of the map in a file. Throws
+/// std::runtime_error if the file cannot be read, is not YAML, contains no map, or contains a key
+/// twice; the message names file and line. Exceptions of `entry` are passed on with the place of
+/// the value in front.
 void forEachYamlEntry(
     const std::filesystem::path& file, const std::string& example,
     const std::function<void(const std::string& key, const YAML::Node& value)>& entry);

@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kWidth_px = 900, kHeight_px = 400;
 constexpr std::size_t kMostLines = 7;
-// Colours that the colour-blind tell apart (Okabe and Ito).
+// Colour-blind safe palette (Okabe and Ito).
 constexpr std::array<const char*, kMostLines> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                        "#E69F00", "#333333", "#56B4E9"};
 
 struct Value {
-    std::string label;  ///< of the place on the x axis
+    std::string label;  ///< of the value on the x axis
     double x, y;
     evaluation::Interval interval;
 };
@@ -31,17 +31,17 @@ struct Panel {
     std::string title, x_title, y_title;
     std::vector<Line> lines;
     double least_y;
-    bool has_labels = true;  ///< the x axis has the values' labels, else numbers
+    bool has_labels = true;  ///< the x axis has the values' labels; otherwise numbers
     bool has_lines = true;   ///< values are connected
 };
 
-/// The lowest value or bound, rounded down; panels side by side share it.
+/// The minimum value or bound, rounded down; adjacent panels share it.
 double leastOf(const std::vector<Line>& lines) {
     double least = 0.8;
     for (const Line& line : lines) {
         for (const Value& value : line.values) {
             for (const double y : {value.y, value.interval.low}) {
-                if (y < least) least = std::floor(y * 10) / 10;  // not for NaN
+                if (y < least) least = std::floor(y * 10) / 10;  // false for NaN
             }
         }
     }
@@ -50,7 +50,7 @@ double leastOf(const std::vector<Line>& lines) {
 
 class Chart {
  public:
-    /// `bottom`: the share of the height for the places' labels and the legend.
+    /// `bottom`: fraction of the height for the axis labels and the legend.
     Chart(std::string name, int width_px, int panels, double bottom) : name_(std::move(name)) {
         text_.imbue(std::locale::classic());
         text_ << "set terminal svg size " << width_px << "," << kHeight_px
@@ -97,7 +97,7 @@ class Chart {
         };
         const std::size_t lines = panel.lines.size();
         for (std::size_t l = 0; l < lines; ++l) {
-            // Side by side, so that intervals do not hide one another.
+            // Shifted sideways so that intervals do not cover each other.
             const double shift =
                 panel.has_labels
                     ? 0.08 * (static_cast<double>(l) - static_cast<double>(lines - 1) / 2)
@@ -148,24 +148,24 @@ class Chart {
     std::ostringstream text_;
 };
 
-using Figure = std::function<Value(const SummedGroup&)>;
-Value roiF1(const SummedGroup& group) {
+using Figure = std::function<Value(const GroupTotals&)>;
+Value roiF1(const GroupTotals& group) {
     return {"", 0, group.scores.roi.f1(), group.intervals.roi.f1};
 }
-Value rouF1(const SummedGroup& group) {
+Value rouF1(const GroupTotals& group) {
     return {"", 0, group.scores.rou.f1(), group.intervals.rou.f1};
 }
-Value recall(const SummedGroup& group) {
+Value recall(const GroupTotals& group) {
     return {"", 0, group.scores.correct(), group.intervals.correct};
 }
 
-/// A line a method, over the groups of a part.
-std::vector<Line> linesOf(const Summary& summary, std::vector<SummedGroup> SummedScores::*part,
+/// One line per method, over the groups of a part.
+std::vector<Line> linesOf(const Summary& summary, std::vector<GroupTotals> ScoreTotals::*part,
                           const Figure& figure) {
     std::vector<Line> lines;
-    for (const SummedMethod& method : summary.methods) {
+    for (const MethodTotals& method : summary.methods) {
         Line line{method.name, {}};
-        for (const SummedGroup& group : method.returns.*part) {
+        for (const GroupTotals& group : method.returns.*part) {
             Value value = figure(group);
             value.label = group.name;
             value.x = static_cast<double>(line.values.size());
@@ -177,7 +177,7 @@ std::vector<Line> linesOf(const Summary& summary, std::vector<SummedGroup> Summe
 }
 
 void drawPart(const std::filesystem::path& folder, const Summary& summary, const std::string& name,
-              const std::string& x_title, std::vector<SummedGroup> SummedScores::*part) {
+              const std::string& x_title, std::vector<GroupTotals> ScoreTotals::*part) {
     if ((summary.methods.front().returns.*part).empty()) return;
     const std::vector<Line> roi = linesOf(summary, part, roiF1);
     const std::vector<Line> rou = linesOf(summary, part, rouF1);
@@ -189,7 +189,7 @@ void drawPart(const std::filesystem::path& folder, const Summary& summary, const
 }
 
 void drawKinds(const std::filesystem::path& folder, const Summary& summary) {
-    const auto part = &SummedScores::by_kind;
+    const auto part = &ScoreTotals::by_kind;
     if ((summary.methods.front().returns.*part).empty()) return;
     Chart chart("by_kind.svg", kWidth_px, 1, 0.42);
     const std::vector<Line> lines = linesOf(summary, part, recall);
@@ -199,9 +199,9 @@ void drawKinds(const std::filesystem::path& folder, const Summary& summary) {
     chart.draw(folder);
 }
 
-/// Whether each value of a sweep is a number; then the x axis is to scale.
-bool areNumbers(const std::vector<const SummedMethod*>& methods, std::vector<double>& numbers) {
-    for (const SummedMethod* method : methods) {
+/// True if every value of a sweep is a number; the x axis is then to scale.
+bool areNumbers(const std::vector<const MethodTotals*>& methods, std::vector<double>& numbers) {
+    for (const MethodTotals* method : methods) {
         const auto number = base::numberFrom<double>(method->sweep_value);
         if (!number) return false;
         numbers.push_back(*number);
@@ -210,13 +210,13 @@ bool areNumbers(const std::vector<const SummedMethod*>& methods, std::vector<dou
 }
 
 void drawSweep(const std::filesystem::path& folder, const std::string& key,
-               const std::vector<const SummedMethod*>& methods) {
+               const std::vector<const MethodTotals*>& methods) {
     std::vector<double> numbers;
     Panel panel{"F1 over all returns", key, "F1", {{"RoI", {}}, {"ROU", {}}}, 0};
     panel.has_labels = !areNumbers(methods, numbers);
     panel.has_lines = !panel.has_labels;
     for (std::size_t m = 0; m < methods.size(); ++m) {
-        const SummedGroup& all = methods[m]->returns.all;
+        const GroupTotals& all = methods[m]->returns.all;
         Value roi = roiF1(all), rou = rouF1(all);
         roi.label = rou.label = methods[m]->sweep_value;
         roi.x = rou.x = panel.has_labels ? static_cast<double>(m) : numbers[m];
@@ -244,13 +244,13 @@ const base::OutputKind kCharts{
 
 void drawCharts(const std::filesystem::path& folder, const Summary& summary) {
     if (summary.methods.size() <= kMostLines) {
-        drawPart(folder, summary, "by_range.svg", "range", &SummedScores::by_range);
+        drawPart(folder, summary, "by_range.svg", "range", &ScoreTotals::by_range);
         drawPart(folder, summary, "by_altitude.svg", "altitude of the sensor",
-                 &SummedScores::by_altitude);
+                 &ScoreTotals::by_altitude);
         drawKinds(folder, summary);
     }
-    std::vector<std::pair<std::string, std::vector<const SummedMethod*>>> sweeps;
-    for (const SummedMethod& method : summary.methods) {
+    std::vector<std::pair<std::string, std::vector<const MethodTotals*>>> sweeps;
+    for (const MethodTotals& method : summary.methods) {
         if (method.sweep_key.empty()) continue;
         auto sweep = std::find_if(sweeps.begin(), sweeps.end(),
                                   [&](const auto& s) { return s.first == method.sweep_key; });

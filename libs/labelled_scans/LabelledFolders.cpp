@@ -32,13 +32,13 @@ std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) 
     return labels;
 }
 
-void readTruth(const Recording& recording, std::size_t i, evaluation::TrueScan& scan) {
+void readTruth(const Recording& recording, std::size_t i, evaluation::GroundTruthScan& scan) {
     const logs::ScanFolder& folder = recording.folder;
     const bool is_by_kind = recording.has_label_map && recording.has_kind_files;
     const fs::path file = is_by_kind ? folder.kindFile(i) : folder.labelFile(i);
     const std::vector<std::uint16_t> numbers = readLabelsOf(scan.input.scan, file);
     try {
-        scan.truth = recording.has_label_map ? evaluation::labelsOfKinds(numbers, recording.kinds)
+        scan.truth = recording.has_label_map ? evaluation::labelsOfClasses(numbers, recording.kinds)
                                              : evaluation::labelsOfNumbers(numbers);
     } catch (const std::invalid_argument& e) {
         throw std::runtime_error(file.string() + ": " + e.what());
@@ -50,8 +50,8 @@ void readTruth(const Recording& recording, std::size_t i, evaluation::TrueScan& 
     }
 }
 
-evaluation::TrueScan readTrueScan(const Recording& recording, std::size_t i) {
-    evaluation::TrueScan scan;
+evaluation::GroundTruthScan readTrueScan(const Recording& recording, std::size_t i) {
+    evaluation::GroundTruthScan scan;
     logs::readScan(recording.folder.scanFile(i), scan.input.scan);
     locateBeams(recording.sensor, scan.input.scan);
     readTruth(recording, i, scan);
@@ -66,7 +66,7 @@ evaluation::TrueScan readTrueScan(const Recording& recording, std::size_t i) {
 }
 
 std::shared_ptr<const Recording> openRecording(
-    const std::string& path, const MethodRows& rows,
+    const std::string& path, const MethodSet& rows,
     const std::optional<evaluation::LabelMap>& label_map) {
     Recording recording{logs::ScanFolder(path), {}, {}, label_map.has_value(), false, {}, {}, {}};
     const logs::ScanFolder& folder = recording.folder;
@@ -119,14 +119,14 @@ std::vector<std::string> namesOf(const std::vector<std::string>& folders) {
 
 }  // namespace
 
-std::vector<evaluation::ScanSource> sourcesOf(
-    const std::vector<std::string>& folders, const MethodRows& rows,
+std::vector<evaluation::LabelledScanSource> sourcesOf(
+    const std::vector<std::string>& folders, const MethodSet& rows,
     const std::optional<evaluation::LabelMap>& label_map) {
     const std::vector<std::string> names = namesOf(folders);
-    std::vector<evaluation::ScanSource> sources;
+    std::vector<evaluation::LabelledScanSource> sources;
     for (std::size_t f = 0; f < folders.size(); ++f) {
         const auto recording = openRecording(folders[f], rows, label_map);
-        evaluation::ScanSource source;
+        evaluation::LabelledScanSource source;
         source.name = names[f];
         source.scans = recording->folder.size();
         source.read = [recording](std::size_t i) { return readTrueScan(*recording, i); };

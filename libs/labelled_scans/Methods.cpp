@@ -13,7 +13,8 @@
 namespace hagen::labelled_scans {
 namespace {
 
-/// How the sensor was tilted, where its pose in the map is known: yaw, pitch, roll about z, y, x.
+/// Returns the attitude of the sensor if its pose in the map is known: yaw, pitch, roll about z, y,
+/// x.
 std::optional<Attitude> attitudeOf(const evaluation::ScanInput& input) {
     if (!input.map_from_sensor) return std::nullopt;
     const Eigen::Matrix3f& turn = *input.map_from_sensor;
@@ -38,7 +39,7 @@ std::vector<evaluation::Baseline> allBaselines(float zone_m) {
     return all;
 }
 
-/// "5,7.5" as two texts; an empty one stays, and is refused as a value later.
+/// Splits "5,7.5" into two texts; an empty one is kept, and rejected later as a value.
 std::vector<std::string> valuesOf(const std::string& text) {
     std::vector<std::string> values;
     std::istringstream stream(text);
@@ -48,9 +49,9 @@ std::vector<std::string> valuesOf(const std::string& text) {
 
 }  // namespace
 
-std::vector<SettingsRow> rowsOf(const observations::Settings& settings,
-                                const std::vector<std::string>& sweeps) {
-    std::vector<SettingsRow> rows;
+std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
+                               const std::vector<std::string>& sweeps) {
+    std::vector<SweepPoint> rows;
     if (sweeps.empty()) rows.push_back({"hagen", settings, "", ""});
     for (const std::string& sweep : sweeps) {
         const std::size_t equals = sweep.find('=');
@@ -60,15 +61,15 @@ std::vector<SettingsRow> rowsOf(const observations::Settings& settings,
         }
         const std::string key = sweep.substr(0, equals);
         for (const std::string& value : valuesOf(sweep.substr(equals + 1))) {
-            SettingsRow row{key + "=" + value, settings, key, value};
+            SweepPoint row{key + "=" + value, settings, key, value};
             observations::setOption(key, value, row.settings);
             rows.push_back(row);
         }
     }
-    for (const SettingsRow& row : rows) {
+    for (const SweepPoint& row : rows) {
         if (row.settings.options.window_scans > 1) {
             throw observations::SettingsError(
-                "window_scans is above 1; scans are scored one by one here");
+                "window_scans is above 1, but scans are scored one at a time");
         }
     }
     return rows;
@@ -80,10 +81,10 @@ observations::Settings settingsFor(observations::Settings settings,
     return settings;
 }
 
-std::vector<evaluation::Method> methodsFor(const MethodRows& rows,
+std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file) {
     std::vector<evaluation::Method> methods;
-    for (const SettingsRow& row : rows.filter) {
+    for (const SweepPoint& row : rows.filter) {
         methods.push_back(filterMethod(row.name, settingsFor(row.settings, sensor_file)));
     }
     if (!rows.baselines) return methods;

@@ -12,12 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How a pixel was scored, in the order in which they are drawn: what is wrong lies on top.
+/// Outcome of a pixel, in drawing order: errors are on top.
 enum Outcome { LeftOut, RouFound, RoiFound, FalseAlarm, Missed, kOutcomes };
 struct Style {
     const char *name, *colour;
 };
-// Colours that the colour-blind tell apart (Okabe and Ito).
+// Colour-blind safe palette (Okabe and Ito).
 constexpr std::array<Style, kOutcomes> kStyles{{{"not scored or not labelled", "#DDDDDD"},
                                                 {"ROU found", "#A9BCCB"},
                                                 {"RoI found", "#0072B2"},
@@ -31,13 +31,13 @@ Outcome outcomeOf(Label truth, Label found) {
     return found == Label::Roi ? FalseAlarm : RouFound;
 }
 
-/// A name as part of a file's.
+/// Makes a name usable in a file name.
 std::string fileName(std::string name) {
     std::replace(name.begin(), name.end(), '/', '_');
     return name;
 }
 
-void draw(const fs::path& picture, const std::string& title, const evaluation::LabelledView& view,
+void draw(const fs::path& picture, const std::string& title, const evaluation::MethodOutput& view,
           const evaluation::PinholeCamera& camera, float max_range_m) {
     std::array<std::size_t, kOutcomes> counts{};
     std::array<std::ostringstream, kOutcomes> points;
@@ -51,7 +51,7 @@ void draw(const fs::path& picture, const std::string& title, const evaluation::L
     }
     std::ostringstream script;
     script.imbue(std::locale::classic());
-    for (int o = 0; o < kOutcomes; ++o) {  // a block must not be empty
+    for (int o = 0; o < kOutcomes; ++o) {  // gnuplot rejects an empty block
         script << "$outcome" << o << " << EOD\nNaN NaN\n" << points[o].str() << "EOD\n";
     }
     constexpr int kMargin_px = 40;  // for title and legend
@@ -89,8 +89,8 @@ const base::OutputKind kOverlays{
                name.compare(name.size() - end.size(), end.size(), end) == 0;
     }};
 
-void drawOverlay(const fs::path& folder, const evaluation::ScanSource& source,
-                 const evaluation::LabelledView& view,
+void drawOverlay(const fs::path& folder, const evaluation::LabelledScanSource& source,
+                 const evaluation::MethodOutput& view,
                  const evaluation::EvaluationOptions& options) {
     const fs::path own = view.methods == 1 ? folder : folder / fileName(view.method_name);
     fs::create_directories(own);

@@ -3,21 +3,21 @@
 namespace hagen::labelled_scans {
 namespace {
 
-SummedGroup summed(const evaluation::Group& group, const evaluation::BootstrapOptions& options) {
+GroupTotals summed(const evaluation::Group& group, const evaluation::BootstrapOptions& options) {
     return {group.name, group.scans.size(), group.sum(),
             evaluation::bootstrapIntervals(group.scans, options)};
 }
 
-std::vector<SummedGroup> summed(const std::vector<evaluation::Group>& groups,
+std::vector<GroupTotals> summed(const std::vector<evaluation::Group>& groups,
                                 const evaluation::BootstrapOptions& options) {
-    std::vector<SummedGroup> all;
+    std::vector<GroupTotals> all;
     for (const evaluation::Group& group : groups) all.push_back(summed(group, options));
     return all;
 }
 
-SummedScores summed(const std::vector<evaluation::ScanScores>& scans, const Summary& summary) {
+ScoreTotals summed(const std::vector<evaluation::ScanScores>& scans, const Summary& summary) {
     const evaluation::BootstrapOptions& options = summary.bootstrap;
-    return {summed(evaluation::wholeOf(scans), options),
+    return {summed(evaluation::overallScores(scans), options),
             summed(evaluation::byRange(scans, summary.range), options),
             summed(evaluation::byAltitude(scans), options),
             summed(evaluation::byKind(scans), options),
@@ -26,11 +26,11 @@ SummedScores summed(const std::vector<evaluation::ScanScores>& scans, const Summ
 
 }  // namespace
 
-void sumUp(const std::vector<evaluation::MethodScores>& methods,
-           const std::vector<SettingsRow>& rows, Summary& summary) {
+void addScores(const std::vector<evaluation::MethodScores>& methods,
+               const std::vector<SweepPoint>& rows, Summary& summary) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
         const evaluation::MethodScores& method = methods[m];
-        SummedMethod sum;
+        MethodTotals sum;
         sum.name = method.name;
         if (m < rows.size()) {  // the filter's rows come first
             sum.sweep_key = rows[m].sweep_key;

@@ -1,14 +1,14 @@
 #include <hagen/labelled_scans/SummaryJson.h>
 
+#include <hagen/base/Json.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace hagen::labelled_scans {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Json;
 
 Json number(double value) { return std::isnan(value) ? Json() : Json(value); }
 Json text(const std::string& value) { return value.empty() ? Json() : Json(value); }
@@ -30,7 +30,7 @@ Json json(const evaluation::ClassScore& score,
             {"f1_interval", json(intervals.f1)}};
 }
 
-Json json(const SummedGroup& group) {
+Json json(const GroupTotals& group) {
     return {{"name", group.name},
             {"scans", group.scans},
             {"returns", group.scores.returns()},
@@ -40,13 +40,13 @@ Json json(const SummedGroup& group) {
             {"rou", json(group.scores.rou, group.intervals.rou)}};
 }
 
-Json json(const std::vector<SummedGroup>& groups) {
+Json json(const std::vector<GroupTotals>& groups) {
     Json list = Json::array();
-    for (const SummedGroup& group : groups) list.push_back(json(group));
+    for (const GroupTotals& group : groups) list.push_back(json(group));
     return list;
 }
 
-Json json(const SummedScores& scores) {
+Json json(const ScoreTotals& scores) {
     return {{"all", json(scores.all)},
             {"by_range", json(scores.by_range)},
             {"by_altitude", json(scores.by_altitude)},
@@ -61,7 +61,7 @@ Json json(const evaluation::Latency& latency) {
             {"max", number(latency.max_ms)}};
 }
 
-Json json(const SummedMethod& method) {
+Json json(const MethodTotals& method) {
     const Json sweep{{"key", method.sweep_key}, {"value", method.sweep_value}};
     return {{"name", method.name},
             {"sweep", method.sweep_key.empty() ? Json() : sweep},
@@ -100,10 +100,11 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
                            {"seed", summary.bootstrap.seed},
                            {"level", summary.bootstrap.level}};
     report["methods"] = Json::array();
-    for (const SummedMethod& method : summary.methods) report["methods"].push_back(json(method));
+    for (const MethodTotals& method : summary.methods) report["methods"].push_back(json(method));
 
-    // File names need not be UTF-8, JSON must be.
-    base::writeText(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", file, file);
+    // File names may be invalid UTF-8, which JSON does not allow.
+    base::writeText(report.dump(2, Json::NotUtf8::Replace) + "
+", file, file);
 }
 
 }  // namespace hagen::labelled_scans

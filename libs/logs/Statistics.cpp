@@ -1,3 +1,4 @@
+#include <hagen/base/Json.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/logs/Statistics.h>
 #include <hagen/segmentation/OptionKeys.h>
@@ -5,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include <hagen/base/WriteFile.h>
@@ -13,7 +13,7 @@
 namespace hagen::logs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Json;
 
 Json settingsOf(const observations::Settings& settings) {
     Json json;
@@ -40,7 +40,7 @@ Json latencyOf(const std::vector<ScanReport>& scans) {
 
 /// File names need not be UTF-8; what is not becomes U+FFFD.
 std::string dumped(const Json& json, int indent) {
-    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+    return json.dump(indent, Json::NotUtf8::Replace);
 }
 
 double inMillimetres(float metres) {
@@ -72,7 +72,8 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
                                      {"pictures", conversion.pictures}}) {
         if (!path.empty()) json["outputs"][what] = path.string();
     }
-    for (const auto& path : conversion.octomaps) json["outputs"]["octomaps"] += path.string();
+    for (const auto& path : conversion.octomaps)
+        json["outputs"]["octomaps"].push_back(path.string());
     json["settings"] = settingsOf(report.settings);
     json["sensors"] = report.sensors;
     json["poses"] = {{"source", report.poses}, {"scans_with_pose", report.scans_with_pose}};

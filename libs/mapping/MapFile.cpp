@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What errno tells is why, where it was 0 before.
-[[noreturn]] void failToWrite(const fs::path& file) {
+/// Throws with the reason in errno; set errno to 0 before the operation.
+[[noreturn]] void throwWriteError(const fs::path& file) {
     throw std::runtime_error(
         file.string() + ": the map cannot be written" +
-        (errno == 0 ? "; is there room for it?" : std::string(": ") + std::strerror(errno)));
+        (errno == 0 ? "; is the disk full?" : std::string(": ") + std::strerror(errno)));
 }
 
-/// The occupied voxels as MRPT draws them, from blue (the lowest) to red.
+/// Returns the occupied voxels in MRPT's drawing, coloured by height from blue (lowest) to red.
 mrpt::opengl::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
     auto voxels = mrpt::opengl::COctoMapVoxels::Create();
     voxels->resizeVoxelSets(1);
@@ -51,10 +51,10 @@ void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path
     mrpt::opengl::COpenGLScene scene;
     scene.insert(voxelsOf(tree));
     errno = 0;
-    if (!scene.saveToFile(file.string())) failToWrite(named);
+    if (!scene.saveToFile(file.string())) throwWriteError(named);
 }
 
-/// The head of octomap's files. Its own functions that write whole files talk on standard error.
+/// Writes the header of OctoMap's files. OctoMap's own writers print to standard error.
 void writeHead(const std::string& kind, const octomap::OcTree& tree, std::ostream& out) {
     out << kind << "\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
         << tree.getResolution() << "\ndata\n";
@@ -91,13 +91,13 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) { saveMap(tree, 
 void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
     if (named.extension() == ".3Dscene") return saveScene(tree, file, named);
-    octomap::OcTree whole(tree);  // as scans leave it, inner nodes lag behind
+    octomap::OcTree whole(tree);  // the inner nodes of a map under construction are out of date
     whole.updateInnerOccupancy();
     errno = 0;
     std::ofstream out(file, std::ios::binary);
-    if (!out) failToWrite(named);
+    if (!out) throwWriteError(named);
     writeOctree(whole, named.extension() == ".bt", out);
-    if (!out.flush()) failToWrite(named);
+    if (!out.flush()) throwWriteError(named);
 }
 
 }  // namespace hagen::mapping

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "KeyBox.h"
+#include "KeyBitset.h"
 
 namespace hagen::mapping {
 
@@ -12,7 +12,7 @@ namespace {
 
 octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
-/// What a scan says of voxels. One that is hit and passed is hit.
+/// State of a voxel after a scan. A hit overrides a ray that passes through.
 struct ScanVoxels {
     std::vector<octomap::OcTreeKey> free, occupied;
 };
@@ -25,8 +25,8 @@ void check(const char* what, double value) {
 
 }  // namespace
 
-/// Walks along rays, and notes each voxel once.
-class ScanMap::RayWalk {
+/// Traverses rays and marks each voxel once.
+class ScanMap::RayTraversal {
  public:
     void start(const octomap::OcTree& tree, const Eigen::Vector3f& origin_m, double max_range_m) {
         tree_ = &tree;
@@ -36,7 +36,7 @@ class ScanMap::RayWalk {
         voxels_.occupied.clear();
         const auto reach = static_cast<float>(max_range_m + 2 * tree.getResolution());
         const Eigen::Vector3f corner = Eigen::Vector3f::Constant(reach);
-        KeyBox::Corners box;
+        KeyBitset::Corners box;
         if (!tree.coordToKeyChecked(pointOf(origin_m - corner), box.least) ||
             !tree.coordToKeyChecked(pointOf(origin_m + corner), box.most)) {
             throw std::runtime_error("a scan at " + std::to_string(std::lround(origin_m.x())) +
@@ -57,8 +57,8 @@ class ScanMap::RayWalk {
         if (hit_.add(key)) voxels_.occupied.push_back(key);
     }
 
-    /// Passes the voxels up to the point's own, or to the greatest range. Rays that end in one
-    /// voxel are one ray to its middle.
+    /// Marks the voxels before the point's own as free, up to the maximum range. Rays that end in
+    /// the same voxel count as one ray to its centre.
     void pass(const Eigen::Vector3f& point_m) {
         const Eigen::Vector3f ray = point_m - origin_m_;
         const float range_m = ray.norm();
@@ -83,8 +83,8 @@ class ScanMap::RayWalk {
     const octomap::OcTree* tree_ = nullptr;
     Eigen::Vector3f origin_m_{0, 0, 0};
     float max_range_m_ = 0;
-    KeyBox passed_, hit_, ends_;
-    octomap::KeyRay ray_;  // large: kept from scan to scan, with all that is here
+    KeyBitset passed_, hit_, ends_;
+    octomap::KeyRay ray_;  // large: reused across scans, like all members
     ScanVoxels voxels_;
 };
 
@@ -92,7 +92,7 @@ ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
     check("resolution", options.resolution_m);
     check("greatest range", options.max_range_m);
     tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);
-    walk_ = std::make_unique<RayWalk>();
+    walk_ = std::make_unique<RayTraversal>();
 }
 ScanMap::~ScanMap() = default;
 ScanMap::ScanMap(ScanMap&&) noexcept = default;
@@ -105,7 +105,7 @@ void ScanMap::insert(const MappedScan& scan) {
     const auto is_hit = [&](std::size_t i) {
         return content == MapContent::Full || scan.labels[i] == Label::Roi;
     };
-    RayWalk& walk = *walk_;
+    RayTraversal& walk = *walk_;
     walk.start(*tree_, scan.origin_m, options_.max_range_m);
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         if (is_hit(i)) walk.hit(scan.points_m[i]);
@@ -113,7 +113,7 @@ void ScanMap::insert(const MappedScan& scan) {
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         if (content == MapContent::RoiAndRays || is_hit(i)) walk.pass(scan.points_m[i]);
     }
-    // Inner nodes, and leaves that are one in the end, wait until the map is saved.
+    // Inner nodes are updated, and equal leaves merged, when the map is saved.
     const auto update = [&](const octomap::OcTreeKey& key, bool is_occupied) {
         constexpr bool lazily = true;
         if (!tree_->bbxSet() || tree_->inBBX(key)) tree_->updateNode(key, is_occupied, lazily);

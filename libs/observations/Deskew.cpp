@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kKnotSpacing_s = 1e-3;
 
-/// The sensor's pose at `start` + time_s, seen from where it was at `start`.
+/// Returns the sensor's pose at `start` + time_s, relative to its pose at `start`.
 std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
                                              mrpt::Clock::time_point start,
                                              const mrpt::poses::CPose3D& start_pose,
@@ -35,9 +35,10 @@ bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
     const auto [first, last] = std::minmax_element(scan.time_s.begin(), scan.time_s.end());
     const double first_s = static_cast<double>(*first), last_s = static_cast<double>(*last);
 
-    // Poses a millisecond apart, the last beyond no return; between two of them a return is moved
-    // in proportion. Interpolating the trajectory for each return would take a hundred times as
-    // long, and a rotor's vibration is not in the poses anyway.
+    // Poses are sampled every millisecond, the last one after the last return, and returns are
+    // moved by linear interpolation between two samples. Interpolating the trajectory for each
+    // return would take a hundred times as long, and the poses do not contain a rotor's vibration
+    // anyway.
     const int knots = std::max(1, static_cast<int>(std::ceil((last_s - first_s) / kKnotSpacing_s)));
     const double spacing_s = (last_s - first_s) / knots;
     std::vector<Eigen::Isometry3f> motion;

@@ -28,7 +28,7 @@ void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates&
     scan.time_s.clear();
 }
 
-/// Intensities within 0..1; a cloud that counts to 255, as many drivers do, is scaled.
+/// Scales intensities to 0..1 if the cloud's range is 0..255, as with many drivers.
 template <class Intensities>
 void assignIntensities(const Intensities& intensities, Scan& scan) {
     const auto most = std::max_element(intensities.begin(), intensities.end());
@@ -43,7 +43,7 @@ bool isSame(const Settings::Sensor& a, const Settings::Sensor& b) {
            a.min_range_m == b.min_range_m && a.max_range_m == b.max_range_m;
 }
 
-/// The sensor of the settings: made anew, which allocates, only where they changed.
+/// Returns the sensor of the settings; rebuilds it, which allocates, only if they changed.
 void takeConfiguredSensor(const Settings& settings, ObservedScan& observed) {
     ObservedScan::Workspace& work = observed.work;
     if (!work.settings || !isSame(*work.settings, settings.sensor)) {
@@ -73,7 +73,7 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
         return;
     }
     sensorOf(observation, observed.sensor);
-    // Settings may narrow what the sensor sees, not widen it.
+    // Settings may narrow the sensor's range limits, not widen them.
     SensorModel& sensor = observed.sensor;
     sensor.min_range_m = std::max(sensor.min_range_m, settings.sensor.min_range_m.value_or(0.0f));
     sensor.max_range_m =
@@ -83,10 +83,10 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
     if (unsound_blocks > 0) {
         observed.remark = std::to_string(unsound_blocks) + " of " +
                           std::to_string(observation.scan_packets.size() * 12) +
-                          " packet blocks have no valid header or azimuth and are left out";
+                          " packet blocks have no valid header or azimuth and are skipped";
     } else if (settings.sensor.model && settings.sensor.model != observed.sensor.name) {
-        observed.remark = "the packets are of a " + observed.sensor.name +
-                          ": its beams are used, not those of the settings' sensor.model " +
+        observed.remark = "the packets are from a " + observed.sensor.name +
+                          ": its beams are used instead of the settings' sensor.model " +
                           *settings.sensor.model;
     }
 }
@@ -94,7 +94,8 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
 void readCloud(const CObservationPointCloud& observation, const Settings& settings,
                ObservedScan& observed) {
     observation.load();
-    if (!observation.pointcloud) throw std::runtime_error("the observation holds no point cloud");
+    if (!observation.pointcloud)
+        throw std::runtime_error("the observation contains no point cloud");
     const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
     takeConfiguredSensor(settings, observed);
     assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
@@ -108,7 +109,7 @@ void readCloud(const CObservationPointCloud& observation, const Settings& settin
 }  // namespace
 
 bool isLidarScan(const mrpt::obs::CObservation& observation) {
-    if (endsWith(observation.sensorLabel, "_roi")) return false;  // `_non_roi` too
+    if (endsWith(observation.sensorLabel, "_roi")) return false;  // also excludes `_non_roi`
     return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr ||
            dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
 }
@@ -130,7 +131,7 @@ mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uin
                                     CloudClass cloud_class) {
     const auto end = std::lower_bound(indices.begin(), indices.end(), scan.size());
     const auto size = static_cast<std::size_t>(end - indices.begin());
-    // Room for all at first: points appended one by one cost several times as much.
+    // Reserve first: appending points one by one costs several times as much.
     const auto fill = [&](auto points, const auto& set_more) {
         points->setSize(size);
         for (std::size_t k = 0; k < size; ++k) {

@@ -10,7 +10,7 @@
 namespace hagen::observations {
 namespace {
 
-// Apart for the colour-blind too, and both apart from the viewer's grey.
+// Colour-blind safe, and both distinct from the viewer's grey.
 const mrpt::img::TColor kRoiColor(213, 94, 0), kRouColor(150, 190, 230), kZoneColor(240, 240, 240),
     kBoxColor(255, 190, 120);
 constexpr std::uint32_t kLeastBoxed = 30;  // returns; boxes around fewer only hide them

@@ -15,9 +15,9 @@ namespace hagen::observations {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kMostIncludes = 8;  // deep enough for any sane set of files; stops circles
+constexpr int kMostIncludes = 8;  // stops circular includes
 
-/// Where a value stands, for messages.
+/// The place of a value in a file, for messages.
 std::string at(const fs::path& file, const YAML::Node& node) {
     const YAML::Mark mark = node.Mark();
     return file.string() + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
@@ -45,17 +45,17 @@ std::string unknownKey(const std::string& key, const std::vector<std::string>& k
     return "unknown key '" + key + "'; did you mean '" + nearest + "'?";
 }
 
-/// A number within [least, most], or a SettingsError that says what is allowed.
+/// Reads a number within [least, most]; otherwise throws SettingsError with the allowed range.
 template <class Number>
 Number parseNumber(const YAML::Node& node, const std::string& key, double least, double most) {
-    // Read as a real number also where a whole one is meant: YAML takes 010 for octal.
+    // Integers are also read as real numbers, because YAML parses 010 as octal.
     double value = 0;
     const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
     if (!is_number || (std::is_integral_v<Number> && value != std::floor(value))) {
         throw SettingsError(key + " must be a " + (std::is_integral_v<Number> ? "whole " : "") +
                             "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
     }
-    if (!(value >= least && value <= most)) {  // NaN too
+    if (!(value >= least && value <= most)) {  // also for NaN
         throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
                             base::shortestText(least) + " and " + base::shortestText(most));
     }
@@ -100,7 +100,7 @@ constexpr double kMostRange_m = 1000;
 const std::vector<SettingsKey>& sensorKeys() {
     static const std::vector<SettingsKey> keys{
         {"model", "", "VLP-16", joined(knownSensorModels(), ", ") + ", custom",
-         "the sensor of clouds; packets tell theirs", ""},
+         "the sensor of point clouds; packets identify their own", ""},
         {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
          "the beams of a custom sensor, lowest first", ""},
         {"min_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
@@ -125,14 +125,15 @@ const OptionKey* findOption(const std::string& name) {
 
 void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sensor& sensor) {
     if (!section.IsMap()) {
-        throw SettingsError(at(file, section) + "sensor must hold keys, such as 'model: VLP-16'");
+        throw SettingsError(at(file, section) +
+                            "sensor must contain keys, such as 'model: VLP-16'");
     }
-    if (section["model"]) sensor = {};  // another sensor: nothing of the one before holds
+    if (section["model"]) sensor = {};  // a new model discards the settings of the previous sensor
     std::set<std::string> seen;
     for (const auto& entry : section) {
         const std::string key = entry.first.Scalar();
         if (!seen.insert(key).second) {
-            throw SettingsError(at(file, entry.first) + "key 'sensor." + key + "' is there twice");
+            throw SettingsError(at(file, entry.first) + "key 'sensor." + key + "' occurs twice");
         }
         const YAML::Node& value = entry.second;
         try {
@@ -176,7 +177,8 @@ YAML::Node parseFile(const fs::path& file) {
     try {
         const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
         if (documents.size() > 1) {
-            throw SettingsError(file.string() + ": holds several documents (---); one is taken");
+            throw SettingsError(file.string() +
+                                ": contains several documents (---); only one is allowed");
         }
         return documents.empty() ? YAML::Node() : documents.front();
     } catch (const SettingsError&) {
@@ -193,7 +195,7 @@ void mergeFile(const fs::path& file, int includes, Settings& settings);
 
 void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, Settings& settings) {
     if (includes >= kMostIncludes) {
-        throw SettingsError(at(file, node) + "include goes round in a circle, or too deep");
+        throw SettingsError(at(file, node) + "include is circular or nested too deeply");
     }
     const YAML::Node names = node.IsSequence() ? node : YAML::Load("[]");
     if (!node.IsSequence() && !node.IsScalar()) {
@@ -203,7 +205,7 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, S
         const fs::path included = file.parent_path() / name;
         if (!fs::exists(included)) {
             throw SettingsError(at(file, node) + "includes " + included.string() +
-                                ", which is not there");
+                                ", which does not exist");
         }
         mergeFile(included, includes + 1, settings);
     };
@@ -213,7 +215,7 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, S
 
 void mergeFile(const fs::path& file, int includes, Settings& settings) {
     const YAML::Node document = parseFile(file);
-    if (document.IsNull()) return;  // empty, or comments alone: all defaults
+    if (document.IsNull()) return;  // empty or comments only: all defaults
     if (!document.IsMap()) {
         throw SettingsError(file.string() + ": not settings: 'key: value' lines are expected");
     }
@@ -225,7 +227,7 @@ void mergeFile(const fs::path& file, int includes, Settings& settings) {
     for (const auto& entry : document) {
         const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "?";
         if (!seen.insert(name).second) {
-            throw SettingsError(at(file, entry.first) + "key '" + name + "' is there twice");
+            throw SettingsError(at(file, entry.first) + "key '" + name + "' occurs twice");
         }
         if (name == "include") continue;
         if (name == "sensor") {
@@ -299,7 +301,7 @@ std::string dumpSettings(const Settings& settings) {
     limit("min_range_m", sensor.min_range_m);
     limit("max_range_m", sensor.max_range_m);
     if (values.empty()) {
-        text << "# sensor: of the recording, or a VLP-16\n";
+        text << "# sensor: from the recording; otherwise a VLP-16\n";
     } else {
         text << "sensor:\n";
         for (const SettingsKey& key : sensorKeys()) {

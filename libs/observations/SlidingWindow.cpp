@@ -10,9 +10,9 @@ void append(const std::vector<T>& from, std::vector<T>& to) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Appends the returns of `past`, seen from `here`.
-void appendMoved(const Scan& past, const mrpt::poses::CPose3D& from,
-                 const mrpt::poses::CPose3D& here, Scan& window) {
+/// Appends the returns of `past`, transformed into the frame of `here`.
+void appendTransformed(const Scan& past, const mrpt::poses::CPose3D& from,
+                       const mrpt::poses::CPose3D& here, Scan& window) {
     const mrpt::poses::CPose3D seen_from_here = from - here;
     for (std::size_t i = 0; i < past.size(); ++i) {
         const mrpt::math::TPoint3D point =
@@ -28,18 +28,19 @@ void appendMoved(const Scan& past, const mrpt::poses::CPose3D& from,
 
 SlidingWindow::SlidingWindow(int scans) : scans_(static_cast<std::size_t>(scans)) {
     if (scans < 1)
-        throw std::invalid_argument("a window holds 1 scan or more, not " + std::to_string(scans));
+        throw std::invalid_argument("a window contains at least 1 scan, not " +
+                                    std::to_string(scans));
 }
 
 const Scan& SlidingWindow::add(const Scan& newest, const mrpt::poses::CPose3D& sensor_pose,
                                const SensorModel& sensor) {
     window_.clear();
     for (const PastScan& past : past_) {
-        appendMoved(past.scan, past.sensor_pose, sensor_pose, window_);
+        appendTransformed(past.scan, past.sensor_pose, sensor_pose, window_);
     }
     locateBeams(sensor, window_);
 
-    // The newest scan keeps what its sensor told; it goes to the front.
+    // The newest scan keeps the sensor's own values; it comes first.
     const auto prepend = [](const auto& from, auto& to) {
         to.insert(to.begin(), from.begin(), from.end());
     };

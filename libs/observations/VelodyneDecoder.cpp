@@ -25,14 +25,14 @@ static_assert(CObservationVelodyneScan::SCANS_PER_BLOCK == kReturnsOfBlock);
 static_assert(CObservationVelodyneScan::DISTANCE_RESOLUTION == kDistanceUnit_m);
 constexpr double kHourUs = 3600e6;
 
-/// A raw packet, read byte by byte: MRPT's struct is packed, and its accessors bind references to
-/// unaligned numbers. Little-endian, as it came over the network.
+/// A raw packet, read byte by byte (little-endian): MRPT's struct is packed, and its accessors bind
+/// references to unaligned numbers.
 class Packet {
  public:
     explicit Packet(const CObservationVelodyneScan::TVelodyneRawPacket& raw)
         : bytes_(reinterpret_cast<const std::uint8_t*>(&raw)) {}
 
-    bool isSound(int block) const {
+    bool isValid(int block) const {
         return number(block * kBlockBytes, 2) == CObservationVelodyneScan::UPPER_BANK &&
                azimuth(block) < kTurn;
     }
@@ -56,26 +56,27 @@ class Packet {
 };
 
 /// The sine and cosine of an angle.
-struct Turn {
+struct SineCosine {
     double sine, cosine;
 
-    explicit Turn(double angle_rad) : sine(std::sin(angle_rad)), cosine(std::cos(angle_rad)) {}
+    explicit SineCosine(double angle_rad)
+        : sine(std::sin(angle_rad)), cosine(std::cos(angle_rad)) {}
 };
 
-/// The directions of all azimuth readings, from tables of whole degrees and of hundredths, which
-/// are small enough to stay in the first-level cache.
-class Directions {
+/// Directions of all azimuth readings, from tables of whole degrees and of hundredths, which fit in
+/// the first-level cache.
+class ReadingDirections {
  public:
-    Directions() {
+    ReadingDirections() {
         for (int i = 0; i < 360; ++i) degrees_.emplace_back(100 * i * kRadiansPerReading - kPi);
         for (int i = 0; i < 100; ++i) hundredths_.emplace_back(i * kRadiansPerReading);
     }
 
-    /// Sets a block's direction to that of its reading.
+    /// Sets a block's direction from its reading.
     void setDirection(int reading, VelodyneBlock& block) const {
         const int from_behind = reading < kTurn / 2 ? reading + kTurn / 2 : reading - kTurn / 2;
-        const Turn& a = degrees_[from_behind / 100];
-        const Turn& b = hundredths_[from_behind % 100];
+        const SineCosine& a = degrees_[from_behind / 100];
+        const SineCosine& b = hundredths_[from_behind % 100];
         block.sine = static_cast<float>(a.sine * b.cosine + a.cosine * b.sine);
         block.cosine = static_cast<float>(a.cosine * b.cosine - a.sine * b.sine);
         block.azimuth_rad = static_cast<float>(kPi - from_behind * kRadiansPerReading);
@@ -83,7 +84,7 @@ class Directions {
     }
 
  private:
-    std::vector<Turn> degrees_, hundredths_;
+    std::vector<SineCosine> degrees_, hundredths_;
 };
 
 std::string hex(unsigned value) {
@@ -113,15 +114,15 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
     return has_own ? observation.calibration : defaultCalibration(model);
 }
 
-/// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over
-/// the scan, so that neither rounded azimuths nor a broken block shift returns.
+/// Returns the rotation of the sensor from one firing's block to the next, in 0.01 degrees: the
+/// median over the scan, so that neither rounded azimuths nor a broken block shift returns.
 int turnOfBlocks(const CObservationVelodyneScan& observation, std::vector<int>& turns) {
     turns.clear();
     for (const auto& raw : observation.scan_packets) {
         const Packet packet(raw);
         const int step = packet.blocksPerFiring();
         for (int b = 0; b + step < kBlocks; ++b) {
-            if (!packet.isSound(b) || !packet.isSound(b + step)) continue;
+            if (!packet.isValid(b) || !packet.isValid(b + step)) continue;
             const int turn = packet.azimuth(b + step) - packet.azimuth(b);
             turns.push_back(turn < 0 ? turn + kTurn : turn);
         }
@@ -132,16 +133,16 @@ int turnOfBlocks(const CObservationVelodyneScan& observation, std::vector<int>& 
     return *middle;
 }
 
-PlacesInBlock placesOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
-                       int turn_of_blocks) {
-    PlacesInBlock places;
+BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
+                            int turn_of_blocks) {
+    BlockOffsets places;
     for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
         const int laser = i % model.lasers;
         const auto& correction = calibration.laser_corrections[laser];
         const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
         const double turn_reading = std::remainder(
             turn_of_blocks * turn_in_block - 100.0 * correction.azimuthCorrection, kTurn);
-        const Turn turn(turn_reading * kRadiansPerReading);
+        const SineCosine turn(turn_reading * kRadiansPerReading);
         places.turn_sine[i] = static_cast<float>(turn.sine);
         places.turn_cosine[i] = static_cast<float>(turn.cosine);
         places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
@@ -162,10 +163,10 @@ PlacesInBlock placesOf(const VelodyneCalibration& calibration, const VelodyneMod
     return places;
 }
 
-/// The sound blocks of a scan; returns the number of the others.
+/// Collects the valid blocks of a scan; returns the number of invalid ones.
 std::size_t collectBlocks(const CObservationVelodyneScan& observation, const VelodyneModel& model,
                           std::vector<VelodyneBlock>& blocks) {
-    static const Directions directions;
+    static const ReadingDirections directions;
     const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
     blocks.resize(observation.scan_packets.size() * kBlocks);
     VelodyneBlock* next = blocks.data();
@@ -174,7 +175,7 @@ std::size_t collectBlocks(const CObservationVelodyneScan& observation, const Vel
         double packet_us = static_cast<double>(packet.time_us()) - first_us;
         if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
         for (int b = 0; b < kBlocks; ++b) {
-            if (!packet.isSound(b)) continue;
+            if (!packet.isValid(b)) continue;
             const double block_us =
                 packet_us + b / packet.blocksPerFiring() * model.blockPeriodUs();
             VelodyneBlock& block = *next++;
@@ -187,7 +188,7 @@ std::size_t collectBlocks(const CObservationVelodyneScan& observation, const Vel
     return observation.scan_packets.size() * kBlocks - blocks.size();
 }
 
-/// As beamSpan() of the sensor that sensorOf() gives, without its memory.
+/// Equals beamSpan() of the sensor that sensorOf() returns, without its memory.
 BeamSpan beamSpan(const VelodyneCalibration& calibration) {
     const auto isLower = [](const auto& a, const auto& b) {
         return a.sinVertCorrection < b.sinVertCorrection;
@@ -225,9 +226,9 @@ SensorModel sensorOf(const CObservationVelodyneScan& observation) {
     return sensor;
 }
 
-// Fast because the lasers of all blocks fire in the same pattern: blocks differ in their first
-// direction, which a table gives, and the pattern is rotated there, a vector of returns at a time
-// (locateReturns).
+// Fast because the lasers of all blocks fire in the same pattern: blocks differ only in their first
+// direction. It is looked up in a table, and the pattern is rotated by it, one SIMD vector of
+// returns at a time (locateReturns).
 std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan,
                           DecoderWorkspace& work) {
     if (observation.scan_packets.empty()) {
@@ -236,17 +237,17 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
     }
     const VelodyneModel& model = modelOf(observation, 0);
     for (std::size_t p = 1; p < observation.scan_packets.size(); ++p) {
-        modelOf(observation, p);  // refuses a packet of another model
+        modelOf(observation, p);  // throws for a packet of another model
     }
     const VelodyneCalibration& calibration = calibrationOf(observation, model);
     std::vector<VelodyneBlock>& blocks = work.blocks;
     const std::size_t unsound_blocks = collectBlocks(observation, model, blocks);
-    const PlacesInBlock places =
-        placesOf(calibration, model, turnOfBlocks(observation, work.turns));
+    const BlockOffsets places =
+        blockOffsetsOf(calibration, model, turnOfBlocks(observation, work.turns));
 
-    // Counted first: arrays that grow are filled with zeros, which takes time.
+    // Count first: growing arrays would be filled with zeros, which takes time.
     const std::size_t returns = countReturns(blocks);
-    resize(returns + kSpareReturns, scan);
+    resize(returns + kPaddingReturns, scan);
     locateReturns(
         blocks, places,
         {scan.x_m.data(), scan.y_m.data(), scan.z_m.data(), scan.intensity.data(),

@@ -13,9 +13,8 @@ using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kReturns = CObservationVelodyneScan::SCANS_PER_BLOCK;
 
-/// Writes a packet byte by byte, little-endian, as it comes over the network. MRPT's struct keeps
-/// its fields private.
-class PacketBytes {
+/// Writes a packet byte by byte, little-endian, because the fields of MRPT's struct are private.
+class PacketWriter {
  public:
     void put16(unsigned value) {
         bytes_.push_back(static_cast<std::uint8_t>(value & 0xff));
@@ -41,7 +40,7 @@ unsigned distanceUnits(float range_m) {
 }
 
 unsigned intensityUnits(float intensity) {
-    if (!(intensity > 0.0f)) return 0;  // NaN too
+    if (!(intensity > 0.0f)) return 0;  // also for NaN
     return static_cast<unsigned>(std::lround(255.0f * std::min(intensity, 1.0f)));
 }
 
@@ -59,11 +58,11 @@ void checkSizes(const VelodyneModel& model, const Firings& firings) {
     if (!fits(firings.range_m) || !fits(firings.intensity) || !dual_fits) {
         throw std::invalid_argument("firings of a " + model.name + " have " +
                                     std::to_string(model.lasers) +
-                                    " lasers, and as many intensities as ranges");
+                                    " lasers and one intensity per range");
     }
 }
 
-/// The azimuth reading of a laser of a firing, unrounded and not wrapped to a turn.
+/// Returns the azimuth reading of a laser of a firing, not rounded and not wrapped to a revolution.
 double readingOf(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
     const double turn = firing + laser * model.laser_period_us / model.firing_period_us;
     return 100.0 * (firings.first_azimuth_deg + turn * firings.azimuth_step_deg);
@@ -84,7 +83,7 @@ std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& fir
 
     std::vector<Packet> packets;
     for (int first = 0; first < firing_count; first += firings_per_packet) {
-        PacketBytes bytes;
+        PacketWriter bytes;
         for (int b = 0; b < kBlocks; ++b) {
             const int block_firing = first + b / blocks_per_firing * model.firings_per_block;
             // Dual mode: the last return comes first, then the strongest.

@@ -28,7 +28,8 @@ const VelodyneModel& velodyneModel(const std::string& name) {
     for (const VelodyneModel& model : models()) {
         if (model.name == name) return model;
     }
-    throw std::invalid_argument("packets of '" + name + "' are not known; VLP-16 and HDL-32E are");
+    throw std::invalid_argument("there is no packet format for '" + name +
+                                "', only for VLP-16 and HDL-32E");
 }
 
 double azimuthOfReadingDeg(double reading) {
@@ -38,7 +39,7 @@ double azimuthOfReadingDeg(double reading) {
 }
 
 const VelodyneCalibration& defaultCalibration(const VelodyneModel& model) {
-    static std::mutex mutex;  // MRPT loads them at their first use, and not for several threads
+    static std::mutex mutex;  // MRPT loads them at their first use, which is not thread-safe
     const std::lock_guard<std::mutex> lock(mutex);
     return VelodyneCalibration::LoadDefaultCalibration(model.calibration);
 }
@@ -65,7 +66,7 @@ std::vector<std::uint8_t> rowsOfLasers(const VelodyneCalibration& calibration) {
 void beamsOf(const VelodyneCalibration& calibration, std::vector<float>& elevations_rad) {
     elevations_rad.resize(calibration.laser_corrections.size());
     for (std::size_t laser = 0; laser < elevations_rad.size(); ++laser) {
-        // Sine and cosine are right in every calibration; the angle's unit differs between files.
+        // Sine and cosine are correct in every calibration; the angle's unit differs between files.
         const auto& correction = calibration.laser_corrections[laser];
         elevations_rad[rowOfLaser(calibration, laser)] = static_cast<float>(
             std::atan2(correction.sinVertCorrection, correction.cosVertCorrection));

@@ -13,8 +13,8 @@
 namespace hagen::observations {
 namespace {
 
-/// Whether readings of the block may lie beyond the turn's ends, of which both are behind.
-bool passesBehind(const VelodyneBlock& block, const PlacesInBlock& places) {
+/// True if readings of the block may cross the ends of a revolution, both of which are behind.
+bool crossesZeroAzimuth(const VelodyneBlock& block, const BlockOffsets& places) {
     return block.reading_from_behind + places.most_turn_reading >= kReadingsOfTurn - 0.5f ||
            block.reading_from_behind + places.least_turn_reading < -0.5f;
 }
@@ -28,16 +28,16 @@ namespace hagen::observations {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, kSpareReturns>;
+using Floats = hn::CappedTag<float, kPaddingReturns>;
 using Ints = hn::RebindToSigned<Floats>;
 using Bytes = hn::Rebind<std::uint8_t, Floats>;
 
-/// Distances and intensities, as they are in the packet.
-struct Raw {
+/// Distances and intensities, as stored in the packet.
+struct RawReturns {
     hn::Vec<Ints> distance, intensity;
 };
 
-HWY_INLINE Raw load(const std::uint8_t* returns) {
+HWY_INLINE RawReturns load(const std::uint8_t* returns) {
     const Ints d;
     hn::Vec<Bytes> low, high, intensity;
     hn::LoadInterleaved3(Bytes(), returns, low, high, intensity);
@@ -58,8 +58,7 @@ std::size_t count(const VelodyneBlock* blocks, std::size_t block_count) {
     return returns;
 }
 
-/// Of whole numbers up to 255 the same as their division by 255, which is slow: the first product
-/// has no rounding.
+/// For integers up to 255 the same as division by 255, which is slow: the first product is exact.
 HWY_INLINE hn::Vec<Floats> share(hn::Vec<Floats> of_255) {
     const Floats d;
     constexpr float kUpper = 257.0f / 65536.0f;
@@ -73,9 +72,10 @@ struct Direction {
     hn::Vec<Floats> azimuth_rad;   ///< counter-clockwise
 };
 
-/// The directions of a block's returns from `i` on: the block's, turned on.
-HWY_INLINE Direction turnOn(const VelodyneBlock& block, const PlacesInBlock& places,
-                            std::size_t i) {
+/// Returns the directions of a block's returns from `i` on: the block's direction rotated by the
+/// offsets.
+HWY_INLINE Direction rotateBy(const VelodyneBlock& block, const BlockOffsets& places,
+                              std::size_t i) {
     const Floats d;
     const auto sine = hn::Set(d, block.sine), cosine = hn::Set(d, block.cosine);
     const auto turn_sine = hn::LoadU(d, places.turn_sine + i);
@@ -85,9 +85,9 @@ HWY_INLINE Direction turnOn(const VelodyneBlock& block, const PlacesInBlock& pla
             hn::Sub(hn::Set(d, block.azimuth_rad), hn::LoadU(d, places.turn_rad + i))};
 }
 
-/// A turn of readings is one reading more than a full circle: returns of a block that lie beyond
-/// its end, behind, go on at its start, or the other way round.
-HWY_INLINE void wrap(const VelodyneBlock& block, const PlacesInBlock& places, std::size_t i,
+/// A revolution has one reading more than a full circle. Returns of a block that cross its end,
+/// behind the sensor, continue at its start, or vice versa.
+HWY_INLINE void wrap(const VelodyneBlock& block, const BlockOffsets& places, std::size_t i,
                      Direction& direction) {
     const Floats d;
     const auto reading =
@@ -104,24 +104,24 @@ HWY_INLINE void wrap(const VelodyneBlock& block, const PlacesInBlock& places, st
                  hn::Sub(direction.azimuth_rad, turned_rad)};
 }
 
-/// Which lanes of a vector came back, from the lowest on.
+/// Returns the lanes of a vector that have a return, lowest first.
 HWY_INLINE hn::Vec<Bytes> lanesOf(hn::Mask<Ints> came_back) {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(Ints(), came_back, bits);
     return hn::LoadU(Bytes(), kSetBits.place[bits[0]].data());
 }
 
-void locate(const VelodyneBlock* blocks, std::size_t block_count, const PlacesInBlock& places,
+void locate(const VelodyneBlock* blocks, std::size_t block_count, const BlockOffsets& places,
             const ReturnArrays& arrays) {
-    const ReturnArrays to = arrays;  // known to be written by nobody else
+    const ReturnArrays to = arrays;  // no aliasing with other writes
     const Floats d;
     const Ints d_int;
     std::size_t n = 0;
     for (const VelodyneBlock* block = blocks; block != blocks + block_count; ++block) {
-        const bool passes_behind = passesBehind(*block, places);
+        const bool passes_behind = crossesZeroAzimuth(*block, places);
         for (std::size_t i = 0; i < kReturnsOfBlock; i += hn::Lanes(d)) {
-            const Raw raw = load(block->returns + 3 * i);
-            Direction direction = turnOn(*block, places, i);
+            const RawReturns raw = load(block->returns + 3 * i);
+            Direction direction = rotateBy(*block, places, i);
             if (HWY_UNLIKELY(passes_behind)) wrap(*block, places, i, direction);
             const auto range_m =
                 hn::Add(hn::Mul(hn::ConvertTo(d, raw.distance), hn::Set(d, kDistanceUnit_m)),
@@ -139,7 +139,7 @@ void locate(const VelodyneBlock* blocks, std::size_t block_count, const PlacesIn
             const auto intensity = share(hn::ConvertTo(d, raw.intensity));
             const auto time_s = hn::Add(hn::Set(d, block->time_s), hn::LoadU(d, places.time_s + i));
 
-            // What came back moves together; what is written behind it is written over later.
+            // Returns are compacted; the lanes written behind them are overwritten later.
             const auto came_back = hn::Ne(raw.distance, hn::Zero(d_int));
             const auto byte_lanes = lanesOf(came_back);
             const auto lanes = hn::IndicesFromVec(d, hn::PromoteTo(d_int, byte_lanes));
@@ -174,7 +174,7 @@ std::size_t countReturns(const std::vector<VelodyneBlock>& blocks) {
     return HWY_DYNAMIC_DISPATCH(count)(blocks.data(), blocks.size());
 }
 
-void locateReturns(const std::vector<VelodyneBlock>& blocks, const PlacesInBlock& places,
+void locateReturns(const std::vector<VelodyneBlock>& blocks, const BlockOffsets& places,
                    const ReturnArrays& returns) {
     HWY_DYNAMIC_DISPATCH(locate)(blocks.data(), blocks.size(), places, returns);
 }

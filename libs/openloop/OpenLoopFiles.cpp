@@ -1,18 +1,18 @@
 #include <hagen/openloop/OpenLoopFiles.h>
 
+#include <hagen/base/Json.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/evaluation/Latency.h>
 #include <cmath>
 #include <iomanip>
 #include <locale>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace hagen::openloop {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using base::Json;
 
 /// Fixed decimals; an empty field where there is no figure.
 struct Fixed {
@@ -206,8 +206,7 @@ void OpenLoopFiles::finish(const OpenLoop& open_loop, const OpenLoopResult& resu
     writeModelsMeasured(models_measured_->out, result);
     writeAgreement(agreement_->out, result);
     // File names need not be UTF-8, JSON must be.
-    summary_->out
-        << summaryOf(open_loop, result).dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    summary_->out << summaryOf(open_loop, result).dump(2, Json::NotUtf8::Replace) << "\n";
     for (const auto& file : files_) base::closeWritten(file->out, file->path.path());
 }
 

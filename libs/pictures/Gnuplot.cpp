@@ -20,8 +20,8 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// A file without a name, gone when it is closed. A file, not a pipe: gnuplot may read as it likes
-/// and say as much as it likes, and neither side waits for the other.
+/// Opens an anonymous file that vanishes when closed. A file instead of a pipe avoids deadlocks:
+/// gnuplot may read and print at any pace.
 File scratchFile(const std::string& content) {
     File file(std::tmpfile());
     if (!file || std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
@@ -32,7 +32,8 @@ File scratchFile(const std::string& content) {
     return file;
 }
 
-/// What gnuplot says last: it repeats the command and marks the place before it says what is wrong.
+/// Returns gnuplot's last line: it repeats the command and marks the place before the error
+/// message.
 std::string lastWord(std::FILE* errors) {
     std::rewind(errors);
     std::string word;
@@ -46,12 +47,13 @@ std::string lastWord(std::FILE* errors) {
     return word;
 }
 
-/// Whether the right bytes are in front and near the end: what a full disk cuts off has not both.
+/// True if the file starts and ends with the right bytes; a picture truncated by a full disk does
+/// not.
 bool isWhole(const fs::path& picture) {
     const bool is_svg = picture.extension() == ".svg";
     const std::string start = is_svg ? "<?xml" : std::string("\x89PNG\r\n\x1a\n", 8);
     const std::string end = is_svg ? "</svg>" : std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12);
-    const std::size_t blanks = is_svg ? 4 : 0;  // lines may follow
+    const std::size_t blanks = is_svg ? 4 : 0;  // trailing newlines
     std::ifstream file(picture, std::ios::binary);
     std::string first(start.size(), 0), last(end.size() + blanks, 0);
     file.read(first.data(), static_cast<std::streamsize>(first.size()));
@@ -67,7 +69,7 @@ std::string gnuplotString(const std::string& text) {
     for (const char c : text) {
         const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
         quoted += is_control ? ' ' : c;
-        if (c == '\'') quoted += c;  // twice is one
+        if (c == '\'') quoted += c;  // a doubled quote is a literal one
     }
     return quoted + "'";
 }
@@ -77,7 +79,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder to write pictures to");
     }
-    for (const std::string& picture : pictures) {  // else an old one could pass for the new one
+    for (const std::string& picture : pictures) {  // an old picture could pass for the new one
         std::error_code error;
         fs::remove(folder / picture, error);
         if (error) {
@@ -94,7 +96,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
     char program[] = "gnuplot", no_settings_of_the_users[] = "-d";
-    char script_file[] = "/dev/stdin";  // by name, for standard input is read byte by byte
+    char script_file[] = "/dev/stdin";  // by name: gnuplot reads standard input byte by byte
     char* const arguments[] = {program, no_settings_of_the_users, script_file, nullptr};
     pid_t child = 0;
     const int error = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
@@ -114,7 +116,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     const std::string complaint = lastWord(errors.get());
     for (const std::string& picture : pictures) {
         if (isWhole(folder / picture)) continue;
-        throw std::runtime_error((folder / picture).string() + " could not be written whole" +
+        throw std::runtime_error((folder / picture).string() + " could not be written completely" +
                                  (complaint.empty() ? "" : ": gnuplot: " + complaint));
     }
     if (status != 0) throw std::runtime_error("gnuplot failed: " + complaint);

@@ -19,11 +19,12 @@ std::size_t colourOf(std::int32_t component) {
     return static_cast<std::size_t>(std::max(component, 1) - 1) % kRoiColours.size();
 }
 
-/// The longest run of a column's angles; empty where none is as long as the window.
+/// Returns the longest contiguous segment of a column's angles; empty if none is as long as the
+/// window.
 struct Run {
     int first_row = 0, rows = 0;
 };
-Run smoothedRun(const Image<float>& angles, int column, int window_size) {
+Run longestSmoothedRun(const Image<float>& angles, int column, int window_size) {
     Run longest;
     const int rows = static_cast<int>(angles.rows());
     for (int row = 0, first = 0; row <= rows; ++row) {
@@ -34,7 +35,7 @@ Run smoothedRun(const Image<float>& angles, int column, int window_size) {
     return longest.rows >= window_size ? longest : Run();
 }
 
-int columnToShow(const StageView& view) {
+int selectedColumn(const StageView& view) {
     const SegmentationResult& r = view.result;
     const int columns = static_cast<int>(r.labels.cols());
     const float azimuth_deg = view.azimuth_deg.value_or(0.0f);
@@ -45,7 +46,7 @@ int columnToShow(const StageView& view) {
     float best_m = std::numeric_limits<float>::infinity();
     for (int column = 0; column < columns; ++column) {
         const bool is_smoothed =
-            smoothedRun(r.range_angle_rad, column, view.options.window_size).rows > 0;
+            longestSmoothedRun(r.range_angle_rad, column, view.options.window_size).rows > 0;
         if (best_is_smoothed && !is_smoothed) continue;
         for (int row = 0; row < r.labels.rows(); ++row) {
             if (r.labels(row, column) != Label::Roi) continue;
@@ -59,8 +60,8 @@ int columnToShow(const StageView& view) {
     return chosen;
 }
 
-/// What gnuplot draws without harm: one line, of a length that fits.
-std::string tidyTitle(const std::string& title) {
+/// Makes a title that gnuplot can draw: one line of limited length.
+std::string sanitizedTitle(const std::string& title) {
     constexpr std::size_t kMost = 90;  // characters
     std::string tidy;
     std::size_t characters = 0;
@@ -72,22 +73,22 @@ std::string tidyTitle(const std::string& title) {
     return tidy;
 }
 
-/// Writes blocks one after the other; each says what it is made of.
-class Blocks {
+/// Writes the data blocks one after the other.
+class DataBlockWriter {
  public:
-    explicit Blocks(const StageView& view)
+    explicit DataBlockWriter(const StageView& view)
         : view_(view),
           columns_(static_cast<int>(view.result.labels.cols())),
           rows_(static_cast<int>(view.result.labels.rows())) {
-        data_.column = columnToShow(view);
+        data_.column = selectedColumn(view);
     }
 
     StageData write() {
         const SegmentationResult& r = view_.result;
         const float to_deg = static_cast<float>(degrees(1.0));
-        // In a block nothing of it means anything to gnuplot; the mark in front, so that it cannot
-        // end the block.
-        block("$title", [&] { text_ << "|" << tidyTitle(view_.title) << "\n"; });
+        // Text in a block is never interpreted by gnuplot; the leading mark prevents it from ending
+        // the block.
+        block("$title", [&] { text_ << "|" << sanitizedTitle(view_.title) << "\n"; });
         text_ << "title = $title[1]\ntitle = title[2:*]\n";
         block("$depth", [&] { matrix(r.range_image.depth_m); });
         block("$repaired", [&] { matrix(r.repaired_m); });
@@ -127,11 +128,11 @@ class Blocks {
         }
     }
 
-    /// $maxima: column, row. $bars: rank, birth, death; the longest ones, from the oldest.
+    /// $maxima: column, row. $bars: rank, birth, death; the longest ones, oldest first.
     void writeMaxima() {
         const auto& maxima = view_.result.maxima;
         block("$maxima", [&] {
-            text_ << "NaN NaN\n";  // gnuplot refuses a block without a line
+            text_ << "NaN NaN\n";  // gnuplot rejects an empty block
             for (const Maximum& m : maxima) {
                 text_ << m.column << " " << m.row << "\n";
             }
@@ -143,7 +144,8 @@ class Blocks {
         });
         data_.bars = std::min<int>(static_cast<int>(longest.size()), kMostBars);
         longest.resize(static_cast<std::size_t>(data_.bars));
-        std::sort(longest.begin(), longest.end());  // findPersistentMaxima() gives the oldest first
+        std::sort(longest.begin(),
+                  longest.end());  // findPersistentMaxima() returns the oldest first
         block("$bars", [&] {
             text_ << "NaN NaN NaN\n";
             int rank = 0;
@@ -153,7 +155,7 @@ class Blocks {
         });
     }
 
-    /// $before, $after: row, degrees. $elementary: row, value, one component after another.
+    /// $before, $after: row, degrees. $elementary: row, value, component by component.
     void writeColumn() {
         const SegmentationResult& r = view_.result;
         for (const auto& [name, image] :
@@ -167,7 +169,8 @@ class Blocks {
                 }
             });
         }
-        const Run run = smoothedRun(r.range_angle_rad, data_.column, view_.options.window_size);
+        const Run run =
+            longestSmoothedRun(r.range_angle_rad, data_.column, view_.options.window_size);
         if (run.rows == 0) return;
         const SeriesComponents found =
             decomposeSeries(r.range_angle_rad.col(data_.column).segment(run.first_row, run.rows),
@@ -191,7 +194,7 @@ class Blocks {
     /// $labels: 0 ROU, 1 + colour for RoI. $rou, $unclassified, $roi: x, y, colour of RoI.
     void writeLabels() {
         const SegmentationResult& r = view_.result;
-        // Returns are numbered anew (extractReturns), pixels take the colours of their returns.
+        // extractReturns renumbers obstacles; pixels take the colours of their returns.
         std::vector<std::int32_t> renumbered(static_cast<std::size_t>(r.components.maxCoeff()) + 1);
         for (std::size_t i = 0; i < renumbered.size(); ++i) {
             renumbered[i] = static_cast<std::int32_t>(i);
@@ -214,7 +217,8 @@ class Blocks {
         block("$labels", [&] { matrix(colours); });
 
         data_.half_width_m = 1.15f * view_.options.zone_m;
-        const float pixel_m = data_.half_width_m / 400;  // returns on one pixel are drawn once
+        const float pixel_m =
+            data_.half_width_m / 400;  // several returns on one pixel are drawn once
         struct Point {
             int x_px, y_px;
             std::size_t colour;
@@ -256,6 +260,6 @@ class Blocks {
 
 }  // namespace
 
-StageData stageDataOf(const StageView& view) { return Blocks(view).write(); }
+StageData stageDataOf(const StageView& view) { return DataBlockWriter(view).write(); }
 
 }  // namespace hagen::pictures

@@ -32,7 +32,7 @@ double azimuthDeg(int column, int columns) {
 
 }  // namespace
 
-Panels::Panels(const StageView& view, const StageData& data)
+StagePanelWriter::StagePanelWriter(const StageView& view, const StageData& data)
     : view_(view),
       data_(data),
       columns_(static_cast<int>(view.result.labels.cols())),
@@ -41,29 +41,29 @@ Panels::Panels(const StageView& view, const StageData& data)
     text_ << "set encoding utf8\n" << data.blocks;
 }
 
-void Panels::beginPicture(const std::string& name, int height_px, int width_px) {
+void StagePanelWriter::beginPicture(const std::string& name, int height_px, int width_px) {
     width_px_ = width_px;
     height_px_ = height_px;
     text_ << "set terminal pngcairo size " << width_px << "," << height_px
           << " font 'sans,12' background '#FFFFFF'\nset output '" << name << "'\nset multiplot\n";
 }
 
-void Panels::endPicture() { text_ << "unset multiplot\nunset output\n"; }
+void StagePanelWriter::endPicture() { text_ << "unset multiplot\nunset output\n"; }
 
-void Panels::heading(const std::string& what) {
+void StagePanelWriter::heading(const std::string& what) {
     heading_ = what;
     has_heading_ = true;
 }
 
-void Panels::panelTitle(const std::string& title) { panel_title_ += title; }
+void StagePanelWriter::panelTitle(const std::string& title) { panel_title_ += title; }
 
-void Panels::depthImage(const Box& box, const std::string& block, bool has_azimuth) {
+void StagePanelWriter::depthImage(const Box& box, const std::string& block, bool has_azimuth) {
     imageAxes(box, 180, -180, has_azimuth);
     depthScale(box);
     text_ << imageOf(block) << "\n";
 }
 
-void Panels::maximaImage(const Box& box, bool has_azimuth) {
+void StagePanelWriter::maximaImage(const Box& box, bool has_azimuth) {
     imageAxes(box, 180, -180, has_azimuth);
     depthScale(box);
     text_ << imageOf("$repaired")
@@ -71,11 +71,12 @@ void Panels::maximaImage(const Box& box, bool has_azimuth) {
              "$maxima using 1:2 with points pt 7 ps 0.45 lc rgb 'white' notitle\n";
 }
 
-void Panels::angleImage(const Box& box, const std::string& block, bool has_azimuth, bool has_mark) {
+void StagePanelWriter::angleImage(const Box& box, const std::string& block, bool has_azimuth,
+                                  bool has_mark) {
     imageAxes(box, 180, -180, has_azimuth, 0.5);  // an angle lies between two beams
     colourBar(box, kAnglePalette, 90, 30, "angle [deg]");
     if (has_mark) {
-        // from above, where the axis has numbers; else from below, where no title is
+        // from above if the axis has numbers; otherwise from below, where there is no title
         const double tip = has_azimuth ? box.top : box.bottom;
         const double tail = has_azimuth ? box.top + 22 : box.bottom - 12;
         text_ << "set arrow from " << data_.column << ", screen " << y(tail) << " to "
@@ -85,31 +86,31 @@ void Panels::angleImage(const Box& box, const std::string& block, bool has_azimu
     text_ << imageOf(block) << "\n";
 }
 
-void Panels::labelImage(const Box& box, bool has_azimuth) {
+void StagePanelWriter::labelImage(const Box& box, bool has_azimuth) {
     imageAxes(box, 180, -180, has_azimuth);
     labelScale();
     legendEntry(labelLegend(box.right - 560, box.top + 14), box.top + 14, 5, kEmpty, "no return");
     text_ << imageOf("$labels") << "\n";
 }
 
-void Panels::zoomBefore(const Box& box) {
+void StagePanelWriter::angleBefore(const Box& box) {
     panelTitle("around " + columnName() + ", before");
     zoomDepth(box, "$repaired");
 }
 
-void Panels::zoomAfter(const Box& box) {
+void StagePanelWriter::angleAfter(const Box& box) {
     panelTitle("after");
     zoomDepth(box, "$merged");
 }
 
-void Panels::zoomLabels(const Box& box) {
+void StagePanelWriter::zoomLabels(const Box& box) {
     panelTitle("around " + columnName());
     zoomAxes(box);
     labelScale();
     text_ << imageOf("$labels") << "\n";
 }
 
-void Panels::barcode(const Box& box) {
+void StagePanelWriter::barcode(const Box& box) {
     const std::size_t number = view_.result.maxima.size();
     std::ostringstream title = plainText();
     if (number > static_cast<std::size_t>(data_.bars)) title << data_.bars << " longest of ";
@@ -118,17 +119,17 @@ void Panels::barcode(const Box& box) {
     beginPanel(box);
     const float zone_m = view_.options.zone_m;
     text_ << "set xrange [" << zone_m << ":0]\nset yrange [" << std::max(data_.bars, 1) + 1
-          << ":0]\nunset ytics\nset xlabel 'proximity [m]: the radius of the zone less the "
+          << ":0]\nunset ytics\nset xlabel 'proximity [m]: the radius of the zone minus the "
              "depth'\n"
           << "plot $bars using 2:1:($3 - $2):(0) with vectors nohead lw "
           << std::clamp(0.6 * (box.top - box.bottom) / std::max(data_.bars, 1), 1.0, 6.0)
           << " lc rgb '#3B528B'\n";
 }
 
-void Panels::series(const Box& box) {
+void StagePanelWriter::series(const Box& box) {
     panelTitle(columnName());
     beginPanel(box);
-    // Smoothing may go below 0 and above 90.
+    // Smoothing may exceed the range 0 to 90.
     float least_deg = 0.0f, most_deg = 90.0f;
     for (const float angle_rad : view_.result.smoothed_rad.col(data_.column)) {
         if (!hasValue(angle_rad)) continue;
@@ -147,7 +148,7 @@ void Panels::series(const Box& box) {
              "title 'after'\n";
 }
 
-void Panels::components(const Box& box) {
+void StagePanelWriter::components(const Box& box) {
     const int shares = static_cast<int>(data_.component_share.size());
     const int kept = view_.options.principal_components;
     std::ostringstream title = plainText();
@@ -157,11 +158,12 @@ void Panels::components(const Box& box) {
     beginPanel(box);
     text_ << "set xrange [-0.5:" << rows_ - 0.5 << "]\nset yrange [" << -std::max(shares, 1) + 0.4
           << ":0.6]\n"
-          << "set xlabel 'elevation [deg]'\nset ylabel 'component: its share of variance'\n";
+          << "set xlabel 'elevation [deg]'\nset ylabel 'component: its fraction of variance'\n";
     beamTics("x", 6);
     if (shares == 0) {
-        text_ << "unset ytics\nunset ylabel\nset label \"no run of " << view_.options.window_size
-              << " angles without a gap:\\nthis column stays as it is\" at graph 0.5, graph 0.5 "
+        text_ << "unset ytics\nunset ylabel\nset label \"no segment of "
+              << view_.options.window_size
+              << " angles without a gap:\\nthis column is unchanged\" at graph 0.5, graph 0.5 "
                  "center\nplot NaN notitle\n";
         return;
     }
@@ -182,7 +184,7 @@ void Panels::components(const Box& box) {
     text_ << "\n";
 }
 
-void Panels::topView(const Box& box, bool has_legend) {
+void StagePanelWriter::topView(const Box& box, bool has_legend) {
     beginPanel(box);
     const float zone_m = view_.options.zone_m;
     if (has_legend) {
@@ -204,7 +206,7 @@ void Panels::topView(const Box& box, bool has_legend) {
              "'black' notitle\n";
 }
 
-void Panels::beginPanel(const Box& box) {
+void StagePanelWriter::beginPanel(const Box& box) {
     text_ << "reset\nset border lc rgb '" << kInk << "'\nset tics nomirror out scale 0.5\n"
           << "unset key\n"
           << "set lmargin at screen " << x(box.left) << "\nset rmargin at screen " << x(box.right)
@@ -223,12 +225,12 @@ void Panels::beginPanel(const Box& box) {
     panel_title_.clear();
 }
 
-double Panels::x(double pixels) const { return pixels / width_px_; }
+double StagePanelWriter::x(double pixels) const { return pixels / width_px_; }
 
-double Panels::y(double pixels) const { return pixels / height_px_; }
+double StagePanelWriter::y(double pixels) const { return pixels / height_px_; }
 
-double Panels::legendEntry(double left, double bottom, int mark, const std::string& colour,
-                           const std::string& word) {
+double StagePanelWriter::legendEntry(double left, double bottom, int mark,
+                                     const std::string& colour, const std::string& word) {
     text_ << "set label '" << word << "' at screen " << x(left) << ", screen " << y(bottom)
           << " left point pt " << mark << " ps " << (mark == 5 ? 1.5 : 1.0) << " lc rgb '" << colour
           << "' offset " << (word.empty() ? 0 : 1) << ",0\n";
@@ -236,16 +238,16 @@ double Panels::legendEntry(double left, double bottom, int mark, const std::stri
     return left + (word.empty() ? 14 : 36 + kLetter_px * static_cast<double>(word.size()));
 }
 
-double Panels::labelLegend(double left, double bottom) {
+double StagePanelWriter::labelLegend(double left, double bottom) {
     for (std::size_t i = 0; i + 1 < kRoiColours.size(); ++i) {
         left = legendEntry(left, bottom, 5, kRoiColours[i], "");
     }
-    left = legendEntry(left, bottom, 5, kRoiColours.back(), "RoI, a colour an obstacle");
+    left = legendEntry(left, bottom, 5, kRoiColours.back(), "RoI, one colour per obstacle");
     return legendEntry(left, bottom, 5, kRou, "ROU: ground, far");
 }
 
-void Panels::imageAxes(const Box& box, double from_deg, double to_deg, bool has_azimuth,
-                       double first_row) {
+void StagePanelWriter::imageAxes(const Box& box, double from_deg, double to_deg, bool has_azimuth,
+                                 double first_row) {
     beginPanel(box);
     text_ << "set object 1 rectangle from graph 0,0 to graph 1,1 fc rgb '" << kEmpty
           << "' fs solid noborder behind\nset xrange [" << columnAt(from_deg) << ":"
@@ -264,14 +266,15 @@ void Panels::imageAxes(const Box& box, double from_deg, double to_deg, bool has_
     }
 }
 
-double Panels::columnAt(double azimuth_deg) const {
+double StagePanelWriter::columnAt(double azimuth_deg) const {
     return columns_ * (0.5 - azimuth_deg / 360.0) - 0.5;
 }
 
-void Panels::beamTics(const char* axis, int most, double first_row) {
+void StagePanelWriter::beamTics(const char* axis, int most, double first_row) {
     int step = (rows_ - 1 + most - 2) / (most - 1);
     const int last = rows_ - 1;
-    for (int even = step; even <= last / 2; ++even) {  // the highest beam too, where it goes
+    for (int even = step; even <= last / 2;
+         ++even) {  // also for the highest beam, if the step allows it
         if (last % even != 0) continue;
         step = even;
         break;
@@ -286,24 +289,24 @@ void Panels::beamTics(const char* axis, int most, double first_row) {
     text_ << ")\n";
 }
 
-void Panels::colourBar(const Box& box, const char* palette, float most, float step,
-                       const std::string& what) {
+void StagePanelWriter::colourBar(const Box& box, const char* palette, float most, float step,
+                                 const std::string& what) {
     text_ << "set palette " << palette << "\nset cbrange [0:" << most << "]\nset cbtics " << step
           << "\nset cblabel '" << what << "'\nset colorbox user origin screen " << x(box.right + 12)
           << ", screen " << y(box.bottom) << " size screen " << x(16) << ", screen "
           << y(box.top - box.bottom) << " noborder\n";
 }
 
-std::string Panels::imageOf(const std::string& block) {
+std::string StagePanelWriter::imageOf(const std::string& block) {
     return "plot " + block + " matrix with image notitle";
 }
 
-void Panels::depthScale(const Box& box) {
+void StagePanelWriter::depthScale(const Box& box) {
     const float step = far_m_ > 100 ? 50.0f : far_m_ > 60 ? 20.0f : far_m_ > 25 ? 10.0f : 5.0f;
     colourBar(box, kDepthPalette, far_m_, step, "depth [m]");
 }
 
-void Panels::labelScale() {
+void StagePanelWriter::labelScale() {
     text_ << "set palette maxcolors " << kRoiColours.size() + 1 << " defined (0 '" << kRou << "'";
     for (std::size_t i = 0; i < kRoiColours.size(); ++i) {
         text_ << ", " << i + 1 << " '" << kRoiColours[i] << "'";
@@ -311,18 +314,18 @@ void Panels::labelScale() {
     text_ << ")\nset cbrange [0:" << kRoiColours.size() << "]\nunset colorbox\n";
 }
 
-std::string Panels::columnName() const {
+std::string StagePanelWriter::columnName() const {
     return "the column at " + oneDecimal(azimuthDeg(data_.column, columns_)) + " deg";
 }
 
-void Panels::zoomAxes(const Box& box) {
+void StagePanelWriter::zoomAxes(const Box& box) {
     const double middle_deg =
         std::clamp(azimuthDeg(data_.column, columns_), -180 + kZoomHalf_deg, 180 - kZoomHalf_deg);
     imageAxes(box, middle_deg + kZoomHalf_deg, middle_deg - kZoomHalf_deg, true);
     text_ << "set xlabel 'azimuth [deg]'\n";
 }
 
-void Panels::zoomDepth(const Box& box, const std::string& block) {
+void StagePanelWriter::zoomDepth(const Box& box, const std::string& block) {
     zoomAxes(box);
     depthScale(box);
     text_ << "unset colorbox\n" << imageOf(block) << "\n";

@@ -8,33 +8,33 @@
 
 namespace hagen::pictures {
 
-/// A place in a picture, in pixels from its lower left corner.
+/// A rectangle in a picture, in pixels from the lower left corner.
 struct Box {
     double left, right, bottom, top;
 };
 
-/// The gnuplot script of pictures, panel by panel: each draws a block of the data.
-class Panels {
+/// Writes a gnuplot script for pictures, panel by panel; each panel draws a block of the data.
+class StagePanelWriter {
  public:
     static constexpr int kWidth_px = 1200;  ///< of most pictures
 
-    /// Refers to both.
-    Panels(const StageView& view, const StageData& data);
+    /// Keeps references to both arguments.
+    StagePanelWriter(const StageView& view, const StageData& data);
 
     std::string script() const { return text_.str(); }
 
     void beginPicture(const std::string& name, int height_px, int width_px = kWidth_px);
     void endPicture();
-    /// What stage this is, and on the right whose scan.
+    /// Sets the stage's name (left) and the scan's title (right).
     void heading(const std::string& what);
-    /// Goes above the next panel, behind what was said before.
+    /// Sets the title of the next panel, appended to the previous text.
     void panelTitle(const std::string& title);
     void depthImage(const Box& box, const std::string& block, bool has_azimuth);
     void maximaImage(const Box& box, bool has_azimuth);
     void angleImage(const Box& box, const std::string& block, bool has_azimuth, bool has_mark);
     void labelImage(const Box& box, bool has_azimuth);
-    void zoomBefore(const Box& box);
-    void zoomAfter(const Box& box);
+    void angleBefore(const Box& box);
+    void angleAfter(const Box& box);
     void zoomLabels(const Box& box);
     void barcode(const Box& box);
     void series(const Box& box);
@@ -42,23 +42,24 @@ class Panels {
     void topView(const Box& box, bool has_legend);
 
  private:
-    /// Everything back to what all panels share, and what stands above this one.
+    /// Resets all shared settings, and draws the titles of this panel.
     void beginPanel(const Box& box);
-    // Pixels as gnuplot's screen coordinates.
+    // Pixels to gnuplot's screen coordinates.
     double x(double pixels) const;
     double y(double pixels) const;
-    /// A mark and a word to its right; gives where the next one may stand.
+    /// Draws a mark and a word to its right; returns the position of the next entry.
     double legendEntry(double left, double bottom, int mark, const std::string& colour,
                        const std::string& word);
-    /// The colours of labels, from here to the right; gives where the next entry may stand.
+    /// Draws the colours of labels from here to the right; returns the position of the next entry.
     double labelLegend(double left, double bottom);
-    /// Axes of an image: azimuth from left to right, beams from the lowest up. In columns and rows,
-    /// for gnuplot is slow where it has to work out every pixel's place.
+    /// Draws the axes of an image: azimuth from left to right, lowest beam at the bottom. In
+    /// columns and rows, because gnuplot is slow if it must compute the position of each pixel.
     void imageAxes(const Box& box, double from_deg, double to_deg, bool has_azimuth,
                    double first_row = 0.0);
-    /// Where an azimuth lies between the columns, whose centres are whole numbers.
+    /// Position of an azimuth between columns, whose centres are integers.
     double columnAt(double azimuth_deg) const;
-    /// Elevations in degrees at up to `most` beams, evenly spaced from the lowest to the highest.
+    /// Labels up to `most` beams by elevation in degrees, evenly spaced from the lowest to the
+    /// highest.
     void beamTics(const char* axis, int most, double first_row = 0.0);
     void colourBar(const Box& box, const char* palette, float most, float step,
                    const std::string& what);
@@ -66,7 +67,7 @@ class Panels {
     void depthScale(const Box& box);
     void labelScale();
     std::string columnName() const;
-    // Around the column whose components are shown, wide enough to see pixels.
+    // Around the selected column, zoomed in until pixels are visible.
     void zoomAxes(const Box& box);
     void zoomDepth(const Box& box, const std::string& block);
 

@@ -7,16 +7,16 @@
 namespace hagen::pictures {
 namespace {
 
-constexpr int kWidth_px = Panels::kWidth_px;
+constexpr int kWidth_px = StagePanelWriter::kWidth_px;
 
-void depthPicture(Panels& panels) {
+void depthPicture(StagePanelWriter& panels) {
     panels.beginPicture("1_depth.png", 330);
     panels.heading("1  depth image (III-A)");
     panels.depthImage({84, kWidth_px - 105, 60, 270}, "$depth", true);
     panels.endPicture();
 }
 
-void maximaPicture(Panels& panels) {
+void maximaPicture(StagePanelWriter& panels) {
     panels.beginPicture("2_maxima.png", 860);
     panels.heading("2  persistent maxima of proximity (III-B)");
     panels.maximaImage({84, kWidth_px - 105, 590, 800}, true);
@@ -24,23 +24,23 @@ void maximaPicture(Panels& panels) {
     panels.endPicture();
 }
 
-void mergedPicture(Panels& panels) {
+void mergedPicture(StagePanelWriter& panels) {
     panels.beginPicture("3_merged.png", 660);
     panels.heading("3  maxima sharpened and merged (III-B)");
     panels.depthImage({84, kWidth_px - 105, 390, 600}, "$merged", true);
-    panels.zoomBefore({84, 570, 60, 270});
-    panels.zoomAfter({650, kWidth_px - 60, 60, 270});
+    panels.angleBefore({84, 570, 60, 270});
+    panels.angleAfter({650, kWidth_px - 60, 60, 270});
     panels.endPicture();
 }
 
-void rangeAnglePicture(Panels& panels) {
+void rangeAnglePicture(StagePanelWriter& panels) {
     panels.beginPicture("4_range_angle.png", 330);
     panels.heading("4  range angle image (III-C)");
     panels.angleImage({84, kWidth_px - 105, 60, 270}, "$angle", true, false);
     panels.endPicture();
 }
 
-void smoothedPicture(Panels& panels) {
+void smoothedPicture(StagePanelWriter& panels) {
     panels.beginPicture("5_smoothed.png", 860);
     panels.heading("5  singular spectrum analysis (III-D)");
     panels.angleImage({84, kWidth_px - 105, 590, 800}, "$smoothed", true, true);
@@ -49,7 +49,7 @@ void smoothedPicture(Panels& panels) {
     panels.endPicture();
 }
 
-void labelPicture(Panels& panels) {
+void labelPicture(StagePanelWriter& panels) {
     panels.beginPicture("6_labels.png", 660);
     panels.heading("6  regions of interest (III-E)");
     panels.labelImage({84, kWidth_px - 105, 390, 580}, true);
@@ -57,14 +57,14 @@ void labelPicture(Panels& panels) {
     panels.endPicture();
 }
 
-void topPicture(Panels& panels) {
+void topPicture(StagePanelWriter& panels) {
     panels.beginPicture("7_top_view.png", 960, 900);
     panels.heading("7  the returns from above");
     panels.topView({70, 880, 60, 870}, true);
     panels.endPicture();
 }
 
-void overview(Panels& panels) {
+void overview(StagePanelWriter& panels) {
     const int height = 1540;
     panels.beginPicture("stages.png", height);
     panels.heading("Stages of the segmentation");
@@ -110,7 +110,7 @@ const base::OutputKind kStagePictures{
 
 void drawStages(const StageView& view, const std::filesystem::path& folder) {
     const StageData data = stageDataOf(view);
-    Panels panels(view, data);
+    StagePanelWriter panels(view, data);
     depthPicture(panels);
     maximaPicture(panels);
     mergedPicture(panels);

@@ -25,38 +25,39 @@ std::vector<simulation::Ray> raysAround(const Eigen::Vector3f& at_m) {
     return rays;
 }
 
-/// What the nearest thing within `reach_m` is; Kind::None where there is none.
-simulation::Kind nearestKind(const simulation::Scene& scene, const Eigen::Vector3d& at_m,
-                             double time_s, double reach_m) {
+/// What the nearest thing within `reach_m` is; ObjectClass::None where there is none.
+simulation::ObjectClass nearestKind(const simulation::Scene& scene, const Eigen::Vector3d& at_m,
+                                    double time_s, double reach_m) {
     constexpr double kMoment_s = 0.001;
     std::vector<simulation::RayHit> hits;
-    scene.during(time_s, kMoment_s)
+    scene.snapshotOver(time_s, kMoment_s)
         .cast(raysAround(at_m.cast<float>()), static_cast<float>(reach_m), hits);
     simulation::RayHit nearest{static_cast<float>(reach_m)};
     for (const simulation::RayHit& hit : hits) {
         // Grass and crop bend, and nothing was hit where they were.
-        if (hit.range_m <= nearest.range_m && hit.kind != simulation::Kind::Canopy) nearest = hit;
+        if (hit.range_m <= nearest.range_m && hit.kind != simulation::ObjectClass::Canopy)
+            nearest = hit;
     }
     return nearest.kind;
 }
 
-std::string wordsFor(simulation::Kind kind) {
+std::string wordsFor(simulation::ObjectClass kind) {
     switch (kind) {
-        case simulation::Kind::Terrain:
+        case simulation::ObjectClass::Terrain:
             return "the ground";
-        case simulation::Kind::Tree:
+        case simulation::ObjectClass::Tree:
             return "a tree";
-        case simulation::Kind::Pole:
+        case simulation::ObjectClass::Pole:
             return "a pole";
-        case simulation::Kind::Wire:
+        case simulation::ObjectClass::Wire:
             return "a wire";
-        case simulation::Kind::Building:
+        case simulation::ObjectClass::Building:
             return "a building";
-        case simulation::Kind::Vehicle:
+        case simulation::ObjectClass::Vehicle:
             return "a parked car";
-        case simulation::Kind::Wall:
+        case simulation::ObjectClass::Wall:
             return "a wall or rock";
-        case simulation::Kind::Mover:
+        case simulation::ObjectClass::Mover:
             return "something that moves";
         default:
             return "an obstacle";
@@ -85,7 +86,7 @@ std::string endingOf(const trials::Course& course, const trials::TrialResult& re
     const auto clearance_m =
         static_cast<double>(course.distance.at(end_m.cast<float>(), result.time_s));
     constexpr double kMore_m = 0.05;  // rays pass a little beside the nearest point
-    const simulation::Kind kind =
+    const simulation::ObjectClass kind =
         nearestKind(course.scene, end_m, result.time_s, clearance_m + kMore_m);
     return "hit " + wordsFor(kind) + at + ": " + pages::figure(clearance_m, 2) +
            " m from it to the vehicle's middle";

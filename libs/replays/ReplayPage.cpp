@@ -1,7 +1,7 @@
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include <hagen/base/Json.h>
 #include <hagen/pages/PackedNumbers.h>
 #include <hagen/pages/Page.h>
 #include <hagen/pages/Table.h>
@@ -12,7 +12,7 @@
 namespace hagen::replays {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Json;
 
 /// A centimetre: coordinates of pages are whole numbers of it, 16 bits from the start on, so they
 /// reach 327 m.
@@ -84,7 +84,7 @@ class PageWriter {
         const TrueScene& scene = recording_.scene;
         Json shapes = Json::array(), things = Json::array(), movers = Json::array();
         for (const simulation::Shape& shape : scene.shapes) shapes.push_back(cornersOf(shape));
-        std::map<std::pair<std::size_t, simulation::Kind>, Json> poses;
+        std::map<std::pair<std::size_t, simulation::ObjectClass>, Json> poses;
         for (const simulation::SceneObject& object : scene.objects) {
             poses[{object.shape, object.kind}].push_back(json(object.pose));
         }

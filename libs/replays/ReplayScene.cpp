@@ -158,7 +158,7 @@ void writeReplayScene(const Recording& recording, const std::filesystem::path& p
         scene.insert(
             sphereAt(recording.track.back().at_m, radius_m, TColor(86, 180, 233), "vehicle"));
     }
-    if (!scene.saveToFile(place.string())) base::failToWrite(file, 0);
+    if (!scene.saveToFile(place.string())) base::throwWriteError(file, 0);
 }
 
 }  // namespace hagen::replays

@@ -15,7 +15,7 @@ simulation::Shape drawn(const simulation::Shape& shape) {
     triangles.vertices_m = shape.vertices_m;
     triangles.triangles = shape.triangles;
     for (const std::uint32_t knot : shape.segments) {
-        Eigen::Vector4f from = shape.knots_m[knot], to = shape.knots_m[knot + 1];
+        Eigen::Vector4f from = shape.polyline_m[knot], to = shape.polyline_m[knot + 1];
         from.w() = std::max(from.w(), kLeastRadius_m);
         to.w() = std::max(to.w(), kLeastRadius_m);
         triangles.addTube({from, to}, kSides);
@@ -48,11 +48,11 @@ TrueScene trueSceneOf(const simulation::Scene& scene, const Eigen::AlignedBox3d&
     TrueScene seen;
     std::vector<bool> is_shown(content.shapes.size());
     for (const simulation::SceneObject& object : content.objects) {
-        if (object.kind == simulation::Kind::Terrain) continue;
+        if (object.kind == simulation::ObjectClass::Terrain) continue;
         seen.objects.push_back(object);
         is_shown[object.shape] = true;
     }
-    for (const simulation::SceneMover& mover : content.movers) {
+    for (const simulation::MovingObstacle& mover : content.movers) {
         TrueScene::Mover& moving = seen.movers.emplace_back();
         moving.shape = mover.shape;
         is_shown[mover.shape] = true;

@@ -14,7 +14,7 @@
 namespace hagen::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Json;
 
 /// A part of the report; HTML and Markdown are made from the same ones.
 struct Section {

@@ -97,6 +97,7 @@ void judge(Pairing& pairing) {
 
 void correct(std::vector<Pairing>& pairings) {
     std::vector<double> p;
+    p.reserve(pairings.size());
     for (const Pairing& pairing : pairings) p.push_back(pairing.p);
     const std::vector<double> adjusted = trials::holm(p);
     for (std::size_t i = 0; i < p.size(); ++i) pairings[i].p_holm = adjusted[i];

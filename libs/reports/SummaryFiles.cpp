@@ -7,7 +7,7 @@
 namespace hagen::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -166,7 +166,7 @@ std::string summaryCsv(const Summary& summary) {
 }
 
 std::string summaryJson(const Summary& summary, const trials::FlownRuns& flown) {
-    nlohmann::ordered_json json = jsonOf(summary);
+    base::Json json = jsonOf(summary);
     if (flown.planned > 0) {
         json["planned_runs"] = flown.planned;
         json["missing_runs"] = flown.missing;

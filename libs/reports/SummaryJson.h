@@ -1,10 +1,10 @@
 #pragma once
+#include <hagen/base/Json.h>
 #include <hagen/reports/Summary.h>
-#include <nlohmann/json.hpp>
 
 namespace hagen::reports {
 
 /// All of a summary; what is NaN is null.
-nlohmann::ordered_json jsonOf(const Summary& summary);
+base::Json jsonOf(const Summary& summary);
 
 }  // namespace hagen::reports

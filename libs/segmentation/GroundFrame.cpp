@@ -1,5 +1,6 @@
 #include <hagen/segmentation/GroundFrame.h>
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -228,6 +229,18 @@ Eigen::Vector3d fitPlane(const Points& points) {
     return plane;
 }
 
+/// The shortest rotation that turns a vector upwards which does not point straight down. The same
+/// as Eigen's FromTwoVectors, which for opposite vectors takes a decomposition that is slow to
+/// compile.
+Eigen::Quaterniond turnUpwards(const Eigen::Vector3d& vector) {
+    const Eigen::Vector3d from = vector.normalized(), up = Eigen::Vector3d::UnitZ();
+    const double s = std::sqrt((1 + up.dot(from)) * 2);
+    Eigen::Quaterniond turn;
+    turn.vec() = from.cross(up) * (1 / s);
+    turn.w() = s * 0.5;
+    return turn;
+}
+
 }  // namespace
 
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
@@ -243,11 +256,9 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
         plane.z() = std::min(points.z_m.front(), points.z_m[points.size - 1]);
     }
     const Eigen::Vector3d normal = Eigen::Vector3d(-plane.x(), -plane.y(), 1).normalized();
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ());
 
     Eigen::Isometry3f ground_from_sensor = Eigen::Isometry3f::Identity();
-    ground_from_sensor.linear() = turn.toRotationMatrix().cast<float>() * level;
+    ground_from_sensor.linear() = turnUpwards(normal).toRotationMatrix().cast<float>() * level;
     ground_from_sensor.translation().z() = static_cast<float>(-plane.z() * normal.z());
     return ground_from_sensor;
 }

@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <hagen/simulated_logs/GroundTruthFolder.h>
 #include <hagen/simulated_logs/SimulatedObservation.h>
-#include <hagen/simulated_logs/TruthFolder.h>
 
 namespace hagen::simulated_logs {
 namespace {
@@ -21,13 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kStart_s = simulation::kSimulatedLogStart_s;
-constexpr double kPoseStep_s = 0.05;  // well below the gap over which poses are interpolated
+constexpr double kPoseStep_s = 0.05;  // much shorter than the gap over which poses are interpolated
 
-/// A file of poses that appears when it is whole.
+/// A pose file that is renamed into place when complete.
 class PoseOutput {
  public:
-    PoseOutput(const fs::path& file, bool overwrite)
-        : path_(file, base::kFile, overwrite) {}
+    PoseOutput(const fs::path& file, bool overwrite) : path_(file, base::kFile, overwrite) {}
 
     void add(double time_s, const mrpt::poses::CPose3D& pose) { poses_.push_back({time_s, pose}); }
     void commit() {
@@ -44,7 +43,7 @@ class PoseOutput {
     std::vector<logs::TimedPose> poses_;
 };
 
-/// The outputs that are wanted.
+/// The requested outputs.
 class Outputs {
  public:
     explicit Outputs(const SimulatedLog& log) {
@@ -66,7 +65,7 @@ class Outputs {
     }
 
     std::optional<logs::RawlogWriter> rawlog;
-    std::optional<TruthFolder> folder;
+    std::optional<GroundTruthFolder> folder;
     std::optional<PoseOutput> poses;
 };
 
@@ -86,7 +85,7 @@ bool hasPackets(const SensorModel& sensor) {
     return sensor.name == "VLP-16" || sensor.name == "HDL-32E";
 }
 
-/// The scan as a folder holds it: as it was measured, or as its packets tell it.
+/// Returns the scan as a folder stores it: as measured, or as decoded from its packets.
 struct Measured {
     Scan scan;
     SensorModel sensor;
@@ -95,23 +94,23 @@ struct Measured {
 Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel& sensor,
                         double time_s, Outputs& outputs) {
     if (!hasPackets(sensor)) return {made.scan, sensor};
-    const auto observation = encodeSimulated(made, sensor, std::fmod(time_s, 3600.0));
+    const auto observation = encodeSimulatedScan(made, sensor, std::fmod(time_s, 3600.0));
     observation->sensorLabel = "lidar";
     observation->timestamp = timePoint(kStart_s + time_s);
     Measured measured;
     observations::decodePackets(*observation, measured.scan);
     measured.sensor = observations::sensorOf(*observation);
     if (measured.scan.size() != made.size()) {
-        throw std::logic_error("packets hold other returns than were simulated");
+        throw std::logic_error("the packets contain other returns than were simulated");
     }
     if (outputs.rawlog) outputs.rawlog->write(*observation);
     return measured;
 }
 
-void count(const std::vector<simulation::Kind>& kinds, SimulationReport& report) {
+void count(const std::vector<simulation::ObjectClass>& kinds, SimulationReport& report) {
     ++report.scans;
     report.returns += kinds.size();
-    for (const simulation::Kind kind : kinds) {
+    for (const simulation::ObjectClass kind : kinds) {
         const Label label = simulation::labelOf(kind);
         ++(label == Label::Roi   ? report.roi
            : label == Label::Rou ? report.rou
@@ -125,8 +124,8 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     const SensorModel sensor = sensorModel(log.sensor);
     if (!log.rawlog.empty() && !hasPackets(sensor)) {
         throw std::invalid_argument(
-            "packets of '" + sensor.name +
-            "' are not known, so there is no rawlog of it; ask for a scan folder alone");
+            "there is no packet format for '" + sensor.name +
+            "', so it cannot be written to a rawlog; request only a scan folder");
     }
     base::checkApart({log.rawlog, log.folder, log.poses}, {});
     Outputs outputs(log);
@@ -136,9 +135,9 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     settings.speed_m_s = log.speed_m_s;
     settings.tilt_sd_rad = radians(log.tilt_sd_deg);
     const simulation::Flight flight(scene.terrain(), scene.path(), settings, log.seed);
-    const double measuring_s = simulation::firingPattern(sensor).turnPeriod_s();
+    const double measuring_s = simulation::firingPattern(sensor).revolutionPeriod_s();
 
-    simulation::LidarFaults faults;
+    simulation::SensorErrorModel faults;
     if (log.clear_air) {
         faults.dust_per_m = 0;
         faults.airframe = false;
@@ -156,7 +155,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
             simulation::simulateScan(scene, sensor, flight, time_s, random, faults);
         writePose(time_s, made.pose, outputs);
         const Measured measured = writeScanEntry(made, sensor, time_s, outputs);
-        // Poses on until past the last firing, or until the next scan brings one.
+        // Poses until after the last firing, or until the next scan brings one.
         const bool is_last = scan + 1 == log.scans;
         for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {
             const double pose_s = time_s + step * kPoseStep_s;

@@ -10,16 +10,17 @@ mrpt::poses::CPose3D mrptPose(const simulation::SensorPose& pose) {
             pose.position_m.y(), pose.position_m.z()};
 }
 
-mrpt::obs::CObservationVelodyneScan::Ptr encodeSimulated(const simulation::SimulatedScan& scan,
-                                                         const SensorModel& sensor, double hour_s) {
+mrpt::obs::CObservationVelodyneScan::Ptr encodeSimulatedScan(const simulation::SimulatedScan& scan,
+                                                             const SensorModel& sensor,
+                                                             double hour_s) {
     const observations::VelodyneModel& model = observations::velodyneModel(sensor.name);
     const simulation::FiringPattern pattern = simulation::firingPattern(sensor);
     observations::Firings firings;
     firings.first_azimuth_deg = simulation::kFirstAzimuth_deg;
     firings.azimuth_step_deg = pattern.azimuthStep_deg();
     firings.first_time_us = static_cast<std::uint32_t>(1e6 * hour_s + 0.5);
-    firings.range_m.setConstant(model.lasers, pattern.firings_per_turn, kNoValue);
-    firings.intensity.setZero(model.lasers, pattern.firings_per_turn);
+    firings.range_m.setConstant(model.lasers, pattern.firings_per_revolution, kNoValue);
+    firings.intensity.setZero(model.lasers, pattern.firings_per_revolution);
     for (std::size_t i = 0; i < scan.size(); ++i) {
         firings.range_m(scan.laser[i], scan.firing[i]) = scan.scan.range_m[i];
         firings.intensity(scan.laser[i], scan.firing[i]) = scan.scan.intensity[i];

@@ -14,11 +14,11 @@ struct ReleaseScene {
 using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
 using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
-/// One thread and one instruction set, so that a seed makes the same on every machine. Errors
-/// throw std::runtime_error.
+/// Returns the device: one thread and one instruction set, so that a seed gives the same result on
+/// every machine. Errors throw std::runtime_error.
 DevicePtr makeEmbreeDevice();
 
-/// Adds a geometry, and gives it away.
+/// Attaches a geometry and transfers its ownership to the scene.
 void attach(RTCScene scene, RTCGeometry geometry);
 
 }  // namespace hagen::simulation

@@ -16,7 +16,7 @@ FiringPattern firingPattern(const SensorModel& sensor) {
         throw std::invalid_argument("no sensor '" + sensor.name +
                                     "' can be simulated; VLP-16, HDL-32E and HDL-64E can");
     }
-    // Lasers of the lower and of the upper half fire in turns.
+    // Lasers of the lower and of the upper half fire alternately.
     for (std::uint8_t row = 0; row < rows / 2; ++row) {
         pattern.row_of_laser.push_back(row);
         pattern.row_of_laser.push_back(static_cast<std::uint8_t>(row + rows / 2));

@@ -9,7 +9,7 @@ namespace {
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kMaxLateral_m_s2 = 0.68;  // a bank of 4 degrees
 constexpr double kWayStep_m = 0.25;
-constexpr double kLeanPerSpeed_rad = 0.008;  // nose down against the air, rad per m/s
+constexpr double kLeanPerSpeed_rad = 0.008;  // pitches down against the drag, rad per m/s
 
 }  // namespace
 
@@ -34,7 +34,7 @@ std::vector<Flight::Sway> Flight::sways(double sd, double slowest_hz, double fas
                                         Random& random) const {
     constexpr int kCount = 6;
     std::vector<Sway> made;
-    for (int i = 0; i < kCount; ++i) {  // a wave's variance is half its amplitude squared
+    for (int i = 0; i < kCount; ++i) {  // a wave's variance is half its squared amplitude
         const double hz = random.uniform(slowest_hz, fastest_hz);
         made.push_back({2 * kPi * hz, random.uniform(0, 2 * kPi), sd * std::sqrt(2.0 / kCount)});
     }
@@ -49,7 +49,7 @@ double Flight::valueOf(const std::vector<Sway>& sways, double time_s) {
     return value;
 }
 
-/// The path's curvature as it is flown: a turn begins before it and ends after it, without a jerk.
+/// Returns the path's curvature as flown: a turn begins early and ends late, without a jerk.
 double Flight::curvatureAt(double way_m) const {
     double curvature = 0;
     constexpr int kNear = 8;
@@ -64,23 +64,23 @@ double Flight::speedAt(double way_m) const {
     return std::min(settings_.speed_m_s, std::sqrt(kMaxLateral_m_s2 / curvature));
 }
 
-double Flight::wayAt(double time_s) const {
+double Flight::arcLengthAt(double time_s) const {
     const double lap_m = kWayStep_m * static_cast<double>(lap_s_.size() - 1);
     const double laps = std::floor(time_s / lap_s_.back());
     const double rest_s = time_s - laps * lap_s_.back();
     const auto next = std::upper_bound(lap_s_.begin() + 1, lap_s_.end() - 1, rest_s);
     const double share = (rest_s - *(next - 1)) / (*next - *(next - 1));
     const double step = static_cast<double>(next - 1 - lap_s_.begin()) + share;
-    // The last step may reach past the lap's end; laps are stretched by that much to fit.
+    // The last step may extend beyond the lap's end; laps are stretched by that much to fit.
     return path_.length_m() * (laps + kWayStep_m * step / lap_m);
 }
 
 SensorPose Flight::at(double time_s) const {
-    const double way_m = wayAt(time_s);
+    const double way_m = arcLengthAt(time_s);
     const Eigen::Vector2d place = path_.at(way_m);
     const double heading = path_.heading_rad(way_m);
 
-    // The pilot follows the ground's rise, not each bump; and never goes down on it.
+    // The pilot follows the rise of the ground, not each bump, and is never below it.
     double ground_m = 0, highest_m = -1e9;
     for (int i = -3; i <= 3; ++i) {
         const Eigen::Vector2d near =

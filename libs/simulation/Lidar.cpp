@@ -10,29 +10,30 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kBlock = 8;  // firings whose rays are cast side by side
+constexpr int kBlock = 8;  // firings whose rays are cast together
 constexpr double kPoseStep_s = 0.005;
 
-/// Share of light that a surface sends back; it varies by a fifth from object to object.
-float reflectivityOf(Kind kind, std::uint16_t number) {
+/// Reflectivity of a surface; it varies by a fifth from object to object.
+float reflectivityOf(ObjectClass kind, std::uint16_t number) {
     static const std::array<float, 12> shares{0.0f,  0.25f, 0.4f, 0.35f, 0.35f, 0.25f,
                                               0.35f, 0.3f,  0.3f, 0.3f,  0.1f,  0.1f};
     const float variation = static_cast<float>(number * 37 % 101) / 100.0f - 0.5f;
     return shares[static_cast<std::size_t>(kind)] * (1.0f + 0.4f * variation);
 }
 
-/// Surfaces wider than any beam: their echo comes from the middle of the spot.
-bool isBroad(Kind kind) {
-    return kind == Kind::Terrain || kind == Kind::Building || kind == Kind::Wall;
+/// True for surfaces wider than any beam: their range is that of the footprint's centre.
+bool isLargeSurface(ObjectClass kind) {
+    return kind == ObjectClass::Terrain || kind == ObjectClass::Building ||
+           kind == ObjectClass::Wall;
 }
 
-/// A part of the vehicle that some beams meet.
+/// A part of the vehicle that occludes some beams.
 struct AirframeSpot {
     float azimuth_rad, half_width_rad, lowest_rad, highest_rad, range_m;
 };
 
-/// Four legs and what else is in the way, near the lowest or the highest beams.
-const std::vector<AirframeSpot>& airframeSpots() {
+/// Four legs and other parts of the vehicle, near the lowest or the highest beams.
+const std::vector<AirframeSpot>& airframeOccluders() {
     static const std::vector<AirframeSpot> spots{
         {0.80f, 0.045f, -1.0f, -0.15f, 0.42f},  {2.35f, 0.045f, -1.0f, -0.15f, 0.44f},
         {-0.78f, 0.045f, -1.0f, -0.15f, 0.41f}, {-2.38f, 0.045f, -1.0f, -0.15f, 0.45f},
@@ -41,7 +42,7 @@ const std::vector<AirframeSpot>& airframeSpots() {
 }
 
 const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
-    for (const AirframeSpot& spot : airframeSpots()) {
+    for (const AirframeSpot& spot : airframeOccluders()) {
         if (elevation_rad >= spot.lowest_rad && elevation_rad <= spot.highest_rad &&
             std::abs(azimuth_rad - spot.azimuth_rad) < spot.half_width_rad) {
             return &spot;
@@ -50,10 +51,10 @@ const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
     return nullptr;
 }
 
-/// Where the sensor is during a turn: straight from one of a few poses to the next.
-class TurnPoses {
+/// The sensor's pose during a revolution: linear between a few sampled poses.
+class RevolutionPoses {
  public:
-    TurnPoses(const PoseAt& pose_at, double start_s, double duration_s) {
+    RevolutionPoses(const PoseAt& pose_at, double start_s, double duration_s) {
         for (double s = 0; s < duration_s + 2 * kPoseStep_s; s += kPoseStep_s) {
             poses_.push_back(pose_at(start_s + s));
         }
@@ -71,8 +72,8 @@ class TurnPoses {
     std::vector<SensorPose> poses_;
 };
 
-/// A laser's direction within a firing: its elevation, and how far it has turned since the firing
-/// began.
+/// A laser's direction within a firing: its elevation, and the rotation since the start of the
+/// firing.
 struct LaserDirection {
     float elevation_rad, sine, cosine;  ///< of the elevation
     float turn_sine, turn_cosine;
@@ -99,16 +100,17 @@ float wrapped(float angle_rad) {
     return angle_rad <= -pi ? angle_rad + 2 * pi : angle_rad;
 }
 
-/// A beam of the turn.
+/// A beam of the revolution.
 struct Beam {
     Vector3f direction;  ///< in the sensor's frame
     float azimuth_rad;   ///< within +-pi
     Vector3f axis;       ///< in the map
 };
 
-/// All beams of a turn, and a ray somewhere in the spot of each; blocks of firings one after the
-/// other, in a block laser after laser, so that eight neighbours lie side by side.
-struct Turn {
+/// All beams of a revolution, and a ray at a random place in the footprint of each. Blocks of
+/// firings follow each other; within a block, lasers follow each other, so that eight neighbours
+/// are adjacent.
+struct Revolution {
     std::vector<Beam> beams;
     std::vector<Ray> rays;
     int lasers, firings;
@@ -120,19 +122,19 @@ struct Turn {
     }
 };
 
-inline Vector3f inSpot(const Vector3f& axis, double footprint_rad, Random& random) {
+inline Vector3f randomInFootprint(const Vector3f& axis, double footprint_rad, Random& random) {
     const auto aside = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
     const auto up = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
-    const Vector3f left(-axis.y(), axis.x(), 0);  // shorter near the zenith, where no beam goes
+    const Vector3f left(-axis.y(), axis.x(), 0);  // shorter near the zenith, which no beam reaches
     return (axis + aside * left + up * axis.cross(left)).normalized();
 }
 
-Turn makeTurn(const SensorModel& sensor, const FiringPattern& pattern, const TurnPoses& poses,
-              double footprint_rad, Random& random) {
+Revolution makeRevolution(const SensorModel& sensor, const FiringPattern& pattern,
+                          const RevolutionPoses& poses, double footprint_rad, Random& random) {
     const std::vector<LaserDirection> lasers = laserDirections(sensor, pattern);
-    Turn turn;
+    Revolution turn;
     turn.lasers = static_cast<int>(lasers.size());
-    turn.firings = pattern.firings_per_turn;
+    turn.firings = pattern.firings_per_revolution;
     turn.beams.resize(static_cast<std::size_t>(turn.lasers) * turn.firings);
     turn.rays.resize(turn.beams.size());
     for (int firing = 0; firing < turn.firings; ++firing) {
@@ -153,37 +155,39 @@ Turn makeTurn(const SensorModel& sensor, const FiringPattern& pattern, const Tur
             beam.axis = attitude * beam.direction;
             const double time_s =
                 1e-6 * (firing * pattern.firing_period_us + laser * pattern.laser_period_us);
-            turn.rays[i] = {origin, inSpot(beam.axis, footprint_rad, random),
-                            static_cast<float>(std::min(1.0, time_s / pattern.turnPeriod_s()))};
+            turn.rays[i] = {
+                origin, randomInFootprint(beam.axis, footprint_rad, random),
+                static_cast<float>(std::min(1.0, time_s / pattern.revolutionPeriod_s()))};
         }
     }
     return turn;
 }
 
-/// Where the beam's axis meets the plane that its ray hit; the ray's own range where that is far.
-float rangeOnAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axis) {
+/// Range at which the beam's axis meets the plane that its ray hit; the ray's own range if the two
+/// are far apart.
+float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axis) {
     const float along = hit.normal.dot(axis);
     if (along > -0.01f) return hit.range_m;
     const float range_m = hit.range_m * hit.normal.dot(ray) / along;
     return std::abs(range_m - hit.range_m) < 0.1f * hit.range_m ? range_m : hit.range_m;
 }
 
-/// Casts a second ray for some of the beams; where it meets something else nearly as far away, the
-/// range is one between both, and the return is that of the nearer.
-void mixEdges(const Scene::Snapshot& snapshot, const Turn& turn, float max_range_m,
-              const LidarFaults& faults, Random& random, std::vector<RayHit>& hits) {
-    constexpr float kLeast_m = 0.2f, kPulse_m = 1.2f;  // farther apart, they are two pulses
+/// Casts a second ray for some of the beams. If it hits another surface nearly as far away, the
+/// range is set to a value between both, and the return is that of the nearer surface.
+void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max_range_m,
+              const SensorErrorModel& faults, Random& random, std::vector<RayHit>& hits) {
+    constexpr float kLeast_m = 0.2f, kPulse_m = 1.2f;  // farther apart: two separate pulses
     std::vector<std::size_t> chosen;
     std::vector<Ray> rays;
     const double gap = std::max(1e-9, faults.mixed);
     for (double at = random.exponential(1 / gap); at < static_cast<double>(hits.size());
          at += 1 + random.exponential(1 / gap)) {
         const auto i = static_cast<std::size_t>(at);
-        if (hits[i].kind == Kind::None) continue;
+        if (hits[i].kind == ObjectClass::None) continue;
         chosen.push_back(i);
         rays.push_back(turn.rays[i]);
-        rays.back().direction = inSpot(turn.beams[i].axis, faults.footprint_rad, random);
-        rays.back().reach_m = hits[i].range_m + 1.01f * kPulse_m;  // what is farther is not mixed
+        rays.back().direction = randomInFootprint(turn.beams[i].axis, faults.footprint_rad, random);
+        rays.back().reach_m = hits[i].range_m + 1.01f * kPulse_m;  // farther surfaces are not mixed
     }
     std::vector<RayHit> others;
     snapshot.cast(rays, max_range_m, others);
@@ -191,7 +195,7 @@ void mixEdges(const Scene::Snapshot& snapshot, const Turn& turn, float max_range
         RayHit& hit = hits[chosen[k]];
         const float apart_m = std::abs(others[k].range_m - hit.range_m);
         if (!(apart_m > kLeast_m && apart_m < kPulse_m)) continue;
-        if (isBroad(hit.kind) && others[k].kind == hit.kind) continue;
+        if (isLargeSurface(hit.kind) && others[k].kind == hit.kind) continue;
         RayHit& nearer = others[k].range_m < hit.range_m ? others[k] : hit;
         const RayHit mixed{nearer.range_m + static_cast<float>(random.uniform()) * apart_m,
                            nearer.kind, nearer.number, nearer.normal};
@@ -199,40 +203,40 @@ void mixEdges(const Scene::Snapshot& snapshot, const Turn& turn, float max_range
     }
 }
 
-/// What a beam measures.
+/// The sensor's measurement for a beam.
 struct Echo {
     float range_m = kNoValue;
     float intensity = 0;
-    Kind kind = Kind::None;
+    ObjectClass kind = ObjectClass::None;
     std::uint16_t object = 0;
 };
 
 class Receiver {
  public:
-    Receiver(const Scene& scene, const LidarFaults& faults, const SensorModel& sensor,
+    Receiver(const Scene& scene, const SensorErrorModel& faults, const SensorModel& sensor,
              Random& random)
         : scene_(scene), faults_(faults), sensor_(sensor), random_(random) {}
 
     Echo measure(const RayHit& hit, const Ray& ray, const Beam& beam, float elevation_rad) {
         if (faults_.airframe) {
             if (const AirframeSpot* spot = airframeAt(beam.azimuth_rad, elevation_rad)) {
-                if (random_.chance(0.4)) return {};  // too near to be measured at all
-                return {noisy(spot->range_m, 1.0f), 0.1f, Kind::Airframe, 0};
+                if (random_.chance(0.4)) return {};  // too near to be measured
+                return {withNoise(spot->range_m, 1.0f), 0.1f, ObjectClass::Airframe, 0};
             }
         }
-        const bool is_hit = hit.kind != Kind::None;
-        if (random_.chance(kDust_m * faults_.dust_per_m)) {  // somewhere on the way
+        const bool is_hit = hit.kind != ObjectClass::None;
+        if (random_.chance(kDust_m * faults_.dust_per_m)) {  // anywhere along the beam
             const auto speck_m = static_cast<float>(random_.uniform(0.5, kDust_m));
-            if (!is_hit || speck_m < hit.range_m) return {speck_m, 0.02f, Kind::Dust, 0};
+            if (!is_hit || speck_m < hit.range_m) return {speck_m, 0.02f, ObjectClass::Dust, 0};
         }
         if (!is_hit) return {};
 
         float range_m = hit.range_m;
-        if (isBroad(hit.kind)) range_m = rangeOnAxis(hit, ray.direction, beam.axis);
+        if (isLargeSurface(hit.kind)) range_m = rangeAlongAxis(hit, ray.direction, beam.axis);
         const float incidence = std::max(0.0f, -hit.normal.dot(ray.direction));
-        if (hit.kind == Kind::Terrain) range_m -= grass_m(ray, range_m, incidence);
+        if (hit.kind == ObjectClass::Terrain) range_m -= grass_m(ray, range_m, incidence);
         const float reflectivity = reflectivityOf(hit.kind, hit.number);
-        // Rough surfaces send some light back even where they are seen edge on.
+        // Rough surfaces return some light even at grazing incidence.
         const float strength = reflectivity / 0.3f * (0.05f + 0.95f * incidence);
         const auto half_m = static_cast<float>(faults_.half_range_m) * std::sqrt(strength);
         const float weakness = range_m / half_m;
@@ -240,33 +244,33 @@ class Receiver {
         if (random_.chance(1.0 - (1.0 - faults_.lost) / (1.0 + static_cast<double>(sixth)))) {
             return {};
         }
-        const float measured_m = noisy(range_m, 1.0f + std::min(1.0f, 1.5f * weakness));
+        const float measured_m = withNoise(range_m, 1.0f + std::min(1.0f, 1.5f * weakness));
         if (!(measured_m > 0.1f && measured_m <= sensor_.max_range_m)) return {};
         const float shade = 0.9f + 0.2f * static_cast<float>(random_.uniform());
         return {measured_m, std::clamp(strength * 0.3f * shade, 0.01f, 1.0f), hit.kind, hit.number};
     }
 
  private:
-    static constexpr double kDust_m = 15.0;  // farther specks are too faint
+    static constexpr double kDust_m = 15.0;  // dust farther away is too faint
 
-    float noisy(float range_m, float times) {
+    float withNoise(float range_m, float times) {
         return range_m +
-               static_cast<float>(faults_.least_noise_m * random_.roughlyNormal()) * times;
+               static_cast<float>(faults_.least_noise_m * random_.approximateNormal()) * times;
     }
 
-    /// How far before the soil the grass sends a beam back.
+    /// How far above the soil, along the beam, the grass returns it.
     float grass_m(const Ray& ray, float range_m, float incidence) {
         const Vector3f at = ray.origin_m + range_m * ray.direction;
         const double tallest_m = scene_.terrain().grassHeight_m(static_cast<double>(at.x()),
                                                                 static_cast<double>(at.y()));
         if (tallest_m <= 0) return 0;
         const double share = random_.uniform();
-        const double blade_m = tallest_m * share * share;  // few are as tall as the tallest
+        const double blade_m = tallest_m * share * share;  // few blades are as tall as the tallest
         return std::min(static_cast<float>(blade_m) / std::max(incidence, 0.05f), 0.2f * range_m);
     }
 
     const Scene& scene_;
-    const LidarFaults& faults_;
+    const SensorErrorModel& faults_;
     const SensorModel& sensor_;
     Random& random_;
 };
@@ -299,11 +303,11 @@ void append(const Echo& echo, const Beam& beam, int firing, int laser, std::uint
 }  // namespace
 
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
-                           double time_s, Random& random, const LidarFaults& faults) {
+                           double time_s, Random& random, const SensorErrorModel& faults) {
     const FiringPattern pattern = firingPattern(sensor);
-    const Scene::Snapshot snapshot = scene.during(time_s, pattern.turnPeriod_s());
-    const TurnPoses poses(pose_at, time_s, pattern.turnPeriod_s());
-    const Turn turn = makeTurn(sensor, pattern, poses, faults.footprint_rad, random);
+    const Scene::Snapshot snapshot = scene.snapshotOver(time_s, pattern.revolutionPeriod_s());
+    const RevolutionPoses poses(pose_at, time_s, pattern.revolutionPeriod_s());
+    const Revolution turn = makeRevolution(sensor, pattern, poses, faults.footprint_rad, random);
 
     std::vector<RayHit> hits;
     snapshot.cast(turn.rays, sensor.max_range_m, hits);
@@ -322,7 +326,7 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
             const std::uint8_t row = pattern.row_of_laser[laser];
             const Echo echo =
                 receiver.measure(hits[i], turn.rays[i], turn.beams[i], sensor.elevations_rad[row]);
-            if (echo.kind == Kind::None) continue;
+            if (echo.kind == ObjectClass::None) continue;
             const double since_s =
                 1e-6 * (firing * pattern.firing_period_us + laser * pattern.laser_period_us);
             append(echo, turn.beams[i], firing, laser, row, static_cast<float>(since_s), out);
@@ -332,7 +336,7 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
 }
 
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
-                           double time_s, Random& random, const LidarFaults& faults) {
+                           double time_s, Random& random, const SensorErrorModel& faults) {
     const PoseAt pose_at = [&](double at_s) { return flight.at(at_s); };
     return simulateScan(scene, sensor, pose_at, time_s, random, faults);
 }

@@ -6,10 +6,10 @@
 namespace hagen::simulation {
 namespace {
 
-/// Where along the path a way ends: on which part, and how far on that.
+/// The place on the path at a path length: on which segment, and how far along it.
 struct Part {
     bool is_turn;
-    bool is_back;  ///< the second straight, or the turn after it
+    bool is_back;  ///< on the second straight or the turn after it
     double way_m;
 };
 

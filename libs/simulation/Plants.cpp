@@ -14,7 +14,7 @@ Vector3d randomDirection(Random& random) {
     return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-/// An equilateral triangle turned any way.
+/// Adds an equilateral triangle of random orientation.
 void addLeaf(const Vector3d& at, double edge_m, Random& random, Shape& shape) {
     const Vector3d u = randomDirection(random);
     const Vector3d v = u.cross(randomDirection(random)).normalized();
@@ -31,10 +31,10 @@ Eigen::Vector4f knot(const Vector3d& at, double radius_m) {
             static_cast<float>(radius_m)};
 }
 
-/// The trunk's middle at a height: it bends a little.
+/// The centre of the trunk at a height: it bends slightly.
 class Trunk {
  public:
-    Trunk(const TreeForm& form, Random& random) : form_(form) {
+    Trunk(const TreeParameters& form, Random& random) : form_(form) {
         const double bend = 0.04 * form.height_m, angle = random.uniform(0, 2 * kPi);
         bend_ = {bend * std::cos(angle), bend * std::sin(angle), 0};
         phase_ = random.uniform(2, 5);
@@ -50,12 +50,13 @@ class Trunk {
     }
 
  private:
-    TreeForm form_;
+    TreeParameters form_;
     Vector3d bend_;
     double phase_;
 };
 
-/// A branch that rises as it goes out; its outer places, where leaves are, go to `leafy`.
+/// Adds a branch that rises outwards; its outer points, which carry the leaves, are appended to
+/// `leafy`.
 void addBranch(const Trunk& trunk, double z_m, double length_m, double radius_m, Random& random,
                Shape& shape, std::vector<Vector3d>& leafy) {
     const double angle = random.uniform(0, 2 * kPi), rise = random.uniform(0.0, 0.7);
@@ -72,7 +73,7 @@ void addBranch(const Trunk& trunk, double z_m, double length_m, double radius_m,
 
 }  // namespace
 
-Shape makeTree(const TreeForm& form, Random& random) {
+Shape makeTree(const TreeParameters& form, Random& random) {
     Shape shape;
     const Trunk trunk(form, random);
     std::vector<Eigen::Vector4f> knots;
@@ -82,7 +83,7 @@ Shape makeTree(const TreeForm& form, Random& random) {
     }
     shape.addTube(knots, 8);
 
-    // The crown is widest below its middle; branches end at its surface.
+    // The crown is widest below its centre; branches end at its surface.
     std::vector<Vector3d> leafy, sparse;
     const double crown_m = form.height_m - form.crown_base_m;
     for (int i = 0; i < form.branches; ++i) {
@@ -105,7 +106,7 @@ Shape makeTree(const TreeForm& form, Random& random) {
         for (int i = 0; i < leaves && !places.empty(); ++i) {
             const Vector3d offset{random.normal(), random.normal(), random.normal()};
             const Vector3d at =
-                places[random.below(static_cast<int>(places.size()))] + clump_m * offset;
+                places[random.uniformInt(static_cast<int>(places.size()))] + clump_m * offset;
             if (at.z() > 0.2) addLeaf(at, form.leaf_m, random, shape);
         }
     };
@@ -126,7 +127,7 @@ Shape makeShrub(Random& random) {
     }
     for (int i = 0; i < 500; ++i) {
         const Vector3d offset{random.normal(), random.normal(), random.normal()};
-        addLeaf(clumps[random.below(9)] + 0.11 * offset, kLeaf_m, random, shape);
+        addLeaf(clumps[random.uniformInt(9)] + 0.11 * offset, kLeaf_m, random, shape);
     }
     return shape;
 }
@@ -137,7 +138,7 @@ Shape makeCanopyPatch(double side_m, Random& random) {
     Shape shape;
     for (double y = 0.5 * kRow_m; y < side_m; y += kRow_m) {
         for (double x = 0.5 * kPlant_m; x < side_m; x += kPlant_m) {
-            if (random.chance(0.06)) continue;  // not every seed comes up
+            if (random.chance(0.06)) continue;  // some seeds fail
             const double px = x - side_m / 2 + 0.04 * random.normal();
             const double py = y - side_m / 2 + 0.03 * random.normal();
             const double height = random.uniform(0.65, 1.0);

@@ -7,12 +7,12 @@ namespace hagen::simulation {
 Random::Random(std::uint64_t seed, std::uint64_t stream)
     : engine_(seed * 0x9e3779b97f4a7c15u + stream * 0xd1b54a32d192ed03u + 1) {}
 
-double Random::normal() {  // Box and Muller; the second number is not kept
+double Random::normal() {  // Box-Muller; the second number is discarded
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return radius * std::cos(2.0 * kPi * uniform());
 }
 
-double Random::roughlyNormal() {
+double Random::approximateNormal() {
     const std::uint64_t bits = engine_();  // four numbers of 16 bits: variance 4/12 of their range
     double sum = 0;
     for (int i = 0; i < 4; ++i) sum += static_cast<double>(bits >> (16 * i) & 0xffff);

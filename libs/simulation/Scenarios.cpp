@@ -1,7 +1,7 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/simulation/Plants.h>
+#include <hagen/simulation/Props.h>
 #include <hagen/simulation/Scenarios.h>
-#include <hagen/simulation/Things.h>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -14,29 +14,29 @@ using Shapes = std::vector<std::size_t>;
 
 double anyYaw(Random& random) { return random.uniform(0, 2 * kPi); }
 
-/// Grass and weeds in tufts, 0.1 m to `tallest_m` high, also at the feet of what stands there.
+/// Scatters tufts of grass and weeds, 0.1 m to `tallest_m` high, also at the base of objects.
 void scatterTufts(SceneBuilder& builder, double per_m2, double tallest_m) {
     const Shapes tufts = builder.addShapes(3, makeTuft);
     builder.scatter(per_m2, [&](double x, double y) {
         const double size = builder.random().uniform(0.6, 1.6);
-        builder.placeAnyOf(Kind::Canopy, tufts, x, y,
-                           {size, size, builder.random().uniform(0.1, tallest_m)});
+        builder.placeRandomOf(ObjectClass::Canopy, tufts, x, y,
+                              {size, size, builder.random().uniform(0.1, tallest_m)});
     });
 }
 
-void putTuftsAround(SceneBuilder& builder, const Shapes& tufts, double x, double y, int count,
-                    double tallest_m) {
+void scatterTuftsAround(SceneBuilder& builder, const Shapes& tufts, double x, double y, int count,
+                        double tallest_m) {
     Random& random = builder.random();
     for (int i = 0; i < count; ++i) {
         const double angle = anyYaw(random), r = random.uniform(0.1, 0.6);
-        builder.placeAnyOf(
-            Kind::Canopy, tufts, x + r * std::cos(angle), y + r * std::sin(angle),
+        builder.placeRandomOf(
+            ObjectClass::Canopy, tufts, x + r * std::cos(angle), y + r * std::sin(angle),
             {random.uniform(0.6, 1.3), random.uniform(0.6, 1.3), random.uniform(0.12, tallest_m)});
     }
 }
 
-TreeForm forestTree(Random& random) {
-    TreeForm form;
+TreeParameters forestTree(Random& random) {
+    TreeParameters form;
     form.height_m = random.uniform(6, 12);
     form.crown_base_m = random.uniform(1.8, 3.5);
     form.crown_radius_m = random.uniform(1.2, 2.1);
@@ -44,18 +44,18 @@ TreeForm forestTree(Random& random) {
     form.leaf_area_m2 = 3.0 * form.crown_radius_m * (form.height_m - form.crown_base_m);
     form.leaf_m = 0.24;
     form.branches = 26;
-    form.low_branches = random.below(5);
+    form.low_branches = random.uniformInt(5);
     return form;
 }
 
-/// Scatters trees of some shapes; `crown_m` is their widest radius.
+/// Scatters trees of several shapes; `crown_m` is their maximum radius.
 void scatterTrees(SceneBuilder& builder, const Shapes& trees, double per_m2, double crown_m) {
     Random& random = builder.random();
     builder.scatter(per_m2, [&](double x, double y) {
         const double size = random.uniform(0.7, 1.15);
         if (!builder.isFree(x, y, size * crown_m)) return;
-        builder.placeAnyOf(Kind::Tree, trees, x, y,
-                           {size, size, size * random.uniform(0.85, 1.15)});
+        builder.placeRandomOf(ObjectClass::Tree, trees, x, y,
+                              {size, size, size * random.uniform(0.85, 1.15)});
     });
 }
 
@@ -65,26 +65,26 @@ void scatterShrubs(SceneBuilder& builder, double per_m2, double tallest_m) {
     builder.scatter(per_m2, [&](double x, double y) {
         const double width = random.uniform(0.6, 1.6);
         if (!builder.isFree(x, y, 0.6 * width)) return;
-        builder.placeAnyOf(Kind::Tree, shrubs, x, y,
-                           {width, width, random.uniform(0.4, tallest_m)});
+        builder.placeRandomOf(ObjectClass::Tree, shrubs, x, y,
+                              {width, width, random.uniform(0.4, tallest_m)});
     });
 }
 
-/// What is seen behind a scene: trees and houses around it, 55 to 110 m away.
+/// Adds the background of a scene: trees and houses around it, 55 to 110 m away.
 void addBackground(SceneBuilder& builder, const Shapes& trees) {
     Random& random = builder.random();
     for (int i = 0; i < 110; ++i) {
         const double angle = anyYaw(random), r = random.uniform(60, 105);
         const double size = random.uniform(0.8, 1.4);
-        builder.placeAnyOf(Kind::Tree, trees, r * std::cos(angle), r * std::sin(angle),
-                           {size, size, size});
+        builder.placeRandomOf(ObjectClass::Tree, trees, r * std::cos(angle), r * std::sin(angle),
+                              {size, size, size});
     }
     for (int i = 0; i < 4; ++i) {
         const double angle = anyYaw(random), r = random.uniform(65, 95);
         const double length_m = random.uniform(8, 18), width_m = random.uniform(7, 10);
         const double wall_m = random.uniform(3, 6);
         const std::size_t house = builder.addShape(makeHouse(length_m, width_m, wall_m, random));
-        builder.place(Kind::Building, house, r * std::cos(angle), r * std::sin(angle),
+        builder.place(ObjectClass::Building, house, r * std::cos(angle), r * std::sin(angle),
                       anyYaw(random));
     }
 }
@@ -94,8 +94,8 @@ Shapes addForestTrees(SceneBuilder& builder, int count) {
                              [](Random& random) { return makeTree(forestTree(random), random); });
 }
 
-TerrainForm ground(double slope_deg, double bump_m, double roughness_m, double grass_m) {
-    TerrainForm form;
+TerrainParameters ground(double slope_deg, double bump_m, double roughness_m, double grass_m) {
+    TerrainParameters form;
     form.max_slope_rad = radians(slope_deg);
     form.bump_m = bump_m;
     form.roughness_m = roughness_m;
@@ -107,13 +107,13 @@ Scene makeOrchard(std::uint64_t seed) {
     SceneBuilder builder(ground(4, 0.04, 0.025, 0.15), {30, 12.5}, seed);
     Random& random = builder.random();
     const Shapes trees = builder.addShapes(5, [](Random& r) {
-        TreeForm form;
+        TreeParameters form;
         form.height_m = r.uniform(3.0, 4.2);
         form.crown_base_m = r.uniform(0.6, 1.0);
         form.crown_radius_m = r.uniform(1.1, 1.55);
         form.trunk_radius_m = r.uniform(0.05, 0.09);
         form.leaf_area_m2 = r.uniform(9, 15);
-        form.low_branches = r.below(4);
+        form.low_branches = r.uniformInt(4);
         return makeTree(form, r);
     });
     const Shapes tufts = builder.addShapes(3, makeTuft);
@@ -122,14 +122,14 @@ Scene makeOrchard(std::uint64_t seed) {
     for (int row = -7; row <= 7; ++row) {
         for (double at = -37; at <= 37; at += kTree_m) {
             const double x = at + 0.15 * random.normal(), y = row * kRow_m + 0.08 * random.normal();
-            if (random.chance(0.07)) continue;  // a tree that died
+            if (random.chance(0.07)) continue;  // a dead tree
             const double size = random.uniform(0.75, 1.1);
             if (!builder.isFree(x, y, 1.45 * size)) continue;
-            builder.placeAnyOf(Kind::Tree, trees, x, y,
-                               {size, size, size * random.uniform(0.85, 1.1)});
-            putTuftsAround(builder, tufts, x, y, 3, 0.35);
+            builder.placeRandomOf(ObjectClass::Tree, trees, x, y,
+                                  {size, size, size * random.uniform(0.85, 1.1)});
+            scatterTuftsAround(builder, tufts, x, y, 3, 0.35);
             if (random.chance(0.3) && builder.isFree(x + 1.6, y, 0.1)) {
-                builder.place(Kind::Pole, stake, x + 1.6, y, 0);
+                builder.place(ObjectClass::Pole, stake, x + 1.6, y, 0);
             }
         }
     }
@@ -137,10 +137,10 @@ Scene makeOrchard(std::uint64_t seed) {
     const Shapes tall = addForestTrees(builder, 2);
     for (double y = -45; y <= 45; y += 3.2) {  // a windbreak
         const double x = 58 + random.normal();
-        builder.placeAnyOf(Kind::Tree, tall, x, y);
+        builder.placeRandomOf(ObjectClass::Tree, tall, x, y);
     }
     const std::size_t car = builder.addShape(makeCar(random));
-    builder.placeAnyOf(Kind::Vehicle, {car}, -47, 5);
+    builder.placeRandomOf(ObjectClass::Vehicle, {car}, -47, 5);
     addBackground(builder, tall);
     return builder.build();
 }
@@ -157,22 +157,23 @@ Scene makeField(std::uint64_t seed) {
             if (random.chance(0.05)) continue;  // bare
             const double swell = std::sin(x / 9 + phase) + std::sin(y / 13 - x / 21 + other);
             const double height = std::clamp(0.6 + 0.17 * swell, 0.3, 0.9);
-            const std::size_t patch = builder.oneOf(patches);
-            builder.lay(Kind::Canopy, patch, x, y, random.chance(0.5) ? kPi : 0.0, {1, 1, height});
+            const std::size_t patch = builder.randomOf(patches);
+            builder.placeOnSlope(ObjectClass::Canopy, patch, x, y, random.chance(0.5) ? kPi : 0.0,
+                                 {1, 1, height});
         }
     }
     const Shapes trees = addForestTrees(builder, 3);
     scatterTrees(builder, trees, 0.0015, 2.2);
     const std::size_t pole = builder.addShape(makeRod(7, 0.13));
     const std::size_t stake = builder.addShape(makeRod(1.8, 0.05));
-    for (double x = -60; x <= 60; x += 20) builder.place(Kind::Pole, pole, x, -28, 0);
+    for (double x = -60; x <= 60; x += 20) builder.place(ObjectClass::Pole, pole, x, -28, 0);
     builder.scatter(0.001, [&](double x, double y) {
-        if (builder.isFree(x, y, 0.3)) builder.place(Kind::Pole, stake, x, y, 0);
+        if (builder.isFree(x, y, 0.3)) builder.place(ObjectClass::Pole, stake, x, y, 0);
     });
     const Shapes hedge = builder.addShapes(4, makeShrub);
     for (double x = -60; x <= 60; x += 1.1) {  // a hedge along the field
         const double y = 30 + 0.3 * random.normal();
-        builder.placeAnyOf(Kind::Tree, hedge, x, y, {1.4, 1.4, random.uniform(1.2, 2.0)});
+        builder.placeRandomOf(ObjectClass::Tree, hedge, x, y, {1.4, 1.4, random.uniform(1.2, 2.0)});
     }
     addBackground(builder, trees);
     return builder.build();
@@ -184,7 +185,7 @@ Scene makeForest(double per_m2, std::uint64_t seed) {
     scatterTrees(builder, trees, per_m2, 2.0);
     Random& random = builder.random();
     const Shapes saplings = builder.addShapes(2, [](Random& r) {
-        TreeForm form;
+        TreeParameters form;
         form.height_m = r.uniform(1.5, 3.0);
         form.crown_base_m = 0.4;
         form.crown_radius_m = 0.5;
@@ -200,8 +201,8 @@ Scene makeForest(double per_m2, std::uint64_t seed) {
     const std::size_t rock = builder.addShape(makeRock(random));
     builder.scatter(0.003, [&](double x, double y) {
         if (!builder.isFree(x, y, 0.6)) return;
-        builder.placeAnyOf(
-            Kind::Wall, {rock}, x, y,
+        builder.placeRandomOf(
+            ObjectClass::Wall, {rock}, x, y,
             {random.uniform(0.4, 1.0), random.uniform(0.4, 1.0), random.uniform(0.3, 0.8)});
     });
     return builder.build();
@@ -217,7 +218,7 @@ Scene makeWires(std::uint64_t seed) {
         const Vector2d askew{random.uniform(-2, 2), random.uniform(-2, 2)};
         addWireLine(builder, from_m + aside, to_m + askew, span_m, heights_m, sideways_m);
     };
-    // Between the straights, outside of them, and across the way beyond both turns.
+    // Between the straights, outside of them, and across the path beyond both turns.
     run({-28, 0}, {28, 0}, 19, {2.2, 3.2, 4.2, 5.2}, 0.25);
     run({-60, -20}, {60, -22}, 24, {4.5, 6.0, 7.0}, 0.4);
     run({-60, 20}, {60, 19}, 20, {1.6, 2.8, 4.0}, 0.05);
@@ -265,7 +266,7 @@ Scene makeGap(std::uint64_t seed) {
 }
 
 Scene makeStreet(std::uint64_t seed) {
-    TerrainForm form = ground(2, 0.03, 0.02, 0.12);
+    TerrainParameters form = ground(2, 0.03, 0.02, 0.12);
     form.paved_half_width_m = 13;
     const Path path{38, 8};
     SceneBuilder builder(form, path, seed);
@@ -273,22 +274,22 @@ Scene makeStreet(std::uint64_t seed) {
     const Shapes cars = builder.addShapes(5, makeCar);
     const std::size_t lamp = builder.addShape(makeRod(6.5, 0.08));
     const std::size_t sign = builder.addShape(makeRod(2.6, 0.035));
-    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // kerbs, and both sides of the middle
+    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // kerbs, and both sides of the centre
         for (double at = -70; at <= 70; at += 6.2) {
             const double x = at + random.uniform(-0.6, 0.6), y = lane + 0.15 * random.normal();
             if (random.chance(0.4) || !builder.isFree(x, y, 2.0)) continue;
-            const std::size_t car = builder.oneOf(cars);
+            const std::size_t car = builder.randomOf(cars);
             const double yaw = random.chance(0.5) ? 0.0 : kPi;
-            builder.place(Kind::Vehicle, car, x, y, yaw + 0.03 * random.normal());
+            builder.place(ObjectClass::Vehicle, car, x, y, yaw + 0.03 * random.normal());
         }
     }
     for (double x = -66; x <= 66; x += 22) {
-        builder.place(Kind::Pole, lamp, x, 14.5, 0);
-        builder.place(Kind::Pole, lamp, x + 11, -14.5, 0);
-        builder.place(Kind::Pole, sign, x + random.uniform(2, 9), 13.6, 0);
+        builder.place(ObjectClass::Pole, lamp, x, 14.5, 0);
+        builder.place(ObjectClass::Pole, lamp, x + 11, -14.5, 0);
+        builder.place(ObjectClass::Pole, sign, x + random.uniform(2, 9), 13.6, 0);
     }
     const Shapes trees = builder.addShapes(4, [](Random& r) {
-        TreeForm tree = forestTree(r);
+        TreeParameters tree = forestTree(r);
         tree.height_m = r.uniform(5, 8);
         tree.leaf_area_m2 = 3.0 * tree.crown_radius_m * (tree.height_m - tree.crown_base_m);
         return makeTree(tree, r);
@@ -297,7 +298,7 @@ Scene makeStreet(std::uint64_t seed) {
         for (const double y : {-16.0, 0.0, 16.0}) {
             if (random.chance(0.35) || !builder.isFree(x, y, 2.0)) continue;
             const double at = x + random.normal();
-            builder.placeAnyOf(Kind::Tree, trees, at, y);
+            builder.placeRandomOf(ObjectClass::Tree, trees, at, y);
         }
     }
     for (const double side : {-1.0, 1.0}) {
@@ -307,8 +308,8 @@ Scene makeStreet(std::uint64_t seed) {
             const double wall_m = random.uniform(4, 9);
             const std::size_t house =
                 builder.addShape(makeHouse(length_m, depth_m, wall_m, random));
-            builder.place(Kind::Building, house, x + length_m / 2, side * (back_m + depth_m / 2),
-                          0);
+            builder.place(ObjectClass::Building, house, x + length_m / 2,
+                          side * (back_m + depth_m / 2), 0);
             if (random.chance(0.5)) {  // a garden wall
                 addWall(builder, {x, side * 18}, {x + length_m, side * 18},
                         random.uniform(0.5, 1.2), 0.25);
@@ -321,13 +322,13 @@ Scene makeStreet(std::uint64_t seed) {
     const std::size_t bins = builder.addShape(bin);
     for (int i = 0; i < 25; ++i) {
         const double x = random.uniform(-65, 65), y = random.chance(0.5) ? 14.2 : -14.2;
-        builder.place(Kind::Wall, bins, x, y, 0.2 * random.normal());
+        builder.place(ObjectClass::Wall, bins, x, y, 0.2 * random.normal());
     }
     scatterShrubs(builder, 0.003, 1.0);
     const Shapes tufts = builder.addShapes(3, makeTuft);
-    builder.scatter(0.2, [&](double x, double y) {  // weeds on the verges alone
+    builder.scatter(0.2, [&](double x, double y) {  // weeds only on the verges
         if (std::abs(y) < 13.2) return;
-        builder.placeAnyOf(Kind::Canopy, tufts, x, y, {1, 1, random.uniform(0.1, 0.35)});
+        builder.placeRandomOf(ObjectClass::Canopy, tufts, x, y, {1, 1, random.uniform(0.1, 0.35)});
     });
     return builder.build();
 }
@@ -343,15 +344,15 @@ Scene makeTerrain(std::uint64_t seed) {
     builder.scatter(0.012, [&](double x, double y) {
         const double size = random.uniform(0.5, 2.2);
         if (!builder.isFree(x, y, 0.6 * size)) return;
-        builder.placeAnyOf(
-            Kind::Wall, rocks, x, y,
+        builder.placeRandomOf(
+            ObjectClass::Wall, rocks, x, y,
             {size, size * random.uniform(0.7, 1.3), size * random.uniform(0.5, 1.0)});
     });
     addBackground(builder, trees);
     return builder.build();
 }
 
-/// A U of walls, its mouth `yaw_rad` from x.
+/// Adds U-shaped walls, the opening at `yaw_rad` from x.
 void addTrap(SceneBuilder& builder, const Vector2d& middle, double yaw_rad, double width_m,
              double depth_m, double height_m) {
     const Vector2d out(std::cos(yaw_rad), std::sin(yaw_rad)), side(-out.y(), out.x());
@@ -392,7 +393,7 @@ Scene makeMovers(std::uint64_t seed) {
     const auto putMovers = [&](int count, double nearest, double farthest, double speed_m_s,
                                double own_radius_m, const auto& shapeOf, double low, double high) {
         for (int i = 0, tries = 0; i < count && tries < 2000; ++tries) {
-            SceneMover mover;
+            MovingObstacle mover;
             mover.shape = shapeOf();
             mover.radius_m = random.uniform(nearest, farthest);
             mover.middle_m = {random.uniform(-50, 50), random.uniform(-36, 36)};
@@ -405,7 +406,7 @@ Scene makeMovers(std::uint64_t seed) {
     putMovers(
         16, 2, 7, 1.4, 0.4, [&] { return person; }, 0, 0);
     putMovers(
-        6, 6, 11, 5, 2.2, [&] { return builder.oneOf(cars); }, 0, 0);
+        6, 6, 11, 5, 2.2, [&] { return builder.randomOf(cars); }, 0, 0);
     putMovers(
         5, 3, 8, 4, 0.5, [&] { return drone; }, 1.5, 6);
     addBackground(builder, trees);

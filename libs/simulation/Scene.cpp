@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Copies numbers into a buffer of a geometry; T is what Embree reads of each.
+/// Copies numbers into a buffer of a geometry; T is the element type that Embree reads.
 template <class T, class Source, class Write>
 void fillBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
                 const std::vector<Source>& source, Write write) {
@@ -36,7 +36,7 @@ ScenePtr buildShape(RTCDevice device, const Shape& shape) {
     if (!shape.segments.empty()) {
         RTCGeometry rods = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
         fillBuffer<std::array<float, 4>>(rods, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
-                                         shape.knots_m, [](const Eigen::Vector4f& k, auto& to) {
+                                         shape.polyline_m, [](const Eigen::Vector4f& k, auto& to) {
                                              to = {k.x(), k.y(), k.z(), k.w()};
                                          });
         fillBuffer<std::uint32_t>(rods, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, shape.segments,
@@ -59,18 +59,18 @@ RTCGeometry instanceOf(RTCDevice device, RTCScene shape,
     return instance;
 }
 
-/// What an instance is, and how normals of its shape turn into the map's.
+/// Object class and number of an instance, and the transform of its normals to the map.
 struct Instance {
-    Kind kind;
+    ObjectClass kind;
     std::uint16_t number;
     Eigen::Matrix3f normals;
 };
 
-Instance instanceOf(Kind kind, std::uint16_t number, const Eigen::Affine3f& pose) {
+Instance instanceOf(ObjectClass kind, std::uint16_t number, const Eigen::Affine3f& pose) {
     return {kind, number, pose.linear().inverse().transpose()};
 }
 
-/// Embree's ray packets, eight at a time.
+/// Embree's ray packets of eight rays.
 constexpr int kPacket = 8;
 constexpr unsigned kNoHit = RTC_INVALID_GEOMETRY_ID;
 
@@ -97,7 +97,7 @@ class Packet {
         }
     }
 
-    /// May be called for one world after another: the nearest hit stays.
+    /// May be called for several worlds in turn: the nearest hit is kept.
     void cast(RTCScene scene, const std::vector<Instance>& instances, const Ray* rays,
               RayHit* hits) {
         RTCIntersectContext context;
@@ -126,18 +126,18 @@ class Packet {
 
 namespace {
 
-double angleOf(const SceneMover& mover, double time_s) {
+double angleOf(const MovingObstacle& mover, double time_s) {
     return mover.phase_rad + time_s * mover.speed_m_s / mover.radius_m;
 }
 
 }  // namespace
 
-Eigen::Vector2d placeOf(const SceneMover& mover, double time_s) {
+Eigen::Vector2d placeOf(const MovingObstacle& mover, double time_s) {
     const double angle = angleOf(mover, time_s);
     return mover.middle_m + mover.radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
-Eigen::Affine3f poseOf(const SceneMover& mover, const Terrain& terrain, double time_s) {
+Eigen::Affine3f poseOf(const MovingObstacle& mover, const Terrain& terrain, double time_s) {
     const Eigen::Vector2d at = placeOf(mover, time_s);
     const double heading =
         angleOf(mover, time_s) + (mover.speed_m_s >= 0 ? 1 : -1) * 1.5707963267948966;
@@ -162,7 +162,7 @@ struct Scene::World {
     DevicePtr device;
     std::vector<ScenePtr> shapes;
     ScenePtr scene;
-    std::vector<Instance> instances;  ///< by Embree's instance number
+    std::vector<Instance> instances;  ///< indexed by Embree's instance number
 };
 
 struct Scene::Snapshot::Movers {
@@ -180,19 +180,19 @@ std::size_t Scene::triangles() const {
     return triangles;
 }
 
-Scene::Snapshot Scene::during(double start_s, double duration_s) const {
+Scene::Snapshot Scene::snapshotOver(double start_s, double duration_s) const {
     Snapshot snapshot;
     snapshot.world_ = world_;
     if (content().movers.empty()) return snapshot;
     auto movers = std::make_shared<Snapshot::Movers>();
     RTCDevice device = world_->device.get();
     movers->scene.reset(rtcNewScene(device));
-    for (const SceneMover& mover : content().movers) {
+    for (const MovingObstacle& mover : content().movers) {
         const Eigen::Affine3f from = poseOf(mover, terrain(), start_s);
         const Eigen::Affine3f to = poseOf(mover, terrain(), start_s + duration_s);
         attach(movers->scene.get(),
                instanceOf(device, world_->shapes.at(mover.shape).get(), {from, to}));
-        movers->instances.push_back(instanceOf(Kind::Mover, mover.number, from));
+        movers->instances.push_back(instanceOf(ObjectClass::Mover, mover.number, from));
     }
     rtcCommitScene(movers->scene.get());
     snapshot.movers_ = std::move(movers);

@@ -6,17 +6,17 @@
 
 namespace hagen::simulation {
 
-SceneBuilder::SceneBuilder(const TerrainForm& form, const Path& path, const GroundExtent& extent,
-                           const Random& random)
+SceneBuilder::SceneBuilder(const TerrainParameters& form, const Path& path,
+                           const GroundExtent& extent, const Random& random)
     : random_(random), content_{Terrain(form, random_), path, {}, {}, {}} {
-    add(Kind::Terrain,
+    add(ObjectClass::Terrain,
         terrain().mesh(extent.half_length_m, extent.half_width_m, extent.reach_m, random_));
 }
 
-SceneBuilder::SceneBuilder(const TerrainForm& form, const Path& path, std::uint64_t seed)
+SceneBuilder::SceneBuilder(const TerrainParameters& form, const Path& path, std::uint64_t seed)
     : SceneBuilder(form, path, {}, Random(seed, 1)) {}
 
-SceneBuilder::SceneBuilder(const TerrainForm& form, const GroundExtent& extent,
+SceneBuilder::SceneBuilder(const TerrainParameters& form, const GroundExtent& extent,
                            const Random& random)
     : SceneBuilder(form, {}, extent, random) {}
 
@@ -32,23 +32,23 @@ std::vector<std::size_t> SceneBuilder::addShapes(int count,
     return shapes;
 }
 
-std::size_t SceneBuilder::oneOf(const std::vector<std::size_t>& shapes) {
-    return shapes[random_.below(static_cast<int>(shapes.size()))];
+std::size_t SceneBuilder::randomOf(const std::vector<std::size_t>& shapes) {
+    return shapes[random_.uniformInt(static_cast<int>(shapes.size()))];
 }
 
 bool SceneBuilder::isFree(double x_m, double y_m, double radius_m) const {
     return path().distance_m(x_m, y_m) > radius_m + kClearance_m;
 }
 
-std::uint16_t SceneBuilder::nextNumber(Kind kind) {
+std::uint16_t SceneBuilder::nextNumber(ObjectClass kind) {
     if (labelOf(kind) != Label::Roi) return 0;
     if (numbers_ == std::numeric_limits<std::uint16_t>::max()) {
-        throw std::logic_error("a scene holds 65535 objects at most");
+        throw std::logic_error("a scene contains at most 65535 objects");
     }
     return ++numbers_;
 }
 
-std::uint16_t SceneBuilder::place(Kind kind, std::size_t shape, double x_m, double y_m,
+std::uint16_t SceneBuilder::place(ObjectClass kind, std::size_t shape, double x_m, double y_m,
                                   double yaw_rad, const Eigen::Vector3d& scale) {
     const Eigen::Affine3d pose = Eigen::Translation3d(x_m, y_m, terrain().height_m(x_m, y_m)) *
                                  Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
@@ -57,14 +57,14 @@ std::uint16_t SceneBuilder::place(Kind kind, std::size_t shape, double x_m, doub
     return content_.objects.back().number;
 }
 
-std::uint16_t SceneBuilder::placeAnyOf(Kind kind, const std::vector<std::size_t>& shapes,
-                                       double x_m, double y_m, const Eigen::Vector3d& scale) {
-    const std::size_t shape = oneOf(shapes);
+std::uint16_t SceneBuilder::placeRandomOf(ObjectClass kind, const std::vector<std::size_t>& shapes,
+                                          double x_m, double y_m, const Eigen::Vector3d& scale) {
+    const std::size_t shape = randomOf(shapes);
     return place(kind, shape, x_m, y_m, random_.uniform(0, 2 * kPi), scale);
 }
 
-std::uint16_t SceneBuilder::lay(Kind kind, std::size_t shape, double x_m, double y_m,
-                                double yaw_rad, const Eigen::Vector3d& scale) {
+std::uint16_t SceneBuilder::placeOnSlope(ObjectClass kind, std::size_t shape, double x_m,
+                                         double y_m, double yaw_rad, const Eigen::Vector3d& scale) {
     const std::uint16_t number = place(kind, shape, x_m, y_m, yaw_rad, scale);
     constexpr double kStep_m = 2.0;
     Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
@@ -79,13 +79,13 @@ std::uint16_t SceneBuilder::lay(Kind kind, std::size_t shape, double x_m, double
     return number;
 }
 
-std::uint16_t SceneBuilder::add(Kind kind, Shape shape) {
+std::uint16_t SceneBuilder::add(ObjectClass kind, Shape shape) {
     content_.objects.push_back(
         {kind, nextNumber(kind), addShape(std::move(shape)), Eigen::Affine3f::Identity()});
     return content_.objects.back().number;
 }
 
-bool SceneBuilder::addMover(SceneMover mover, double own_radius_m) {
+bool SceneBuilder::addMover(MovingObstacle mover, double own_radius_m) {
     constexpr int kPlaces = 24;
     for (int i = 0; i < kPlaces; ++i) {
         const double angle = 2 * kPi * i / kPlaces;
@@ -94,12 +94,12 @@ bool SceneBuilder::addMover(SceneMover mover, double own_radius_m) {
             return false;
         }
     }
-    addMoverAnywhere(mover);
+    addRandomMover(mover);
     return true;
 }
 
-void SceneBuilder::addMoverAnywhere(SceneMover mover) {
-    mover.number = nextNumber(Kind::Mover);
+void SceneBuilder::addRandomMover(MovingObstacle mover) {
+    mover.number = nextNumber(ObjectClass::Mover);
     content_.movers.push_back(mover);
 }
 

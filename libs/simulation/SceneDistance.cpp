@@ -16,7 +16,7 @@ struct Triangle {
     Vector3f a, b, c;
 };
 
-/// All that lies between two balls: of a wire, a pole.
+/// The volume swept between two balls, for example part of a wire or a pole.
 struct Rod {
     Vector3f from, to;
     float from_radius, to_radius;
@@ -37,7 +37,8 @@ float toSegment2(const Vector3f& point, const Vector3f& a, const Vector3f& b) {
     return (point - a - share * along).squaredNorm();
 }
 
-/// Squared: to the plane where the foot of the perpendicular is within the edges, else to an edge.
+/// Squared distance: to the plane if the foot of the perpendicular lies within the edges, otherwise
+/// to the nearest edge.
 float toTriangle2(const Vector3f& point, const Triangle& t) {
     const Vector3f normal = (t.b - t.a).cross(t.c - t.a);
     const auto isInside = [&](const Vector3f& from, const Vector3f& to) {
@@ -52,13 +53,13 @@ float toTriangle2(const Vector3f& point, const Triangle& t) {
         {toSegment2(point, t.a, t.b), toSegment2(point, t.b, t.c), toSegment2(point, t.c, t.a)});
 }
 
-/// The nearest of the balls that a rod is the union of. With s along and h off the axis, the
-/// distance to the ball at s - u is sqrt(h^2 + u^2) - r, r linear in u: its derivative is 0 where
-/// u / sqrt(h^2 + u^2) is the taper. Within the rod: 0.
+/// Finds the nearest of the balls whose union is the rod. With s along and h off the axis, the
+/// distance to the ball at s - u is sqrt(h^2 + u^2) - r with r linear in u. Its derivative is 0
+/// where u / sqrt(h^2 + u^2) equals the taper. Within the rod: 0.
 float toRod(const Vector3f& point, const Rod& rod) {
     const Vector3f axis = rod.to - rod.from;
     const float length = axis.norm(), widening = rod.to_radius - rod.from_radius;
-    float share = widening > 0 ? 1.0f : 0.0f;  // one ball may hold the other
+    float share = widening > 0 ? 1.0f : 0.0f;  // one ball may contain the other
     if (length > std::abs(widening)) {
         const float along = (point - rod.from).dot(axis) / length;
         const float aside =
@@ -82,8 +83,8 @@ Eigen::AlignedBox3f boxOf(const Rod& rod) {
         .merged(Eigen::AlignedBox3f(rod.to - to, rod.to + to));
 }
 
-/// Adds what of a shape, moved there, reaches into a box. A rod that is not scaled alike in all
-/// directions stays round.
+/// Adds the parts of a transformed shape that reach into a box. A rod that is scaled unequally
+/// stays round.
 void addWithin(const Eigen::AlignedBox3f& box, const Shape& shape, const Eigen::Affine3f& pose,
                Surfaces& surfaces) {
     std::vector<Vector3f> vertices;
@@ -95,7 +96,7 @@ void addWithin(const Eigen::AlignedBox3f& box, const Shape& shape, const Eigen::
     }
     const float scale = std::cbrt(std::abs(pose.linear().determinant()));
     for (const std::uint32_t first : shape.segments) {
-        const Eigen::Vector4f &p = shape.knots_m[first], &q = shape.knots_m[first + 1];
+        const Eigen::Vector4f &p = shape.polyline_m[first], &q = shape.polyline_m[first + 1];
         const Rod rod{pose * Vector3f(p.head<3>()), pose * Vector3f(q.head<3>()), scale * p.w(),
                       scale * q.w()};
         if (box.intersects(boxOf(rod))) surfaces.rods.push_back(rod);
@@ -107,14 +108,14 @@ Eigen::AlignedBox3f boxOf(const Surfaces& surfaces, std::size_t i) {
     return i < triangles ? boxOf(surfaces.triangles[i]) : boxOf(surfaces.rods[i - triangles]);
 }
 
-void tellBounds(const RTCBoundsFunctionArguments* asked) {
+void setBounds(const RTCBoundsFunctionArguments* asked) {
     const auto& surfaces = *static_cast<const Surfaces*>(asked->geometryUserPtr);
     const Eigen::AlignedBox3f box = boxOf(surfaces, asked->primID);
     *asked->bounds_o = {box.min().x(), box.min().y(), box.min().z(), 0,
                         box.max().x(), box.max().y(), box.max().z(), 0};
 }
 
-/// Surfaces that are searched by Embree. Stays where it is: Embree holds its address.
+/// Surfaces that Embree searches. Must not move in memory: Embree keeps its address.
 class SearchTree {
  public:
     SearchTree(RTCDevice device, Surfaces surfaces) : surfaces_(std::move(surfaces)) {
@@ -123,7 +124,7 @@ class SearchTree {
             RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
             rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(surfaces_.size()));
             rtcSetGeometryUserData(geometry, &surfaces_);
-            rtcSetGeometryBoundsFunction(geometry, tellBounds, nullptr);
+            rtcSetGeometryBoundsFunction(geometry, setBounds, nullptr);
             attach(scene_.get(), geometry);
         }
         rtcCommitScene(scene_.get());
@@ -131,7 +132,7 @@ class SearchTree {
     SearchTree(const SearchTree&) = delete;
     SearchTree& operator=(const SearchTree&) = delete;
 
-    /// At most `reach_m`.
+    /// Returns the distance, at most `reach_m`.
     float distance_m(const Vector3f& point, float reach_m) const {
         Search search{&surfaces_, point, reach_m};
         RTCPointQuery query{point.x(), point.y(), point.z(), 0, reach_m};
@@ -167,9 +168,9 @@ class SearchTree {
     ScenePtr scene_;
 };
 
-/// A mover in its own frame, and how far it reaches from its origin.
+/// A moving obstacle in its own frame, and its extent from its origin.
 struct Moving {
-    SceneMover mover;
+    MovingObstacle mover;
     std::unique_ptr<SearchTree> tree;
     float radius_m = 0;
 };
@@ -183,8 +184,8 @@ float radiusOf(const Surfaces& surfaces) {
     return radius_m;
 }
 
-/// Whether a mover is near a point, seen from above; first, whether its circle is at all.
-bool isNear(const SceneMover& mover, const Vector3f& point, double time_s, double near_m) {
+/// True if a moving obstacle is near a point in top view; tests its circle first.
+bool isNear(const MovingObstacle& mover, const Vector3f& point, double time_s, double near_m) {
     const Eigen::Vector2d at = point.head<2>().cast<double>();
     if (std::abs((at - mover.middle_m).norm() - mover.radius_m) >= near_m) return false;
     return (at - placeOf(mover, time_s)).norm() < near_m;
@@ -201,14 +202,14 @@ struct SceneDistance::World {
                                       Vector3f((bounds_m.max() + wider).cast<float>()));
         Surfaces surfaces;
         for (const SceneObject& object : content.objects) {
-            if (object.kind == Kind::Canopy) continue;
+            if (object.kind == ObjectClass::Canopy) continue;
             addWithin(box, content.shapes.at(object.shape), object.pose, surfaces);
         }
         standing = std::make_unique<SearchTree>(device.get(), std::move(surfaces));
 
         const float far = std::numeric_limits<float>::infinity();
         const Eigen::AlignedBox3f everywhere(Vector3f::Constant(-far), Vector3f::Constant(far));
-        for (const SceneMover& mover : content.movers) {
+        for (const MovingObstacle& mover : content.movers) {
             Surfaces own;
             addWithin(everywhere, content.shapes.at(mover.shape), Eigen::Affine3f::Identity(), own);
             const float radius_m = radiusOf(own);
@@ -228,12 +229,12 @@ SceneDistance::SceneDistance(const Scene& scene, const Eigen::AlignedBox3d& boun
                              double reach_m)
     : world_(std::make_shared<World>(scene, bounds_m, reach_m)) {}
 
-float SceneDistance::toStanding(const Eigen::Vector3f& point_m) const {
+float SceneDistance::toStatic(const Eigen::Vector3f& point_m) const {
     return world_->standing->distance_m(point_m, world_->reach_m);
 }
 
 float SceneDistance::at(const Eigen::Vector3f& point_m, double time_s) const {
-    float nearest_m = toStanding(point_m);
+    float nearest_m = toStatic(point_m);
     for (const Moving& moving : world_->moving) {
         const double near_m = static_cast<double>(nearest_m + moving.radius_m);
         if (!isNear(moving.mover, point_m, time_s, near_m)) continue;

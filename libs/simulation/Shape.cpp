@@ -44,8 +44,8 @@ void Shape::addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_
 
 void Shape::addRod(const std::vector<Eigen::Vector4f>& knots) {
     for (std::size_t i = 0; i < knots.size(); ++i) {
-        if (i + 1 < knots.size()) segments.push_back(static_cast<std::uint32_t>(knots_m.size()));
-        knots_m.push_back(knots[i]);
+        if (i + 1 < knots.size()) segments.push_back(static_cast<std::uint32_t>(polyline_m.size()));
+        polyline_m.push_back(knots[i]);
     }
 }
 
@@ -75,14 +75,14 @@ void Shape::addTube(const std::vector<Eigen::Vector4f>& knots, int sides) {
 
 void Shape::append(const Shape& other, const Eigen::Affine3f& pose) {
     const auto first_vertex = static_cast<std::uint32_t>(vertices_m.size());
-    const auto first_knot = static_cast<std::uint32_t>(knots_m.size());
+    const auto first_knot = static_cast<std::uint32_t>(polyline_m.size());
     for (const Vector3f& vertex : other.vertices_m) vertices_m.push_back(pose * vertex);
     for (const auto& t : other.triangles) {
         triangles.push_back({first_vertex + t[0], first_vertex + t[1], first_vertex + t[2]});
     }
-    for (const Eigen::Vector4f& knot : other.knots_m) {
+    for (const Eigen::Vector4f& knot : other.polyline_m) {
         const Vector3f moved = pose * Vector3f(knot.head<3>());
-        knots_m.emplace_back(moved.x(), moved.y(), moved.z(), knot.w());
+        polyline_m.emplace_back(moved.x(), moved.y(), moved.z(), knot.w());
     }
     for (const std::uint32_t segment : other.segments) segments.push_back(first_knot + segment);
 }

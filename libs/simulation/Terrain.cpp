@@ -6,10 +6,11 @@
 namespace hagen::simulation {
 namespace {
 
-constexpr double kCell_m = 0.6;  // of the mesh's middle
-constexpr int kGrass_m = 150;    // how far out grass grows, in cells of a metre
+constexpr double kCell_m = 0.6;  // of the mesh's fine centre
+constexpr int kGrass_m = 150;    // extent of the grass, in cells of a metre
 
-/// Steps of kCell_m out to `half_m`, then ever wider ones out to `reach_m`, both ways.
+/// Coordinates in steps of kCell_m out to `half_m`, then in growing steps out to `reach_m`, in both
+/// directions.
 std::vector<double> gridLines(double half_m, double reach_m) {
     std::vector<double> positive;
     double at = 0, step = kCell_m;
@@ -31,7 +32,7 @@ double Terrain::Wave::at(double x, double y) const {
     return amplitude_m * std::sin(kx * x + ky * y + phase);
 }
 
-Terrain::Terrain(const TerrainForm& form, Random& random)
+Terrain::Terrain(const TerrainParameters& form, Random& random)
     : form_(form), paved_m2_(form.paved_half_width_m * form.paved_half_width_m) {
     const auto wave = [&](double length_m, double amplitude_m) {
         const double heading = random.uniform(0, 2 * kPi), k = 2 * kPi / length_m;
@@ -41,7 +42,7 @@ Terrain::Terrain(const TerrainForm& form, Random& random)
     for (const double length_m : {110.0, 80.0, 60.0, 45.0, 32.0, 24.0, 17.0}) {
         rolling_.push_back(wave(length_m * random.uniform(0.85, 1.15), std::pow(length_m, 1.2)));
     }
-    // The steepest of many places gets the slope asked for.
+    // The steepest of many places gets the requested slope.
     double steepest = 0;
     for (int i = 0; i < 4000; ++i) {
         const double x = random.uniform(-60, 60), y = random.uniform(-45, 45), d = 0.5;

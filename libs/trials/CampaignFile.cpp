@@ -1,3 +1,4 @@
+#include <hagen/base/Json.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/SettingsHash.h>
@@ -39,15 +40,15 @@ CampaignPlan planFrom(const ordered_json& noted) {
 std::string textOf(const CampaignPlan& plan) {
     std::vector<std::string> errors;
     for (const PoseError error : plan.pose_errors) errors.push_back(nameOf(error));
-    return ordered_json{{"scenarios", plan.scenarios},
-                        {"seeds", {plan.first_seed, plan.last_seed}},
-                        {"speeds_m_s", plan.speeds_m_s},
-                        {"models", plan.models},
-                        {"guidances", plan.guidances},
-                        {"planners", plan.planners},
-                        {"pose_errors", errors},
-                        {"latency_scales", plan.latency_scales},
-                        {"unknown", plan.brakes_in_known_space ? "brake_known" : "optimistic"}}
+    return base::Json{{"scenarios", plan.scenarios},
+                      {"seeds", {plan.first_seed, plan.last_seed}},
+                      {"speeds_m_s", plan.speeds_m_s},
+                      {"models", plan.models},
+                      {"guidances", plan.guidances},
+                      {"planners", plan.planners},
+                      {"pose_errors", errors},
+                      {"latency_scales", plan.latency_scales},
+                      {"unknown", plan.brakes_in_known_space ? "brake_known" : "optimistic"}}
         .dump();
 }
 
@@ -67,17 +68,17 @@ CampaignFile readCampaignFile(const fs::path& folder) {
 
 void writeCampaignFile(const CampaignFile& campaign, const LatencyProfile& profile,
                        const fs::path& folder) {
-    ordered_json root;
+    base::Json root;
     root["program"] = "octomap-compare";
     root["version"] = HAGEN_VERSION;
     root["settings"] = campaign.settings_hash;
     root["profile"] = {
         {"machine", profile.machine}, {"made_by", profile.made_by}, {"date", profile.date}};
-    root["vehicle"] = ordered_json::parse(vehicleText());
+    root["vehicle"] = base::Json::parse(vehicleText());
     root["filter"] = observations::dumpSettings(observations::Settings{});
-    root["flown"] = ordered_json::array();
+    root["flown"] = base::Json::array();
     for (const std::string& plan : campaign.plans) {
-        root["flown"].push_back(ordered_json::parse(plan));
+        root["flown"].push_back(base::Json::parse(plan));
     }
     writeWhole(folder / kFileName, root.dump(2) + "\n");
 }

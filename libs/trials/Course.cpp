@@ -65,7 +65,7 @@ std::optional<double> oraclePath_m(const Course& course) {
                                 course.scene.terrain().height_m(static_cast<double>(at.x()),
                                                                 static_cast<double>(at.y()));
         if (height_m < kLowest_m || height_m > kHighest_m) return 0.0f;
-        return course.distance.toStanding(at);
+        return course.distance.toStatic(at);
     };
     avoidance::PathSearchOptions options;
     options.bounds_m = course.bounds_m;
@@ -128,8 +128,8 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
                              " has a path; take another seed");
 }
 
-simulation::LidarFaults trialFaults() {
-    simulation::LidarFaults faults;
+simulation::SensorErrorModel trialErrorModel() {
+    simulation::SensorErrorModel faults;
     faults.least_noise_m = 0.02;
     faults.lost = 0.01;
     faults.mixed = 0;

@@ -2,7 +2,7 @@
 
 #include <hagen/range_image/Angle.h>
 #include <hagen/simulation/Plants.h>
-#include <hagen/simulation/Things.h>
+#include <hagen/simulation/Props.h>
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ constexpr simulation::GroundExtent kGround{48, 20, 90};
 
 simulation::SceneBuilder groundOf(double slope_deg, double bump_m, double grass_m,
                                   const simulation::Random& random) {
-    simulation::TerrainForm form;
+    simulation::TerrainParameters form;
     form.max_slope_rad = radians(slope_deg);
     form.bump_m = bump_m;
     form.roughness_m = 0.025;
@@ -49,8 +49,8 @@ void scatter(simulation::SceneBuilder& builder, double per_m2, const Put& put) {
 }
 
 /// A tree of a wood, of fewer and larger leaves than those of the scenarios.
-simulation::TreeForm lightTree(simulation::Random& random) {
-    simulation::TreeForm form;
+simulation::TreeParameters lightTree(simulation::Random& random) {
+    simulation::TreeParameters form;
     form.height_m = random.uniform(5.5, 9.0);
     form.crown_base_m = random.uniform(2.4, 4.0);
     form.crown_radius_m = random.uniform(0.9, 1.5);
@@ -58,7 +58,7 @@ simulation::TreeForm lightTree(simulation::Random& random) {
     form.leaf_m = 0.5;
     form.leaf_area_m2 = 2.0 * form.crown_radius_m * (form.height_m - form.crown_base_m);
     form.branches = 8;
-    form.low_branches = random.below(3);
+    form.low_branches = random.uniformInt(3);
     return form;
 }
 
@@ -76,7 +76,8 @@ void scatterTrees(simulation::SceneBuilder& builder, double per_m2, const MaySta
     scatter(builder, per_m2, [&](const Vector2d& at) {
         const double size = builder.random().uniform(0.8, 1.15);
         if (!leavesEndsFree(at, kWidestTree_m) || !mayStand(at)) return;
-        builder.placeAnyOf(simulation::Kind::Tree, trees, at.x(), at.y(), {size, size, size});
+        builder.placeRandomOf(simulation::ObjectClass::Tree, trees, at.x(), at.y(),
+                              {size, size, size});
     });
 }
 
@@ -88,7 +89,8 @@ void scatterTufts(simulation::SceneBuilder& builder, double per_m2, double talle
     const Shapes tufts = builder.addShapes(3, simulation::makeTuft);
     scatter(builder, per_m2, [&](const Vector2d& at) {
         const double height_m = builder.random().uniform(0.1, tallest_m);
-        builder.placeAnyOf(simulation::Kind::Canopy, tufts, at.x(), at.y(), {1, 1, height_m});
+        builder.placeRandomOf(simulation::ObjectClass::Canopy, tufts, at.x(), at.y(),
+                              {1, 1, height_m});
     });
 }
 
@@ -105,7 +107,7 @@ simulation::Scene makeOrchard(simulation::Random random) {
     simulation::SceneBuilder builder = groundOf(3, 0.04, 0.15, random);
     simulation::Random& r = builder.random();
     const Shapes trees = builder.addShapes(5, [](simulation::Random& own) {
-        simulation::TreeForm form;
+        simulation::TreeParameters form;
         form.height_m = own.uniform(3.8, 4.6);
         form.crown_base_m = own.uniform(0.6, 1.0);
         form.crown_radius_m = own.uniform(0.8, 1.1);
@@ -113,7 +115,7 @@ simulation::Scene makeOrchard(simulation::Random random) {
         form.leaf_m = 0.4;
         form.leaf_area_m2 = own.uniform(7, 10);
         form.branches = 9;
-        form.low_branches = own.below(2);
+        form.low_branches = own.uniformInt(2);
         return simulation::makeTree(form, own);
     });
     constexpr double kRow_m = 4, kTree_m = 3, kMissing = 0.15;
@@ -127,7 +129,8 @@ simulation::Scene makeOrchard(simulation::Random random) {
             const double size = r.uniform(0.9, 1.05);
             if (r.chance(kMissing) || !kCourseField_m.contains(at)) continue;
             if (!leavesEndsFree(at, 1.6)) continue;
-            builder.placeAnyOf(simulation::Kind::Tree, trees, at.x(), at.y(), {size, size, size});
+            builder.placeRandomOf(simulation::ObjectClass::Tree, trees, at.x(), at.y(),
+                                  {size, size, size});
         }
     }
     scatterTufts(builder, 0.02, 0.25);
@@ -184,8 +187,8 @@ simulation::Scene makeTerrain(const simulation::Random& random) {
         const double size = r.uniform(0.5, 2.2), wide = r.uniform(0.7, 1.3);
         const double high = r.uniform(0.5, 1.0);
         if (!leavesEndsFree(at, 0.7 * size)) return;
-        builder.placeAnyOf(simulation::Kind::Wall, rocks, at.x(), at.y(),
-                           {size, size * wide, size * high});
+        builder.placeRandomOf(simulation::ObjectClass::Wall, rocks, at.x(), at.y(),
+                              {size, size * wide, size * high});
     });
     scatterTufts(builder, 0.02, 0.35);
     return builder.build();
@@ -216,11 +219,12 @@ constexpr double kLongestMover_m = 2.3;  // half of it: a car's
 
 /// Adds movers whose circles cross the way, but not where it begins or ends.
 template <class ShapeOf>
-void addMovers(simulation::SceneBuilder& builder, int count, const simulation::SceneMover& least,
-               const simulation::SceneMover& most, const ShapeOf& shapeOf) {
+void addMovers(simulation::SceneBuilder& builder, int count,
+               const simulation::MovingObstacle& least, const simulation::MovingObstacle& most,
+               const ShapeOf& shapeOf) {
     simulation::Random& r = builder.random();
     for (int made = 0; made < count;) {
-        simulation::SceneMover mover;
+        simulation::MovingObstacle mover;
         const double x_m = r.uniform(2, 38), y_m = r.uniform(-4, 4);
         mover.middle_m = {x_m, y_m};
         mover.radius_m = r.uniform(least.radius_m, most.radius_m);
@@ -236,13 +240,13 @@ void addMovers(simulation::SceneBuilder& builder, int count, const simulation::S
             comesNear(kCourseGoal_m)) {
             continue;
         }
-        builder.addMoverAnywhere(mover);
+        builder.addRandomMover(mover);
         ++made;
     }
 }
 
-simulation::SceneMover moverOf(double radius_m, double speed_m_s, double above_ground_m) {
-    simulation::SceneMover mover;
+simulation::MovingObstacle moverOf(double radius_m, double speed_m_s, double above_ground_m) {
+    simulation::MovingObstacle mover;
     mover.radius_m = radius_m;
     mover.speed_m_s = speed_m_s;
     mover.above_ground_m = above_ground_m;
@@ -256,7 +260,7 @@ simulation::Scene makeMovers(const simulation::Random& random) {
     const Shapes cars = builder.addShapes(2, simulation::makeCar);
     addMovers(builder, 3, moverOf(2.5, 1, 0), moverOf(8, 2, 0), [&] { return person; });
     addMovers(builder, 1, moverOf(5, 1.5, 0), moverOf(10, 3, 0),
-              [&] { return builder.oneOf(cars); });
+              [&] { return builder.randomOf(cars); });
     addMovers(builder, 2, moverOf(3, 1.5, 1), moverOf(8, 3, 2.5), [&] { return drone; });
     scatterTrees(builder, 0.008);
     scatterTufts(builder, 0.02, 0.3);
@@ -287,7 +291,8 @@ simulation::Scene makeStreet(const simulation::Random& random) {
             const double yaw = (r.chance(0.5) ? 0.0 : kPi) + 0.05 * r.normal();
             const Vector2d at(x_m + dx_m, lane_m + dy_m);
             if (r.chance(0.55) || !leavesEndsFree(at, 2.4)) continue;
-            builder.place(simulation::Kind::Vehicle, builder.oneOf(cars), at.x(), at.y(), yaw);
+            builder.place(simulation::ObjectClass::Vehicle, builder.randomOf(cars), at.x(), at.y(),
+                          yaw);
         }
     }
     addGardenWalls(builder);
@@ -298,8 +303,9 @@ simulation::Scene makeStreet(const simulation::Random& random) {
             const Vector2d at(x_m + r.uniform(-3, 3), y_m + 0.2 * r.normal());
             const bool is_tree = r.chance(0.5);
             if (!leavesEndsFree(at, is_tree ? kWidestTree_m : 0.1)) continue;
-            if (is_tree) builder.placeAnyOf(simulation::Kind::Tree, trees, at.x(), at.y());
-            if (!is_tree) builder.place(simulation::Kind::Pole, lamp, at.x(), at.y(), 0);
+            if (is_tree)
+                builder.placeRandomOf(simulation::ObjectClass::Tree, trees, at.x(), at.y());
+            if (!is_tree) builder.place(simulation::ObjectClass::Pole, lamp, at.x(), at.y(), 0);
         }
     }
     return builder.build();

@@ -1,11 +1,11 @@
 #include <hagen/avoidance/Vehicle.h>
+#include <hagen/base/Json.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/trials/SettingsHash.h>
 
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 namespace hagen::trials {
 namespace {
@@ -25,12 +25,12 @@ std::string hashOf(const std::string& text) {
 
 std::string vehicleText() {
     const avoidance::VehicleLimits limits;
-    return nlohmann::ordered_json{{"acceleration_m_s2", limits.acceleration_m_s2},
-                                  {"actuation_delay_s", limits.actuation_delay_s},
-                                  {"radius_m", limits.radius_m},
-                                  {"margin_m", limits.margin_m},
-                                  {"collision_m", limits.collision_m},
-                                  {"response_per_s", limits.response_per_s}}
+    return base::Json{{"acceleration_m_s2", limits.acceleration_m_s2},
+                      {"actuation_delay_s", limits.actuation_delay_s},
+                      {"radius_m", limits.radius_m},
+                      {"margin_m", limits.margin_m},
+                      {"collision_m", limits.collision_m},
+                      {"response_per_s", limits.response_per_s}}
         .dump();
 }
 

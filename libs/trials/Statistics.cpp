@@ -101,7 +101,8 @@ Bounds medianInterval(const std::vector<double>& values, int resamples, std::uin
     simulation::Random random(seed);
     std::vector<double> medians(static_cast<std::size_t>(resamples)), drawn(values.size());
     for (double& median : medians) {
-        for (double& value : drawn) value = values[random.below(static_cast<int>(values.size()))];
+        for (double& value : drawn)
+            value = values[random.uniformInt(static_cast<int>(values.size()))];
         median = medianOf(drawn);
     }
     return {base::quantile(medians, (1 - level) / 2), base::quantile(medians, (1 + level) / 2)};

@@ -57,7 +57,7 @@ simulation::SimulatedScan TrialSensor::measure(int number, const FlightTrace& tr
     simulation::Random random(course_.seed, streams::kScan + static_cast<std::uint64_t>(number));
     const auto pose_at = [&](double time_s) { return trace.at(time_s); };
     return simulation::simulateScan(course_.scene, filter_.sensor(), pose_at, kTurn_s * number,
-                                    random, trialFaults());
+                                    random, trialErrorModel());
 }
 
 const std::vector<Label>& TrialSensor::segment(int number,

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/mapping/ScanMap.h>
@@ -20,6 +21,8 @@
 #include <stdexcept>
 
 namespace {
+
+using testing::HasSubstr;
 
 using namespace hagen;
 
@@ -374,7 +377,7 @@ TEST(WorldModel, NamesTheKnownOnesForAnother) {
             avoidance::makeWorldModel(bad, setting());
             ADD_FAILURE() << bad;
         } catch (const std::invalid_argument& error) {
-            EXPECT_NE(std::string::npos, std::string(error.what()).find("O-RoI+rays-0.4"));
+            EXPECT_THAT(error.what(), HasSubstr("O-RoI+rays-0.4"));
         }
     }
 }

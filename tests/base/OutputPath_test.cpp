@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
@@ -9,6 +10,8 @@
 
 namespace hagen::base {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -77,7 +80,7 @@ TEST(OutputPath, AFolderThatIsNotThereIsNamed) {
         OutputPath output(folder / "none/a.rawlog", kFile, false);
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find((folder / "none").string()), std::string::npos);
+        EXPECT_THAT(e.what(), HasSubstr((folder / "none").string()));
     }
 }
 

@@ -41,8 +41,8 @@ TEST(Breakdown, FoldersKeepTheirOrderAndAddUpToTheWhole) {
     EXPECT_EQ(groups[0].name, "b");
     EXPECT_EQ(groups[0].sum().roi.hits, 3);
     EXPECT_EQ(groups[1].sum().roi.misses, 6);
-    EXPECT_EQ(wholeOf(scans).sum().roi.hits, 4);
-    EXPECT_EQ(wholeOf(scans).sum().roi.misses, 6);
+    EXPECT_EQ(overallScores(scans).sum().roi.hits, 4);
+    EXPECT_EQ(overallScores(scans).sum().roi.misses, 6);
 }
 
 TEST(Breakdown, RangeBandsTakeTheScansThatReachThem) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/evaluation/Camera.h>
 #include <hagen/range_image/Angle.h>
@@ -9,6 +10,8 @@
 
 namespace hagen::evaluation {
 namespace {
+
+using testing::HasSubstr;
 
 /// 9 x 7 pixels, 90 degrees wide: a return 45 degrees to the left is in the first column.
 PinholeCamera smallCamera() {
@@ -110,7 +113,7 @@ TEST(CameraFile, NamesWhatIsWrong) {
     };
     const auto expect = [&](const std::string& from, const std::string& to,
                             const std::string& words) {
-        EXPECT_NE(message(from, to).find(words), std::string::npos) << message(from, to);
+        EXPECT_THAT(message(from, to), HasSubstr(words));
     };
     expect("fy: 4\n", "", "camera.yaml: has no key 'fy'");
     expect("position_m: [0.1, 0, -0.2]\n", "", "has no key 'position_m'");
@@ -120,7 +123,7 @@ TEST(CameraFile, NamesWhatIsWrong) {
     expect("width: 9", "width: 9.5", "width must be a whole number");
     expect("height: 7", "height: 0", "height must be");
     expect("fx: 4", "focal: 4", "unknown key 'focal'");
-    expect("fx: 4", "cx: 4", "'cx' is there twice");
+    expect("fx: 4", "cx: 4", "'cx' occurs twice");
 }
 
 }  // namespace

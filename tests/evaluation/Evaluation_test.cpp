@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/evaluation/Evaluation.h>
 
@@ -8,15 +9,17 @@
 namespace hagen::evaluation {
 namespace {
 
+using testing::HasSubstr;
+
 constexpr auto G = Label::Rou, O = Label::Roi;
 
 /// Scans of `returns` obstacles, 1 m apart along x.
-ScanSource obstacles(const std::string& name, const std::vector<int>& returns) {
-    ScanSource source;
+LabelledScanSource obstacles(const std::string& name, const std::vector<int>& returns) {
+    LabelledScanSource source;
     source.name = name;
     source.scans = returns.size();
     source.read = [returns](std::size_t i) {
-        TrueScan scan;
+        GroundTruthScan scan;
         for (int r = 1; r <= returns[i]; ++r) scan.input.scan.x_m.push_back(static_cast<float>(r));
         scan.input.scan.range_m = scan.input.scan.x_m;
         scan.input.scan.y_m.assign(scan.input.scan.size(), 0);
@@ -60,7 +63,7 @@ TEST(Evaluation, OverPixelsTheNearestReturnCounts) {
 
 TEST(Evaluation, ShowsEachScanOfEachMethod) {
     std::vector<std::string> seen;
-    evaluate({obstacles("a", {1, 2})}, {}, [&](const LabelledView& view) {
+    evaluate({obstacles("a", {1, 2})}, {}, [&](const MethodOutput& view) {
         seen.push_back(view.method_name + std::to_string(view.scan) + ":" +
                        std::to_string(view.found.size()));
     });
@@ -69,7 +72,7 @@ TEST(Evaluation, ShowsEachScanOfEachMethod) {
 }
 
 TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
-    ScanSource source = obstacles("a", {2, 2});
+    LabelledScanSource source = obstacles("a", {2, 2});
     source.makeMethods = [] {
         int calls = 0;  // the first scan twice, then the second
         return std::vector<Method>{{"short", [calls](const ScanInput& input) mutable {
@@ -78,13 +81,13 @@ TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
                                     }}};
     };
     const std::string message = test::messageOf([&] { evaluate({source}); });
-    EXPECT_NE(message.find("a/1: "), std::string::npos) << message;
-    EXPECT_NE(message.find("1 found labels for 2 returns"), std::string::npos) << message;
+    EXPECT_THAT(message, HasSubstr("a/1: "));
+    EXPECT_THAT(message, HasSubstr("1 found labels for 2 returns"));
 }
 
 TEST(Evaluation, RefusesNoSourceAndSourcesThatDiffer) {
     EXPECT_THROW(evaluate({}), std::invalid_argument);
-    ScanSource other = obstacles("b", {1});
+    LabelledScanSource other = obstacles("b", {1});
     other.makeMethods = [] {
         return std::vector<Method>{{"another", [](const ScanInput&) { return std::vector{O}; }}};
     };

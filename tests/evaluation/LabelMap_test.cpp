@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/evaluation/LabelMap.h>
 
@@ -6,6 +7,8 @@
 namespace hagen::evaluation {
 namespace {
 
+using testing::HasSubstr;
+
 namespace fs = std::filesystem;
 
 class LabelMapFile : public testing::Test {
@@ -13,8 +16,8 @@ class LabelMapFile : public testing::Test {
     void expectRefused(const std::string& text, const std::string& words) const {
         const std::string message =
             test::messageOf([&] { readLabelMap(folder_.write("map.yaml", text)); });
-        EXPECT_NE(message.find(words), std::string::npos) << message;
-        EXPECT_NE(message.find("map.yaml"), std::string::npos) << message;
+        EXPECT_THAT(message, HasSubstr(words));
+        EXPECT_THAT(message, HasSubstr("map.yaml"));
     }
     test::TemporaryFolder folder_;
 };
@@ -31,7 +34,7 @@ TEST_F(LabelMapFile, HasANameAndALabelForEachKind) {
 
 TEST_F(LabelMapFile, GivesKindsTheirLabels) {
     const LabelMap map{{0, {"nothing", Label::Unclassified}}, {70, {"vegetation", Label::Roi}}};
-    EXPECT_EQ(labelsOfKinds({70, 0}, map), (std::vector<Label>{Label::Roi, Label::Unclassified}));
+    EXPECT_EQ(labelsOfClasses({70, 0}, map), (std::vector<Label>{Label::Roi, Label::Unclassified}));
     EXPECT_EQ(labelsOfNumbers({2, 1, 0}),
               (std::vector<Label>{Label::Roi, Label::Rou, Label::Unclassified}));
 }
@@ -54,17 +57,16 @@ TEST_F(LabelMapFile, RefusesWhatItCannotRead) {
     expectRefused("70: {name: vegetation}", "name and label are expected");
     expectRefused("70: {name: vegetation, label: 2, colour: green}", "name and label");
     expectRefused("40: {name: road, label: 1}\n70: {name: tree, label: 3}",
-                  "map.yaml:2: label '3' is none of 0");
-    expectRefused("tree: {name: tree, label: 2}", "'tree' is no number");
-    expectRefused("70000: {name: tree, label: 2}", "'70000' is no number");
-    expectRefused("7: {name: a, label: 2}\n7: {name: b, label: 1}",
-                  "map.yaml:2: '7' is there twice");
-    expectRefused("7: {name: a, label: 2}\n8: {name: a, label: 1}", "two kinds are called 'a'");
+                  "map.yaml:2: label '3' is not 0");
+    expectRefused("tree: {name: tree, label: 2}", "'tree' is not a class number");
+    expectRefused("70000: {name: tree, label: 2}", "'70000' is not a class number");
+    expectRefused("7: {name: a, label: 2}\n7: {name: b, label: 1}", "map.yaml:2: '7' occurs twice");
+    expectRefused("7: {name: a, label: 2}\n8: {name: a, label: 1}", "two classes are called 'a'");
     expectRefused("[1, 2]", "lines such as '70: {name: vegetation, label: 2}' are expected");
     expectRefused("", "are expected");
     expectRefused("7: {name", "not YAML");
-    EXPECT_NE(test::messageOf([] { readLabelMap("none.yaml"); }).find("none.yaml: no such file"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([] { readLabelMap("none.yaml"); }),
+                HasSubstr("none.yaml: no such file"));
 }
 
 TEST_F(LabelMapFile, NamesClassesThatAreMissing) {
@@ -76,9 +78,8 @@ TEST_F(LabelMapFile, NamesClassesThatAreMissing) {
         }
         return std::string();
     };
-    EXPECT_NE(words([] { labelsOfKinds({71}, {}); }).find("class 71 is not in"), std::string::npos);
-    EXPECT_NE(words([] { labelsOfNumbers({40}); }).find("label 40 is none of 0"),
-              std::string::npos);
+    EXPECT_THAT(words([] { labelsOfClasses({71}, {}); }), HasSubstr("class 71 is not in"));
+    EXPECT_THAT(words([] { labelsOfNumbers({40}); }), HasSubstr("label 40 is not 0"));
 }
 
 }  // namespace

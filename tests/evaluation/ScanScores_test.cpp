@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/evaluation/ScanScores.h>
 
@@ -7,11 +8,13 @@
 namespace hagen::evaluation {
 namespace {
 
+using testing::HasSubstr;
+
 constexpr auto U = Label::Unclassified, G = Label::Rou, O = Label::Roi;
 const LabelMap kKinds{{5, {"wire", O}}, {3, {"tree", O}}, {1, {"terrain", G}}};
 
-TrueScan scanAt(const std::vector<float>& ranges_m, const std::vector<Label>& truth) {
-    TrueScan scan;
+GroundTruthScan scanAt(const std::vector<float>& ranges_m, const std::vector<Label>& truth) {
+    GroundTruthScan scan;
     scan.input.scan.x_m = scan.input.scan.range_m = ranges_m;
     scan.truth = truth;
     return scan;
@@ -41,7 +44,7 @@ TEST(ScanScores, EachRangeBandHasItsLowerBoundAndTheLastBothBounds) {
 
 TEST(ScanScores, KindsAreScoredByName) {
     // Two wires, one missed; a tree found; terrain called RoI; dust is left out with its kind.
-    TrueScan scan = scanAt({1, 2, 3, 4, 5}, {O, O, O, G, U});
+    GroundTruthScan scan = scanAt({1, 2, 3, 4, 5}, {O, O, O, G, U});
     scan.kinds = {5, 5, 3, 1, 10};
     const ScanScores scores = scoreScan(scan, {O, G, O, O, O}, kKinds, {});
     ASSERT_EQ(scores.by_kind.size(), 3u);
@@ -64,15 +67,15 @@ TEST(ScanScores, AnEmptyScanScoresNothing) {
 TEST(ScanScores, RefusesWhatDoesNotFitTheScan) {
     EXPECT_THROW(scoreScan(scanAt({1, 2}, {O}), {O, O}, {}, {}), std::invalid_argument);
     EXPECT_THROW(scoreScan(scanAt({1, 2}, {O, O}), {O}, {}, {}), std::invalid_argument);
-    TrueScan scan = scanAt({1}, {O});
+    GroundTruthScan scan = scanAt({1}, {O});
     scan.kinds = {5, 5};
     EXPECT_THROW(scoreScan(scan, {O}, kKinds, {}), std::invalid_argument);
     scan.kinds = {77};
     try {
         scoreScan(scan, {O}, kKinds, {});
-        FAIL() << "kind 77 has no name";
+        FAIL() << "class 77 has no name";
     } catch (const std::invalid_argument& e) {
-        EXPECT_NE(std::string(e.what()).find("kind 77"), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("class 77"));
     }
 }
 

@@ -1,4 +1,5 @@
 // What outputs of each kind may hold, and so what may be replaced.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/labelled_scans/Charts.h>
@@ -12,6 +13,8 @@
 
 namespace hagen::labelled_scans {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using base::kFile;
@@ -45,7 +48,7 @@ TEST(OutputKinds, OnlyItsOwnKindIsReplaced) {
         base::OutputPath output(folder / "work", logs::kScanFolders, true);
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("'notes.txt'"), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("'notes.txt'"));
     }
     EXPECT_TRUE(fs::exists(folder / "work/notes.txt"));
 }

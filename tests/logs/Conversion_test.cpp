@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/PoseFile.h>
@@ -20,6 +21,8 @@
 
 namespace hagen::logs {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
@@ -242,7 +245,7 @@ TEST_P(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     ASSERT_FALSE(aside.empty());
     for (const double bearing_deg : aside) EXPECT_NEAR(bearing_deg, 26.57, 5.0);
     for (const std::string& remark : remarks) {
-        EXPECT_NE(remark.find("carry no times"), std::string::npos) << remark;
+        EXPECT_THAT(remark, HasSubstr("carry no times"));
     }
     EXPECT_EQ(readKittiPoses(folder_ / "labels/poses.txt").size(), 2u);
 }
@@ -277,7 +280,7 @@ TEST_P(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
     convert(windowed, listener);
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_EQ(remarks[1].rfind("entry 1 (lidar): ", 0), 0u) << remarks[1];
-    EXPECT_NE(remarks[1].find("no pose"), std::string::npos);
+    EXPECT_THAT(remarks[1], HasSubstr("no pose"));
 }
 
 TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
@@ -294,8 +297,8 @@ TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
     const ConversionReport report = convert(conversion(), listener);
     EXPECT_EQ(report.unreadable_scans, 1u);
     EXPECT_EQ(report.scans, 1u);
-    EXPECT_NE(remarks.find("entry 1 (lidar)"), std::string::npos) << remarks;
-    EXPECT_NE(remarks.find("0x99"), std::string::npos) << remarks;
+    EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar)"));
+    EXPECT_THAT(remarks, HasSubstr("0x99"));
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
               (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
 }
@@ -308,8 +311,8 @@ TEST_P(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
         convert(conversion());
         FAIL();
     } catch (const BrokenRawlog& e) {
-        EXPECT_NE(std::string(e.what()).find("entry 1"), std::string::npos) << e.what();
-        EXPECT_NE(std::string(e.what()).find("out.partial.rawlog"), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("entry 1"));
+        EXPECT_THAT(e.what(), HasSubstr("out.partial.rawlog"));
     }
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog"),
@@ -327,8 +330,8 @@ TEST_P(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
         convert(from_folder);
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("000001.bin"), std::string::npos) << e.what();
-        EXPECT_NE(std::string(e.what()).find("labels.v1.partial"), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("000001.bin"));
+        EXPECT_THAT(e.what(), HasSubstr("labels.v1.partial"));
     }
     EXPECT_EQ(ScanFolder(folder_ / "labels.v1.partial").size(), 1u);
 }
@@ -360,10 +363,8 @@ TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
         convert(other);
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find(
-                      "no LiDAR scan of 'rear' in what was converted; there are 'front'"),
-                  std::string::npos)
-            << e.what();
+        EXPECT_THAT(e.what(),
+                    HasSubstr("no LiDAR scan of 'rear' in what was converted; there are 'front'"));
     }
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
 }
@@ -407,8 +408,7 @@ TEST_P(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
         convert(conversion(), listener);
         FAIL();
     } catch (const Interrupted& e) {
-        EXPECT_NE(std::string(e.what()).find("the 2 entries before it are in"), std::string::npos)
-            << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("the 2 entries before it are in"));
     }
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);
@@ -446,7 +446,7 @@ TEST_P(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
     const ConversionReport report = convert(conversion(), remarksInto(remarks));
     EXPECT_EQ(report.returns, 2u);
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].find((folder_ / "out_Images").string()), std::string::npos) << remarks[0];
+    EXPECT_THAT(remarks[0], HasSubstr((folder_ / "out_Images").string()));
 }
 
 TEST_P(ConversionTest, TheInputIsNeverReplaced) {
@@ -568,7 +568,7 @@ TEST(ConversionThreads, NothingThatIsSeenDependsOnTheirNumber) {
     for (const int window_scans : {1, 3}) {
         conversion.settings.options.window_scans = window_scans;
         const std::string alone = storyOf(conversion, folder, 1);
-        EXPECT_NE(alone.find("0x99"), std::string::npos);
+        EXPECT_THAT(alone, HasSubstr("0x99"));
         for (const std::size_t jobs : {0, 2, 3, 8}) {
             EXPECT_TRUE(storyOf(conversion, folder, jobs) == alone)
                 << jobs << " threads, a window of " << window_scans;

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/LogPoses.h>
 #include <hagen/logs/PoseFile.h>
@@ -10,6 +11,8 @@
 namespace hagen::logs {
 namespace {
 
+using testing::HasSubstr;
+
 using mrpt::poses::CPose3D;
 
 class PoseFile : public testing::Test {
@@ -21,8 +24,8 @@ class PoseFile : public testing::Test {
                                                       : (void)readKittiPoses(file);
         };
         const std::string message = test::messageOf(read);
-        EXPECT_NE(message.find(words), std::string::npos) << message;
-        EXPECT_NE(message.find((folder_ / "poses").string()), std::string::npos) << message;
+        EXPECT_THAT(message, HasSubstr(words));
+        EXPECT_THAT(message, HasSubstr((folder_ / "poses").string()));
     }
     test::TemporaryFolder folder_;
 };
@@ -84,10 +87,9 @@ TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
     expectRefused("0 0 1e999 0 0 0 0 1\n", "is no number");
     expectRefused("1 0 0 0 0 2 0 0 0 0 1 0\n", ":1: the matrix is no rotation");
     expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is no rotation");
-    EXPECT_NE(test::messageOf([&] { readTumPoses(folder_ / "none"); }).find("none"),
-              std::string::npos);
-    EXPECT_NE(test::messageOf([&] { readTumPoses(folder_.path()); }).find("cannot be read"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_ / "none"); }), HasSubstr("none"));
+    EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_.path()); }),
+                HasSubstr("cannot be read"));
 }
 
 RawlogSurvey surveyOfTwoScans() {
@@ -113,11 +115,11 @@ TEST_F(PoseFile, AKittiFileIsOfTheSensorScanByScan) {
 TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {
     const auto file = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();
-    EXPECT_NE(test::messageOf([&] { posesOfRawlog(survey, file); }).find("1 poses for 2 scans"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
+                HasSubstr("1 poses for 2 scans"));
     survey.scans["rear"] = {};
-    EXPECT_NE(test::messageOf([&] { posesOfRawlog(survey, file); }).find("scans of one LiDAR"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
+                HasSubstr("scans of one LiDAR"));
 }
 
 TEST_F(PoseFile, OfAScanFolderTheMapWinsOverTheFirstScan) {
@@ -141,10 +143,8 @@ TEST_F(PoseFile, BesideACalibrationPosesAreTheCamerasAsKittiHasThem) {
     EXPECT_NEAR(pose.x(), 5.0, 1e-9);
     EXPECT_NEAR(pose.z(), 0.0, 1e-9);
     folder_.write("calib.txt", "P0: 1 2 3\n");
-    EXPECT_NE(test::messageOf([&] {
-                  posesOfScanFolder(ScanFolder(folder_.path()), {0.0}, {});
-              }).find("no line 'Tr:'"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { posesOfScanFolder(ScanFolder(folder_.path()), {0.0}, {}); }),
+                HasSubstr("no line 'Tr:'"));
 }
 
 }  // namespace

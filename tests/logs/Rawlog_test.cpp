@@ -1,4 +1,5 @@
 // RawlogReader and RawlogWriter, each the other's check, and MRPT's own CRawlog theirs.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/RawlogWriter.h>
@@ -14,6 +15,8 @@
 
 namespace hagen::logs {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using mrpt::obs::CObservationComment;
@@ -74,7 +77,7 @@ std::pair<std::size_t, std::string> readAll(const fs::path& file) {
         while (reader.next()) {
         }
     } catch (const BrokenRawlog& e) {
-        EXPECT_NE(std::string(e.what()).find(file.string()), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr(file.string()));
         return {reader.entries(), e.what()};
     }
     return {reader.entries(), ""};
@@ -199,7 +202,7 @@ TEST(Rawlog, WhatComesAfterAMemberAndIsNoneIsTold) {
         damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // of the next member's header
         const auto [read, broken] = readAll(folder.write("damaged.rawlog", damaged));
         EXPECT_EQ(read, at < ends[1] ? 1u : 2u);
-        EXPECT_NE(broken.find("packed bytes are damaged"), std::string::npos) << at << broken;
+        EXPECT_THAT(broken, HasSubstr("packed bytes are damaged")) << at << broken;
     }
     const auto [read, broken] = readAll(folder.write("longer.rawlog", bytes + "garbage"));
     EXPECT_EQ(read, 3u);
@@ -223,8 +226,8 @@ TEST(Rawlog, AClassThatIsNotKnownIsNamed) {
     }
     std::string bytes = test::readFile(folder / "plain.rawlog");
     bytes.replace(bytes.find("RobotPose"), 9, "RobotMood");
-    EXPECT_NE(readAll(folder.write("mood.rawlog", bytes)).second.find("CObservationRobotMood"),
-              std::string::npos);
+    EXPECT_THAT(readAll(folder.write("mood.rawlog", bytes)).second,
+                HasSubstr("CObservationRobotMood"));
 }
 
 TEST(Rawlog, WhatIsNoRawlogIsRefused) {

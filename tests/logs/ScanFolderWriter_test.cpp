@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
@@ -9,6 +10,8 @@
 
 namespace hagen::logs {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -95,7 +98,7 @@ TEST(ScanFolderWriter, NamesAFileThatCannotBeWritten) {
         writer.write("0", threePoints(), labels(), sensorModel("VLP-16"), 0.0);
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("labels/0.label"), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("labels/0.label"));
     }
 }
 

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/ScanFolder.h>
 
@@ -9,6 +10,8 @@
 
 namespace hagen::logs {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -31,11 +34,9 @@ TEST_F(ScanFolderTest, ListsScansByName) {
 }
 
 TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
-    EXPECT_NE(test::messageOf([&] { ScanFolder scans(folder_.path()); }).find("velodyne"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { ScanFolder scans(folder_.path()); }), HasSubstr("velodyne"));
     fs::create_directory(folder_ / "velodyne");
-    EXPECT_NE(test::messageOf([&] { ScanFolder scans(folder_.path()); }).find("no .bin"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { ScanFolder scans(folder_.path()); }), HasSubstr("no .bin"));
 }
 
 TEST_F(ScanFolderTest, ScansComeBackBitByBit) {
@@ -65,20 +66,20 @@ TEST_F(ScanFolderTest, LabelFilesHaveTheLabelLowAndTheComponentHigh) {
 
 TEST_F(ScanFolderTest, FilesThatAreMissingOrCutOffAreNamed) {
     Scan scan;
-    EXPECT_NE(test::messageOf([&] { readScan(folder_ / "none.bin", scan); }).find("none.bin"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { readScan(folder_ / "none.bin", scan); }),
+                HasSubstr("none.bin"));
     folder_.write("cut.bin", std::string(17, 'x'));
     const std::string message = test::messageOf([&] { readScan(folder_ / "cut.bin", scan); });
-    EXPECT_NE(message.find("cut.bin"), std::string::npos);
-    EXPECT_NE(message.find("17 bytes"), std::string::npos);
+    EXPECT_THAT(message, HasSubstr("cut.bin"));
+    EXPECT_THAT(message, HasSubstr("17 bytes"));
     folder_.write("cut.label", "abc");
-    EXPECT_NE(test::messageOf([&] { readLabels(folder_ / "cut.label"); }).find("cut.label"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { readLabels(folder_ / "cut.label"); }),
+                HasSubstr("cut.label"));
 }
 
 TEST_F(ScanFolderTest, WritingIntoNothingIsNamed) {
-    EXPECT_NE(test::messageOf([&] { writeScan(folder_ / "no/such/a.bin", Scan()); }).find("a.bin"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { writeScan(folder_ / "no/such/a.bin", Scan()); }),
+                HasSubstr("a.bin"));
 }
 
 TEST_F(ScanFolderTest, TimesHaveALineAScan) {
@@ -95,13 +96,11 @@ TEST_F(ScanFolderTest, TimesThatDoNotFitAreNamedByLine) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n");
     const ScanFolder scans(folder_.path());
-    EXPECT_NE(test::messageOf([&] { scans.times(); }).find("2 lines for 1 scans"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { scans.times(); }), HasSubstr("2 lines for 1 scans"));
     folder_.write("times.txt", "soon\n");
-    EXPECT_NE(test::messageOf([&] { scans.times(); }).find("times.txt:1"), std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { scans.times(); }), HasSubstr("times.txt:1"));
     folder_.write("altitudes.txt", "1 2\n");
-    EXPECT_NE(test::messageOf([&] { scans.altitudes(); }).find("altitudes.txt:1"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { scans.altitudes(); }), HasSubstr("altitudes.txt:1"));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mapping/MapFile.h>
 #include <hagen/mapping/ScanMap.h>
@@ -13,6 +14,8 @@
 #include "support/Program.h"
 
 namespace {
+
+using testing::HasSubstr;
 
 using namespace hagen;
 namespace fs = std::filesystem;
@@ -115,8 +118,8 @@ TEST_F(MapFile, RefusesOtherEndings) {
             mapping::saveMap(map_.tree(), folder_ / name);
             ADD_FAILURE() << name;
         } catch (const std::runtime_error& error) {
-            EXPECT_NE(std::string::npos, std::string(error.what()).find(name + ": "));
-            EXPECT_NE(std::string::npos, std::string(error.what()).find(".3Dscene"));
+            EXPECT_THAT(error.what(), HasSubstr(name + ": "));
+            EXPECT_THAT(error.what(), HasSubstr(".3Dscene"));
         }
         EXPECT_FALSE(fs::exists(folder_ / name));
     }

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mapping/ScanMap.h>
 #include <hagen/simulation/Random.h>
@@ -9,6 +10,8 @@
 #include <tuple>
 
 namespace {
+
+using testing::HasSubstr;
 
 using namespace hagen;
 
@@ -195,7 +198,7 @@ TEST(ScanMap, AScanBeyondItsReachIsRefusedNotWrapped) {
             map.insert(scan);
             ADD_FAILURE() << far_m;
         } catch (const std::runtime_error& e) {
-            EXPECT_NE(std::string(e.what()).find("poses"), std::string::npos) << e.what();
+            EXPECT_THAT(e.what(), HasSubstr("poses"));
         }
         EXPECT_EQ(map.tree().size(), 0u);
     }

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
@@ -9,6 +10,8 @@
 
 namespace hagen::observations {
 namespace {
+
+using testing::HasSubstr;
 
 using mrpt::obs::CObservationPointCloud;
 
@@ -55,7 +58,7 @@ TEST(ObservationScan, PacketsBringTheirOwnSensor) {
     settings.sensor.model = "VLP-16";
     readObservation(*velodyneScan(), settings, observed);
     EXPECT_EQ(observed.sensor.rows(), 32);
-    EXPECT_NE(observed.remark.find("VLP-16"), std::string::npos);
+    EXPECT_THAT(observed.remark, HasSubstr("VLP-16"));
 }
 
 TEST(ObservationScan, CloudsTakeTheSettingsSensorAndKeepOrderAndIntensity) {
@@ -131,7 +134,7 @@ TEST(ObservationScan, AScanWithoutAnythingSaysSo) {
     ObservedScan observed;
     readObservation(mrpt::obs::CObservationVelodyneScan(), Settings(), observed);
     EXPECT_EQ(observed.scan.size(), 0u);
-    EXPECT_NE(observed.remark.find("no packets"), std::string::npos);
+    EXPECT_THAT(observed.remark, HasSubstr("no packets"));
 }
 
 TEST(ObservationScan, WhatCannotBeReadThrows) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationSegmenter.h>
@@ -13,6 +14,8 @@
 
 namespace hagen::observations {
 namespace {
+
+using testing::HasSubstr;
 
 using mrpt::obs::CObservationVelodyneScan;
 
@@ -123,7 +126,7 @@ TEST(ObservationSegmenter, AWindowNeedsPosesAndSaysSo) {
     EXPECT_TRUE(out.sensor_pose);
     segmenter.process(*scanFrom(1), out);
     EXPECT_FALSE(out.sensor_pose);
-    EXPECT_NE(out.remark.find("no pose"), std::string::npos);
+    EXPECT_THAT(out.remark, HasSubstr("no pose"));
     EXPECT_EQ(out.window->size(), out.scan->size());
     // Poses are back: the window starts anew, for what came before may lie anywhere.
     segmenter.process(*scanFrom(2), out, standingAt({}, 2, 3));
@@ -173,10 +176,10 @@ TEST(ObservationSegmenter, AWindowTellsWhereItCannotMoveEachReturnByItself) {
     Trajectory vehicle;  // known at the scan's start alone
     vehicle.add(mrpt::Clock::fromDouble(100.0), {});
     segmenter.process(*scanFrom(0), out, vehicle);
-    EXPECT_NE(out.remark.find("poses do not reach to its end"), std::string::npos) << out.remark;
+    EXPECT_THAT(out.remark, HasSubstr("poses do not reach to its end"));
     const auto cloud = observationOf(Scan(*out.scan), "cloud", mrpt::Clock::fromDouble(100.0));
     segmenter.process(*cloud, out, vehicle);
-    EXPECT_NE(out.remark.find("carry no times"), std::string::npos) << out.remark;
+    EXPECT_THAT(out.remark, HasSubstr("carry no times"));
 }
 
 TEST(ObservationSegmenter, CloudsKeepIntensitiesWhereWanted) {

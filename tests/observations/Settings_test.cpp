@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
@@ -10,6 +11,8 @@
 
 namespace hagen::observations {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 const fs::path kConfig = fs::path(HAGEN_SOURCE_DIR) / "config";
@@ -31,7 +34,7 @@ class SettingsTest : public testing::Test {
         } catch (const SettingsError& e) {
             EXPECT_EQ(settings.options.beta_deg, 3.0f);
             EXPECT_FALSE(settings.sensor.model);
-            EXPECT_NE(std::string(e.what()).find("refused.yaml"), std::string::npos) << e.what();
+            EXPECT_THAT(e.what(), HasSubstr("refused.yaml"));
             return e.what();
         }
         ADD_FAILURE() << "taken: " << text;
@@ -216,7 +219,7 @@ TEST_F(SettingsTest, ARecordingsBeamsReplaceAPresetsModelAndTheOtherWayRound) {
 
 TEST_F(SettingsTest, SensorsThatMakeNoSenseAreRefused) {
     EXPECT_TRUE(says(refusalOf("sensor: {model: VLP-61}"), "VLP-61"));
-    EXPECT_TRUE(says(refusalOf("sensor: VLP-16"), "sensor must hold keys"));
+    EXPECT_TRUE(says(refusalOf("sensor: VLP-16"), "sensor must contain keys"));
     EXPECT_TRUE(says(refusalOf("sensor: {elevations_deg: [1, 2]}"), "model: custom"));
     EXPECT_TRUE(says(refusalOf("sensor: {model: custom, elevations_deg: [2, 1]}"), "lowest"));
     EXPECT_TRUE(says(refusalOf("sensor: {model: custom, elevations_deg: 3}"), "list"));

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/observations/VelodyneEncoder.h>
@@ -15,6 +16,8 @@
 
 namespace hagen::observations {
 namespace {
+
+using testing::HasSubstr;
 
 using mrpt::obs::CObservationVelodyneScan;
 
@@ -326,8 +329,8 @@ TEST(VelodyneDecoder, APacketOfAnotherOrUnknownModelIsRefusedByItsNumber) {
             decodePackets(*observation, scan);
             FAIL();
         } catch (const std::runtime_error& e) {
-            EXPECT_NE(std::string(e.what()).find("packet 4"), std::string::npos) << e.what();
-            EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+            EXPECT_THAT(e.what(), HasSubstr("packet 4"));
+            EXPECT_THAT(e.what(), HasSubstr(words));
             EXPECT_EQ(scan.size(), 0u);
         }
     }

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
@@ -17,6 +18,8 @@
 
 namespace hagen::openloop {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using mrpt::poses::CPose3D;
@@ -96,7 +99,7 @@ TEST_F(LoggedScansTest, OwnReturnsAreLeftOut) {
 /// The recording was flown at 4 m/s, so that a turn is 0.4 m long.
 TEST_F(LoggedScansTest, EachReturnIsPlacedByThePoseAtItsOwnTime) {
     LoggedScans scans({HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog", "", "", {}});
-    EXPECT_NE(scans.poseSource().find("CObservationRobotPose"), std::string::npos);
+    EXPECT_THAT(scans.poseSource(), HasSubstr("CObservationRobotPose"));
     EXPECT_EQ(scans.scans(), 30u);
     EXPECT_EQ(scans.scansWithoutPose(), 0u);
     Eigen::AlignedBox3d box = scans.flight_m().cast<double>();
@@ -131,31 +134,25 @@ TEST_F(LoggedScansTest, ScansWithoutAPoseAreLeftOutAndCounted) {
 }
 
 TEST_F(LoggedScansTest, TellsWhatIsMissing) {
-    EXPECT_NE(messageOf({folder_ / "none.rawlog", "", "", {}}).find("none.rawlog: no such file"),
-              std::string::npos);
-    EXPECT_NE(messageOf({poleLog(1), "", "", {}}).find("tells no poses; give them"),
-              std::string::npos);
-    EXPECT_NE(messageOf({poleLog(3), posesAt({5, 6}), "", {}})
-                  .find("has no pose near any of the 3 scans"),
-              std::string::npos);
-    EXPECT_NE(messageOf({poleLog(5), posesAt({10, 11}), "", {}})
-                  .find("has poses near 2 of the 5 scans alone, fewer than half, of "),
-              std::string::npos);
-    EXPECT_NE(messageOf({poleLog(1), posesAt({10}), "roof", {}})
-                  .find("has no LiDAR scan of 'roof'; there are 'lidar'"),
-              std::string::npos);
+    EXPECT_THAT(messageOf({folder_ / "none.rawlog", "", "", {}}),
+                HasSubstr("none.rawlog: no such file"));
+    EXPECT_THAT(messageOf({poleLog(1), "", "", {}}), HasSubstr("tells no poses; give them"));
+    EXPECT_THAT(messageOf({poleLog(3), posesAt({5, 6}), "", {}}),
+                HasSubstr("has no pose near any of the 3 scans"));
+    EXPECT_THAT(messageOf({poleLog(5), posesAt({10, 11}), "", {}}),
+                HasSubstr("has poses near 2 of the 5 scans alone, fewer than half, of "));
+    EXPECT_THAT(messageOf({poleLog(1), posesAt({10}), "roof", {}}),
+                HasSubstr("has no LiDAR scan of 'roof'; there are 'lidar'"));
     fs::create_directories(folder_ / "scans/velodyne");
     folder_.write("scans/velodyne/0.bin", "");
-    EXPECT_NE(messageOf({folder_ / "scans", posesAt({10}), "roof", {}})
-                  .find("has no LiDAR scan of 'roof'; a scan folder is all 'velodyne'"),
-              std::string::npos);
+    EXPECT_THAT(messageOf({folder_ / "scans", posesAt({10}), "roof", {}}),
+                HasSubstr("has no LiDAR scan of 'roof'; a scan folder is all 'velodyne'"));
     mrpt::obs::CObservationComment comment;
     logs::RawlogWriter writer(folder_ / "words.rawlog", true);
     writer.write(comment);
     writer.commit();
-    EXPECT_NE(
-        messageOf({folder_ / "words.rawlog", posesAt({10}), "", {}}).find("has no LiDAR scan"),
-        std::string::npos);
+    EXPECT_THAT(messageOf({folder_ / "words.rawlog", posesAt({10}), "", {}}),
+                HasSubstr("has no LiDAR scan"));
 }
 
 TEST_F(LoggedScansTest, ABrokenLogGivesWhatIsBeforeTheBreak) {

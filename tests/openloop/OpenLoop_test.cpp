@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/ScanFolder.h>
@@ -12,6 +13,8 @@
 
 namespace hagen::openloop {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using mrpt::poses::CPose3D;
@@ -177,10 +180,8 @@ TEST_F(OpenLoopTest, RefusesWhatCannotBeCompared) {
 TEST_F(OpenLoopTest, ASceneThatIsNotTheLogsIsNotTheTruth) {
     OpenLoop open_loop = openLoop(HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog", {"oracle"});
     open_loop.scene = {"wires", 1};
-    EXPECT_NE(test::messageOf([&] {
-                  runOpenLoop(open_loop);
-              }).find("was not simulated in wires of seed 1"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { runOpenLoop(open_loop); }),
+                HasSubstr("was not simulated in wires of seed 1"));
 }
 
 TEST_F(OpenLoopTest, WhatWasDigestedBeforeABreakIsTold) {
@@ -190,7 +191,7 @@ TEST_F(OpenLoopTest, WhatWasDigestedBeforeABreakIsTold) {
         runOpenLoop(wallsOnly(log));
         FAIL() << "it does not say that the log is broken";
     } catch (const OpenLoopEnded& ended) {
-        EXPECT_NE(std::string(ended.what()).find("1004.bin"), std::string::npos) << ended.what();
+        EXPECT_THAT(ended.what(), HasSubstr("1004.bin"));
         EXPECT_EQ(ended.result.scans, 4u);
         EXPECT_EQ(ended.result.models[0].bytes.size(), 4u);
     }
@@ -199,8 +200,8 @@ TEST_F(OpenLoopTest, WhatWasDigestedBeforeABreakIsTold) {
     listener.keep_going = [&] { return ++scans <= 2; };
     EXPECT_THROW(runOpenLoop(wallsOnly(log), listener), OpenLoopEnded);
     fs::resize_file(log / "velodyne/1000.bin", 1001);
-    EXPECT_NE(test::messageOf([&] { runOpenLoop(wallsOnly(log)); }).find("none of its scans"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { runOpenLoop(wallsOnly(log)); }),
+                HasSubstr("none of its scans"));
 }
 
 }  // namespace

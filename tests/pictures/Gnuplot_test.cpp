@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/pictures/Gnuplot.h>
 
@@ -5,6 +6,8 @@
 
 namespace hagen::pictures {
 namespace {
+
+using testing::HasSubstr;
 
 /// What gnuplot writes into an SVG for this text.
 std::string drawn(const std::string& text) {
@@ -16,11 +19,9 @@ std::string drawn(const std::string& text) {
 }
 
 TEST(Gnuplot, TakesAnyTextLiterally) {
-    EXPECT_NE(drawn("beta_deg=5, Peter's \\n `date` @x {a}")
-                  .find("beta_deg=5, Peter's \\n `date` @x {a}"),
-              std::string::npos);
-    EXPECT_NE(drawn("one\nset output 'other.svg'").find("one set output 'other.svg'"),
-              std::string::npos);
+    EXPECT_THAT(drawn("beta_deg=5, Peter's \\n `date` @x {a}"),
+                HasSubstr("beta_deg=5, Peter's \\n `date` @x {a}"));
+    EXPECT_THAT(drawn("one\nset output 'other.svg'"), HasSubstr("one set output 'other.svg'"));
 }
 
 TEST(Gnuplot, AnSvgThatBreaksOffIsNamed) {
@@ -29,7 +30,7 @@ TEST(Gnuplot, AnSvgThatBreaksOffIsNamed) {
         runGnuplot("set print 'half.svg'\nprint '<?xml version=\"1.0\"?><svg>'\n", folder.path(),
                    {"half.svg"});
     });
-    EXPECT_NE(error.find("half.svg could not be written whole"), std::string::npos) << error;
+    EXPECT_THAT(error, HasSubstr("half.svg could not be written completely"));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/pictures/StagePictures.h>
 #include <png.h>
@@ -12,6 +13,8 @@
 
 namespace hagen::pictures {
 namespace {
+
+using testing::HasSubstr;
 
 using test::SimpleScene;
 using test::TemporaryFolder;
@@ -288,12 +291,12 @@ std::string errorInto(const std::filesystem::path& folder) {
 TEST(StagePictures, WithoutGnuplotTheMessageSaysWhatToInstall) {
     const TemporaryFolder folder;
     const Environment path("PATH", folder.path().string());
-    EXPECT_NE(errorInto(folder.path()).find("gnuplot-nox"), std::string::npos);
+    EXPECT_THAT(errorInto(folder.path()), HasSubstr("gnuplot-nox"));
 }
 
 TEST(StagePictures, AFolderThatIsNotThereIsNamed) {
     const TemporaryFolder folder;
-    EXPECT_NE(errorInto(folder / "none").find((folder / "none").string()), std::string::npos);
+    EXPECT_THAT(errorInto(folder / "none"), HasSubstr((folder / "none").string()));
 }
 
 TEST(StagePictures, APictureThatCannotBeWrittenIsNamed) {
@@ -301,7 +304,7 @@ TEST(StagePictures, APictureThatCannotBeWrittenIsNamed) {
     // Root may write into any folder, but nobody a file where a folder with something in it is.
     std::filesystem::create_directories(folder / "4_range_angle.png" / "something");
     const std::string error = errorInto(folder.path());
-    EXPECT_NE(error.find((folder / "4_range_angle.png").string()), std::string::npos) << error;
+    EXPECT_THAT(error, HasSubstr((folder / "4_range_angle.png").string()));
 }
 
 /// A program named gnuplot, in the place of the real one.
@@ -317,13 +320,13 @@ TEST(StagePictures, APictureThatBreaksOffIsNamed) {
     // What a full disk leaves: the program ends well, the files do not.
     const std::string error = errorWithGnuplot(
         "for f in 1_depth 2_maxima; do printf '\\211PNG\\r\\n\\032\\nIHDR...' >$f.png; done\n");
-    EXPECT_NE(error.find("1_depth.png could not be written whole"), std::string::npos) << error;
+    EXPECT_THAT(error, HasSubstr("1_depth.png could not be written completely"));
 }
 
 TEST(StagePictures, WhatGnuplotComplainsOfIsPassedOn) {
     const std::string error =
         errorWithGnuplot("printf '\\nset x\\n    ^\\nline 1: unknown terminal\\n' >&2; exit 1\n");
-    EXPECT_NE(error.find("unknown terminal"), std::string::npos) << error;
+    EXPECT_THAT(error, HasSubstr("unknown terminal"));
 }
 
 }  // namespace

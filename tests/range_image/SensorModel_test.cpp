@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/range_image/SensorModel.h>
@@ -9,6 +10,8 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
 
 TEST(SensorModel, Vlp16HasSixteenBeamsTwoDegreesApart) {
     const SensorModel sensor = sensorModel("VLP-16");
@@ -68,8 +71,8 @@ TEST(SensorModel, UnknownNameIsRefusedWithTheKnownOnes) {
         sensorModel("VLP-61");
         FAIL();
     } catch (const std::invalid_argument& e) {
-        EXPECT_NE(std::string(e.what()).find("VLP-61"), std::string::npos);
-        EXPECT_NE(std::string(e.what()).find("HDL-32E"), std::string::npos);
+        EXPECT_THAT(e.what(), HasSubstr("VLP-61"));
+        EXPECT_THAT(e.what(), HasSubstr("HDL-32E"));
     }
 }
 

@@ -9,7 +9,7 @@ namespace hagen::simulation {
 namespace {
 
 Terrain rolling() {
-    TerrainForm form;
+    TerrainParameters form;
     form.max_slope_rad = radians(5);
     Random random(5);
     return Terrain(form, random);

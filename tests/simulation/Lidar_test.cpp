@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/simulation/Lidar.h>
@@ -12,12 +13,14 @@
 namespace hagen::simulation {
 namespace {
 
+using testing::HasSubstr;
+
 using test::emptyContent;
 using test::plane;
 using test::put;
 
-LidarFaults noFaults() {
-    LidarFaults none;
+SensorErrorModel noFaults() {
+    SensorErrorModel none;
     none.footprint_rad = none.least_noise_m = none.lost = none.mixed = none.dust_per_m = 0;
     none.half_range_m = 1e6;
     none.airframe = false;
@@ -40,7 +43,8 @@ struct Simulation {
           flight(scene.terrain(), scene.path(), settings, 5),
           sensor(sensorModel(name)) {}
 
-    SimulatedScan scan(double time_s, const LidarFaults& faults, std::uint64_t seed = 1) const {
+    SimulatedScan scan(double time_s, const SensorErrorModel& faults,
+                       std::uint64_t seed = 1) const {
         Random random(seed);
         return simulateScan(scene, sensor, flight, time_s, random, faults);
     }
@@ -59,7 +63,7 @@ struct Simulation {
 
 SceneContent level() {
     SceneContent content = emptyContent();
-    put(content, Kind::Terrain, 0, plane(300));
+    put(content, ObjectClass::Terrain, 0, plane(300));
     return content;
 }
 
@@ -73,7 +77,7 @@ TEST_P(EachSensor, WithoutFaultsEachReturnIsOnTheGroundAlsoTiltedAndOnTheMove) {
         // Rays start with their firing, lasers a little later.
         const double range_m = static_cast<double>(scan.scan.range_m[i]);
         ASSERT_NEAR(setup.inMap(scan, i, 7.3).z(), 0, 1e-3 + 1e-4 * range_m) << i;
-        ASSERT_EQ(scan.kind[i], Kind::Terrain);
+        ASSERT_EQ(scan.kind[i], ObjectClass::Terrain);
     }
 }
 
@@ -91,7 +95,7 @@ TEST(LidarTest, AFunctionOfPosesIsFlownAsTheFlightItTells) {
     EXPECT_EQ(told.scan.x_m, flown.scan.x_m);
     EXPECT_EQ(told.firing, flown.firing);
     EXPECT_EQ(told.altitude_m, flown.altitude_m);
-    EXPECT_LE(last_s, 7.3 + firingPattern(setup.sensor).turnPeriod_s() + kPosesBeyondTurn_s);
+    EXPECT_LE(last_s, 7.3 + firingPattern(setup.sensor).revolutionPeriod_s() + kPosesBeyondTurn_s);
 }
 
 TEST_P(EachSensor, ReturnsComeInTheOrderOfFiringWithTheirBeams) {
@@ -139,7 +143,7 @@ TEST(LidarTest, TellsTheAltitudeAndThePose) {
 
 TEST(LidarTest, NoiseHasItsStandardDeviation) {
     const Simulation setup(level(), flightAt(3, 4, 0));
-    LidarFaults faults = noFaults();
+    SensorErrorModel faults = noFaults();
     faults.least_noise_m = 0.02;
     const SimulatedScan exact = setup.scan(0, noFaults()), noisy = setup.scan(0, faults);
     ASSERT_EQ(exact.size(), noisy.size());
@@ -152,8 +156,8 @@ TEST(LidarTest, NoiseHasItsStandardDeviation) {
 
 TEST(LidarTest, FlatWeakReturnsAreLostFirst) {
     const Simulation setup(level(), flightAt(2, 4, 0));
-    LidarFaults faults = noFaults();
-    faults.half_range_m = LidarFaults().half_range_m;
+    SensorErrorModel faults = noFaults();
+    faults.half_range_m = SensorErrorModel().half_range_m;
     const SimulatedScan all = setup.scan(0, noFaults()), some = setup.scan(0, faults);
     const auto count = [](const SimulatedScan& scan, int row) {
         return static_cast<double>(std::count(scan.scan.row.begin(), scan.scan.row.end(), row));
@@ -179,9 +183,9 @@ double shareThatMeetsWire(double distance_m) {
     SceneContent content = emptyContent();
     Shape wire;
     wire.addRod(knots);
-    put(content, Kind::Wire, 1, std::move(wire));
-    LidarFaults faults = noFaults();
-    faults.footprint_rad = LidarFaults().footprint_rad;
+    put(content, ObjectClass::Wire, 1, std::move(wire));
+    SensorErrorModel faults = noFaults();
+    faults.footprint_rad = SensorErrorModel().footprint_rad;
     return static_cast<double>(Simulation(std::move(content), hover).scan(0, faults).size()) / 1809;
 }
 
@@ -197,12 +201,12 @@ TEST(LidarTest, TheBeamGoesOnToWhatIsBehindAWire) {
     std::vector<Eigen::Vector4f> knots{{-50, -4, 2.5f, 0.012f}, {50, -4, 2.5f, 0.012f}};
     Shape wire;
     wire.addRod(knots);
-    put(content, Kind::Wire, 1, std::move(wire));
-    LidarFaults faults = noFaults();
-    faults.footprint_rad = LidarFaults().footprint_rad;
+    put(content, ObjectClass::Wire, 1, std::move(wire));
+    SensorErrorModel faults = noFaults();
+    faults.footprint_rad = SensorErrorModel().footprint_rad;
     const SimulatedScan scan = Simulation(std::move(content), flightAt(3, 4, 4)).scan(0, faults);
-    const auto wires = std::count(scan.kind.begin(), scan.kind.end(), Kind::Wire);
-    const auto grounds = std::count(scan.kind.begin(), scan.kind.end(), Kind::Terrain);
+    const auto wires = std::count(scan.kind.begin(), scan.kind.end(), ObjectClass::Wire);
+    const auto grounds = std::count(scan.kind.begin(), scan.kind.end(), ObjectClass::Terrain);
     const auto before = static_cast<std::ptrdiff_t>(bare.scan(0, faults).size());
     EXPECT_GT(wires, 20);
     EXPECT_LE(grounds, before);
@@ -211,7 +215,7 @@ TEST(LidarTest, TheBeamGoesOnToWhatIsBehindAWire) {
 
 TEST(LidarTest, ABroadSurfaceIsMeasuredOnTheAxis) {
     const Simulation setup(level(), flightAt(3, 4, 0));
-    LidarFaults faults = noFaults();
+    SensorErrorModel faults = noFaults();
     faults.footprint_rad = 0.003;
     const SimulatedScan scan = setup.scan(0, faults);
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -225,11 +229,11 @@ TEST(LidarTest, RangesAtAnEdgeAreSometimesBetweenBoth) {
     Shape steps;  // bars 0.6 m before a wall, on the right-hand side of the path
     steps.addBox({-40, -19, -5}, {40, -18, 20});
     for (float x = -30; x < 30; x += 0.4f) steps.addBox({x, -17.5f, -5}, {x + 0.2f, -17.4f, 20});
-    put(content, Kind::Vehicle, 1, std::move(steps));
-    LidarFaults faults = noFaults();
+    put(content, ObjectClass::Vehicle, 1, std::move(steps));
+    SensorErrorModel faults = noFaults();
     faults.footprint_rad = 0.003;
     const Simulation setup(std::move(content), flightAt(3, 1, 0));
-    const auto between = [&](const LidarFaults& with) {
+    const auto between = [&](const SensorErrorModel& with) {
         const SimulatedScan scan = setup.scan(0, with);
         int count = 0;
         for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -245,7 +249,7 @@ TEST(LidarTest, RangesAtAnEdgeAreSometimesBetweenBoth) {
 
 TEST(LidarTest, GrassSendsBeamsBackAboveTheSoil) {
     SceneContent content = level();
-    TerrainForm form;
+    TerrainParameters form;
     form.max_slope_rad = form.bump_m = 0;
     form.grass_m = 0.2;
     Random random(1);
@@ -265,14 +269,14 @@ TEST(LidarTest, GrassSendsBeamsBackAboveTheSoil) {
 
 TEST(LidarTest, DustAndTheOwnAirframeAreTold) {
     const Simulation setup(level(), flightAt(3, 4, 4));
-    LidarFaults faults = noFaults();
+    SensorErrorModel faults = noFaults();
     faults.dust_per_m = 1e-3;
     faults.airframe = true;
     const SimulatedScan scan = setup.scan(0, faults);
     int dust = 0, airframe = 0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (scan.kind[i] == Kind::Dust) ++dust;
-        if (scan.kind[i] != Kind::Airframe) continue;
+        if (scan.kind[i] == ObjectClass::Dust) ++dust;
+        if (scan.kind[i] != ObjectClass::Airframe) continue;
         ++airframe;
         EXPECT_GT(scan.scan.range_m[i], 0.2f);
         EXPECT_LT(scan.scan.range_m[i], 0.7f);
@@ -300,8 +304,8 @@ TEST(LidarTest, AnotherSensorIsRefusedByName) {
         firingPattern(sensorModel("VLP-32C"));
         FAIL() << "it fires";
     } catch (const std::invalid_argument& e) {
-        EXPECT_NE(std::string(e.what()).find("VLP-32C"), std::string::npos);
-        EXPECT_NE(std::string(e.what()).find("HDL-32E"), std::string::npos);
+        EXPECT_THAT(e.what(), HasSubstr("VLP-32C"));
+        EXPECT_THAT(e.what(), HasSubstr("HDL-32E"));
     }
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// Share of level rays across a shape, at some height and within a half width, that pass it.
 double shareThatPasses(Shape shape, float z_m, float half_width_m) {
     SceneContent content = test::emptyContent();
-    test::put(content, Kind::Tree, 1, std::move(shape));
+    test::put(content, ObjectClass::Tree, 1, std::move(shape));
     const Scene scene(std::move(content));
     std::vector<Ray> rays;
     for (float y = -half_width_m; y <= half_width_m; y += 0.02f * half_width_m) {
@@ -19,15 +19,15 @@ double shareThatPasses(Shape shape, float z_m, float half_width_m) {
             rays.push_back({{-9, y, z_m + up}, {1, 0, 0}});
     }
     std::vector<RayHit> hits;
-    scene.during(0, 1).cast(rays, 50, hits);
-    const auto passed = std::count_if(hits.begin(), hits.end(),
-                                      [](const RayHit& hit) { return hit.kind == Kind::None; });
+    scene.snapshotOver(0, 1).cast(rays, 50, hits);
+    const auto passed = std::count_if(
+        hits.begin(), hits.end(), [](const RayHit& hit) { return hit.kind == ObjectClass::None; });
     return static_cast<double>(passed) / static_cast<double>(rays.size());
 }
 
 TEST(PlantsTest, ACrownIsPorousAndTheTrunkIsNot) {
     Random random(11);
-    TreeForm form;
+    TreeParameters form;
     const Shape tree = makeTree(form, random);
     const double through_crown = shareThatPasses(tree, 2.2f, 0.8f);
     EXPECT_GT(through_crown, 0.08);
@@ -38,7 +38,7 @@ TEST(PlantsTest, ACrownIsPorousAndTheTrunkIsNot) {
 
 TEST(PlantsTest, ATreeKeepsToItsForm) {
     Random random(11);
-    TreeForm form;
+    TreeParameters form;
     form.height_m = 6;
     const Shape tree = makeTree(form, random);
     float top = 0, widest = 0, area = 0;
@@ -58,19 +58,19 @@ TEST(PlantsTest, ATreeKeepsToItsForm) {
 TEST(PlantsTest, GroundIsSeenThroughCrop) {
     Random random(11);
     SceneContent content = test::emptyContent();
-    test::put(content, Kind::Terrain, 0, test::plane());
-    test::put(content, Kind::Canopy, 0, makeCanopyPatch(20, random),
+    test::put(content, ObjectClass::Terrain, 0, test::plane());
+    test::put(content, ObjectClass::Canopy, 0, makeCanopyPatch(20, random),
               Eigen::Affine3f(Eigen::Scaling(1.0f, 1.0f, 0.6f)));
     std::vector<Ray> rays;  // 15 degrees down, across the rows
     for (float x = -5; x < 5; x += 0.013f) {
         rays.push_back({{x, -10, 2.5f}, Eigen::Vector3f(0, 0.966f, -0.259f)});
     }
     std::vector<RayHit> hits;
-    Scene(std::move(content)).during(0, 1).cast(rays, 50, hits);
+    Scene(std::move(content)).snapshotOver(0, 1).cast(rays, 50, hits);
     int ground = 0, crop = 0;
     for (const RayHit& hit : hits) {
-        ground += hit.kind == Kind::Terrain;
-        crop += hit.kind == Kind::Canopy;
+        ground += hit.kind == ObjectClass::Terrain;
+        crop += hit.kind == ObjectClass::Canopy;
     }
     EXPECT_GT(ground, 0.05 * static_cast<double>(hits.size()));
     EXPECT_GT(crop, 0.4 * static_cast<double>(hits.size()));

@@ -40,7 +40,7 @@ TEST(RandomTest, DistributionsHaveTheirMoments) {
     const Moments normal = momentsOf([&] { return random.normal(); });
     EXPECT_NEAR(normal.mean, 0, 0.01);
     EXPECT_NEAR(normal.variance, 1, 0.02);
-    const Moments roughly = momentsOf([&] { return random.roughlyNormal(); });
+    const Moments roughly = momentsOf([&] { return random.approximateNormal(); });
     EXPECT_NEAR(roughly.mean, 0, 0.01);
     EXPECT_NEAR(roughly.variance, 1, 0.02);
     const Moments exponential = momentsOf([&] { return random.exponential(3); });
@@ -55,7 +55,7 @@ TEST(RandomTest, BelowStaysBelow) {
     Random random(3);
     bool has_least = false, has_most = false;
     for (int i = 0; i < 1000; ++i) {
-        const int value = random.below(5);
+        const int value = random.uniformInt(5);
         ASSERT_GE(value, 0);
         ASSERT_LT(value, 5);
         has_least |= value == 0;

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/simulation/Lidar.h>
@@ -10,28 +11,33 @@
 namespace hagen::simulation {
 namespace {
 
-std::set<Kind> kindsOf(const Scene& scene) {
-    std::set<Kind> kinds;
+using testing::HasSubstr;
+
+std::set<ObjectClass> kindsOf(const Scene& scene) {
+    std::set<ObjectClass> kinds;
     for (const SceneObject& object : scene.content().objects) kinds.insert(object.kind);
-    if (!scene.content().movers.empty()) kinds.insert(Kind::Mover);
+    if (!scene.content().movers.empty()) kinds.insert(ObjectClass::Mover);
     return kinds;
 }
 
-const std::map<std::string, std::set<Kind>>& expectedKinds() {
-    static const std::set<Kind> wood{Kind::Canopy, Kind::Tree, Kind::Wall};
-    static const std::map<std::string, std::set<Kind>> expected{
-        {"orchard", {Kind::Canopy, Kind::Tree, Kind::Pole, Kind::Vehicle}},
-        {"field", {Kind::Canopy, Kind::Tree, Kind::Pole}},
+const std::map<std::string, std::set<ObjectClass>>& expectedKinds() {
+    static const std::set<ObjectClass> wood{ObjectClass::Canopy, ObjectClass::Tree,
+                                            ObjectClass::Wall};
+    static const std::map<std::string, std::set<ObjectClass>> expected{
+        {"orchard",
+         {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Pole, ObjectClass::Vehicle}},
+        {"field", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Pole}},
         {"forest-0.02", wood},
         {"forest-0.05", wood},
         {"forest-0.10", wood},
-        {"wires", {Kind::Canopy, Kind::Tree, Kind::Pole, Kind::Wire}},
-        {"gap", {Kind::Canopy, Kind::Tree, Kind::Wall}},
+        {"wires", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Pole, ObjectClass::Wire}},
+        {"gap", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Wall}},
         {"street",
-         {Kind::Canopy, Kind::Tree, Kind::Pole, Kind::Building, Kind::Vehicle, Kind::Wall}},
-        {"terrain", {Kind::Canopy, Kind::Tree, Kind::Wall}},
-        {"u-trap", {Kind::Canopy, Kind::Tree, Kind::Wall}},
-        {"movers", {Kind::Canopy, Kind::Tree, Kind::Mover}}};
+         {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Pole, ObjectClass::Building,
+          ObjectClass::Vehicle, ObjectClass::Wall}},
+        {"terrain", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Wall}},
+        {"u-trap", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Wall}},
+        {"movers", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Mover}}};
     return expected;
 }
 
@@ -39,9 +45,9 @@ class EachScenario : public testing::TestWithParam<std::string> {};
 
 TEST_P(EachScenario, HoldsItsKindsAndNumbersItsObjects) {
     const Scene scene = makeScene(GetParam(), 1);
-    std::set<Kind> kinds = kindsOf(scene);
-    EXPECT_EQ(kinds.count(Kind::Terrain), 1u);
-    for (const Kind kind : expectedKinds().at(GetParam())) {
+    std::set<ObjectClass> kinds = kindsOf(scene);
+    EXPECT_EQ(kinds.count(ObjectClass::Terrain), 1u);
+    for (const ObjectClass kind : expectedKinds().at(GetParam())) {
         EXPECT_EQ(kinds.count(kind), 1u) << nameOf(kind);
     }
     std::set<int> numbers;
@@ -73,7 +79,7 @@ TEST_P(EachScenario, TheWayIsClear) {
     }
     std::vector<RayHit> hits;
     for (const double time_s : {0.0, 13.0, 57.0}) {
-        scene.during(time_s, 0.1).cast(rays, 0.5f, hits);
+        scene.snapshotOver(time_s, 0.1).cast(rays, 0.5f, hits);
         for (std::size_t i = 0; i < hits.size(); ++i) {
             const bool is_solid = labelOf(hits[i].kind) == Label::Roi;
             ASSERT_FALSE(is_solid)
@@ -112,7 +118,7 @@ TEST(ScenariosTest, ADenserForestHasMoreTrees) {
         int count = 0;
         const Scene scene = makeScene(name, 4);
         for (const SceneObject& object : scene.content().objects)
-            count += object.kind == Kind::Tree;
+            count += object.kind == ObjectClass::Tree;
         return count;
     };
     EXPECT_GT(trees("forest-0.05"), 1.8 * trees("forest-0.02"));
@@ -124,9 +130,9 @@ TEST(ScenariosTest, AnUnknownOneIsRefusedAndTheKnownOnesNamed) {
         makeScene("jungle", 1);
         FAIL() << "it was made";
     } catch (const std::invalid_argument& e) {
-        EXPECT_NE(std::string(e.what()).find("'jungle'"), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("'jungle'"));
         for (const std::string& name : scenarioNames()) {
-            EXPECT_NE(std::string(e.what()).find(name), std::string::npos) << e.what();
+            EXPECT_THAT(e.what(), HasSubstr(name));
         }
     }
 }

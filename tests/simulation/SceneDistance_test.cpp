@@ -58,8 +58,9 @@ double plainDistance(const SceneContent& content, const Eigen::Vector3d& p, doub
         }
         for (const std::uint32_t s : shape.segments) {
             Eigen::Vector4d from, to;
-            from << at(shape.knots_m[s].head<3>()), static_cast<double>(shape.knots_m[s].w());
-            to << at(shape.knots_m[s + 1].head<3>()), static_cast<double>(shape.knots_m[s + 1].w());
+            from << at(shape.polyline_m[s].head<3>()), static_cast<double>(shape.polyline_m[s].w());
+            to << at(shape.polyline_m[s + 1].head<3>()),
+                static_cast<double>(shape.polyline_m[s + 1].w());
             nearest = std::min(nearest, plainToRod(p, from, to));
         }
     }
@@ -82,9 +83,9 @@ TEST(SceneDistanceTest, AWallAPoleAndABallAreAsFarAsGeometrySays) {
     wall.addBox({5, -4, 0}, {5.3f, 4, 6});
     pole.addRod({{0, 4, -1, 0.2f}, {0, 4, 5, 0.1f}});
     ball.addRod({{-4, 0, 2, 0.5f}, {-4, 0, 2, 0.3f}});  // the smaller within the larger
-    put(content, Kind::Wall, 1, wall);
-    put(content, Kind::Pole, 2, pole);
-    put(content, Kind::Mover, 3, ball);
+    put(content, ObjectClass::Wall, 1, wall);
+    put(content, ObjectClass::Pole, 2, pole);
+    put(content, ObjectClass::Mover, 3, ball);
     const SceneDistance distance(Scene(std::move(content)), kBounds, 3.0);
     EXPECT_NEAR(distance.at({3, 0, 2}, 0), 2, 1e-5);
     EXPECT_NEAR(distance.at({5.15f, 0, 7}, 0), 1, 1e-5);
@@ -97,7 +98,7 @@ TEST(SceneDistanceTest, AWallAPoleAndABallAreAsFarAsGeometrySays) {
 
 TEST(SceneDistanceTest, BladesOfGrassDoNotCount) {
     SceneContent content = emptyContent();
-    put(content, Kind::Canopy, 0, plane());
+    put(content, ObjectClass::Canopy, 0, plane());
     EXPECT_EQ(SceneDistance(Scene(std::move(content)), kBounds, 3.0).at({0, 0, 1}, 0), 3.0f);
 }
 
@@ -105,7 +106,7 @@ TEST(SceneDistanceTest, WhatLiesOutsideTheBoundsWithinTheReachCountsToo) {
     SceneContent content = emptyContent();
     Shape wall;
     wall.addBox({12, -1, -1}, {13, 1, 1});
-    put(content, Kind::Wall, 1, wall);
+    put(content, ObjectClass::Wall, 1, wall);
     EXPECT_NEAR(SceneDistance(Scene(std::move(content)), kBounds, 3.0).at({10, 0, 0}, 0), 2, 1e-5);
 }
 
@@ -122,7 +123,7 @@ TEST(SceneDistanceTest, RandomSurfacesAreAsFarAsTheNearestOfAll) {
             shape.addTriangle({0, 0, 0}, b, c);
             shape.addRod({{from.x(), from.y(), from.z(), thick}, {b.x(), b.y(), b.z(), thin}});
             const auto yaw = static_cast<float>(random.uniform(0, 6));
-            put(content, Kind::Tree, 1, shape,
+            put(content, ObjectClass::Tree, 1, shape,
                 Eigen::Translation3f(at) * Eigen::AngleAxisf(yaw, Vector3f::UnitZ()));
         }
         const SceneDistance distance(Scene(content), kBounds, 4.0);
@@ -140,7 +141,7 @@ TEST(SceneDistanceTest, AMoverIsWhereItIsAtTheTime) {
     Shape ball;
     ball.addRod({{0, 0, 0, 0.5f}, {0, 0, 0.1f, 0.5f}});
     content.shapes.push_back(ball);
-    SceneMover mover;
+    MovingObstacle mover;
     mover.number = 1;
     mover.radius_m = 4;
     mover.speed_m_s = 2;
@@ -162,7 +163,7 @@ TEST(SceneDistanceTest, ShapesThatStandScaledAreMeasuredScaled) {
     SceneContent content = emptyContent();
     Shape rod;
     rod.addRod({{0, 0, -1, 0.1f}, {0, 0, 1, 0.1f}});
-    put(content, Kind::Pole, 1, rod, Eigen::Affine3f(Eigen::Scaling(3.0f)));
+    put(content, ObjectClass::Pole, 1, rod, Eigen::Affine3f(Eigen::Scaling(3.0f)));
     EXPECT_NEAR(SceneDistance(Scene(std::move(content)), kBounds, 3.0).at({2, 0, 0}, 0), 1.7, 1e-5);
 }
 

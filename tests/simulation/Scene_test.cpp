@@ -17,7 +17,7 @@ using test::put;
 
 TEST(SceneTest, ARayMeetsAPlaneWhereGeometrySays) {
     SceneContent content = emptyContent();
-    put(content, Kind::Terrain, 0, plane());
+    put(content, ObjectClass::Terrain, 0, plane());
     const Scene scene(std::move(content));
     for (const double down_deg : {1.5, 5.0, 15.0, 60.0, 90.0}) {
         const double down = radians(down_deg);
@@ -25,25 +25,25 @@ TEST(SceneTest, ARayMeetsAPlaneWhereGeometrySays) {
             scene, {0, 0, 2},
             Vector3f(static_cast<float>(std::cos(down)), 0, static_cast<float>(-std::sin(down))));
         EXPECT_NEAR(hit.range_m, 2 / std::sin(down), 1e-3) << down_deg;
-        EXPECT_EQ(hit.kind, Kind::Terrain);
+        EXPECT_EQ(hit.kind, ObjectClass::Terrain);
         EXPECT_NEAR(hit.normal.z(), 1, 1e-5);
     }
 }
 
 TEST(SceneTest, NothingIsMetInTheSkyNorBeyondTheRange) {
     SceneContent content = emptyContent();
-    put(content, Kind::Terrain, 0, plane());
+    put(content, ObjectClass::Terrain, 0, plane());
     const Scene scene(std::move(content));
     EXPECT_TRUE(std::isnan(castOne(scene, {0, 0, 2}, {1, 0, 0.1f}).range_m));
     std::vector<RayHit> hits;
-    scene.during(0, 1).cast({{{0, 0, 2}, {0, 0, -1}}}, 1.5f, hits);
-    EXPECT_EQ(hits.at(0).kind, Kind::None);
+    scene.snapshotOver(0, 1).cast({{{0, 0, 2}, {0, 0, -1}}}, 1.5f, hits);
+    EXPECT_EQ(hits.at(0).kind, ObjectClass::None);
     EXPECT_TRUE(std::isnan(hits[0].range_m));
 }
 
 TEST(SceneTest, NoRaysNoHits) {
     std::vector<RayHit> hits(3);
-    Scene(emptyContent()).during(0, 1).cast({}, 100, hits);
+    Scene(emptyContent()).snapshotOver(0, 1).cast({}, 100, hits);
     EXPECT_TRUE(hits.empty());
 }
 
@@ -52,23 +52,23 @@ TEST(SceneTest, ARayMeetsARoundRodWhereGeometrySays) {
     SceneContent content = emptyContent();
     Shape rod;
     rod.addRod({{10, 0, -1, kRadius_m}, {10, 0, 5, kRadius_m}});
-    put(content, Kind::Pole, 7, std::move(rod));
+    put(content, ObjectClass::Pole, 7, std::move(rod));
     const Scene scene(std::move(content));
     for (const float aside_m : {-0.19f, -0.1f, 0.0f, 0.15f}) {
         const RayHit hit = castOne(scene, {0, aside_m, 1}, {1, 0, 0});
         EXPECT_NEAR(hit.range_m, 10 - std::sqrt(kRadius_m * kRadius_m - aside_m * aside_m), 1e-3);
-        EXPECT_EQ(hit.kind, Kind::Pole);
+        EXPECT_EQ(hit.kind, ObjectClass::Pole);
         EXPECT_EQ(hit.number, 7);
         EXPECT_NEAR(hit.normal.y(), aside_m / kRadius_m, 1e-2);
     }
-    EXPECT_EQ(castOne(scene, {0, 0.21f, 1}, {1, 0, 0}).kind, Kind::None);
+    EXPECT_EQ(castOne(scene, {0, 0.21f, 1}, {1, 0, 0}).kind, ObjectClass::None);
 }
 
 TEST(SceneTest, TheEndOfARodIsABall) {
     SceneContent content = emptyContent();
     Shape rod;
     rod.addRod({{10, 0, 1, 0.5f}, {10, 0, 0, 0.5f}});
-    put(content, Kind::Pole, 1, std::move(rod));
+    put(content, ObjectClass::Pole, 1, std::move(rod));
     const Scene scene(std::move(content));
     const float up_m = 0.3f;  // above the last knot
     EXPECT_NEAR(castOne(scene, {0, 0, 1 + up_m}, {1, 0, 0}).range_m,
@@ -79,7 +79,7 @@ TEST(SceneTest, ATubeIsNearlyItsRod) {
     Shape tube;
     tube.addTube({{10, 0, -1, 0.2f}, {10, 0, 5, 0.2f}}, 16);
     SceneContent content = emptyContent();
-    put(content, Kind::Tree, 1, std::move(tube));
+    put(content, ObjectClass::Tree, 1, std::move(tube));
     EXPECT_NEAR(castOne(Scene(std::move(content)), {0, 0, 1}, {1, 0, 0}).range_m, 9.8, 0.005);
 }
 
@@ -87,8 +87,8 @@ TEST(SceneTest, WhatIsNearerHidesWhatIsBehind) {
     SceneContent content = emptyContent();
     Shape box;
     box.addBox({5, -1, 0}, {6, 1, 3});
-    put(content, Kind::Wall, 3, box);
-    put(content, Kind::Building, 4, box, Eigen::Affine3f(Eigen::Translation3f(5, 0, 0)));
+    put(content, ObjectClass::Wall, 3, box);
+    put(content, ObjectClass::Building, 4, box, Eigen::Affine3f(Eigen::Translation3f(5, 0, 0)));
     const Scene scene(std::move(content));
     EXPECT_EQ(castOne(scene, {0, 0, 1}, {1, 0, 0}).number, 3);
     const RayHit from_behind = castOne(scene, {20, 0, 1}, {-1, 0, 0});
@@ -102,7 +102,7 @@ TEST(SceneTest, APlacedShapeIsTurnedAndScaledAndItsNormalsWithIt) {
     Shape slope;  // up by 1 on 1, along x
     slope.addQuad({0, -1, 0}, {1, -1, 1}, {1, 1, 1}, {0, 1, 0});
     const Eigen::Affine3f pose = Eigen::Translation3f(10, 0, 0) * Eigen::Scaling(4.0f, 4.0f, 2.0f);
-    put(content, Kind::Wall, 1, slope, pose);  // now up by 1 on 2
+    put(content, ObjectClass::Wall, 1, slope, pose);  // now up by 1 on 2
     const RayHit hit = castOne(Scene(std::move(content)), {0, 0, 1}, {1, 0, 0});
     EXPECT_NEAR(hit.range_m, 12, 1e-4);
     EXPECT_NEAR(hit.normal.x(), -1 / std::sqrt(5.0f), 1e-5);
@@ -114,7 +114,7 @@ TEST(SceneTest, AMoverMovesWithinASnapshotAndFromOneToTheNext) {
     Shape box;
     box.addBox({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 2});
     content.shapes.push_back(box);
-    SceneMover mover;  // far from its middle, so that it goes nearly straight, along +y
+    MovingObstacle mover;  // far from its middle, so that it goes nearly straight, along +y
     mover.number = 9;
     mover.radius_m = 1000;
     mover.middle_m = {-990, 0};
@@ -124,18 +124,18 @@ TEST(SceneTest, AMoverMovesWithinASnapshotAndFromOneToTheNext) {
     EXPECT_EQ(castOne(scene, {0, 0, 1}, {1, 0, 0}, 0).number, 9);
     EXPECT_NEAR(castOne(scene, {0, 0, 1}, {1, 0, 0}, 0).range_m, 9.5, 0.01);
     // 1 m on after 0.1 s:
-    EXPECT_EQ(castOne(scene, {0, 0, 1}, {1, 0, 0}, 1.0f).kind, Kind::None);
-    EXPECT_EQ(castOne(scene, {0, 1, 1}, {1, 0, 0}, 1.0f).kind, Kind::Mover);
+    EXPECT_EQ(castOne(scene, {0, 0, 1}, {1, 0, 0}, 1.0f).kind, ObjectClass::None);
+    EXPECT_EQ(castOne(scene, {0, 1, 1}, {1, 0, 0}, 1.0f).kind, ObjectClass::Mover);
     std::vector<RayHit> hits;
-    scene.during(2.0, 0.1).cast({{{0, 20, 1}, {1, 0, 0}, 0}}, 200, hits);
+    scene.snapshotOver(2.0, 0.1).cast({{{0, 20, 1}, {1, 0, 0}, 0}}, 200, hits);
     EXPECT_EQ(hits.at(0).number, 9);
 }
 
 TEST(SceneTest, CopiesAndSnapshotsOutliveTheSceneTheyComeFrom) {
     auto snapshot = [] {
         SceneContent content = emptyContent();
-        put(content, Kind::Terrain, 0, plane());
-        return Scene(std::move(content)).during(0, 1);
+        put(content, ObjectClass::Terrain, 0, plane());
+        return Scene(std::move(content)).snapshotOver(0, 1);
     }();
     std::vector<RayHit> hits;
     snapshot.cast({{{0, 0, 3}, {0, 0, -1}}}, 100, hits);

@@ -5,14 +5,14 @@ namespace hagen::test {
 
 /// A scene's content over level, smooth ground without grass; nothing stands there.
 inline simulation::SceneContent emptyContent() {
-    simulation::TerrainForm level;
+    simulation::TerrainParameters level;
     level.max_slope_rad = level.bump_m = level.roughness_m = level.grass_m = 0;
     simulation::Random random(1);
     return {simulation::Terrain(level, random), simulation::Path{30, 10}, {}, {}, {}};
 }
 
-inline void put(simulation::SceneContent& content, simulation::Kind kind, std::uint16_t number,
-                simulation::Shape shape,
+inline void put(simulation::SceneContent& content, simulation::ObjectClass kind,
+                std::uint16_t number, simulation::Shape shape,
                 const Eigen::Affine3f& pose = Eigen::Affine3f::Identity()) {
     content.shapes.push_back(std::move(shape));
     content.objects.push_back({kind, number, content.shapes.size() - 1, pose});
@@ -30,7 +30,7 @@ inline simulation::RayHit castOne(const simulation::Scene& scene, const Eigen::V
                                   const Eigen::Vector3f& direction, float time = 0,
                                   double duration_s = 0.1) {
     std::vector<simulation::RayHit> hits;
-    scene.during(0, duration_s).cast({{from, direction.normalized(), time}}, 200.0f, hits);
+    scene.snapshotOver(0, duration_s).cast({{from, direction.normalized(), time}}, 200.0f, hits);
     return hits.front();
 }
 

@@ -22,7 +22,7 @@ double steepest(const Terrain& terrain) {
 
 TEST(TerrainTest, IsAsSteepAsAskedForAtItsSteepest) {
     for (const double slope_deg : {2.0, 15.0}) {
-        TerrainForm form;
+        TerrainParameters form;
         form.max_slope_rad = radians(slope_deg);
         form.bump_m = 0;
         Random random(5);
@@ -32,14 +32,14 @@ TEST(TerrainTest, IsAsSteepAsAskedForAtItsSteepest) {
 }
 
 TEST(TerrainTest, WithoutSlopeAndBumpsItIsLevel) {
-    TerrainForm form;
+    TerrainParameters form;
     form.max_slope_rad = form.bump_m = 0;
     Random random(5);
     EXPECT_EQ(steepest(Terrain(form, random)), 0);
 }
 
 TEST(TerrainTest, APavedBandHasNeitherBumpsNorGrass) {
-    TerrainForm form;
+    TerrainParameters form;
     form.max_slope_rad = 0;
     form.bump_m = 0.1;
     form.paved_half_width_m = 5;
@@ -52,7 +52,7 @@ TEST(TerrainTest, APavedBandHasNeitherBumpsNorGrass) {
 }
 
 TEST(TerrainTest, GrassIsPatchyAndNoTallerThanAskedFor) {
-    TerrainForm form;
+    TerrainParameters form;
     form.grass_m = 0.2;
     Random random(5);
     const Terrain terrain(form, random);
@@ -69,7 +69,7 @@ TEST(TerrainTest, GrassIsPatchyAndNoTallerThanAskedFor) {
 }
 
 TEST(TerrainTest, TheMeshIsTheGroundWithItsRoughness) {
-    TerrainForm form;
+    TerrainParameters form;
     form.roughness_m = 0.03;
     Random random(5);
     const Terrain terrain(form, random);

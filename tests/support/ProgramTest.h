@@ -1,4 +1,5 @@
 #pragma once
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <filesystem>
 #include <set>
@@ -23,7 +24,7 @@ class ProgramTest : public testing::Test {
         const std::set<std::filesystem::path> before = files();
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_THAT(outcome.err, testing::HasSubstr(words));
         EXPECT_EQ(outcome.out, "");
         EXPECT_EQ(files(), before);
     }

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/CampaignFolder.h>
@@ -11,6 +12,8 @@
 
 namespace hagen::trials {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using test::messageOf;
@@ -45,7 +48,7 @@ TEST(Journal, AFullDiskIsNamed) {
         journal.append(runOfSeed(1, folder), {});
         ADD_FAILURE() << "took a row that went nowhere";
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("/dev/full"), std::string::npos) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr("/dev/full"));
     }
 }
 
@@ -65,10 +68,9 @@ TEST(CampaignFolder, WhatIsInJournalsIsThereAgain) {
     const auto runs = readRuns(place / "c/runs.csv");
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_EQ(runs[0].seed, 1u);
-    EXPECT_NE(readFile(place / "c/measured.csv")
-                  .find("gap,1,W-RoI,astar,4,primitives,none,1,optimistic,,,2.000,2.900,,,,,0\n"),
-              std::string::npos)
-        << readFile(place / "c/measured.csv");
+    EXPECT_THAT(
+        readFile(place / "c/measured.csv"),
+        HasSubstr("gap,1,W-RoI,astar,4,primitives,none,1,optimistic,,,2.000,2.900,,,,,0\n"));
 }
 
 TEST(CampaignFolder, AFinishedOneIsAddedTo) {
@@ -110,10 +112,8 @@ TEST(CampaignFolder, OtherSettingsAreRefusedUnlessItBeginsAnew) {
         CampaignFolder folder(place / "c", constantProfile(1), false);
         journal(folder, {1});
     }
-    EXPECT_NE(messageOf([&] {
-                  CampaignFolder(place / "c", constantProfile(2), false);
-              }).find("other settings"),
-              std::string::npos);
+    EXPECT_THAT(messageOf([&] { CampaignFolder(place / "c", constantProfile(2), false); }),
+                HasSubstr("other settings"));
     EXPECT_EQ(CampaignFolder(place / "c", constantProfile(1), false).size(), 1u);
     EXPECT_EQ(CampaignFolder(place / "c", constantProfile(2), true).size(), 0u);
 }
@@ -133,9 +133,8 @@ TEST(CampaignFolder, AFolderOfOthersIsLeftAlone) {
 TEST(CampaignFolder, TwoProgramsDoNotWriteToOne) {
     const TemporaryFolder place;
     const CampaignFolder folder(place / "c", constantProfile(1), false);
-    EXPECT_NE(
-        messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }).find("another"),
-        std::string::npos);
+    EXPECT_THAT(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }),
+                HasSubstr("another"));
 }
 
 TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {
@@ -153,21 +152,21 @@ TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {
     EXPECT_EQ(mergeCampaigns({place / "a", place / "b"}, place / "m", false), 3u);
     EXPECT_EQ(readFile(place / "m/runs.csv"), readFile(place / "ab/runs.csv"));
     EXPECT_EQ(readFile(place / "m/measured.csv"), readFile(place / "ab/measured.csv"));
-    EXPECT_NE(messageOf([&] {
-                  mergeCampaigns({place / "a", place / "other"}, place / "n", false);
-              }).find("other settings"),
-              std::string::npos);
-    EXPECT_NE(messageOf([&] {
-                  mergeCampaigns({place / "a", place / "none"}, place / "o", false);
-              }).find("none"),
-              std::string::npos);
+    EXPECT_THAT(messageOf([&] {
+                    mergeCampaigns({place / "a", place / "other"}, place / "n", false);
+                }),
+                HasSubstr("other settings"));
+    EXPECT_THAT(messageOf([&] {
+                    mergeCampaigns({place / "a", place / "none"}, place / "o", false);
+                }),
+                HasSubstr("none"));
     std::string runs = readFile(place / "b/runs.csv");
     runs.replace(runs.rfind(",40.000,12"), 7, ",41.000");
     std::ofstream(place / "b/runs.csv", std::ios::binary) << runs;
-    EXPECT_NE(messageOf([&] {
-                  mergeCampaigns({place / "a", place / "b"}, place / "p", false);
-              }).find("contradicts"),
-              std::string::npos);
+    EXPECT_THAT(messageOf([&] {
+                    mergeCampaigns({place / "a", place / "b"}, place / "p", false);
+                }),
+                HasSubstr("contradicts"));
 }
 
 }  // namespace

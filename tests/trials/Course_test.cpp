@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/trials/Course.h>
@@ -10,6 +11,8 @@
 
 namespace hagen::trials {
 namespace {
+
+using testing::HasSubstr;
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -32,12 +35,12 @@ float leastClearanceStraight_m(const Course& course) {
     float least_m = 1e9f;
     for (double x_m = course.start_m.x(); x_m <= course.goal_m.x(); x_m += 0.05) {
         least_m =
-            std::min(least_m, course.distance.toStanding(above(course, x_m, 0, course.altitude_m)));
+            std::min(least_m, course.distance.toStatic(above(course, x_m, 0, course.altitude_m)));
     }
     return least_m;
 }
 
-int count(const Course& course, simulation::Kind kind) {
+int count(const Course& course, simulation::ObjectClass kind) {
     const auto& objects = course.scene.content().objects;
     return static_cast<int>(
         std::count_if(objects.begin(), objects.end(),
@@ -50,7 +53,7 @@ simulation::SimulatedScan scanAtStart(const Course& course, double time_s = 0) {
     };
     simulation::Random random(1);
     return simulation::simulateScan(course.scene, sensorModel("VLP-16"), pose_at, time_s, random,
-                                    trialFaults());
+                                    trialErrorModel());
 }
 
 /// The nearest that stands on the ground or moves, by rays in all directions.
@@ -62,7 +65,7 @@ double nearestThing_m(const Course& course, const Vector3f& from, double time_s)
         rays.push_back({from, Vector3d(a, b, d).normalized().cast<float>(), 0});
     }
     std::vector<simulation::RayHit> hits;
-    course.scene.during(time_s, 1e-6).cast(rays, 100, hits);
+    course.scene.snapshotOver(time_s, 1e-6).cast(rays, 100, hits);
     double nearest_m = 100;
     for (const simulation::RayHit& hit : hits) {
         if (simulation::labelOf(hit.kind) != Label::Roi) continue;
@@ -138,7 +141,7 @@ TEST(CourseTest, AForestHasAsManyTreesAsItsDensitySays) {
         const double expected = per_m2 * 56 * 34;  // less those at the ends: 3.9 m about each
         double mean = 0;
         for (std::uint64_t seed = 1; seed <= 3; ++seed)
-            mean += count(course(name, seed), simulation::Kind::Tree) / 3.0;
+            mean += count(course(name, seed), simulation::ObjectClass::Tree) / 3.0;
         EXPECT_NEAR(mean, expected - per_m2 * 2 * kPi * 3.9 * 3.9, 2.5 * std::sqrt(expected / 3))
             << name;
     }
@@ -156,7 +159,7 @@ double widestWay_m(const Course& c, double from_x_m, double to_x_m) {
         if (column < 0 || column >= columns || row < 0 || row >= rows) return;
         const int cell = column * rows + row;
         if (width_m[cell] >= 0) return;
-        const double here_m = static_cast<double>(c.distance.toStanding(
+        const double here_m = static_cast<double>(c.distance.toStatic(
             above(c, from_x_m + column * kCell_m, row * kCell_m - kHalfWidth_m, 2.0)));
         width_m[cell] = std::min(so_far_m, here_m);
         open.emplace(width_m[cell], cell);
@@ -191,7 +194,7 @@ TEST(CourseTest, TheTrapIsInTheWayAndCannotBeFlownOver) {
         for (const double height_m : {1.0, 2.0, 4.5}) {
             float least_m = 9;
             for (double x_m = 15; x_m < 32; x_m += 0.05) {
-                least_m = std::min(least_m, c.distance.toStanding(above(c, x_m, 0, height_m)));
+                least_m = std::min(least_m, c.distance.toStatic(above(c, x_m, 0, height_m)));
             }
             EXPECT_LT(least_m, 0.05f) << "seed " << seed << ", " << height_m << " m";
         }
@@ -208,10 +211,11 @@ TEST(CourseTest, WiresCrossTheStraightWayAboutAsHighAsOneFlies) {
         for (double x_m = 2; x_m < 40; x_m += 0.01) {
             rays.push_back({above(c, x_m, 0, 1.2), Vector3f::UnitZ(), 0, 2.0f});
         }
-        c.scene.during(0, 0.1).cast(rays, 2.0f, hits);
-        const auto wires = std::count_if(
-            hits.begin(), hits.end(),
-            [](const simulation::RayHit& hit) { return hit.kind == simulation::Kind::Wire; });
+        c.scene.snapshotOver(0, 0.1).cast(rays, 2.0f, hits);
+        const auto wires =
+            std::count_if(hits.begin(), hits.end(), [](const simulation::RayHit& hit) {
+                return hit.kind == simulation::ObjectClass::Wire;
+            });
         EXPECT_GT(wires, 2) << "seed " << seed;
         EXPECT_LT(wires, 4 * 3 * 4) << "seed " << seed;  // 24 mm each
     }
@@ -221,7 +225,7 @@ TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("movers", seed);
         ASSERT_EQ(c.scene.content().movers.size(), 6u);
-        for (const simulation::SceneMover& mover : c.scene.content().movers) {
+        for (const simulation::MovingObstacle& mover : c.scene.content().movers) {
             const auto at = [&](double time_s) {
                 return Eigen::Vector2d(simulation::poseOf(mover, c.scene.terrain(), time_s)
                                            .translation()
@@ -257,15 +261,16 @@ TEST(CourseTest, AnUnknownNameIsToldWithThoseKnown) {
         makeCourse("moon", 1);
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_NE(std::string(error.what()).find("'moon'"), std::string::npos);
-        EXPECT_NE(std::string(error.what()).find("u-trap"), std::string::npos);
+        EXPECT_THAT(error.what(), HasSubstr("'moon'"));
+        EXPECT_THAT(error.what(), HasSubstr("u-trap"));
     }
 }
 
 TEST(CourseTest, TrialsAreFlownWithoutDustAndAirframe) {
     const simulation::SimulatedScan scan = scanAtStart(course("street", 1));
-    for (const simulation::Kind kind : scan.kind)
-        ASSERT_TRUE(kind != simulation::Kind::Dust && kind != simulation::Kind::Airframe);
+    for (const simulation::ObjectClass kind : scan.kind)
+        ASSERT_TRUE(kind != simulation::ObjectClass::Dust &&
+                    kind != simulation::ObjectClass::Airframe);
 }
 
 }  // namespace

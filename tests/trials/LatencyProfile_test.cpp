@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/LatencyProfile.h>
@@ -6,6 +7,8 @@
 
 namespace hagen::trials {
 namespace {
+
+using testing::HasSubstr;
 
 using test::messageOf;
 using test::TemporaryFolder;
@@ -55,8 +58,8 @@ TEST(LatencyProfile, TheStandardOneHasEveryStage) {
 
 TEST(LatencyProfile, WhatItDoesNotHaveIsNamed) {
     const LatencyProfile profile;
-    EXPECT_NE(messageOf([&] { profile.median_ms("W-RoI/update"); }).find("\"W-RoI/update\""),
-              std::string::npos);
+    EXPECT_THAT(messageOf([&] { profile.median_ms("W-RoI/update"); }),
+                HasSubstr("\"W-RoI/update\""));
 }
 
 TEST(LatencyProfile, BrokenFilesAreNamedWithTheirKey) {

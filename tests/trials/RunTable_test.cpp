@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/simulation/Random.h>
 #include <hagen/trials/RunTable.h>
@@ -10,6 +11,8 @@
 
 namespace hagen::trials {
 namespace {
+
+using testing::HasSubstr;
 
 using Row = hagen::trials::Run;  // a test has a Run() of its own
 
@@ -42,28 +45,28 @@ TEST(RunTable, NothingIsMinusZeroAndNothingDependsOnTheLocale) {
     std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, where it is installed
     const std::string row = rowOf(run);
     std::setlocale(LC_ALL, "C");
-    EXPECT_NE(row.find(",success,0.0000,43.250,"), std::string::npos) << row;
+    EXPECT_THAT(row, HasSubstr(",success,0.0000,43.250,"));
 }
 
 /// Any run, of a few values each so that sorting meets equal ones.
 Row anyRun(simulation::Random& random) {
     Row run = someRun();
     run.scenario = random.chance(0.5) ? "gap" : "u-trap";
-    run.seed = random.below(1000000);
+    run.seed = random.uniformInt(1000000);
     run.setup.model = random.chance(0.5) ? "W-Full" : "O-RoI+rays-0.2";
     run.setup.guidance = random.chance(0.5) ? "straight" : "astar";
     run.setup.planner = random.chance(0.5) ? "3dvfh" : "primitives";
     run.setup.speed_m_s = random.chance(0.5) ? 10 : 2.5;
-    run.setup.pose_error = static_cast<PoseError>(random.below(3));
+    run.setup.pose_error = static_cast<PoseError>(random.uniformInt(3));
     run.setup.latency_scale = random.chance(0.5) ? 4 : 1;
     run.setup.brakes_in_known_space = random.chance(0.5);
-    run.result.outcome = static_cast<Outcome>(random.below(3));
+    run.result.outcome = static_cast<Outcome>(random.uniformInt(3));
     for (double TrialResult::*field :
          {&TrialResult::min_clearance_m, &TrialResult::path_m, &TrialResult::time_s,
           &TrialResult::rms_jerk_m_s3, &TrialResult::latency_max_ms}) {
         run.result.*field = random.chance(0.1) ? NAN : random.uniform(-1, 100);
     }
-    run.result.scans = random.below(300);
+    run.result.scans = random.uniformInt(300);
     return run;
 }
 
@@ -152,9 +155,8 @@ TEST(RunTable, SaysWhichFileIsNoTable) {
         return test::messageOf([&] { readRuns(file); });
     };
     EXPECT_EQ(said(folder / "no.csv"), (folder / "no.csv").string() + ": cannot be opened");
-    EXPECT_NE(said(folder.write("a.csv", "")).find("a.csv:1: is empty"), std::string::npos);
-    EXPECT_NE(said(folder.write("b.csv", "a,b\n1,2\n")).find("b.csv:1: not the header"),
-              std::string::npos);
+    EXPECT_THAT(said(folder.write("a.csv", "")), HasSubstr("a.csv:1: is empty"));
+    EXPECT_THAT(said(folder.write("b.csv", "a,b\n1,2\n")), HasSubstr("b.csv:1: not the header"));
 }
 
 TEST(RunTable, NamesOfPoseErrorsAreReadBack) {

@@ -8,7 +8,7 @@ namespace hagen::test {
 
 /// 20 m along x, 2 m above level ground.
 inline trials::Course simpleCourse(simulation::SceneContent content, std::uint64_t seed = 1) {
-    put(content, simulation::Kind::Terrain, 0, plane());
+    put(content, simulation::ObjectClass::Terrain, 0, plane());
     const simulation::Scene scene(std::move(content));
     const Eigen::AlignedBox3d bounds(Eigen::Vector3d(-6, -12, -1), Eigen::Vector3d(26, 12, 6));
     return {"simple",  seed,
@@ -22,7 +22,7 @@ inline trials::Course simpleCourse(simulation::SceneContent content, std::uint64
 inline void putWall(simulation::SceneContent& content, float from_y_m, float to_y_m) {
     simulation::Shape wall;
     wall.addBox({10.0f, from_y_m, 0}, {10.2f, to_y_m, 8});
-    put(content, simulation::Kind::Wall, 1, std::move(wall));
+    put(content, simulation::ObjectClass::Wall, 1, std::move(wall));
 }
 
 }  // namespace hagen::test

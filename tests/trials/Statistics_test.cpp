@@ -33,8 +33,8 @@ TEST(WilsonInterval, NoneOf200StillAllowsNearly2Percent) {
 TEST(WilsonInterval, EndsWhereTheScoreTestWouldJustNotReject) {
     simulation::Random random(1);
     for (int i = 0; i < 200; ++i) {
-        const int n = 1 + random.below(400);
-        const int k = random.below(n + 1);
+        const int n = 1 + random.uniformInt(400);
+        const int k = random.uniformInt(n + 1);
         const Bounds bounds = wilsonInterval(k, n, 0.9);
         for (const double share : {bounds.low, bounds.high}) {
             if (share == 0 || share == 1) continue;
@@ -100,8 +100,8 @@ TEST(PairedDifference, WithoutCorrelationIsThatOfIndependentShares) {
 TEST(PairedDifference, TurnsRoundWithItsSidesAndHoldsTheDifference) {
     simulation::Random random(3);
     for (int i = 0; i < 500; ++i) {
-        const int a = random.below(60), b = random.below(20);
-        const int c = random.below(20), d = random.below(60);
+        const int a = random.uniformInt(60), b = random.uniformInt(20);
+        const int c = random.uniformInt(20), d = random.uniformInt(60);
         const Bounds bounds = pairedDifferenceInterval(a, b, c, d);
         const Bounds turned = pairedDifferenceInterval(a, c, b, d);
         EXPECT_NEAR(bounds.low, -turned.high, 1e-12);

@@ -70,7 +70,9 @@ TEST(TrialSensor, AWallIsOfInterestAndTheGroundIsNot) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] == Label::Unclassified || measured.scan.range_m[i] > 19) continue;
         ++all;
-        right += (labels[i] == Label::Roi) == (measured.kind[i] == simulation::Kind::Wall) ? 1 : 0;
+        right += (labels[i] == Label::Roi) == (measured.kind[i] == simulation::ObjectClass::Wall)
+                     ? 1
+                     : 0;
     }
     EXPECT_GT(all, 3000);
     EXPECT_GT(right, 0.95 * all);

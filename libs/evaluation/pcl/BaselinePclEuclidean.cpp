@@ -27,7 +27,7 @@ void requireSensible(const PclEuclideanOptions& options) {
     if (!is_sensible) {
         throw std::invalid_argument("pcl baseline: every length, angle and count is above zero");
     }
-    // PCL numbers voxels with 32 bits, and says so on the terminal only.
+    // PCL numbers voxels with 32 bits and reports an overflow on the terminal only.
     const double edge = std::ceil(2.0 * static_cast<double>(options.zone_m / options.leaf_m)) + 1.0;
     if (edge * edge * edge > static_cast<double>(std::numeric_limits<std::int32_t>::max())) {
         throw std::invalid_argument("pcl baseline: voxels of " + std::to_string(options.leaf_m) +
@@ -36,7 +36,7 @@ void requireSensible(const PclEuclideanOptions& options) {
     }
 }
 
-/// PCL writes to the terminal that it found no plane, which is an answer here and no error.
+/// Silences PCL's terminal message for "no plane found", which is a valid result here.
 class SilentPcl {
  public:
     SilentPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
@@ -48,11 +48,11 @@ class SilentPcl {
     pcl::console::VERBOSITY_LEVEL before_ = pcl::console::getVerbosityLevel();
 };
 
-/// The largest plane that is level enough to be ground; empty where there is none.
+/// Returns the largest plane that is level enough to be ground; empty if there is none.
 pcl::PointIndices findGround(const Cloud::ConstPtr& cloud, const PclEuclideanOptions& options) {
     pcl::PointIndices ground;
     if (cloud->size() < 3) return ground;
-    pcl::SACSegmentation<pcl::PointXYZ> plane_search(false);  // false: samples as last time
+    pcl::SACSegmentation<pcl::PointXYZ> plane_search(false);  // false: same samples every time
     plane_search.setModelType(pcl::SACMODEL_PERPENDICULAR_PLANE);
     plane_search.setAxis(Eigen::Vector3f::UnitZ());
     plane_search.setEpsAngle(radians(static_cast<double>(options.plane_tilt_deg)));
@@ -67,7 +67,7 @@ pcl::PointIndices findGround(const Cloud::ConstPtr& cloud, const PclEuclideanOpt
     return ground;
 }
 
-/// Which points are in a cluster of those that are not ground.
+/// Marks the points that are in a cluster of non-ground points.
 std::vector<bool> findObstacles(const Cloud::ConstPtr& cloud, const PclEuclideanOptions& options) {
     std::vector<bool> is_rest(cloud->size(), true);
     for (const auto i : findGround(cloud, options).indices) is_rest[i] = false;
@@ -101,7 +101,7 @@ std::vector<Label> pclEuclideanLabels(const Scan& scan, const SensorModel& senso
     requireSensible(options);
     std::vector<Label> labels(scan.size(), Label::Unclassified);
     const Cloud::Ptr near(new Cloud);
-    std::vector<std::size_t> returns;  // of the scan, in the order of the cloud
+    std::vector<std::size_t> returns;  // indices in the scan, in the order of the cloud
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (!sensor.sees(scan.range_m[i])) continue;
         labels[i] = Label::Rou;

@@ -6,14 +6,15 @@
 
 namespace hagen::base {
 
-/// The shortest text that reads back as the same number, whatever the locale.
+/// Returns the shortest representation that round-trips, independent of the locale.
 std::string shortestText(double value);
 std::string shortestText(float value);
 
-/// With this many decimals, '.' whatever the locale, and no minus sign before zeros alone.
+/// Returns the number with this many decimals, with '.' independent of the locale, and without a
+/// minus sign if all digits are zero.
 std::string fixedText(double value, int decimals);
 
-/// The number that the whole text is, whatever the locale; nothing where it is anything else.
+/// Parses the entire text as a number, independent of the locale; nullopt for anything else.
 template <class Number>
 std::optional<Number> numberFrom(std::string_view text) {
     Number value{};

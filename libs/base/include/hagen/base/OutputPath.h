@@ -4,38 +4,39 @@
 
 namespace hagen::base {
 
-/// What an output is made of. Only an output of the same kind is replaced: anything else in its
-/// place is somebody's work.
+/// The type of an output. An existing output is replaced only by one of the same type; anything
+/// else in its place belongs to the user.
 struct OutputKind {
     const char* what;  ///< "a scan folder", for messages
-    /// Whether a file belongs to such a folder, by its path within it; null for outputs that are a
-    /// file.
+    /// True if a file belongs to such a folder, by its path within the folder; null for outputs
+    /// that are files.
     bool (*holds)(const std::filesystem::path& within);
 };
 constexpr OutputKind kFile{"a file", nullptr};
 
-/// A file or folder that is written beside its place under a temporary name, and appears under its
-/// own only when it is whole.
+/// A file or folder that is written next to its destination under a temporary name and renamed when
+/// complete.
 class OutputPath {
  public:
-    /// Throws std::runtime_error, naming the path, where it exists and `overwrite` is not set;
-    /// where it exists and is of another kind (a folder for a file, a device, a folder that holds
-    /// anything but the kind's files): such are never replaced; and where its folder is missing.
+    /// Throws std::runtime_error if the path exists and `overwrite` is not set, or if its parent
+    /// folder is missing. Existing paths of another type are never replaced (a folder for a file, a
+    /// device, a folder with files of any other type): throws as well. The message names the path.
     OutputPath(std::filesystem::path path, const OutputKind& kind, bool overwrite);
-    /// Removes what was written, unless commit() or keepPartial() was called.
+    /// Removes the temporary file unless commit() or keepPartial() was called.
     ~OutputPath();
     OutputPath(const OutputPath&) = delete;
     OutputPath& operator=(const OutputPath&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// Where to write: beside path(), on the same file system, a name that nothing has.
+    /// Where to write: an unused name next to path(), on the same file system.
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Gives what was written its name; replaces what had it. Where something has that name since
-    /// that may not be replaced, keeps this as a part, and throws std::runtime_error that says so.
+    /// Renames the output into place and replaces an older one. If the path has been taken by
+    /// something that must not be replaced, keeps the output as a partial one and throws
+    /// std::runtime_error that says so.
     void commit();
-    /// Names it as part of an output: "x.rawlog" becomes "x.partial.rawlog", or
-    /// "x.partial-2.rawlog" where that is taken. Returns that name.
+    /// Keeps the output under a partial name: "x.rawlog" becomes "x.partial.rawlog", or
+    /// "x.partial-2.rawlog" if that is taken. Returns the name.
     std::filesystem::path keepPartial();
 
  private:
@@ -46,8 +47,8 @@ class OutputPath {
     bool overwrites_;
 };
 
-/// Throws std::runtime_error, naming them, where an output is one of the inputs or holds one, or
-/// lies in another output. Empty paths are none.
+/// Throws std::runtime_error if an output is an input, contains an input, or lies in another
+/// output; the message names both. Empty paths are ignored.
 void checkApart(const std::vector<std::filesystem::path>& outputs,
                 const std::vector<std::filesystem::path>& inputs);
 

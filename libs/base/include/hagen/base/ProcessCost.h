@@ -3,11 +3,11 @@
 
 namespace hagen::base {
 
-/// CPU time that this thread has used.
+/// CPU time used by this thread.
 std::chrono::nanoseconds threadCpuTime();
 double threadCpuTime_ms();
 
-/// What the heap of this process holds, all threads together [bytes].
+/// Heap memory in use by this process, all threads together [bytes].
 double heapBytes();
 
 }  // namespace hagen::base

@@ -3,14 +3,13 @@
 
 namespace hagen::base {
 
-/// The value below which a share (0 to 1) of the values lies, interpolated between ranks; NaN
-/// without values.
+/// Returns the quantile of a fraction (0 to 1), interpolated between ranks; NaN without values.
 double quantile(std::vector<double> values, double share);
-/// The same for values in ascending order, of which there is at least one.
+/// The same for values in ascending order, at least one.
 double quantileOfSorted(const std::vector<double>& ascending, double share);
 
-/// The smallest value that a share (0 to 1) of the values does not exceed (nearest rank); values in
-/// ascending order, at least one.
+/// Returns the smallest value that a fraction (0 to 1) of the values does not exceed (nearest
+/// rank); values in ascending order, at least one.
 double nearestRankOfSorted(const std::vector<double>& ascending, double share);
 
 }  // namespace hagen::base

@@ -8,36 +8,37 @@
 
 namespace hagen::base {
 
-/// Throws std::runtime_error: `file` cannot be written, and why as errno tells.
-[[noreturn]] inline void failToWrite(const std::filesystem::path& file, int error_number) {
+/// Throws std::runtime_error: `file` cannot be written, with the reason in `error_number` (an
+/// errno).
+[[noreturn]] inline void throwWriteError(const std::filesystem::path& file, int error_number) {
     throw std::runtime_error(file.string() + ": cannot be written" +
                              (error_number == 0 ? "; is the disk full?"
                                                 : std::string(": ") + std::strerror(error_number)));
 }
 
-/// Opens a file to be written at `place`, such as an OutputPath's temporary name. Throws
-/// std::runtime_error, naming `file` and why, where that cannot be.
+/// Opens a file for writing at `place`, for example an OutputPath's temporary name. Throws
+/// std::runtime_error if it cannot be opened; the message names `file` and the reason.
 inline std::ofstream openToWrite(const std::filesystem::path& place,
                                  const std::filesystem::path& file) {
     errno = 0;
     std::ofstream out(place, std::ios::binary);
-    if (!out) failToWrite(file, errno);
+    if (!out) throwWriteError(file, errno);
     return out;
 }
 
-/// Closes a file that was written. Throws std::runtime_error, naming it and why, where not all
-/// arrived.
+/// Closes a written file. Throws std::runtime_error if not all data was written; the message names
+/// the file and the reason.
 inline void closeWritten(std::ofstream& out, const std::filesystem::path& file) {
     const bool is_whole = static_cast<bool>(out);
     out.clear();
-    // What failed earlier is tried once more: errno may be of something else since.
+    // Retries an earlier failure, because errno may have changed since.
     if (!is_whole) out << '\n';
     errno = 0;
     out.close();
-    if (!is_whole || !out) failToWrite(file, errno);
+    if (!is_whole || !out) throwWriteError(file, errno);
 }
 
-/// Writes all of a file. Throws as openToWrite() and closeWritten() do.
+/// Writes an entire file. Throws like openToWrite() and closeWritten().
 inline void writeText(const std::string& text, const std::filesystem::path& place,
                       const std::filesystem::path& file) {
     std::ofstream out = openToWrite(place, file);

@@ -8,18 +8,19 @@
 
 namespace hagen::evaluation {
 
-/// A published segmenter to stand beside the filter, ready to run.
+/// A published segmenter, ready to run, to compare the filter with.
 struct Baseline {
     std::string name;        ///< short, for a row of a table
-    std::string source;      ///< who published it, where
-    std::string parameters;  ///< those it runs with
-    /// An entry a return: Unclassified out of the sensor's range, else Rou or Roi. Keeps nothing
-    /// between calls.
+    std::string source;      ///< authors and publication
+    std::string parameters;  ///< as text
+    /// Returns one label per return: Unclassified outside the sensor's range limits, otherwise Rou
+    /// or Roi. No state carries over between calls.
     std::function<std::vector<Label>(const Scan&, const SensorModel&)> segment;
 };
 
-/// All baselines of this library, each as published and as tuned on labelled scans;
-/// docs/baselines.md tells them apart. Returns farther than `zone_m` are ROU, as with the filter.
+/// Returns all baselines of this library, each with published and with tuned parameters (on
+/// labelled scans); docs/baselines.md lists both. Returns farther than `zone_m` are ROU, as with
+/// the filter.
 std::vector<Baseline> baselines(float zone_m);
 
 }  // namespace hagen::evaluation

@@ -6,7 +6,7 @@
 
 namespace hagen::evaluation {
 
-/// A confidence interval; NaN where there is none.
+/// A confidence interval; NaN if there is none.
 struct Interval {
     double low = NAN, high = NAN;
 };
@@ -14,10 +14,10 @@ struct Interval {
 struct BootstrapOptions {
     int resamples = 1000;  ///< 0: no intervals
     std::uint64_t seed = 1;
-    double level = 0.95;  ///< how often the interval shall hold the true value
+    double level = 0.95;  ///< confidence level
 };
 
-/// Intervals of the figures of Scores.
+/// Confidence intervals of the ratios of Scores.
 struct ScoreIntervals {
     struct OfClass {
         Interval precision, recall, f1;
@@ -26,12 +26,13 @@ struct ScoreIntervals {
     Interval correct;
 };
 
-/// Confidence intervals of the summed scores of scans, by the percentile bootstrap (Efron and
-/// Tibshirani, An Introduction to the Bootstrap, 1993, section 13.3): scans are drawn with
-/// replacement, as many as there are, their counts are summed, and of the figures of all resamples
-/// the middle `level` is the interval. Scans, not returns, are drawn, for the returns of one scan
-/// are not independent of each other. Scans of one drive are not, either: then intervals are too
-/// narrow. A figure that is NaN in a resample takes no part. No intervals of fewer than two scans.
+/// Returns confidence intervals of the summed scores of scans, by the percentile bootstrap (Efron
+/// and Tibshirani, An Introduction to the Bootstrap, 1993, section 13.3). Each resample draws as
+/// many scans as there are, with replacement, and sums their counts; the interval is the central
+/// `level` of the resampled ratios. Scans are drawn instead of returns because the returns of one
+/// scan are not independent. Scans of one drive are not independent either: the intervals are then
+/// too narrow. A ratio that is NaN in a resample is excluded. There are no intervals for fewer than
+/// two scans.
 ScoreIntervals bootstrapIntervals(const std::vector<Scores>& scans,
                                   const BootstrapOptions& options = {});
 

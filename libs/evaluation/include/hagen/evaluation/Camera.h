@@ -7,12 +7,13 @@
 
 namespace hagen::evaluation {
 
-/// A pinhole camera without distortion, beside the LiDAR.
+/// A pinhole camera without distortion, mounted next to the LiDAR.
 struct PinholeCamera {
     int width_px = 0, height_px = 0;
     double fx_px = 0, fy_px = 0;  ///< focal lengths
-    double cx_px = 0, cy_px = 0;  ///< principal point; (0, 0) is the middle of the top left pixel
-    /// The camera's body (x forward along the optical axis, y left, z up) in the sensor's frame.
+    double cx_px = 0, cy_px = 0;  ///< principal point; (0, 0) is the centre of the top left pixel
+    /// Pose of the camera body (x forward along the optical axis, y left, z up) in the sensor's
+    /// frame.
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
 
@@ -29,17 +30,17 @@ struct PinholeCamera {
 ///     pitch_deg: 0               # down; then
 ///     roll_deg: 0                # to the right
 ///
-/// Every key is required. Throws std::runtime_error, naming file and key.
+/// Every key is required. Throws std::runtime_error; the message names file and key.
 PinholeCamera readCamera(const std::filesystem::path& file);
 
-/// A pixel, and the return that is seen in it.
+/// A pixel and the return visible in it.
 struct CameraPixel {
     int u = 0, v = 0;  ///< column from the left, row from the top
     std::size_t index = 0;
 };
 
-/// Which returns a camera sees, one a pixel: the nearest to the camera of those that fall into it.
-/// Sorted by row and column. Returns without a range are not seen.
+/// Returns the pixels with a visible return: of the returns that project to one pixel, the nearest
+/// to the camera. Sorted by row and column. Returns without a range are ignored.
 std::vector<CameraPixel> visibleReturns(const PinholeCamera& camera, const Scan& scan);
 
 }  // namespace hagen::evaluation

@@ -8,14 +8,15 @@
 
 namespace hagen::evaluation {
 
-/// Labelled scans of one sensor, wherever they come from.
-struct ScanSource {
+/// Labelled scans of one sensor, from any source.
+struct LabelledScanSource {
     std::string name;  ///< in tables
     std::size_t scans = 0;
-    std::function<TrueScan(std::size_t scan)> read;
+    std::function<GroundTruthScan(std::size_t scan)> read;
     std::function<std::string(std::size_t scan)> scanName;  ///< for messages
-    LabelMap kinds;                                         ///< what the kinds of its scans are
-    /// Makes the methods for its sensor: of the same names, in the same order, for each source.
+    LabelMap kinds;                                         ///< the object classes of its scans
+    /// Creates the methods for its sensor; every source must return the same names in the same
+    /// order.
     std::function<std::vector<Method>()> makeMethods;
 };
 
@@ -24,30 +25,32 @@ struct EvaluationOptions {
     std::optional<PinholeCamera> camera;  ///< scores over its pixels too
 };
 
-/// What one method reached, scan by scan.
+/// The results of one method, scan by scan.
 struct MethodScores {
     std::string name;
     std::vector<ScanScores> returns;  ///< over returns
-    std::vector<ScanScores> pixels;  ///< over the camera's pixels, a return each; without one empty
+    std::vector<ScanScores>
+        pixels;  ///< over the camera's pixels, one return each; empty without a camera
     std::vector<double> latency_ms;  ///< of each call of Method::segment
 };
 
-/// A scan as one method labelled it, for those who want to look.
-struct LabelledView {
+/// A scan as labelled by one method, for visualisation.
+struct MethodOutput {
     std::size_t source, scan;
-    std::size_t method, methods;  ///< which, of how many
+    std::size_t method, methods;  ///< index of the method, and number of methods
     const std::string& method_name;
-    const TrueScan& truth;
+    const GroundTruthScan& truth;
     const std::vector<Label>& found;
     const std::vector<CameraPixel>& pixels;  ///< empty without a camera
 };
-using EvaluationListener = std::function<void(const LabelledView&)>;
+using EvaluationListener = std::function<void(const MethodOutput&)>;
 
-/// Segments every scan with every method, and scores the labels. One scan is in memory at a time.
-/// A method sees the first scan of each source twice, the first time to warm up, unscored and
-/// untimed. Throws std::runtime_error, naming the scan, where labels do not fit it, and
-/// std::invalid_argument where there is no source, or sources have different methods.
-std::vector<MethodScores> evaluate(const std::vector<ScanSource>& sources,
+/// Segments every scan with every method and scores the labels. Only one scan is in memory at a
+/// time. Every method processes the first scan of each source twice; the first time is a warm-up,
+/// neither scored nor timed. Throws std::runtime_error if labels do not fit a scan (the message
+/// names it), and std::invalid_argument if there is no source or the sources have different
+/// methods.
+std::vector<MethodScores> evaluate(const std::vector<LabelledScanSource>& sources,
                                    const EvaluationOptions& options = {},
                                    const EvaluationListener& listener = {});
 

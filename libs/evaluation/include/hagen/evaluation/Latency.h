@@ -5,13 +5,14 @@
 
 namespace hagen::evaluation {
 
-/// How long something took, in milliseconds; NaN where it never ran.
+/// Statistics of run times, in milliseconds; NaN without runs.
 struct Latency {
     std::size_t runs = 0;
     double mean_ms = NAN;
-    double sd_ms = NAN;  ///< of a sample: runs - 1 in the denominator; NaN below two runs
+    double sd_ms =
+        NAN;  ///< sample standard deviation (denominator runs - 1); NaN for fewer than two runs
     double p50_ms = NAN, p95_ms = NAN,
-           p99_ms = NAN;  ///< the smallest that this share did not exceed
+           p99_ms = NAN;  ///< the smallest value that this percentage does not exceed
     double max_ms = NAN;
 };
 

@@ -9,16 +9,16 @@
 
 namespace hagen::evaluation {
 
-/// What a method is given of a scan.
+/// The input of a method for one scan.
 struct ScanInput {
     Scan scan;  ///< with range, azimuth and row
-    /// Turns directions of the sensor's frame into the map's, whose z points up. None where the
-    /// pose is not known.
+    /// Rotates directions from the sensor's frame to the map's, whose z points up. nullopt if the
+    /// pose is unknown.
     std::optional<Eigen::Matrix3f> map_from_sensor;
 };
 
-/// A way to segment scans of one sensor, by the name it has in tables: the filter, or one to
-/// compare it with. `segment` gives a label for each return of the scan.
+/// A segmenter for scans of one sensor and its name in tables: the filter or a baseline. `segment`
+/// returns one label per return of the scan.
 struct Method {
     std::string name;
     std::function<std::vector<Label>(const ScanInput& input)> segment;

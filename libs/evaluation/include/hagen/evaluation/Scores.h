@@ -4,33 +4,34 @@
 
 namespace hagen::evaluation {
 
-/// Precision, recall and F1 of one class, and the counts behind them.
+/// Precision, recall and F1 of one class, and the underlying counts.
 struct ClassScore {
-    std::int64_t hits = 0;    ///< of the class, and found to be
-    std::int64_t misses = 0;  ///< of the class, and not found to be (unclassified counts here)
-    std::int64_t false_alarms = 0;  ///< found to be of the class, and of the other
+    std::int64_t hits = 0;    ///< true positives
+    std::int64_t misses = 0;  ///< false negatives (unclassified returns included)
+    std::int64_t false_alarms =
+        0;  ///< false positives: labelled as this class, belong to the other
 
-    double precision() const;  ///< NaN where nothing was found
-    double recall() const;     ///< NaN where nothing is of the class
-    double f1() const;         ///< NaN where there is neither
+    double precision() const;  ///< NaN if nothing was labelled as this class
+    double recall() const;     ///< NaN if nothing belongs to this class
+    double f1() const;         ///< NaN if both are empty
 
     ClassScore& operator+=(const ClassScore& other);
 };
 
-/// Scores of both classes. Sums are micro-averages: counts are added over returns and scans before
-/// ratios are taken.
+/// Scores of both classes. Sums are micro-averages: counts are summed over returns and scans before
+/// ratios are computed.
 struct Scores {
     ClassScore roi, rou;
 
-    /// Returns that were scored.
+    /// Number of scored returns.
     std::int64_t returns() const;
-    /// Share of the returns that were found to be what they are; NaN where there are none.
+    /// Fraction of returns with the correct label; NaN without returns.
     double correct() const;
 
     Scores& operator+=(const Scores& other);
 };
 
-/// Adds one return, or one pixel. Nothing is added where its true label is Unclassified.
+/// Adds one return or one pixel. Ignored if its ground-truth label is Unclassified.
 void addScore(Label truth, Label found, Scores& scores);
 
 }  // namespace hagen::evaluation

@@ -7,16 +7,16 @@
 
 namespace hagen::labelled_scans {
 
-/// A folder of such charts (by_*.svg, sweep_*.svg).
+/// A folder of these charts (by_*.svg, sweep_*.svg).
 extern const base::OutputKind kCharts;
 
-/// Draws SVG charts into a folder that exists, of scores over returns with their intervals:
+/// Draws SVG charts of scores over returns, with confidence intervals, into an existing folder:
 ///
-///     by_range.svg, by_altitude.svg   F1 of RoI and ROU, a line a method (of up to seven methods)
-///     by_kind.svg                     recall of each kind of object
+///     by_range.svg, by_altitude.svg   F1 of RoI and ROU, one line per method (up to seven)
+///     by_kind.svg                     recall of each object class
 ///     sweep_KEY.svg                   F1 of RoI and ROU over the values of a sweep
 ///
-/// Charts of what is not known are left out. Throws std::runtime_error as runGnuplot() does.
+/// Charts without data are skipped. Throws std::runtime_error like runGnuplot().
 void drawCharts(const std::filesystem::path& folder, const Summary& summary);
 
 }  // namespace hagen::labelled_scans

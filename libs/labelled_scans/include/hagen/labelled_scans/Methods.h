@@ -1,4 +1,4 @@
-// The methods that are scored: the filter with each of its settings, and what it is compared with.
+// The scored methods: the filter with each of its settings, and the baselines.
 #pragma once
 #include <hagen/evaluation/Method.h>
 #include <hagen/observations/Settings.h>
@@ -9,32 +9,32 @@
 
 namespace hagen::labelled_scans {
 
-/// The filter with these settings, as a row of the table.
-struct SettingsRow {
+/// The filter with one set of settings: one row of the table.
+struct SweepPoint {
     std::string name;
     observations::Settings settings;
-    std::string sweep_key;  ///< of a sweep, else empty
+    std::string sweep_key;  ///< key of the sweep; empty: no sweep
     std::string sweep_value;
 };
 
-/// The row "hagen" where there are no sweeps, else a row for each value of each "KEY=VALUE,VALUE".
-/// Throws SettingsError for a sweep that cannot be read, or settings that do not go together.
-std::vector<SettingsRow> rowsOf(const observations::Settings& settings,
-                                const std::vector<std::string>& sweeps);
+/// Returns one row "hagen" without sweeps, otherwise one row per value of each "KEY=VALUE,VALUE".
+/// Throws SettingsError if a sweep cannot be parsed or settings are inconsistent.
+std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
+                               const std::vector<std::string>& sweeps);
 
-/// All that is scored: the filter's rows, then, where asked for, what it is compared with.
-struct MethodRows {
-    std::vector<SettingsRow> filter;
-    std::optional<observations::Settings> baselines;  ///< the baselines get its zone and its sensor
+/// All scored methods: the filter's rows, then the baselines if requested.
+struct MethodSet {
+    std::vector<SweepPoint> filter;
+    std::optional<observations::Settings> baselines;  ///< provides zone and sensor of the baselines
 };
 
-/// Settings with those of a recording merged in, where it has some.
+/// Returns the settings with those of a recording merged in, if it has any.
 observations::Settings settingsFor(observations::Settings settings,
                                    const std::filesystem::path& sensor_file);
 
-/// The methods for a recording with these settings of its own. PCL's baselines are among them where
-/// the program was built with PCL.
-std::vector<evaluation::Method> methodsFor(const MethodRows& rows,
+/// Returns the methods for a recording with its own settings. Includes PCL's baselines if the
+/// program was built with PCL.
+std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file);
 
 }  // namespace hagen::labelled_scans

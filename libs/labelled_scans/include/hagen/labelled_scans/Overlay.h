@@ -1,4 +1,4 @@
-// Pictures of what a camera sees of the labels.
+// Labels drawn in a camera's view.
 #pragma once
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>
@@ -6,15 +6,15 @@
 
 namespace hagen::labelled_scans {
 
-/// A folder of such pictures (*_overlay.png), or of folders of them.
+/// A folder of these pictures (*_overlay.png), or of folders of them.
 extern const base::OutputKind kOverlays;
 
-/// Draws the pixels of a labelled scan as they were scored: RoI and ROU found, RoI missed, ROU
-/// taken for RoI, each in a colour; pixels that are not scored pale. The picture is
-/// FOLDER/<source>_<scan>_overlay.png; of several methods FOLDER/<method>/...
-/// Throws std::runtime_error as runGnuplot() does.
-void drawOverlay(const std::filesystem::path& folder, const evaluation::ScanSource& source,
-                 const evaluation::LabelledView& view,
+/// Draws the pixels of a labelled scan by outcome: correct RoI, correct ROU, missed RoI and false
+/// RoI each have a colour; pixels that are not scored are pale. The picture is
+/// FOLDER/SOURCE_SCAN_overlay.png; with several methods, FOLDER/METHOD/... Throws
+/// std::runtime_error like runGnuplot().
+void drawOverlay(const std::filesystem::path& folder, const evaluation::LabelledScanSource& source,
+                 const evaluation::MethodOutput& view,
                  const evaluation::EvaluationOptions& options);
 
 }  // namespace hagen::labelled_scans

@@ -1,4 +1,4 @@
-// What an evaluation found, summed up for the tables, the JSON file and the charts.
+// The results of an evaluation, summed for the tables, the JSON file and the charts.
 #pragma once
 #include <hagen/evaluation/Breakdown.h>
 #include <hagen/evaluation/Evaluation.h>
@@ -11,28 +11,28 @@
 
 namespace hagen::labelled_scans {
 
-/// The scores of a group of scans, or of parts of scans.
-struct SummedGroup {
+/// Total scores of a group of scans or of parts of scans.
+struct GroupTotals {
     std::string name;
     std::size_t scans = 0;
     evaluation::Scores scores;
     evaluation::ScoreIntervals intervals;
 };
 
-/// Scores over returns or over pixels, in all and in parts.
-struct SummedScores {
-    SummedGroup all;
-    std::vector<SummedGroup> by_range, by_altitude, by_kind, by_folder;
+/// Scores over returns or over pixels, in total and by part.
+struct ScoreTotals {
+    GroupTotals all;
+    std::vector<GroupTotals> by_range, by_altitude, by_kind, by_folder;
 };
 
-struct SummedMethod {
+struct MethodTotals {
     std::string name;
-    std::string sweep_key, sweep_value;  ///< of a sweep, else empty
+    std::string sweep_key, sweep_value;  ///< key of the sweep; empty: no sweep
     evaluation::Latency latency;
-    SummedScores returns, pixels;  ///< pixels: zero scans where no camera was given
+    ScoreTotals returns, pixels;  ///< pixels: zero scans without a camera
 };
 
-/// A run of the program: what it was asked, and what it found.
+/// A run of the program: its parameters and results.
 struct Summary {
     std::vector<std::string> command_line;
     std::vector<std::string> folders;       ///< paths
@@ -42,11 +42,11 @@ struct Summary {
     std::string label_map, camera;  ///< files, or empty
     evaluation::BootstrapOptions bootstrap;
     std::size_t scans = 0;
-    std::vector<SummedMethod> methods;
+    std::vector<MethodTotals> methods;
 };
 
-/// Sums up, and computes intervals, by the options in `summary`; its methods are filled.
-void sumUp(const std::vector<evaluation::MethodScores>& methods,
-           const std::vector<SettingsRow>& rows, Summary& summary);
+/// Sums the scores and computes intervals with the options in `summary`, and fills its methods.
+void addScores(const std::vector<evaluation::MethodScores>& methods,
+               const std::vector<SweepPoint>& rows, Summary& summary);
 
 }  // namespace hagen::labelled_scans

@@ -1,4 +1,4 @@
-// The report that machines read.
+// The machine-readable report.
 #pragma once
 #include <filesystem>
 
@@ -6,7 +6,7 @@
 
 namespace hagen::labelled_scans {
 
-/// Writes all of a summary as JSON:
+/// Writes the entire summary as JSON:
 ///
 ///     {"hagen": version, "compiler": ..., "command_line": [...], "folders": [{name, path}, ...],
 ///      "settings": {key: value, ...}, "label_map": FILE or null, "camera": FILE or null,
@@ -22,7 +22,7 @@ namespace hagen::labelled_scans {
 ///     CLASS: {"hits": n, "misses": n, "false_alarms": n, "precision": x, "recall": x, "f1": x,
 ///             "precision_interval": [low, high], "recall_interval": ..., "f1_interval": ...}
 ///
-/// What is not defined is null. Throws std::runtime_error, naming the file.
+/// Undefined values are null. Throws std::runtime_error; the message names the file.
 void writeJson(const std::filesystem::path& file, const Summary& summary);
 
 }  // namespace hagen::labelled_scans

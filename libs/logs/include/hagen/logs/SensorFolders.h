@@ -6,7 +6,7 @@
 
 namespace hagen::logs {
 
-/// An output folder with a part for each sensor of a log: DIR/<sensor label>/, or DIR itself where
+/// An output folder with a part for each sensor of a log: DIR/LABEL/, or DIR itself where
 /// the log has but one. Appears under its name when whole.
 class SensorFolders {
  public:

@@ -4,16 +4,16 @@
 
 namespace hagen::mapping {
 
-/// Whether the name ends as that of a map: .bt, .ot, .3Dscene.
+/// True if the name ends like a map's: .bt, .ot, .3Dscene.
 bool isMapFile(const std::filesystem::path& file);
-/// Throws std::runtime_error, naming the file and the endings, where it does not.
+/// Throws std::runtime_error if it does not; the message names the file and the endings.
 void checkMapFile(const std::filesystem::path& file);
 
-/// Writes the map by the file's ending: .bt (occupied or free), .ot (probabilities), .3Dscene (what
-/// is occupied, for SceneViewer3D). Throws std::runtime_error, naming the file, for any other, and
-/// where writing fails. Writes in place: callers use OutputPath.
+/// Writes the map in the format of the file's ending: .bt (occupied or free), .ot (probabilities),
+/// .3Dscene (occupied voxels, for SceneViewer3D). Throws std::runtime_error for any other ending
+/// and if writing fails; the message names the file. Writes in place: callers use OutputPath.
 void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file);
-/// The same into a file of any name, as if it were `named`.
+/// The same into a file of any name, in the format of `named`.
 void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file,
              const std::filesystem::path& named);
 

@@ -5,13 +5,13 @@
 
 namespace hagen::mapping {
 
-/// A segmented scan in the map: each return at the pose that the vehicle believed to have when it
-/// was taken. Returns without a valid range are not in it.
+/// A segmented scan in the map (a registered scan): each return is placed with the estimated pose
+/// at its own time. Returns without a valid range are dropped.
 struct MappedScan {
-    double time_s = 0;                      ///< when the turn was complete
-    Eigen::Vector3f origin_m{0, 0, 0};      ///< the sensor, in the middle of the turn
-    std::vector<Eigen::Vector3f> points_m;  ///< all returns, out to the sensor's own range
-    std::vector<Label> labels;              ///< an entry a point: Rou or Roi
+    double time_s = 0;                      ///< end of the revolution
+    Eigen::Vector3f origin_m{0, 0, 0};      ///< the sensor, halfway through the revolution
+    std::vector<Eigen::Vector3f> points_m;  ///< all returns within the sensor's range limits
+    std::vector<Label> labels;              ///< one entry per point: Rou or Roi
 };
 
 }  // namespace hagen::mapping

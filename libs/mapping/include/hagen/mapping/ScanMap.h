@@ -6,38 +6,38 @@
 
 namespace hagen::mapping {
 
-/// What of a segmented scan goes into an OctoMap.
+/// The returns of a segmented scan that are inserted into an OctoMap.
 enum class MapContent {
-    Full,       ///< every return is a hit, every ray clears (O-Full)
-    Roi,        ///< RoI returns alone, hits and rays (O-RoI)
+    Full,       ///< all returns are hits, all rays clear (O-Full)
+    Roi,        ///< only RoI returns, hits and rays (O-RoI)
     RoiAndRays  ///< RoI returns are hits, the rays of all returns clear (O-RoI+rays)
 };
 
 struct ScanMapOptions {
     MapContent content = MapContent::RoiAndRays;
-    double resolution_m = 0.2;  ///< edge of a voxel; more than 0
-    double max_range_m = 20;    ///< farther returns clear up to here, and are no hits
+    double resolution_m = 0.2;  ///< edge of a voxel; > 0
+    double max_range_m = 20;    ///< farther returns clear up to here and are not hits
 };
 
-/// An OctoMap that segmented scans are put into.
+/// An OctoMap built from segmented scans.
 class ScanMap {
  public:
-    /// Throws std::invalid_argument for a resolution or a range that is not more than 0.
+    /// Throws std::invalid_argument unless resolution and range are positive.
     explicit ScanMap(const ScanMapOptions& options);
 
     ~ScanMap();
     ScanMap(ScanMap&&) noexcept;
     ScanMap& operator=(ScanMap&&) noexcept;
 
-    /// Each voxel once a scan: hit where a hit lies in it, else free where a ray passes; a ray
-    /// that ends in a voxel does not clear it. Leaves only: inner nodes are brought up to date when
-    /// the map is saved. Where the tree has a bounding box (octomap's setBBXMin() and so on),
-    /// nothing outside it.
-    /// Throws std::runtime_error, saying where it lies, for a scan that is farther from the map's
-    /// origin than an OctoMap reaches: 32768 voxels.
+    /// Inserts a scan. Each voxel is updated once per scan: occupied if it contains a hit,
+    /// otherwise free if a ray passes through; a ray does not clear the voxel in which it ends.
+    /// Updates leaves only; inner nodes are updated when the map is saved. If the tree has a
+    /// bounding box (OctoMap's setBBXMin() etc.), voxels outside it are not updated. Throws
+    /// std::runtime_error for a scan that is farther from the map's origin than an OctoMap extends
+    /// (32768 voxels); the message says where it is.
     void insert(const MappedScan& scan);
 
-    /// Of the tree, by the sizes of its parts, and of the memory that is used again.
+    /// Memory of the tree, from the sizes of its parts, and of the buffers.
     std::size_t bytes() const;
 
     const octomap::OcTree& tree() const { return *tree_; }
@@ -46,9 +46,9 @@ class ScanMap {
 
  private:
     ScanMapOptions options_;
-    class RayWalk;
+    class RayTraversal;
     std::unique_ptr<octomap::OcTree> tree_;
-    std::unique_ptr<RayWalk> walk_;  ///< memory that is used again from scan to scan
+    std::unique_ptr<RayTraversal> walk_;  ///< buffers, reused across scans
 };
 
 }  // namespace hagen::mapping

@@ -7,13 +7,13 @@
 
 namespace hagen::observations {
 
-/// Stage 10 begins with it: moves each return of a scan that was taken on the way to where the
-/// sensor would have seen it at `start`, the scan's time, by the vehicle's pose at the return's own
-/// time (start + time_s). Range, azimuth and row are worked out anew. A sensor that did not move
-/// leaves the returns as they are, to rounding.
+/// Stage 10, first part: deskews a scan taken in motion. Each return is moved to where the sensor
+/// would have measured it at `start`, the scan's time, using the vehicle's pose at the return's own
+/// time (start + time_s). Range, azimuth and row are recomputed. Without motion, returns do not
+/// change except for rounding.
 ///
-/// Requires scan.time_s. False, and the scan untouched, where the trajectory does not reach from
-/// the first return to the last.
+/// Requires scan.time_s. Returns false, with the scan unchanged, if the trajectory does not cover
+/// all returns from the first to the last.
 bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
             const mrpt::poses::CPose3D& sensor_on_vehicle, const SensorModel& sensor, Scan& scan);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Names for what MRPT 2.5 and later versions have different classes for.
+// Aliases for classes that differ between MRPT 2.5 and later versions.
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -9,16 +9,16 @@
 
 namespace hagen::observations {
 
-/// Makes every class of mrpt-obs and mrpt-maps readable from a rawlog. Linking the libraries is not
-/// enough: the linker drops one of which no symbol is used.
+/// Registers every class of mrpt-obs and mrpt-maps so that it can be read from a rawlog. Linking
+/// the libraries is not enough: the linker drops a library without referenced symbols.
 inline void registerMrptClasses() {
     mrpt::obs::registerAllClasses_mrpt_obs();
     mrpt::maps::registerAllClasses_mrpt_maps();
 }
 
-/// The cloud class that every MRPT from 2.5 to 3 reads.
+/// The cloud class that every MRPT from 2.5 to 3 can read.
 using PortableCloud = mrpt::maps::CSimplePointsMap;
-/// The one that has intensities.
+/// The cloud class with intensities.
 using IntensityCloud = mrpt::maps::CPointsMapXYZI;
 
 }  // namespace hagen::observations

@@ -4,8 +4,8 @@
 
 namespace hagen::observations {
 
-/// What an exception says, in a line: of MRPT's, which carry back traces, the message alone; of one
-/// that holds anything but text, "".
+/// Returns an exception's message in one line; for MRPT's, which contain back traces, only the
+/// message; "" if it is not printable text.
 std::string messageOf(const std::exception& exception);
 
 }  // namespace hagen::observations

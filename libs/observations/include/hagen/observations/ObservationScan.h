@@ -15,50 +15,50 @@
 
 namespace hagen::observations {
 
-/// Whether this project reads the observation as a LiDAR scan: a CObservationVelodyneScan, or a
-/// CObservationPointCloud, unless its label ends in `_roi` or `_non_roi`: those are results.
+/// True if the observation is read as a LiDAR scan: a CObservationVelodyneScan or a
+/// CObservationPointCloud whose label does not end in `_roi` or `_non_roi` (those are results).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
-/// A LiDAR scan out of an observation.
+/// A LiDAR scan read from an observation.
 struct ObservedScan {
     Scan scan;
     SensorModel sensor;
     bool is_sensor_assumed = false;  ///< neither the recording nor the settings name the sensor
-    /// What a user should know: packet blocks left out, or settings that the recording overrules.
-    /// Empty if there is nothing.
+    /// Warnings for the user: skipped packet blocks, or settings that the recording overrides.
+    /// Empty: none.
     std::string remark;
 
-    /// Memory that readObservation() keeps from scan to scan.
+    /// Buffers of readObservation(), reused across scans.
     struct Workspace {
         DecoderWorkspace decoder;
-        /// The sensor made of these settings, which is made anew only where they change.
+        /// The sensor of these settings; rebuilt only if they change.
         std::optional<Settings::Sensor> settings;
         SensorModel sensor_of_settings;
     };
     Workspace work;
 };
 
-/// Reads a scan in its sensor's frame. The sensor is the recording's own if it names one (packets),
-/// otherwise that of the settings (clouds). A Velodyne scan without packets but with a stored cloud
-/// gives that cloud. Throws std::runtime_error, saying why, for packets that cannot be decoded and
-/// for a missing cloud. Reuses the memory of `observed`, so that reading many scans allocates
-/// little.
+/// Reads a scan in its sensor's frame. The sensor is the recording's own if the recording names one
+/// (packets), otherwise that of the settings (clouds). A Velodyne scan without packets but with a
+/// stored cloud returns that cloud. Throws std::runtime_error if packets cannot be decoded or the
+/// cloud is missing; the message says why. Reuses the memory of `observed`, so that reading many
+/// scans allocates little.
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed);
 
-/// What a cloud is made of.
+/// Point type of a cloud.
 enum class CloudClass {
-    Simple,        ///< CSimplePointsMap: coordinates alone; every MRPT from 2.5 to 3 reads it
-    WithIntensity  ///< CPointsMapXYZI: intensities, too
+    Simple,        ///< CSimplePointsMap: coordinates only; readable by every MRPT from 2.5 to 3
+    WithIntensity  ///< CPointsMapXYZI: coordinates and intensities
 };
 
-/// The returns of a scan as an MRPT cloud; of those with these indices (ascending), of which any
-/// beyond the scan are passed over.
+/// Returns the returns with these indices (ascending) as an MRPT cloud. Indices beyond the scan are
+/// ignored.
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, CloudClass cloud_class);
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
                                     CloudClass cloud_class);
 
-/// An observation of these returns.
+/// Returns an observation that contains these returns.
 mrpt::obs::CObservationPointCloud::Ptr observationOf(
     const Scan& scan, const std::string& label, mrpt::Clock::time_point time,
     CloudClass cloud_class = CloudClass::WithIntensity);

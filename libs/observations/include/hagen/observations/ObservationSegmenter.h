@@ -22,9 +22,9 @@ namespace hagen::observations {
 
 /// The filter as an MRPT observation processor.
 ///
-///     hagen::ObservationSegmenter segmenter;      // or by name, with mrpt::rtti::classFactory()
+///     hagen::observations::ObservationSegmenter segmenter;      // or by name, with mrpt::rtti::classFactory()
 ///     segmenter.initialize(settings);
-///     hagen::ObservationSegmenter::Output out;
+///     hagen::observations::ObservationSegmenter::Output out;
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
 /// Takes every LiDAR scan of a log, of several sensors too: each sensor label has its own filter

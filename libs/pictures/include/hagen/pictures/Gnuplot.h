@@ -5,15 +5,15 @@
 
 namespace hagen::pictures {
 
-/// Any text as a string of gnuplot's, in which nothing is a command; line breaks become blanks.
-/// Draw it with `noenhanced`, else `_` and `^` shift what follows.
+/// Quotes any text as a gnuplot string without commands; line breaks become blanks. Draw it with
+/// `noenhanced`; otherwise `_` and `^` shift the text that follows.
 std::string gnuplotString(const std::string& text);
 
-/// Has gnuplot run `script` in `folder`, and checks that it left there each of the `pictures`, a
-/// whole PNG, or a whole SVG where the name ends in .svg. Pictures of these names that lie there
-/// are replaced. No shell is in between, and none of the user's own gnuplot settings are read.
-/// Throws std::runtime_error: what to install where there is no gnuplot; the picture's name where
-/// one cannot be written; gnuplot's own words where it refuses the script.
+/// Runs `script` with gnuplot in `folder` and checks that every picture of `pictures` was created:
+/// a complete PNG, or a complete SVG if the name ends in .svg. Existing pictures of these names are
+/// replaced. Uses no shell and ignores the user's gnuplot settings. Throws std::runtime_error if
+/// gnuplot is missing (the message says what to install), if a picture cannot be written (the
+/// message names it), or if gnuplot rejects the script (the message quotes gnuplot).
 void runGnuplot(const std::string& script, const std::filesystem::path& folder,
                 const std::vector<std::string>& pictures);
 

@@ -11,39 +11,39 @@
 
 namespace hagen::pictures {
 
-/// A segmented scan to draw: what one call of HagenFilter::segment() was given and made. Refers to
-/// the caller's.
+/// A segmented scan to draw: input and result of one call of HagenFilter::segment(). Keeps
+/// references to the caller's objects.
 struct StageView {
-    const Scan& scan;  ///< what the filter was given; with a sliding window, all of the window
+    const Scan& scan;  ///< input of the filter; with a sliding window, all scans of the window
     const SensorModel& sensor;
     const Options& options;
     const SegmentationResult& result;
-    std::string title;  ///< any text; where the scan comes from
-    /// The column (the one closest to this finite azimuth, counter-clockwise from x) whose
-    /// principal components are shown. None: that of the nearest RoI pixel whose column the
-    /// analysis smoothed, else of the nearest RoI pixel, else straight ahead.
+    std::string title;  ///< any text, for example the source of the scan
+    /// Azimuth (finite, counter-clockwise from x) of the column whose principal components are
+    /// shown; the nearest column is taken. nullopt: the column of the nearest RoI pixel in a
+    /// smoothed column; otherwise of the nearest RoI pixel; otherwise straight ahead.
     std::optional<float> azimuth_deg = std::nullopt;
 };
 
-/// The pictures that drawStages() makes: one a stage, and an overview of all.
+/// The pictures of drawStages(): one per stage, and an overview.
 const std::vector<std::string>& stagePictures();
-/// A folder of such pictures, or of folders of them.
+/// A folder of these pictures, or of folders of them.
 extern const base::OutputKind kStagePictures;
 
-/// Draws what each stage made of a scan, as PNGs of these names in `folder`, which is there:
+/// Draws the result of each stage for a scan, as PNGs of these names in the existing `folder`:
 ///
 ///   1_depth.png        the depth image
 ///   2_maxima.png       its persistent maxima, and the barcode of their births and deaths
-///   3_merged.png       the depth image with the maxima sharpened
+///   3_merged.png       the depth image with sharpened maxima
 ///   4_range_angle.png  the range angle image
-///   5_smoothed.png     the same smoothed, and one column's principal components
-///   6_labels.png       RoI and ROU, a colour an obstacle
-///   7_top_view.png     the returns from above, in the same colours
-///   stages.png         all of them
+///   5_smoothed.png     the smoothed image, and the principal components of one column
+///   6_labels.png       RoI and ROU, one colour per obstacle
+///   7_top_view.png     the returns in top view, in the same colours
+///   stages.png         all of the above
 ///
-/// Images have the azimuth from +180 to -180 degrees, left of the sensor on the left, and the
-/// lowest beam at the bottom; pixels without a value are grey. One call runs gnuplot once.
-/// Throws std::runtime_error as runGnuplot() does.
+/// Images show azimuths from +180 to -180 degrees, left of the sensor on the left, with the lowest
+/// beam at the bottom; pixels without a value are grey. One call runs gnuplot once. Throws
+/// std::runtime_error like runGnuplot().
 void drawStages(const StageView& view, const std::filesystem::path& folder);
 
 }  // namespace hagen::pictures

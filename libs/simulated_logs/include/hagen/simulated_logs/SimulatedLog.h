@@ -6,15 +6,15 @@
 
 namespace hagen::simulated_logs {
 
-/// What is to be simulated, and where it goes; an empty path: nowhere.
+/// Parameters of a simulated log and its outputs; an empty path: not written.
 struct SimulatedLog {
     std::string scenario;
     std::string sensor = "VLP-16";
     std::uint64_t seed = 1;
     int scans = 0;
     double altitude_m = 2, speed_m_s = 4, tilt_sd_deg = 4;
-    double every_s = 0.1;    ///< from the start of a scan to that of the next
-    bool clear_air = false;  ///< no dust, and nothing of the vehicle in the sensor's view
+    double every_s = 0.1;    ///< from the start of one scan to the start of the next
+    bool clear_air = false;  ///< no dust, and no returns of the vehicle itself
 
     std::filesystem::path rawlog, folder, poses;
     bool overwrite = false;
@@ -23,21 +23,22 @@ struct SimulatedLog {
 struct SimulationReport {
     int scans = 0;
     std::size_t returns = 0;
-    std::size_t roi = 0, rou = 0, unclassified = 0;  ///< of them
+    std::size_t roi = 0, rou = 0, unclassified = 0;  ///< number of returns by label
 };
 
 /// Simulates the flight and writes
 ///
 /// - a rawlog of CObservationVelodyneScan `lidar`, each at the time of its first firing, with
-///   CObservationRobotPose `pose` at least every 50 ms while the sensor measures (the sensor sits
-///   in the vehicle's origin),
-/// - a scan folder with the truth (see TruthFolder.h), of the returns as decoded from the packets,
-///   for sensors that have packets,
+/// CObservationRobotPose `pose` at least every 50 ms during scans (the sensor is at the vehicle's
+/// origin),
+/// - a scan folder with ground truth (see GroundTruthFolder.h), with the returns as decoded from
+/// the packets if the sensor has a packet format,
 /// - the poses as a TUM file.
 ///
-/// The same seed makes the same bytes. Throws std::invalid_argument for an unknown scenario or
-/// sensor, std::runtime_error, naming the file, where one cannot be written, and where `keep_going`
-/// says no: what was made until then is kept as parts of the outputs, which the message names.
+/// The same seed gives the same bytes. Throws std::invalid_argument for an unknown scenario or
+/// sensor, and std::runtime_error if a file cannot be written (the message names it) or if
+/// `keep_going` returns false: the output up to then is kept in partial files, which the message
+/// names.
 SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going);
 
 }  // namespace hagen::simulated_logs

@@ -5,13 +5,14 @@
 
 namespace hagen::simulated_logs {
 
-/// A pose as MRPT has it.
+/// Converts a pose to MRPT's type.
 mrpt::poses::CPose3D mrptPose(const simulation::SensorPose& pose);
 
-/// A simulated scan as genuine packets. Decoded, they give the scan's returns in its order, ranges
-/// rounded to 2 mm; times count from `hour_s`, the scan's time since a full hour. Throws
-/// std::invalid_argument for sensors other than VLP-16 and HDL-32E.
-mrpt::obs::CObservationVelodyneScan::Ptr encodeSimulated(const simulation::SimulatedScan& scan,
-                                                         const SensorModel& sensor, double hour_s);
+/// Returns a simulated scan as genuine packets. Decoding them returns the scan's returns in the
+/// same order, with ranges rounded to 2 mm; times are relative to `hour_s`, the scan's time since a
+/// full hour. Throws std::invalid_argument for sensors other than VLP-16 and HDL-32E.
+mrpt::obs::CObservationVelodyneScan::Ptr encodeSimulatedScan(const simulation::SimulatedScan& scan,
+                                                             const SensorModel& sensor,
+                                                             double hour_s);
 
 }  // namespace hagen::simulated_logs

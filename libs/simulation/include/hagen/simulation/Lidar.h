@@ -9,63 +9,68 @@
 
 namespace hagen::simulation {
 
-/// How a rotating LiDAR fires, as its manual tells.
+/// The firing sequence of a rotating LiDAR, from its manual.
 struct FiringPattern {
-    std::vector<std::uint8_t> row_of_laser;  ///< lasers in the order in which they fire
+    std::vector<std::uint8_t> row_of_laser;  ///< row of each laser, in firing order
     double laser_period_us;                  ///< from one laser of a firing to the next
     double firing_period_us;                 ///< from one firing to the next
-    int firings_per_turn;                    ///< at 10 turns a second
+    int firings_per_revolution;              ///< at 10 revolutions per second (10 Hz)
 
-    double turnPeriod_s() const { return 1e-6 * firing_period_us * firings_per_turn; }
+    double revolutionPeriod_s() const { return 1e-6 * firing_period_us * firings_per_revolution; }
     double azimuthStep_deg() const { return 360.0 * firing_period_us / 100e3; }
 };
 
-/// Of a VLP-16, HDL-32E or HDL-64E. Throws std::invalid_argument, naming these, for others.
+/// Returns the pattern of a VLP-16, HDL-32E or HDL-64E. Throws std::invalid_argument for any other
+/// sensor; the message lists these three.
 FiringPattern firingPattern(const SensorModel& sensor);
 
-/// What keeps a real sensor from measuring the true range in every direction.
-struct LidarFaults {
-    double footprint_rad = 0.003;  ///< width of the beam's (square) spot
-    double least_noise_m = 0.015;  ///< standard deviation of a near range; a weak one's is twice it
-    double half_range_m = 150;   ///< where every second return of a grey wall, seen square, is lost
-    double lost = 0.005;         ///< share of returns that are lost anyway
-    double mixed = 0.15;         ///< share of beams whose range at an edge is between both
-    double dust_per_m = 1.5e-5;  ///< specks met on a metre of a beam
-    bool airframe = true;        ///< whether legs and rotors of the vehicle are seen
+/// Error sources of a real sensor.
+struct SensorErrorModel {
+    double footprint_rad = 0.003;  ///< width of the beam's (square) footprint
+    double least_noise_m =
+        0.015;  ///< standard deviation at near range; that of a weak return is twice as large
+    double half_range_m =
+        150;  ///< range at which half of the returns of a grey wall at normal incidence are lost
+    double lost = 0.005;  ///< fraction of returns that are lost at random
+    double mixed = 0.15;  ///< fraction of beams whose range at an edge lies between both surfaces
+    double dust_per_m = 1.5e-5;  ///< dust particles hit per metre of a beam
+    bool airframe = true;        ///< whether legs and rotors of the vehicle occlude beams
 };
 
-/// One turn of the sensor. Returns are in the order in which they were fired, in the sensor's frame
-/// as it was at each return's own time, as a real sensor tells them.
+/// One revolution of the sensor. Returns are in firing order and in the sensor's frame at each
+/// return's own time, as a real sensor reports them.
 struct SimulatedScan {
     Scan scan;
-    std::vector<Kind> kind;             ///< an entry a return
-    std::vector<std::uint16_t> object;  ///< its number in the scene; 0: none
+    std::vector<ObjectClass> kind;      ///< one entry per return
+    std::vector<std::uint16_t> object;  ///< object number in the scene, one per return; 0: none
     std::vector<std::int32_t> firing;
     std::vector<std::uint8_t> laser;
     SensorPose pose;        ///< at the first firing
-    double altitude_m = 0;  ///< of the sensor above the ground, there
+    double altitude_m = 0;  ///< of the sensor above the ground, at the first firing
 
     std::size_t size() const { return scan.size(); }
 };
 
-/// The azimuth of a scan's first firing, degrees clockwise from x: scans begin behind.
+/// The azimuth of a scan's first firing, degrees clockwise from x: scans begin behind the sensor.
 constexpr double kFirstAzimuth_deg = 180.0;
 
-/// Where the sensor is at a time.
+/// The sensor's pose as a function of time.
 using PoseAt = std::function<SensorPose(double time_s)>;
 
-/// How far beyond the end of a turn a PoseAt is asked: it is sampled, and goes straight between.
+/// How far beyond the end of a revolution a PoseAt is evaluated: poses are sampled and interpolated
+/// linearly.
 constexpr double kPosesBeyondTurn_s = 0.015;
 
-/// Simulates the turn that begins at `time_s`.
+/// Simulates the revolution that begins at `time_s`.
 ///
-/// Each beam is one ray somewhere in its spot. So a thing thinner than the spot is met as often as
-/// it covers the spot, and otherwise the beam goes on to what is behind. A broad surface is
-/// measured where the beam's axis meets it. A return is lost the more often the weaker it is
-/// (range, incidence, reflectivity). On grass, ranges end up to its height above the soil.
+/// Each beam is one ray at a random place in its footprint. An object thinner than the footprint is
+/// therefore hit with a probability equal to the part of the footprint that it covers; otherwise
+/// the beam continues to what is behind it. On a large surface the range is measured where the
+/// beam's axis meets it. The weaker a return is (range, incidence, reflectivity), the more often it
+/// is lost. On grass, ranges end up to the grass height above the soil.
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
-                           double time_s, Random& random, const LidarFaults& faults = {});
+                           double time_s, Random& random, const SensorErrorModel& faults = {});
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
-                           double time_s, Random& random, const LidarFaults& faults = {});
+                           double time_s, Random& random, const SensorErrorModel& faults = {});
 
 }  // namespace hagen::simulation

@@ -3,18 +3,18 @@
 
 namespace hagen::simulation {
 
-/// The way that a flight follows over a scene, seen from above: two straights along x, joined by
-/// half circles, flown counter-clockwise from the middle of the southern straight. Scenes keep it
-/// clear of whatever is solid.
+/// The closed path of a flight over a scene, in top view: two straights along x, joined by half
+/// circles, flown counter-clockwise from the centre of the southern straight. Scenes keep solid
+/// objects off it.
 struct Path {
     double half_straight_m = 30;
     double radius_m = 11.25;
 
     double length_m() const;
-    Eigen::Vector2d at(double way_m) const;           ///< after this way, turns wrapped around
-    double heading_rad(double way_m) const;           ///< counter-clockwise from x
-    double curvature_per_m(double way_m) const;       ///< positive to the left
-    double distance_m(double x_m, double y_m) const;  ///< from a place to the path
+    Eigen::Vector2d at(double way_m) const;      ///< position at this path length, modulo the lap
+    double heading_rad(double way_m) const;      ///< counter-clockwise from x
+    double curvature_per_m(double way_m) const;  ///< positive to the left
+    double distance_m(double x_m, double y_m) const;  ///< distance of a point from the path
 };
 
 }  // namespace hagen::simulation

@@ -4,28 +4,30 @@
 
 namespace hagen::simulation {
 
-/// How a tree is grown. Its foot is the origin; the trunk reaches a little into the ground.
-struct TreeForm {
+/// Parameters of a tree. The base of the trunk is the origin; the trunk extends slightly into the
+/// ground.
+struct TreeParameters {
     double height_m = 4;
-    double crown_base_m = 0.8;  ///< where the crown begins
+    double crown_base_m = 0.8;  ///< height at which the crown begins
     double crown_radius_m = 1.2;
     double trunk_radius_m = 0.08;
-    double leaf_area_m2 = 10;  ///< one side of all leaves
-    double leaf_m = 0.15;      ///< edge of a leaf, a triangle
+    double leaf_area_m2 = 10;  ///< total leaf area, one side
+    double leaf_m = 0.15;      ///< edge length of a leaf (a triangle)
     int branches = 20;
     int low_branches = 2;  ///< below the crown, with few leaves
 };
 
-/// Trunk and branches as rods, leaves as single triangles in clumps, so that beams pass between.
-Shape makeTree(const TreeForm& form, Random& random);
+/// Makes a tree: trunk and branches are rods, leaves are single triangles in clumps, so that beams
+/// can pass between them.
+Shape makeTree(const TreeParameters& form, Random& random);
 
-/// A bush of leaves, 1 m high and across; scale it.
+/// Makes a bush of leaves, 1 m high and wide; scale it.
 Shape makeShrub(Random& random);
 
-/// A square of crop in rows along x, `side_m` long, plants up to 1 m high: scale it in height.
+/// Makes a square of crop in rows along x, `side_m` long, plants up to 1 m high; scale its height.
 Shape makeCanopyPatch(double side_m, Random& random);
 
-/// A tuft of blades of grass, 1 m high and 0.8 m across: scale it.
+/// Makes a tuft of blades of grass, 1 m high and 0.8 m wide; scale it.
 Shape makeTuft(Random& random);
 
 }  // namespace hagen::simulation

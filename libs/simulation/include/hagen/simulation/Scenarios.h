@@ -8,20 +8,20 @@ namespace hagen::simulation {
 
 /// Names of all scenarios:
 ///
-///     orchard      fruit trees in rows, flown between two rows; weeds at their feet
-///     field        crop 0.3 to 0.9 m high, trees, poles and a hedge around and in it
-///     forest-0.02  a wood, random trees of that many a square metre, bushes, fern
+///     orchard      fruit trees in rows, flown between two rows; weeds around the trunks
+///     field        crop 0.3 to 0.9 m high, with trees, poles and a hedge in and around it
+///     forest-0.02  random trees (this many per square metre), bushes, fern
 ///     forest-0.05, forest-0.10
-///     wires        poles and wires of 24 mm along and across the way
-///     gap          walls with gaps that the way leads through
+///     wires        poles and wires of 24 mm along and across the path
+///     gap          walls with gaps that the path leads through
 ///     street       parked cars, houses, lamps, trees
 ///     terrain      slopes up to 15 degrees with rocks and trees
-///     u-trap       walls in the shape of a U, open towards the way
+///     u-trap       U-shaped walls, open towards the path
 ///     movers       people, cars and drones that move among trees
 std::vector<std::string> scenarioNames();
 
-/// The scene of a scenario; a seed makes the same one everywhere.
-/// Throws std::invalid_argument, naming the known ones, for any other name.
+/// Returns the scene of a scenario; the same seed gives the same scene on every machine. Throws
+/// std::invalid_argument for an unknown name; the message lists the valid ones.
 Scene makeScene(const std::string& scenario, std::uint64_t seed);
 
 }  // namespace hagen::simulation

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/simulation/Kind.h>
+#include <hagen/simulation/ObjectClass.h>
 #include <hagen/simulation/Path.h>
 #include <hagen/simulation/Shape.h>
 #include <hagen/simulation/Terrain.h>
@@ -11,16 +11,16 @@
 
 namespace hagen::simulation {
 
-/// A thing that stands in a scene.
+/// A static object placed in a scene.
 struct SceneObject {
-    Kind kind;
+    ObjectClass kind;
     std::uint16_t number;  ///< of the object, from 1; 0: part of the ground
     std::size_t shape;     ///< index in SceneContent::shapes
     Eigen::Affine3f pose;  ///< from the shape's frame to the map
 };
 
-/// A thing that goes round on a circle, over the ground or in the air.
-struct SceneMover {
+/// An object that moves on a circle, on the ground or in the air.
+struct MovingObstacle {
     std::uint16_t number = 0;
     std::size_t shape = 0;
     Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
@@ -28,37 +28,38 @@ struct SceneMover {
     double above_ground_m = 0;
 };
 
-/// Where a mover is at a time, seen from above.
-Eigen::Vector2d placeOf(const SceneMover& mover, double time_s);
-/// From a mover's own frame, where it is at a time, to the map.
-Eigen::Affine3f poseOf(const SceneMover& mover, const Terrain& terrain, double time_s);
+/// Returns a moving obstacle's position at a time, in top view.
+Eigen::Vector2d placeOf(const MovingObstacle& mover, double time_s);
+/// Returns the transform from a moving obstacle's own frame at a time to the map.
+Eigen::Affine3f poseOf(const MovingObstacle& mover, const Terrain& terrain, double time_s);
 
-/// All that a scene is made of.
+/// All objects of a scene.
 struct SceneContent {
     Terrain terrain;
-    Path path;  ///< where one can fly
+    Path path;  ///< the closed path that is free to fly
     std::vector<Shape> shapes;
     std::vector<SceneObject> objects;
-    std::vector<SceneMover> movers;
+    std::vector<MovingObstacle> movers;
 };
 
-/// A ray in the map. `time` within the snapshot that it is cast into: 0 its start, 1 its end.
+/// A ray in the map. `time` is relative to the snapshot that it is cast into: 0 its start, 1 its
+/// end.
 struct Ray {
     Eigen::Vector3f origin_m;
     Eigen::Vector3f direction;  ///< of length 1
     float time = 0;
-    float reach_m = std::numeric_limits<float>::infinity();  ///< what is farther is not looked for
+    float reach_m = std::numeric_limits<float>::infinity();  ///< farther surfaces are ignored
 };
 
 struct RayHit {
-    float range_m;  ///< NaN: nothing was hit
-    Kind kind = Kind::None;
+    float range_m;  ///< NaN: no hit
+    ObjectClass kind = ObjectClass::None;
     std::uint16_t number = 0;
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of length 1, towards the ray's origin
 };
 
-/// A scene in which rays can be cast, by Embree. Copies share what they are made of; const
-/// functions may be called by several threads at a time.
+/// A scene for ray casting with Embree. Copies share their content; const functions may be called
+/// from several threads at once.
 class Scene {
  public:
     explicit Scene(SceneContent content);
@@ -66,13 +67,13 @@ class Scene {
     const SceneContent& content() const;
     const Terrain& terrain() const { return content().terrain; }
     const Path& path() const { return content().path; }
-    /// Triangles of all shapes; those that stand at several places count once.
+    /// Returns the number of triangles of all shapes; a shape placed several times counts once.
     std::size_t triangles() const;
 
-    /// Everything during a short time: movers go straight from where they are at its start to
-    /// where they are at its end.
+    /// Returns the scene over a short time interval: moving obstacles move on straight lines from
+    /// their position at its start to that at its end.
     class Snapshot;
-    Snapshot during(double start_s, double duration_s) const;
+    Snapshot snapshotOver(double start_s, double duration_s) const;
 
  private:
     struct World;
@@ -81,15 +82,15 @@ class Scene {
 
 class Scene::Snapshot {
  public:
-    /// What each ray meets first within `max_range_m`. Rays that lie side by side and come one
-    /// after the other are cast fastest.
+    /// Finds the first hit of each ray within `max_range_m`. Fastest if adjacent rays are
+    /// neighbours in space.
     void cast(const std::vector<Ray>& rays, float max_range_m, std::vector<RayHit>& hits) const;
 
  private:
     friend class Scene;
     struct Movers;
     std::shared_ptr<const World> world_;
-    std::shared_ptr<const Movers> movers_;  ///< none: nothing moves
+    std::shared_ptr<const Movers> movers_;  ///< null: no moving obstacles
 };
 
 }  // namespace hagen::simulation

@@ -7,19 +7,20 @@
 
 namespace hagen::simulation {
 
-/// True distances from points to the nearest surface of a scene (Embree point query), of what
-/// stands and of what moves.
+/// Exact distances from points to the nearest surface of a scene, static or moving (Embree point
+/// queries).
 class SceneDistance {
  public:
-    /// Prepares the part of the scene that lies within `bounds_m`, widened by the reach.
+    /// Prepares the part of the scene within `bounds_m`, extended by the maximum distance.
     SceneDistance(const Scene& scene, const Eigen::AlignedBox3d& bounds_m, double reach_m);
 
-    /// To the nearest surface, movers where they are at `time_s`; the reach where nothing is
-    /// nearer. Single blades of grass and crop (Kind::Canopy) do not count: they bend. 0 within a
-    /// rod; within what is made of triangles, the way out. May be called by several threads.
+    /// Returns the distance to the nearest surface, with moving obstacles where they are at
+    /// `time_s`; the maximum distance if nothing is nearer. Single blades of grass and crop
+    /// (ObjectClass::Canopy) are ignored because they bend. 0 inside a rod; inside an object made
+    /// of triangles, the distance to its surface. Thread-safe.
     float at(const Eigen::Vector3f& point_m, double time_s) const;
-    /// As at(), of what stands alone.
-    float toStanding(const Eigen::Vector3f& point_m) const;
+    /// Like at(), of static objects only.
+    float toStatic(const Eigen::Vector3f& point_m) const;
 
  private:
     struct World;

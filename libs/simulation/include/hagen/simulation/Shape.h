@@ -6,26 +6,29 @@
 
 namespace hagen::simulation {
 
-/// The surface of a thing: triangles, and round cylinders for what is thin. Metres, z up.
+/// The surface of an object: triangles, and round cylinders for thin parts. Metres, z up.
 struct Shape {
     std::vector<Eigen::Vector3f> vertices_m;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<Eigen::Vector4f> knots_m;  ///< of cylinders: x, y, z, radius
-    /// First knots of cylinders; each leads to the next knot, and ends in a ball.
+    std::vector<Eigen::Vector4f> polyline_m;  ///< of chains of cylinders: x, y, z, radius
+    /// Index of each cylinder's first point; the cylinder leads to the next point and ends in a
+    /// ball.
     std::vector<std::uint32_t> segments;
 
     void addTriangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c);
-    /// A quadrilateral, corners in order.
+    /// Adds a quadrilateral, corners in order.
     void addQuad(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
                  const Eigen::Vector3f& d);
     void addBox(const Eigen::Vector3f& least_m, const Eigen::Vector3f& most_m);
-    /// A polygon in the xz plane, star-shaped about the mean of its corners, drawn out along y.
+    /// Adds a prism: a polygon in the xz plane, star-shaped about the mean of its corners, extruded
+    /// along y.
     void addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_y_m, float most_y_m);
-    /// Cylinders from knot to knot.
-    void addRod(const std::vector<Eigen::Vector4f>& knots_m);
-    /// The same of triangles, with so many sides and open ends: faster to cast in a crowd.
-    void addTube(const std::vector<Eigen::Vector4f>& knots_m, int sides);
-    /// Another shape, moved there. Radii of cylinders stay.
+    /// Adds cylinders along a polyline.
+    void addRod(const std::vector<Eigen::Vector4f>& polyline_m);
+    /// Adds the same as triangles, with this many sides and open ends: faster to cast in large
+    /// numbers.
+    void addTube(const std::vector<Eigen::Vector4f>& polyline_m, int sides);
+    /// Adds another shape, transformed. Radii of cylinders do not change.
     void append(const Shape& other, const Eigen::Affine3f& pose);
 };
 

@@ -5,25 +5,25 @@
 
 namespace hagen::simulation {
 
-/// What a scenario asks of its ground.
-struct TerrainForm {
-    double max_slope_rad = 0.05;    ///< of the rolling
+/// Parameters of a scenario's ground.
+struct TerrainParameters {
+    double max_slope_rad = 0.05;    ///< of the rolling ground
     double bump_m = 0.03;           ///< amplitude of bumps and ruts a few metres long
-    double roughness_m = 0.02;      ///< standard deviation of the soil from vertex to vertex
-    double grass_m = 0.1;           ///< height of the tallest grass; it is patchy
-    double paved_half_width_m = 0;  ///< a band along x that is even and has no grass
+    double roughness_m = 0.02;      ///< standard deviation of the soil height from vertex to vertex
+    double grass_m = 0.1;           ///< height of the tallest grass; grass is patchy
+    double paved_half_width_m = 0;  ///< half width of a band along x that is even and free of grass
 };
 
-/// Rolling ground: a sum of waves, so that its height is known at any place.
+/// Rolling ground: a sum of waves, whose height is known in closed form everywhere.
 class Terrain {
  public:
-    Terrain(const TerrainForm& form, Random& random);
+    Terrain(const TerrainParameters& form, Random& random);
 
     double height_m(double x_m, double y_m) const;
-    /// How tall grass stands there.
+    /// Returns the height of the tallest grass at this place.
     double grassHeight_m(double x_m, double y_m) const;
-    /// The ground as a mesh with roughness: fine in the middle (`half_length_m` by `half_width_m`
-    /// about the origin), coarse out to `reach_m`.
+    /// Returns the ground as a mesh with roughness: fine in the centre (`half_length_m` by
+    /// `half_width_m` around the origin), coarse out to `reach_m`.
     Shape mesh(double half_length_m, double half_width_m, double reach_m, Random& random) const;
 
  private:
@@ -33,10 +33,10 @@ class Terrain {
     };
     bool isPaved(double y_m) const { return y_m * y_m < paved_m2_; }
 
-    TerrainForm form_;
+    TerrainParameters form_;
     double paved_m2_;
     std::vector<Wave> rolling_, bumps_;
-    std::vector<float> grass_m_;  ///< a square metre after the other
+    std::vector<float> grass_m_;  ///< one value per square metre, row by row
 };
 
 }  // namespace hagen::simulation

@@ -60,7 +60,7 @@ class CampaignFolder {
     void begin();
     void removeAll();
     void readTables();
-    void keep(const std::string& run, const std::string& measured, const std::string& from);
+    void keep(const std::string& text, const std::string& measured, const std::string& from);
     void addPlan(const std::string& plan);
 
     std::filesystem::path folder_;

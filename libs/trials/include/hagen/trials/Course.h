@@ -41,7 +41,7 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed);
 
 /// The LiDAR's faults in a trial: 2 cm of noise, 1 % of returns lost, thin wires missed more often
 /// with distance. No dust; returns from the vehicle itself are masked out.
-simulation::LidarFaults trialFaults();
+simulation::SensorErrorModel trialErrorModel();
 
 // Every course has a path past its static obstacles with this clearance, between these heights.
 constexpr double kCourseClearance_m = 0.65;

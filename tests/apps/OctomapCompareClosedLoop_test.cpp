@@ -63,7 +63,7 @@ std::vector<std::string> flying(const TemporaryFolder& folder, const std::string
 
 void expectFailure(const Outcome& outcome, int exit_code, const std::string& part) {
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(part));
 }
 
 /// Starts the program in the background; its stderr goes to a file.
@@ -108,9 +108,9 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
     const TemporaryFolder folder;
     const Outcome one = octomapCompare(flying(folder, "one", {"--jobs", "1"}));
     ASSERT_EQ(one.exit_code, 0) << one.err;
-    EXPECT_NE(one.out.find("runs.csv"), std::string::npos);
+    EXPECT_THAT(one.out, HasSubstr("runs.csv"));
     EXPECT_EQ(one.err.rfind("run 0 of 6\n", 0), 0u) << one.err;  // no terminal: plain lines
-    EXPECT_EQ(one.err.find('\r'), std::string::npos);
+    EXPECT_THAT(one.err, Not(HasSubstr("\r")));
     const std::string runs = readFile(folder / "one/runs.csv");
     EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 7);
     ASSERT_EQ(octomapCompare(flying(folder, "two", {"--jobs", "2"})).exit_code, 0);
@@ -191,9 +191,8 @@ TEST(ClosedLoopFlights, KilledInFlightItGoesOnWhereItWas) {
     EXPECT_EQ(readFile(folder / "killed/runs.csv"), readFile(folder / "whole/runs.csv"));
     // What was flown before is what was kept: its costs are those of then.
     const std::size_t tab = kept.find('\t');
-    EXPECT_NE(readFile(folder / "killed/measured.csv")
-                  .find(kept.substr(tab + 1, kept.find(';') - tab - 1)),
-              std::string::npos);
+    EXPECT_THAT(readFile(folder / "killed/measured.csv"),
+                HasSubstr(kept.substr(tab + 1, kept.find(';') - tab - 1)));
 }
 
 TEST(ClosedLoopFlights, InterruptedItKeepsWhatItFinished) {

@@ -1,4 +1,5 @@
 // The tools behind scripts/benchmark and scripts/measure-performance.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,9 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 namespace fs = std::filesystem;
 
@@ -40,7 +44,7 @@ TEST(TimedRows, ABrokenFileIsNamed) {
     for (const char* text : {"", "[{", "[{\"sensor\": \"VLP-16\"}]", "[3]"}) {
         const fs::path file = folder.write("rows.json", text);
         const std::string message = test::messageOf([&] { readTimedRows(file); });
-        EXPECT_NE(message.find(file.string() + ": no list of times"), std::string::npos) << text;
+        EXPECT_THAT(message, HasSubstr(file.string() + ": no list of times")) << text;
     }
 }
 
@@ -91,18 +95,17 @@ Performance small() {
 
 TEST(PerformanceDocument, SaysWhatWasMeasured) {
     const std::string text = documentOf(small());
-    EXPECT_NE(
-        text.find("| VLP-16 | `paper pipeline`   | 250    | 250 | 250 | 250 | 0.50          | "
-                  "1.00         | 0.5         |"),
-        std::string::npos)
-        << text;
-    EXPECT_NE(text.find("- VLP-16: the default pipeline takes 1.50 times what the paper's takes."),
-              std::string::npos);
-    EXPECT_NE(text.find("| 1 depth image        | 4.2    |"), std::string::npos) << text;
-    EXPECT_NE(text.find("| fitted exponent | 0.00 "), std::string::npos);
-    EXPECT_NE(text.find("2 VLP-16 scans of 200 returns on average"), std::string::npos);
-    EXPECT_NE(text.find("| 2.000 +- 1.414 "), std::string::npos) << text;
-    EXPECT_EQ(text.find("nan"), std::string::npos);
+    EXPECT_THAT(
+        text,
+        HasSubstr("| VLP-16 | `paper pipeline`   | 250    | 250 | 250 | 250 | 0.50          | "
+                  "1.00         | 0.5         |"));
+    EXPECT_THAT(
+        text, HasSubstr("- VLP-16: the default pipeline takes 1.50 times what the paper's takes."));
+    EXPECT_THAT(text, HasSubstr("| 1 depth image        | 4.2    |"));
+    EXPECT_THAT(text, HasSubstr("| fitted exponent | 0.00 "));
+    EXPECT_THAT(text, HasSubstr("2 VLP-16 scans of 200 returns on average"));
+    EXPECT_THAT(text, HasSubstr("| 2.000 +- 1.414 "));
+    EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
 TEST(StageBenchmarksRun, WritesTheTableAndTheJson) {
@@ -113,7 +116,7 @@ TEST(StageBenchmarksRun, WritesTheTableAndTheJson) {
         {"--json", json.string(), "--benchmark_filter=VLP-16/(floor|mrpt decode|2 gap repair)",
          "--benchmark_min_time=0.001"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("VLP-16, microseconds"), std::string::npos);
+    EXPECT_THAT(outcome.out, HasSubstr("VLP-16, microseconds"));
     const std::vector<TimedRow> rows = readTimedRows(json);
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_NE(find(rows, "VLP-16", "mrpt decode"), nullptr);

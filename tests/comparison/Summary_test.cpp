@@ -1,4 +1,5 @@
 // Counts, spreads and pairs with known answers.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <hagen/reports/ReportWords.h>
@@ -8,6 +9,8 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
 
 using namespace test;
 
@@ -139,7 +142,7 @@ TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
 
 TEST(Summary, OfNothingIsEmpty) {
     EXPECT_TRUE(reports::summarize({}).cells.empty());
-    EXPECT_NE(reports::reportPage(reports::Report{}).find("Nothing was flown"), std::string::npos);
+    EXPECT_THAT(reports::reportPage(reports::Report{}), HasSubstr("Nothing was flown"));
 }
 
 }  // namespace

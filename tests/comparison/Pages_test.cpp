@@ -1,4 +1,5 @@
 // Pages: their places, and the runs from above.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <cmath>
 #include <stdexcept>
@@ -13,6 +14,9 @@
 namespace hagen {
 namespace {
 
+using testing::HasSubstr;
+using testing::Not;
+
 using namespace test;
 
 TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
@@ -21,16 +25,15 @@ TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
     view.track_m = {{5, 0}, {20, 30}};
     const std::string hit = replays::svgOf(view);
     // 5 m around 5 to 45 and 0 to 30, and half as wide again as high: 60 x 40.
-    EXPECT_NE(hit.find("viewBox=\"-5.0 -35.0 60.0 40.0\""), std::string::npos) << hit;
-    EXPECT_NE(hit.find("class=\"hit\""), std::string::npos);
-    EXPECT_EQ(hit.find("class=\"end\""), std::string::npos);
+    EXPECT_THAT(hit, HasSubstr("viewBox=\"-5.0 -35.0 60.0 40.0\""));
+    EXPECT_THAT(hit, HasSubstr("class=\"hit\""));
+    EXPECT_THAT(hit, Not(HasSubstr("class=\"end\"")));
     view.run.result.outcome = kLate;
-    EXPECT_NE(replays::svgOf(view).find("class=\"end\""), std::string::npos);
+    EXPECT_THAT(replays::svgOf(view), HasSubstr("class=\"end\""));
     view.track_m.clear();  // a straight way is shown with what is beside it
-    EXPECT_NE(replays::svgOf(view).find("viewBox=\"0.0 -16.7 50.0 33.3\""), std::string::npos);
+    EXPECT_THAT(replays::svgOf(view), HasSubstr("viewBox=\"0.0 -16.7 50.0 33.3\""));
     for (const char* mark : {"start", "goal", "end", "hit", "stop", "track", "obstacles"}) {
-        EXPECT_NE(replays::overheadLegend().find("class=\"" + std::string(mark) + "\""),
-                  std::string::npos)
+        EXPECT_THAT(replays::overheadLegend(), HasSubstr("class=\"" + std::string(mark) + "\""))
             << mark;
     }
 }
@@ -40,12 +43,12 @@ TEST(Pages, ShowTheWorstRunsThatCanBeFlownBesideThoseThatCannot) {
     report.flown.runs = threeContenders();
     report.summary = reports::summarize(report.flown.runs);
     report.worst_missing = {"the first cannot", "the second cannot"};
-    EXPECT_EQ(reports::reportPage(report).find(replays::overheadLegend()), std::string::npos);
+    EXPECT_THAT(reports::reportPage(report), Not(HasSubstr(replays::overheadLegend())));
     report.worst.push_back({report.flown.runs[0], true, {5, 0}, {45, 0}, {}, {}, {}});
     const std::string page = reports::reportPage(report);
-    EXPECT_NE(page.find(replays::overheadLegend()), std::string::npos);
-    EXPECT_NE(page.find("Flown again from their seeds"), std::string::npos);
-    EXPECT_NE(page.find("<p>the first cannot</p>\n<p>the second cannot</p>"), std::string::npos);
+    EXPECT_THAT(page, HasSubstr(replays::overheadLegend()));
+    EXPECT_THAT(page, HasSubstr("Flown again from their seeds"));
+    EXPECT_THAT(page, HasSubstr("<p>the first cannot</p>\n<p>the second cannot</p>"));
 }
 
 TEST(WorstRuns, AreCollisionsThenTimeoutsThenByClearanceOneOfAKind) {

@@ -1,4 +1,5 @@
 // Runs the built program, as a user would.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -10,6 +11,9 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 namespace fs = std::filesystem;
 const std::string kOrchard = HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog";
@@ -41,7 +45,7 @@ TEST_F(OpenLoopCommand, TheOracleIsRightAndAllHaveDigestedTheSame) {
         run({"-i", path("gap.rawlog"), "--poses", path("gap.tum"), "--truth-scenario", "gap",
              "--truth-seed", "3", "--models", "oracle,W-RoI,W-Full", "-o", path("out")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("truth: the scene gap of seed 3"), std::string::npos) << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("truth: the scene gap of seed 3"));
     const auto summary = nlohmann::json::parse(test::readFile(path("out/summary.json")));
     EXPECT_EQ(summary["scans"], 4);
     EXPECT_EQ(summary["scans_moved_whole"], 0);
@@ -82,15 +86,14 @@ TEST_F(OpenLoopCommand, TheSameLogGivesTheSameBytesAndItsScanFolderTheSameFigure
     }
     const auto folder = run(with({"-i", path("gap"), "-o", path("c")}, kModels));
     ASSERT_EQ(folder.exit_code, 0) << folder.err;
-    EXPECT_NE(folder.err.find("4 scans were placed by one pose each"), std::string::npos)
-        << folder.err;
+    EXPECT_THAT(folder.err, HasSubstr("4 scans were placed by one pose each"));
 }
 
 TEST_F(OpenLoopCommand, ALogWithPosesOfItsOwnNeedsNoFile) {
     const auto outcome = run({"-i", kOrchard, "--models", "W-RoI", "-o", path("out")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("30 scans of"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("truth: raw points of later scans"), std::string::npos);
+    EXPECT_THAT(outcome.out, HasSubstr("30 scans of"));
+    EXPECT_THAT(outcome.out, HasSubstr("truth: raw points of later scans"));
 }
 
 TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
@@ -103,8 +106,7 @@ TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
     const std::vector<std::string> log{"-i", path("gap.rawlog"), "--models", "W-RoI"};
     const auto outcome = run(with(log, {"--poses", path("some.tum"), "-o", path("out")}));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("scans have no pose within 0.2 s"), std::string::npos)
-        << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("scans have no pose within 0.2 s"));
 
     const std::size_t comment = some.find('\n'), first_pose = some.find('\n', comment + 1);
     folder_.write("other.tum", some.substr(0, some.find('\n', first_pose + 1) + 1));
@@ -145,7 +147,7 @@ TEST_F(OpenLoopCommand, LeavesWhatExistsAlone) {
     fs::create_directory(path("out"));
     folder_.write("out/scans.csv", "mine");
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("out")}, 1,
-                  "scans.csv exists; give --overwrite");
+                  "scans.csv exists; use --overwrite");
     EXPECT_EQ(test::readFile(path("out/scans.csv")), "mine");
     EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 1);
     folder_.write("file", "mine");
@@ -157,9 +159,9 @@ TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     fs::resize_file(path("gap.rawlog"), fs::file_size(path("gap.rawlog")) * 2 / 3);
     const auto outcome = run(gap("out"));
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("gap.rawlog: entry"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("scans before it are in"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.out.find("W-RoI"), std::string::npos) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr("gap.rawlog: entry"));
+    EXPECT_THAT(outcome.err, HasSubstr("scans before it are in"));
+    EXPECT_THAT(outcome.out, HasSubstr("W-RoI"));
     EXPECT_TRUE(fs::exists(path("out/openloop.partial.csv")));
     EXPECT_FALSE(fs::exists(path("out/openloop.csv")));
     EXPECT_EQ(run(gap("out")).exit_code, 1);
@@ -168,7 +170,7 @@ TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     simulate(4, {"--overwrite"});
     ASSERT_EQ(run(gap("out")).exit_code, 0);
     for (const auto& file : fs::directory_iterator(path("out"))) {
-        EXPECT_EQ(file.path().filename().string().find("partial"), std::string::npos) << file;
+        EXPECT_THAT(file.path().filename().string(), Not(HasSubstr("partial"))) << file;
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 6);
 }
@@ -177,8 +179,8 @@ TEST_F(OpenLoopCommand, SaysInPlainLinesHowFarItIsWhereThereIsNoTerminal) {
     simulate(4);
     const auto outcome = run(gap("out"));
     EXPECT_EQ(outcome.err.rfind("scan 1 of 4, about ", 0), 0u) << outcome.err;
-    EXPECT_NE(outcome.err.find("\nscan 4 of 4\n"), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("\nscan 4 of 4\n"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("\r")));
     EXPECT_EQ(run(with(gap("quiet"), {"-q"})).err, "");
 }
 
@@ -189,8 +191,7 @@ TEST_F(OpenLoopCommand, SaysWhenTheDiskIsFull) {
                                 path("full");
     const auto outcome = test::run("/bin/bash", {"-c", command});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("cannot be written: File too large"), std::string::npos)
-        << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("cannot be written: File too large"));
     EXPECT_FALSE(fs::exists(path("full")));
 }
 

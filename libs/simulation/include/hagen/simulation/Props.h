@@ -11,12 +11,12 @@ Shape makeRock(Random& random);  ///< about 1 m across
 Shape makePerson();
 Shape makeDrone();
 
-// Things that go over the ground, put into a scene.
+// Objects that follow the ground, added to a scene.
 
-/// A wall along a line, in pieces that follow the ground.
+/// Adds a wall along a line, in pieces that follow the ground.
 void addWall(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
              double height_m, double thickness_m);
-/// Poles on a line, and wires between them at some heights, that sag by 2 % of the span.
+/// Adds poles on a line, and wires between them at these heights, with a sag of 2 % of the span.
 void addWireLine(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
                  double span_m, const std::vector<double>& heights_m, double sideways_m);
 

@@ -1,5 +1,5 @@
 #include <hagen/range_image/Angle.h>
-#include <hagen/simulation/Things.h>
+#include <hagen/simulation/Props.h>
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr double kWireRadius_m = 0.012;
-constexpr float kFoot_m = -0.4f;  // things reach into the ground, so that none floats on a slope
+constexpr float kFoot_m = -0.4f;  // objects extend into the ground so that none floats on a slope
 
 Eigen::Vector4f knot(double x, double y, double z, double radius) {
     return Eigen::Vector4d(x, y, z, radius).cast<float>();
@@ -135,7 +135,7 @@ void addWall(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& to_m
             Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ());
         wall.append(piece, pose.cast<float>());
     }
-    builder.add(Kind::Wall, std::move(wall));
+    builder.add(ObjectClass::Wall, std::move(wall));
 }
 
 void addWireLine(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& to_m, double span_m,
@@ -152,7 +152,7 @@ void addWireLine(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& 
     };
     for (int i = 0; i <= spans; ++i) {
         const Vector2d at = from_m + along * i / spans;
-        builder.place(Kind::Pole, pole, at.x(), at.y(), 0);
+        builder.place(ObjectClass::Pole, pole, at.x(), at.y(), 0);
     }
     for (std::size_t wire = 0; wire < heights_m.size(); ++wire) {
         const Vector2d aside = across * (wire % 2 == 0 ? -sideways_m : sideways_m);
@@ -170,7 +170,7 @@ void addWireLine(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& 
             }
             shape.addRod(knots);
         }
-        builder.add(Kind::Wire, std::move(shape));
+        builder.add(ObjectClass::Wire, std::move(shape));
     }
 }
 

@@ -1,4 +1,5 @@
 // What a replay shows: the recording, the true scene, the end.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
@@ -13,6 +14,8 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
 
 using namespace test;
 
@@ -37,13 +40,12 @@ replays::Recording smallRecording() {
 TEST(Replay, APageHoldsCentimetresFromTheStart) {
     const std::string page = replays::replayPage(smallRecording());
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
-    EXPECT_NE(page.find("\"track\":\"ZADIACwB\""), std::string::npos);
-    EXPECT_NE(page.find("\"clearances\":\"MgA=\""), std::string::npos);  // 50: 32 00
-    EXPECT_NE(page.find("\"ending\":\"arrived at 9.00 s\""), std::string::npos);
-    EXPECT_NE(page.find("\"way_sizes\":[-2]"), std::string::npos);  // not free
-    EXPECT_NE(page.find("<title>gap, seed 1, O-Full-0.4, A*, 4.0 m/s: success</title>"),
-              std::string::npos);
-    EXPECT_NE(replays::replayPage(replays::Recording{}).find("\"steps\":[]"), std::string::npos);
+    EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
+    EXPECT_THAT(page, HasSubstr("\"clearances\":\"MgA=\""));  // 50: 32 00
+    EXPECT_THAT(page, HasSubstr("\"ending\":\"arrived at 9.00 s\""));
+    EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // not free
+    EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, O-Full-0.4, A*, 4.0 m/s: success</title>"));
+    EXPECT_THAT(replays::replayPage(replays::Recording{}), HasSubstr("\"steps\":[]"));
 }
 
 TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
@@ -75,7 +77,7 @@ replays::TrueScene smallScene() {
     triangle.addTriangle({0, 0, 0}, {0.005f, 0, 0}, {0, 0, 0.01f});
     scene.shapes = {triangle};
     const Eigen::Affine3f here(Eigen::Translation3f(7, 0, 2)), there(Eigen::Translation3f(8, 0, 2));
-    scene.objects = {{simulation::Kind::Tree, 1, 0, here}};
+    scene.objects = {{simulation::ObjectClass::Tree, 1, 0, here}};
     scene.movers = {{0, {here, there}}};
     scene.ground = {{0, 0}, 2, 1, 1, {1.5}};
     return scene;
@@ -86,15 +88,17 @@ TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
     recording.scene = smallScene();
     const std::string page = replays::replayPage(recording);
     // Half centimetres: nine numbers, of which the fourth is 1 and the ninth 2.
-    EXPECT_NE(page.find("\"shapes\":[\"AAAAAAAAAQAAAAAAAAAAAAIA\"]"), std::string::npos);
-    EXPECT_NE(
-        page.find("{\"shape\":0,\"kind\":\"tree\",\"poses\":[[1.0,0.0,0.0,2.0,0.0,1.0,0.0,0.0,"
-                  "0.0,0.0,1.0,0.0]]}"),
-        std::string::npos);
-    EXPECT_NE(page.find("\"movers\":[{\"shape\":0,\"poses\":\"yAAAAAAAAAAsAQAAAAAAAA==\"}]"),
-              std::string::npos);  // 200 0 0 0, 300 0 0 0
-    EXPECT_NE(page.find("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""),
-              std::string::npos);  // -50: CE FF
+    EXPECT_THAT(page, HasSubstr("\"shapes\":[\"AAAAAAAAAQAAAAAAAAAAAAIA\"]"));
+    EXPECT_THAT(
+        page,
+        HasSubstr("{\"shape\":0,\"kind\":\"tree\",\"poses\":[[1.0,0.0,0.0,2.0,0.0,1.0,0.0,0.0,"
+                  "0.0,0.0,1.0,0.0]]}"));
+    EXPECT_THAT(
+        page,
+        HasSubstr(
+            "\"movers\":[{\"shape\":0,\"poses\":\"yAAAAAAAAAAsAQAAAAAAAA==\"}]"));     // 200 0 0 0,
+                                                                                       // 300 0 0 0
+    EXPECT_THAT(page, HasSubstr("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""));  // -50: CE FF
 }
 
 TEST(Replay, ASceneHoldsWhatTrulyStands) {
@@ -123,7 +127,7 @@ TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
     const replays::TrueScene seen = replays::trueSceneOf(course.scene, course.bounds_m, 3);
     EXPECT_EQ(seen.objects.size() + 1, content.objects.size());
     for (const simulation::SceneObject& object : seen.objects) {
-        EXPECT_NE(object.kind, simulation::Kind::Terrain);
+        EXPECT_NE(object.kind, simulation::ObjectClass::Terrain);
         EXPECT_FALSE(seen.shapes[object.shape].triangles.empty());
     }
     ASSERT_EQ(seen.movers.size(), content.movers.size());
@@ -153,9 +157,9 @@ TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
     const std::string ground =
         replays::endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
     EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
-    EXPECT_NE(ground.find(" m from it to the vehicle's middle"), std::string::npos);
+    EXPECT_THAT(ground, HasSubstr(" m from it to the vehicle's middle"));
 
-    const simulation::SceneMover& person = course.scene.content().movers.front();
+    const simulation::MovingObstacle& person = course.scene.content().movers.front();
     const Eigen::Affine3f pose = simulation::poseOf(person, course.scene.terrain(), result.time_s);
     const Eigen::Vector3f above_head = pose * Eigen::Vector3f(0, 0, 2);
     const std::string moving = replays::endingOf(course, result, 4, above_head.cast<double>());

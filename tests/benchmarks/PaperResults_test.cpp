@@ -1,4 +1,5 @@
 // The tool behind scripts/reproduce-paper.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
@@ -14,6 +15,9 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 namespace fs = std::filesystem;
 const std::string kConfig = HAGEN_SOURCE_DIR "/config";
@@ -38,16 +42,16 @@ TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
     DataSet set;
     set.preset = "vlp16.yaml";
     set.zone_m = 40;
-    const labelled_scans::MethodRows rows = rowsFor(set, kConfig);
+    const labelled_scans::MethodSet rows = rowsFor(set, kConfig);
     std::set<std::string> names;
     const auto options = [&](const std::string& name) {
-        for (const labelled_scans::SettingsRow& row : rows.filter) {
+        for (const labelled_scans::SweepPoint& row : rows.filter) {
             if (row.name == name) return row.settings.options;
         }
         ADD_FAILURE() << "no row " << name;
         return Options{};
     };
-    for (const labelled_scans::SettingsRow& row : rows.filter) {
+    for (const labelled_scans::SweepPoint& row : rows.filter) {
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
         EXPECT_EQ(row.settings.options.zone_m, 40) << row.name;
     }
@@ -76,7 +80,7 @@ TEST(Rows, ThePapersHaveNoneOfOurStages) {
         const std::string ours = config.write("ours.yaml", stage + std::string("\n"));
         config.write("paper.yaml", "include: [" + kConfig + "/paper.yaml, " + ours + "]\n");
         const std::string message = test::messageOf([&] { rowsFor(set, config.path()); });
-        EXPECT_NE(message.find("has a stage that the paper has not"), std::string::npos) << stage;
+        EXPECT_THAT(message, HasSubstr("has a stage that the paper does not have")) << stage;
     }
 }
 
@@ -179,7 +183,7 @@ TEST_F(PaperResults, NamesTheSettingsThatAreMissing) {
         HAGEN_PAPER_RESULTS,
         {"-o", folder_.path(), "--data", folder_.path(), "--quick", "--config", folder_.path()});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("vlp16.yaml"), std::string::npos) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("vlp16.yaml"));
 }
 
 TEST_F(PaperResults, ReplacesNothingUnasked) {
@@ -197,7 +201,7 @@ TEST(ReproducePaper, RefusesWrongUsage) {
          {std::vector<std::string>{"--fast"}, {"--data"}, {"--quick", "results.md"}}) {
         const auto outcome = test::run(script, arguments);
         EXPECT_EQ(outcome.exit_code, 2);
-        EXPECT_NE(outcome.err.find("Usage: scripts/reproduce-paper"), std::string::npos);
+        EXPECT_THAT(outcome.err, HasSubstr("Usage: scripts/reproduce-paper"));
     }
     EXPECT_EQ(test::run(script, {"--help"}).exit_code, 0);
 }
@@ -210,7 +214,7 @@ TEST_F(PaperResultsRun, HasEveryTableAndFigure) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string document = test::readFile(folder_ / "results.md");
     EXPECT_EQ(document, outcome.out);
-    for (const std::string words : {"## The filter beside others",
+    for (const std::string words : {"## Comparison with other methods",
                                     "| real, 16 beams ",
                                     "| simulated, 7 m ",
                                     "| HDL-64E ",
@@ -223,19 +227,19 @@ TEST_F(PaperResultsRun, HasEveryTableAndFigure) {
                                     "## Run time",
                                     "mean +- sd",
                                     "p99",
-                                    "## What each stage is worth",
+                                    "## Ablation",
                                     "no seed gate",
-                                    "Bold is what is higher",
+                                    "Bold scores are higher",
                                     "no SSA",
                                     "## Data",
                                     "101",
                                     "v1-test",
                                     "Embree",
                                     "quick run"}) {
-        EXPECT_NE(document.find(words), std::string::npos) << words;
+        EXPECT_THAT(document, HasSubstr(words)) << words;
     }
-    EXPECT_EQ(document.find(folder_.path().string()), std::string::npos);  // no paths
-    EXPECT_EQ(document.find("nan"), std::string::npos);
+    EXPECT_THAT(document, Not(HasSubstr(folder_.path().string())));  // no paths
+    EXPECT_THAT(document, Not(HasSubstr("nan")));
     EXPECT_TRUE(fs::exists(folder_ / "results/by_scan.svg"));
     EXPECT_TRUE(fs::exists(folder_ / "results/by_returns.svg"));
 }

@@ -1,4 +1,5 @@
 // Runs the built program, as a user would; and what it encodes, against what was simulated.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
@@ -20,6 +21,9 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 namespace fs = std::filesystem;
 using mrpt::obs::CObservationRobotPose;
@@ -66,7 +70,7 @@ TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
         run(with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
-    EXPECT_NE(outcome.out.find("3 scans of wires"), std::string::npos) << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("3 scans of wires"));
 
     const LogContent log = readLog(path("a.rawlog"));
     const logs::ScanFolder folder(path("a"));
@@ -86,25 +90,23 @@ TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
         ASSERT_EQ(labels.size(), read.size());
         ASSERT_EQ(semantic.size(), read.size());
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            ASSERT_EQ(
-                labels[i],
-                static_cast<int>(simulation::labelOf(static_cast<simulation::Kind>(semantic[i]))));
+            ASSERT_EQ(labels[i], static_cast<int>(simulation::labelOf(
+                                     static_cast<simulation::ObjectClass>(semantic[i]))));
             kinds.insert(semantic[i]);
         }
     }
-    for (const simulation::Kind kind :
-         {simulation::Kind::Terrain, simulation::Kind::Canopy, simulation::Kind::Tree,
-          simulation::Kind::Pole, simulation::Kind::Wire, simulation::Kind::Airframe}) {
+    for (const simulation::ObjectClass kind :
+         {simulation::ObjectClass::Terrain, simulation::ObjectClass::Canopy,
+          simulation::ObjectClass::Tree, simulation::ObjectClass::Pole,
+          simulation::ObjectClass::Wire, simulation::ObjectClass::Airframe}) {
         EXPECT_EQ(kinds.count(static_cast<int>(kind)), 1u) << simulation::nameOf(kind);
     }
     EXPECT_EQ(folder.times(), (std::vector<double>{0, 0.5, 1.0}));
     const std::vector<double> altitudes_m = readNumbers(folder_ / "a/altitudes.txt");
     ASSERT_EQ(altitudes_m.size(), 3u);
     for (const double altitude_m : altitudes_m) EXPECT_NEAR(altitude_m, 4, 1);
-    EXPECT_NE(test::readFile(folder_ / "a/kinds.yaml").find("5: {name: wire, label: 2}"),
-              std::string::npos);
-    EXPECT_NE(test::readFile(folder_ / "a/kinds.yaml").find("2: {name: canopy, label: 1}"),
-              std::string::npos);
+    EXPECT_THAT(test::readFile(folder_ / "a/kinds.yaml"), HasSubstr("5: {name: wire, label: 2}"));
+    EXPECT_THAT(test::readFile(folder_ / "a/kinds.yaml"), HasSubstr("2: {name: canopy, label: 1}"));
     EXPECT_EQ(logs::readTumPoses(folder.tumFile()).size(), 3u);
     EXPECT_EQ(logs::readTumPoses(path("a.tum")).size(), log.poses.size());
 }
@@ -147,8 +149,8 @@ TEST_F(RawlogSimulate, InClearAirNothingIsUnclassified) {
     const auto dusty = run(with(wires_, {"-o", path("a.rawlog")}));
     const auto clear = run(with(wires_, {"-o", path("b.rawlog"), "--clear-air"}));
     ASSERT_EQ(clear.exit_code, 0) << clear.err;
-    EXPECT_EQ(dusty.out.find(" 0 unclassified"), std::string::npos) << dusty.out;
-    EXPECT_NE(clear.out.find(" 0 unclassified"), std::string::npos) << clear.out;
+    EXPECT_THAT(dusty.out, Not(HasSubstr(" 0 unclassified")));
+    EXPECT_THAT(clear.out, HasSubstr(" 0 unclassified"));
 }
 
 TEST_F(RawlogSimulate, OverwritesWhereItIsToldTo) {
@@ -164,8 +166,7 @@ TEST_F(RawlogSimulate, TheCommandOfTheDemoRecordingStillMakesIt) {
     const std::string command =
         "rawlog-simulate --scenario orchard --scans 30 --every-s 0.2 "
         "--altitude 2 --seed 1 -o rawlogs/orchard.rawlog";
-    ASSERT_NE(test::readFile(HAGEN_SOURCE_DIR "/rawlogs/README.md").find(command),
-              std::string::npos);
+    ASSERT_THAT(test::readFile(HAGEN_SOURCE_DIR "/rawlogs/README.md"), HasSubstr(command));
     const auto outcome = run({"--scenario", "orchard", "--scans", "30", "--every-s", "0.2",
                               "--altitude", "2", "--seed", "1", "-o", path("orchard.rawlog")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -225,7 +226,7 @@ TEST_F(RawlogSimulate, RefusesToSimulateForNothing) {
 TEST_F(RawlogSimulate, LeavesWhatExistsAlone) {
     folder_.write("a.rawlog", "mine");
     expectFailure(with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a")}), 1,
-                  "a.rawlog exists; give --overwrite");
+                  "a.rawlog exists; use --overwrite");
     EXPECT_EQ(test::readFile(path("a.rawlog")), "mine");
     fs::create_directory(path("work"));
     folder_.write("work/thesis.txt", "mine");
@@ -244,7 +245,7 @@ TEST_F(RawlogSimulate, KeepsWhatIsDoneWhenItIsInterrupted) {
                    "gap", "--scans", "100000", "--altitude", "2", "--seed", "1", "-o",
                    path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_NE(outcome.err.find("interrupted; the "), std::string::npos) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("interrupted; the "));
     EXPECT_FALSE(fs::exists(path("a.rawlog")) || fs::exists(path("a")) ||
                  fs::exists(path("a.tum")));
     const LogContent log = readLog(path("a.partial.rawlog"));
@@ -268,9 +269,9 @@ TEST_P(EachPacketSensor, PacketsGiveTheSimulatedReturnsInTheirOrder) {
     const simulation::SimulatedScan made =
         simulation::simulateScan(scene, sensor, flight, 1.0, random);
     Scan decoded;
-    ASSERT_EQ(
-        observations::decodePackets(*simulated_logs::encodeSimulated(made, sensor, 1.0), decoded),
-        0u);
+    ASSERT_EQ(observations::decodePackets(*simulated_logs::encodeSimulatedScan(made, sensor, 1.0),
+                                          decoded),
+              0u);
     ASSERT_EQ(decoded.size(), made.size());
     for (std::size_t i = 0; i < made.size(); ++i) {
         ASSERT_NEAR(decoded.range_m[i], made.scan.range_m[i], 0.0011f) << i;

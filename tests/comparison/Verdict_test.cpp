@@ -1,4 +1,5 @@
 // What is said of figures.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <hagen/reports/Summary.h>
@@ -7,6 +8,9 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 using namespace test;
 
@@ -55,7 +59,7 @@ TEST(Verdict, SpeaksOfOneAsOne) {
     EXPECT_EQ(words[2], "What is open needs more courses to be decided.");
     EXPECT_EQ(words[3].find("W-RoI with A*: 1 collision in 1 run ("), 0u) << words[3];
     EXPECT_EQ(words[4], "G-Full with A*: no collision in 1 run.");
-    EXPECT_NE(words[5].find("0 collisions in 1 run of a scenario still allows"), std::string::npos);
+    EXPECT_THAT(words[5], HasSubstr("0 collisions in 1 run of a scenario still allows"));
 }
 
 TEST(Verdict, CallsNothingWorseThatMayBeChance) {
@@ -68,7 +72,7 @@ TEST(Verdict, CallsNothingWorseThatMayBeChance) {
     pairing.verdict = reports::Verdict::Inferior;
     pairing.p_holm = 0.06;
     EXPECT_EQ(reports::differenceText(pairing).find("Open: "), 0u);
-    EXPECT_NE(reports::differenceText(pairing).find("may be chance"), std::string::npos);
+    EXPECT_THAT(reports::differenceText(pairing), HasSubstr("may be chance"));
     pairing.p_holm = 0.04;
     EXPECT_EQ(reports::differenceText(pairing).find(
                   "W-RoI with A* against G-Full: success 90.0 % against 100.0 %"),
@@ -140,8 +144,8 @@ TEST(Verdict, SaysWhereWhatWasNotFlownEverywhere) {
         runs.push_back(test::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
     }
     const std::string headline = reports::verdictOf(reports::summarize(runs)).front();
-    EXPECT_NE(headline.find("O-Full-0.4 (in gap)"), std::string::npos) << headline;
-    EXPECT_EQ(headline.find("G-Full ("), std::string::npos) << headline;
+    EXPECT_THAT(headline, HasSubstr("O-Full-0.4 (in gap)"));
+    EXPECT_THAT(headline, Not(HasSubstr("G-Full (")));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Runs the built program, as a user would.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
@@ -12,6 +13,8 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 const std::string kConfig = HAGEN_SOURCE_DIR "/config/";
@@ -169,8 +172,8 @@ TEST_F(SegmentationEvaluate, ReportsPartsByKindRangeAltitudeAndFolder) {
     const auto outcome = run({"-i", poleWithKinds()});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     for (const std::string words : {"By range", "10-15 m", "By altitude", "2-3 m", "By folder",
-                                    "By kind", "terrain", "Run time"}) {
-        EXPECT_NE(outcome.out.find(words), std::string::npos) << words << "\n" << outcome.out;
+                                    "By object class", "terrain", "Run time"}) {
+        EXPECT_THAT(outcome.out, HasSubstr(words)) << words << "\n" << outcome.out;
     }
     std::istringstream lines(outcome.out);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
@@ -237,7 +240,7 @@ TEST_F(SegmentationEvaluate, ChartsShowPartsAndSweeps) {
                               "sweep_seeds.svg"}) {
         EXPECT_TRUE(fs::exists(fs::path(charts) / chart)) << chart;
     }
-    EXPECT_NE(test::readFile(folder_ / "charts/by_range.svg").find("zone_m=15"), std::string::npos);
+    EXPECT_THAT(test::readFile(folder_ / "charts/by_range.svg"), HasSubstr("zone_m=15"));
 }
 
 TEST_F(SegmentationEvaluate, RefusesWrongUsage) {
@@ -259,7 +262,7 @@ TEST_F(SegmentationEvaluate, RefusesLabelMapsAndCamerasThatItCannotRead) {
     const std::string pole = labelledPole();
     expectFailure({"-i", pole, "--label-map", "none.yaml"}, 2, "none.yaml: no such file");
     const std::string map = folder_.write("map.yaml", "1: {name: soil, label: ground}\n");
-    expectFailure({"-i", pole, "--label-map", map}, 2, "map.yaml:1: label 'ground' is none of 0");
+    expectFailure({"-i", pole, "--label-map", map}, 2, "map.yaml:1: label 'ground' is not 0");
     const std::string camera = folder_.write("camera.yaml", "width: 640\nheight: 480\n");
     expectFailure({"-i", pole, "--camera", camera}, 2, "camera.yaml: has no key 'cx'");
 }
@@ -272,7 +275,7 @@ TEST_F(SegmentationEvaluate, ReplacesNoOutputUnasked) {
     fs::create_directories(folder_ / "charts");
     folder_.write("charts/holiday.svg", "mine");
     expectFailure({"-i", pole, "--charts", (folder_ / "charts").string(), "--overwrite"}, 1,
-                  "holds 'holiday.svg'");
+                  "contains 'holiday.svg'");
     expectFailure({"-i", pole, "--json", (folder_ / "none/report.json").string()}, 1,
                   "no such folder");
 }
@@ -282,7 +285,7 @@ TEST_F(SegmentationEvaluate, NamesKindsAndClassesThatHaveNoName) {
     const std::string map = folder_.write("map.yaml", "1: {name: soil, label: 1}\n");
     expectFailure({"-i", pole, "--label-map", map}, 1, "class 4 is not in the label map");
     folder_.write("pole/kinds.yaml", "1: {name: terrain, label: 1}\n");
-    expectFailure({"-i", pole}, 1, "kind 4 has no name");
+    expectFailure({"-i", pole}, 1, "class 4 has no name");
     folder_.write("pole/kinds.yaml", "1: terrain\n");
     expectFailure({"-i", pole}, 1, "kinds.yaml:1: name and label are expected");
     fs::remove(folder_ / "pole/kinds.yaml");
@@ -306,7 +309,7 @@ TEST_F(SegmentationEvaluate, FailsOnLabelsOfAnotherScanOrMeaning) {
     expectFailure({"-i", pole}, 1, "000000.label");
     const auto returns = fs::file_size(folder_ / "pole/velodyne/000000.bin") / 16;
     folder_.write("pole/labels/000000.label", std::string(4 * returns, '\7'));
-    expectFailure({"-i", pole}, 1, "is none of 0");
+    expectFailure({"-i", pole}, 1, "is not 0");
 }
 
 }  // namespace

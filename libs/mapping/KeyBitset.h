@@ -6,12 +6,12 @@
 
 namespace hagen::mapping {
 
-/// A set of the keys of a box, a bit each: what octomap's own set of keys is for, many times as
-/// fast where keys lie close together.
-class KeyBox {
+/// A set of OctoMap keys within a box, one bit per key. Replaces OctoMap's own key set; many times
+/// as fast for keys that are close together.
+class KeyBitset {
  public:
     struct Corners {
-        octomap::OcTreeKey least, most;  ///< both in it
+        octomap::OcTreeKey least, most;  ///< inclusive
     };
 
     void reset(const Corners& box) {
@@ -24,7 +24,7 @@ class KeyBox {
         words_.assign(bits / 64 + 1, 0);
     }
 
-    /// Whether it was not in it yet. Keys must lie in the box.
+    /// Inserts a key; true if it was not in the set yet. Keys must lie in the box.
     bool add(const octomap::OcTreeKey& key) {
         const std::size_t i = indexOf(key);
         const std::uint64_t bit = std::uint64_t{1} << (i % 64);

@@ -1,4 +1,5 @@
 // The report and the replay of the built program; campaigns that are flown meanwhile.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/MeasuredTable.h>
 #include <sys/stat.h>
@@ -16,6 +17,9 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 using namespace test;
 namespace fs = std::filesystem;
@@ -44,22 +48,20 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
     writeRuns(threeContenders());
     const test::Outcome outcome = run({"report", folder(), "--markdown", path("a.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find(
-                  "0 collisions in 10 runs of a scenario still allow a true share of 27.8 %"),
-              std::string::npos);
+    EXPECT_THAT(
+        outcome.out,
+        HasSubstr("0 collisions in 10 runs of a scenario still allow a true share of 27.8 %"));
     std::ifstream in(path("summary.json"));
     const auto json = nlohmann::json::parse(in);
     EXPECT_EQ(json["runs"], 30);
     EXPECT_EQ(json["pairings"].size(), 3u);
-    EXPECT_NE(test::readFile(path("summary.csv"))
-                  .find("gap,4.0000,primitives,none,1.0000,"
-                        "optimistic,W-RoI,astar,10,9,0.9000,0.5958,"),
-              std::string::npos);
+    EXPECT_THAT(test::readFile(path("summary.csv")),
+                HasSubstr("gap,4.0000,primitives,none,1.0000,"
+                          "optimistic,W-RoI,astar,10,9,0.9000,0.5958,"));
     const std::string page = test::readFile(path("report.html"));
-    EXPECT_NE(page.find("90.0 <small>(59.6 to 98.2)</small>"), std::string::npos);
-    EXPECT_NE(page.find("no profile.json"), std::string::npos);  // worst runs
-    EXPECT_NE(test::readFile(path("a.md")).find("| gap | 90.0 (59.6 to 98.2; 10) |"),
-              std::string::npos);
+    EXPECT_THAT(page, HasSubstr("90.0 <small>(59.6 to 98.2)</small>"));
+    EXPECT_THAT(page, HasSubstr("no profile.json"));  // worst runs
+    EXPECT_THAT(test::readFile(path("a.md")), HasSubstr("| gap | 90.0 (59.6 to 98.2; 10) |"));
 }
 
 TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
@@ -69,8 +71,8 @@ TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
                   "W-RoI,0.8,9,1.25,2000000\nW-RoI,0.6,9,1.75,4000000\nG-Full,,,14,1\n");
     ASSERT_EQ(run({"report", folder(), "--markdown", path("a.md")}).exit_code, 0);
     const std::string text = test::readFile(path("a.md"));
-    EXPECT_NE(text.find("| W-RoI | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"), std::string::npos);
-    EXPECT_NE(text.find("| G-Full | 1 | 0.00 | 0.00 | - | 14.00 |"), std::string::npos);
+    EXPECT_THAT(text, HasSubstr("| W-RoI | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"));
+    EXPECT_THAT(text, HasSubstr("| G-Full | 1 | 0.00 | 0.00 | - | 14.00 |"));
 }
 
 TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
@@ -87,22 +89,19 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
         "unknown": "optimistic"}]})");
     const test::Outcome before = run({"report", folder()});  // no runs.csv yet
     ASSERT_EQ(before.exit_code, 0) << before.err;
-    EXPECT_NE(before.out.find("Unfinished: 3 of 20 runs planned so far are flown."),
-              std::string::npos);
+    EXPECT_THAT(before.out, HasSubstr("Unfinished: 3 of 20 runs planned so far are flown."));
     writeRuns({test::runOf("gap", 0, "W-RoI", "astar", kWon)});
     const test::Outcome outcome =
         run({"report", folder(), "--overwrite", "--markdown", path("a.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("Unfinished: 4 of 20 runs planned so far are flown."),
-              std::string::npos);
+    EXPECT_THAT(outcome.out, HasSubstr("Unfinished: 4 of 20 runs planned so far are flown."));
     for (const char* name : {"report.html", "a.md"}) {
-        EXPECT_NE(test::readFile(path(name)).find("4 of 20 runs planned so far"),
-                  std::string::npos);
+        EXPECT_THAT(test::readFile(path(name)), HasSubstr("4 of 20 runs planned so far"));
     }
     const std::string text = test::readFile(path("a.md"));
-    EXPECT_NE(text.find("| 4 m/s | W-RoI, A* | 4 | 10 |"), std::string::npos) << text;
-    EXPECT_NE(text.find("| 4 m/s | G-Full, A* | 0 | 10 |"), std::string::npos);
-    EXPECT_NE(text.find("| W-RoI | 3 | 2.00 | 3.00 |"), std::string::npos) << text;  // measured
+    EXPECT_THAT(text, HasSubstr("| 4 m/s | W-RoI, A* | 4 | 10 |"));
+    EXPECT_THAT(text, HasSubstr("| 4 m/s | G-Full, A* | 0 | 10 |"));
+    EXPECT_THAT(text, HasSubstr("| W-RoI | 3 | 2.00 | 3.00 |"));  // measured
     std::ifstream in(path("summary.json"));
     EXPECT_EQ(nlohmann::json::parse(in)["missing_runs"], 16);
 
@@ -112,10 +111,9 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
         all.push_back(test::runOf("gap", seed, "G-Full", "astar", kWon));
     }
     writeRuns(all);
-    EXPECT_EQ(run({"report", folder(), "--overwrite"}).out.find("Unfinished"), std::string::npos);
+    EXPECT_THAT(run({"report", folder(), "--overwrite"}).out, Not(HasSubstr("Unfinished")));
     folder_.write("campaign.json", "{}");
-    EXPECT_NE(run({"report", folder(), "--overwrite"}).err.find("campaign.json: "),
-              std::string::npos);
+    EXPECT_THAT(run({"report", folder(), "--overwrite"}).err, HasSubstr("campaign.json: "));
 }
 
 TEST(FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
@@ -140,16 +138,14 @@ TEST(FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
     const test::TemporaryFolder folder;
     fs::create_directory(folder / "journal");
     fs::create_symlink("nowhere", folder / "journal/0.csv");
-    EXPECT_NE(test::messageOf([&] {
-                  trials::readFlownRuns(folder.path());
-              }).find("0.csv: cannot be read"),
-              std::string::npos);
+    EXPECT_THAT(test::messageOf([&] { trials::readFlownRuns(folder.path()); }),
+                HasSubstr("0.csv: cannot be read"));
 }
 
 TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
     writeRuns(threeContenders());
     folder_.write("summary.csv", "mine");
-    expectFailure({"report", folder()}, 1, "summary.csv exists; give --overwrite");
+    expectFailure({"report", folder()}, 1, "summary.csv exists; use --overwrite");
     EXPECT_EQ(test::readFile(path("summary.csv")), "mine");
     EXPECT_EQ(run({"report", folder(), "--overwrite"}).exit_code, 0);
 }
@@ -199,7 +195,7 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
     fs::create_directory(path("report.html"));
     const test::Outcome outcome = run({"report", folder(), "--overwrite"});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("report.html"), std::string::npos) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("report.html"));
     fs::remove(path("report.html"));
     expectFailure({"report", folder(), "--markdown", path("no/a.md")}, 1, path("no"));
     if (fs::exists("/proc/version")) {
@@ -225,7 +221,7 @@ TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {
     const std::string list = run({"replay", folder(), "--seed", "1"}).err;
     for (const Row& one : runs) {
         const std::string line = replays::choiceOf(one, runs);
-        ASSERT_NE(list.find("\n  " + line), std::string::npos) << list;
+        ASSERT_THAT(list, HasSubstr("\n  " + line));
         std::vector<std::string> arguments{"replay", folder(), "--seed", "1"};
         std::istringstream words(line);
         for (std::string word; words >> word && word != "#";) arguments.push_back(word);

@@ -1,4 +1,5 @@
 // rawlog-segment --octomap, as a user would run it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
@@ -11,6 +12,8 @@
 
 namespace hagen {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
@@ -29,7 +32,7 @@ class RawlogSegmentOctomap : public test::ProgramTest {
         const auto outcome = run(arguments);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_EQ(outcome.err, "");
-        EXPECT_NE(outcome.out.find("in the OctoMap: 10 of 10 scans"), std::string::npos);
+        EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 10 of 10 scans"));
         octomap::OcTree tree(0.1);
         EXPECT_TRUE(tree.readBinary(path("map.bt")));
         return tree;
@@ -147,8 +150,8 @@ TEST_F(RawlogSegmentOctomap, ScansWithoutAPoseAreLeftOutAndNamed) {
     const auto outcome = run(
         {"-i", kRecording, "--octomap", path("map.bt"), "--poses", folder_.write("half.tum", tum)});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("in the OctoMap: 6 of 10 scans"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.err.find("the map leaves it out"), std::string::npos) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 6 of 10 scans"));
+    EXPECT_THAT(outcome.err, HasSubstr("the map leaves it out"));
 }
 
 TEST_F(RawlogSegmentOctomap, FailsWithoutPoses) {
@@ -172,7 +175,7 @@ TEST_F(RawlogSegmentOctomap, RefusesWrongUsage) {
     expectFailure({"-i", kRecording, "--octomap", path("map.pcd")}, 2, ".3Dscene");
     expectFailure({"-i", kRecording, "--octomap", ""}, 2, "--octomap");
     expectFailure({"-i", kRecording, "--octomap", map, "--octomap-content", "all"}, 2,
-                  "--octomap-content: 'all' is none of full, roi, roi+rays\n");
+                  "--octomap-content: 'all' is not one of full, roi, roi+rays\n");
     expectFailure({"-i", kRecording, "-o", path("x"), "--octomap-content", "roi"}, 2, "--octomap");
 }
 

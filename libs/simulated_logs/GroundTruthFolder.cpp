@@ -1,4 +1,4 @@
-#include <hagen/simulated_logs/TruthFolder.h>
+#include <hagen/simulated_logs/GroundTruthFolder.h>
 
 #include <hagen/base/WriteFile.h>
 #include <hagen/logs/ScanFolder.h>
@@ -19,31 +19,31 @@ const fs::path& made(const fs::path& folder) {
 void writeKinds(const fs::path& file) {
     std::ofstream out(file);
     out << "# Kinds of semantic/*.label, and their labels: 0 unclassified, 1 ROU, 2 RoI\n";
-    for (const simulation::Kind kind : simulation::allKinds()) {
+    for (const simulation::ObjectClass kind : simulation::allKinds()) {
         out << static_cast<int>(kind) << ": {name: " << simulation::nameOf(kind)
             << ", label: " << static_cast<int>(simulation::labelOf(kind)) << "}\n";
     }
     base::closeWritten(out, file);
 }
 
-/// Kinds are written as labels are: the low 16 bits are a number, whatever it means.
-std::vector<Label> asLabels(const std::vector<simulation::Kind>& kinds) {
+/// Classes are written like labels: the low 16 bits are a number of any meaning.
+std::vector<Label> asLabels(const std::vector<simulation::ObjectClass>& kinds) {
     std::vector<Label> numbers;
-    for (const simulation::Kind kind : kinds) numbers.push_back(static_cast<Label>(kind));
+    for (const simulation::ObjectClass kind : kinds) numbers.push_back(static_cast<Label>(kind));
     return numbers;
 }
 
 }  // namespace
 
-TruthFolder::TruthFolder(const fs::path& folder, bool overwrite)
-    : path_(folder, logs::kScanFolders, overwrite),
-      writer_(made(path_.temporary())) {
+GroundTruthFolder::GroundTruthFolder(const fs::path& folder, bool overwrite)
+    : path_(folder, logs::kScanFolders, overwrite), writer_(made(path_.temporary())) {
     fs::create_directory(path_.temporary() / "semantic");
     writeKinds(path_.temporary() / "kinds.yaml");
 }
 
-void TruthFolder::write(const Scan& scan, const Truth& truth, const SensorModel& sensor,
-                        double time_s, const mrpt::poses::CPose3D& sensor_pose, double altitude_m) {
+void GroundTruthFolder::write(const Scan& scan, const GroundTruthLabels& truth,
+                              const SensorModel& sensor, double time_s,
+                              const mrpt::poses::CPose3D& sensor_pose, double altitude_m) {
     LabelledReturns returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         returns.label.push_back(sensor.sees(scan.range_m[i]) ? simulation::labelOf(truth.kind[i])
@@ -57,7 +57,7 @@ void TruthFolder::write(const Scan& scan, const Truth& truth, const SensorModel&
     altitudes_m_.push_back(altitude_m);
 }
 
-void TruthFolder::finish() {
+void GroundTruthFolder::finish() {
     const fs::path file = path_.temporary() / "altitudes.txt";
     std::ofstream out(file);
     out << std::fixed << std::setprecision(3);
@@ -66,12 +66,12 @@ void TruthFolder::finish() {
     writer_.finish();
 }
 
-void TruthFolder::commit() {
+void GroundTruthFolder::commit() {
     finish();
     path_.commit();
 }
 
-fs::path TruthFolder::keepPartial() {
+fs::path GroundTruthFolder::keepPartial() {
     finish();
     return path_.keepPartial();
 }

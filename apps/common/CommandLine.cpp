@@ -1,0 +1,207 @@
+#include "CommandLine.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "Interrupt.h"
+
+namespace hagen {
+
+namespace fs = std::filesystem;
+
+Flag& Flag::required() {
+    option_->required();
+    return *this;
+}
+Flag& Flag::once() {
+    option_->allow_extra_args(false);
+    return *this;
+}
+Flag& Flag::delimiter(char mark) {
+    option_->delimiter(mark);
+    return *this;
+}
+Flag& Flag::needs(const Flag& other) {
+    option_->needs(other.option_);
+    return *this;
+}
+Flag& Flag::between(int least, int most) {
+    option_->check(CLI::Range(least, most));
+    return *this;
+}
+Flag& Flag::between(double least, double most) {
+    option_->check(CLI::Range(least, most));
+    return *this;
+}
+Flag& Flag::positive() {
+    option_->check(CLI::PositiveNumber);
+    return *this;
+}
+Flag& Flag::notNegative() {
+    option_->check(CLI::NonNegativeNumber);
+    return *this;
+}
+Flag& Flag::oneOf(const std::vector<std::string>& words) {
+    option_->check(CLI::IsMember(words));
+    return *this;
+}
+Flag& Flag::existingFile() {
+    option_->check(CLI::ExistingFile);
+    return *this;
+}
+Flag& Flag::existingFolder() {
+    option_->check(CLI::ExistingDirectory);
+    return *this;
+}
+Flag& Flag::existingPath() {
+    option_->check(CLI::ExistingPath);
+    return *this;
+}
+Flag& Flag::check(std::function<std::string(const std::string&)> errorOf, const std::string& type) {
+    option_->check(CLI::Validator(std::move(errorOf), type));
+    return *this;
+}
+Flag& Flag::transform(std::function<std::string(const std::string&)> rewrite) {
+    option_->transform(std::move(rewrite));
+    return *this;
+}
+Flag& Flag::group(const std::string& name) {
+    option_->group(name);
+    return *this;
+}
+Flag& Flag::valueName(const std::string& name) {
+    option_->option_text(name);
+    return *this;
+}
+Flag& Flag::showDefault() {
+    option_->capture_default_str();
+    return *this;
+}
+bool Flag::isGiven() const { return option_->count() > 0; }
+
+template <class Value>
+Flag Command::option(const std::string& names, Value& value, const std::string& help) {
+    return Flag(*app_->add_option(names, value, help));
+}
+template Flag Command::option(const std::string&, std::string&, const std::string&);
+template Flag Command::option(const std::string&, fs::path&, const std::string&);
+template Flag Command::option(const std::string&, int&, const std::string&);
+template Flag Command::option(const std::string&, std::size_t&, const std::string&);
+template Flag Command::option(const std::string&, float&, const std::string&);
+template Flag Command::option(const std::string&, double&, const std::string&);
+template Flag Command::option(const std::string&, std::optional<float>&, const std::string&);
+template Flag Command::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Flag Command::option(const std::string&, std::vector<fs::path>&, const std::string&);
+template Flag Command::option(const std::string&, std::vector<double>&, const std::string&);
+
+Flag Command::flag(const std::string& names, bool& value, const std::string& help) {
+    return Flag(*app_->add_flag(names, value, help));
+}
+
+Flag Command::printer(const std::string& names, std::function<void()> print,
+                      const std::string& help) {
+    const auto stop = [print = std::move(print)] {
+        print();
+        throw CLI::Success();
+    };
+    return Flag(*app_->add_flag_callback(names, stop, help));
+}
+
+Flag Command::choice(const std::string& names, const std::vector<std::string>& words,
+                     const std::string& help, std::function<void(std::size_t)> choose) {
+    const auto place = [words](const std::string& word) {
+        return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) -
+                                        words.begin());
+    };
+    const std::function<void(const std::string&)> set =
+        [place, choose = std::move(choose)](const std::string& word) { choose(place(word)); };
+    const auto errorOf = [place, words](const std::string& word) {
+        return place(word) < words.size()
+                   ? ""
+                   : "'" + word + "' is none of " + CLI::detail::join(words, ", ");
+    };
+    return Flag(*app_->add_option_function(names, set, help)->check(CLI::Validator(errorOf, "")));
+}
+
+void Command::hide() { app_->group(""); }
+
+void Command::does(std::function<int()> work) {
+    app_->callback([work = std::move(work), chosen = chosen_] {
+        *chosen = [work] {
+            catchSignals();
+            return work();
+        };
+    });
+}
+
+namespace {
+
+/// What to say where no subcommand was understood.
+std::string subcommandsOf(const CLI::App& app, const std::string& program) {
+    const std::vector<std::string> unknown = app.remaining();
+    std::string text =
+        unknown.empty() ? "no command is given" : "'" + unknown[0] + "' is no command";
+    const char* before = "; there are ";
+    const auto is_shown = [](const CLI::App* command) { return !command->get_group().empty(); };
+    for (const CLI::App* command : app.get_subcommands(is_shown)) {
+        text += before + command->get_name();
+        before = ", ";
+    }
+    return text + " (" + program + " --help tells more)";
+}
+
+}  // namespace
+
+Program::Program(std::string name, const std::string& description)
+    : Program(std::make_unique<CLI::App>(description), std::move(name)) {}
+Program::Program(std::unique_ptr<CLI::App> app, std::string name)
+    : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {}
+Program::~Program() = default;
+
+void Program::footer(const std::string& text) { app_->footer(text); }
+void Program::version(const std::string& version) {
+    app_->set_version_flag("--version", name_ + " " + version);
+}
+void Program::prints(const std::string& what) { printed_ = help_ = what; }
+
+Command Program::subcommand(const std::string& name, const std::string& help) {
+    app_->require_subcommand(1);
+    return Command(*app_->add_subcommand(name, help), work_);
+}
+
+int Program::fail(int exit_code, const std::string& message) const {
+    std::cerr << name_ << ": " << message << "\n";
+    return exit_code;
+}
+
+/// What was printed must have arrived.
+int Program::printed(int exit_code, const std::string& what) const {
+    if (std::fflush(stdout) == 0 && std::cout.flush()) return exit_code;
+    return fail(kFailed, "the " + what + " cannot be printed");
+}
+
+int Program::run(int argc, char** argv, const std::function<int()>& work) {
+    try {
+        app_->parse(argc, argv);
+        return printed(work ? work() : work_(), printed_);
+    } catch (const CLI::Success& e) {  // --help, --version
+        app_->exit(e);
+        return printed(kDone, help_);
+    } catch (const CLI::ParseError& e) {
+        const bool lacks_subcommand =
+            !app_->get_subcommands(nullptr).empty() && app_->get_subcommands().empty();
+        if (lacks_subcommand) return fail(kWrongUsage, subcommandsOf(*app_, name_));
+        app_->exit(e);
+        return kWrongUsage;
+    } catch (const UsageError& e) {
+        app_->exit(CLI::ValidationError(e.what()));
+        return kWrongUsage;
+    } catch (const fs::filesystem_error& e) {
+        return fail(kFailed, e.path1().string() + ": " + e.code().message());
+    } catch (const std::exception& e) {
+        return fail(kFailed, e.what());
+    }
+}
+
+}  // namespace hagen
