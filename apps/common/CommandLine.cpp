@@ -119,7 +119,7 @@ Flag Command::choice(const std::string& names, const std::vector<std::string>& w
     const auto errorOf = [place, words](const std::string& word) {
         return place(word) < words.size()
                    ? ""
-                   : "'" + word + "' is none of " + CLI::detail::join(words, ", ");
+                   : "'" + word + "' is not one of " + CLI::detail::join(words, ", ");
     };
     return Flag(*app_->add_option_function(names, set, help)->check(CLI::Validator(errorOf, "")));
 }

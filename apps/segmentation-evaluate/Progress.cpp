@@ -6,9 +6,9 @@
 
 namespace hagen {
 
-Progress::Progress(const std::vector<evaluation::LabelledScanSource>& sources)
+Progress::Progress(const evaluation::LabelledScanSources& sources)
     : is_on_terminal_(isatty(STDERR_FILENO) == 1) {
-    for (const evaluation::LabelledScanSource& source : sources) all_ += source.scans;
+    for (const auto& source : sources) all_ += source->size();
 }
 
 Progress::~Progress() {

@@ -9,7 +9,7 @@ namespace hagen {
 /// terminal.
 class Progress {
  public:
-    explicit Progress(const std::vector<evaluation::LabelledScanSource>& sources);
+    explicit Progress(const evaluation::LabelledScanSources& sources);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;

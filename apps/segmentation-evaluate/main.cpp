@@ -101,7 +101,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
     options.camera = fromFlag(flags.camera, evaluation::readCamera);
-    const std::vector<evaluation::LabelledScanSource> sources =
+    const evaluation::LabelledScanSources sources =
         labelled_scans::sourcesOf(flags.folders, rows, label_map);
     Outputs outputs(flags);
 
@@ -111,14 +111,13 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
         methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
             progress.show(view);
             if (!outputs.overlay) return;
-            labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source], view,
-                                        options);
+            labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source]->name(),
+                                        view, options);
         });
     }
 
     summary.folders = flags.folders;
-    for (const evaluation::LabelledScanSource& source : sources)
-        summary.folder_names.push_back(source.name);
+    for (const auto& source : sources) summary.folder_names.push_back(source->name());
     summary.range = options.range;
     summary.label_map = flags.label_map;
     summary.camera = flags.camera;

@@ -23,12 +23,11 @@ Measured measure(const DataSet& set, const labelled_scans::MethodSet& rows,
     evaluation.range.max_range_m = set.max_range_m;
     if (has_camera)
         evaluation.camera = evaluation::readCamera(options.config / "camera_forward.yaml");
-    const std::vector<evaluation::LabelledScanSource> sources =
+    const evaluation::LabelledScanSources sources =
         labelled_scans::sourcesOf(scanFolders(set), rows, label_map);
 
     Measured measured{set, {}, {}, {}};
-    for (const evaluation::LabelledScanSource& source : sources)
-        measured.folders.push_back(source.name);
+    for (const auto& source : sources) measured.folders.push_back(source->name());
     measured.methods =
         evaluation::evaluate(sources, evaluation, [&](const evaluation::MethodOutput& view) {
             if (view.method == 0) measured.returns.push_back(view.truth.input.scan.size());

@@ -1,4 +1,5 @@
-// What most sources include; parsed once (cmake/HagenPrecompile.cmake). Sources name what they need all the same.
+// What most sources include; parsed once (cmake/HagenPrecompile.cmake). Sources name what they need
+// all the same.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>

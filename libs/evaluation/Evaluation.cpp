@@ -38,17 +38,17 @@ std::vector<std::size_t> returnsOf(const std::vector<CameraPixel>& pixels) {
 
 }  // namespace
 
-std::vector<MethodScores> evaluate(const std::vector<LabelledScanSource>& sources,
+std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
                                    const EvaluationOptions& options,
                                    const EvaluationListener& listener) {
     if (sources.empty()) throw std::invalid_argument("there are no scans to evaluate");
     std::vector<MethodScores> all;
     for (std::size_t s = 0; s < sources.size(); ++s) {
-        const LabelledScanSource& source = sources[s];
+        LabelledScanSource& source = *sources[s];
         const std::vector<Method> methods = source.makeMethods();
-        checkMethods(methods, source.name, all);
-        for (std::size_t i = 0; i < source.scans; ++i) {
-            const GroundTruthScan scan = source.read(i);
+        checkMethods(methods, source.name(), all);
+        for (std::size_t i = 0; auto pulled = source.next(); ++i) {
+            const GroundTruthScan& scan = *pulled;
             std::vector<CameraPixel> pixels;
             if (options.camera) pixels = visibleReturns(*options.camera, scan.input.scan);
             const std::vector<std::size_t> seen = returnsOf(pixels);
@@ -57,14 +57,14 @@ std::vector<MethodScores> evaluate(const std::vector<LabelledScanSource>& source
                 const std::vector<Label> found = timed(methods[m], scan.input, all[m].latency_ms);
                 const auto score = [&](const std::vector<std::size_t>* chosen,
                                        std::vector<ScanScores>& scores) {
-                    scores.push_back(scoreScan(scan, found, source.kinds, options.range, chosen));
+                    scores.push_back(scoreScan(scan, found, source.kinds(), options.range, chosen));
                     scores.back().folder = s;
                 };
                 try {
                     score(nullptr, all[m].returns);
                     if (options.camera) score(&seen, all[m].pixels);
                 } catch (const std::invalid_argument& e) {
-                    throw std::runtime_error(source.scanName(i) + ": " + e.what());
+                    throw std::runtime_error(scan.name + ": " + e.what());
                 }
                 if (listener)
                     listener({s, i, m, methods.size(), methods[m].name, scan, found, pixels});

@@ -1,7 +1,8 @@
 #include <hagen/labelled_scans/LabelledFolders.h>
 
-#include <hagen/logs/LogPoses.h>
 #include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanSource.h>
+#include <hagen/observations/ObservationScan.h>
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -12,17 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is known of a scan folder before its scans are read.
-struct Recording {
-    logs::ScanFolder folder;
-    SensorModel sensor;
-    evaluation::LabelMap kinds;  ///< of the --label-map or the folder; empty: not known
-    bool has_label_map;          ///< true labels come through `kinds`
-    bool has_kind_files;         ///< there is a folder semantic/
-    std::vector<double> times_s, altitudes_m;
-    observations::Trajectory sensor_poses;  ///< in the map, whose z points up
-};
-
 std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) {
     std::vector<std::uint16_t> labels = logs::readLabels(file);
     if (labels.size() != scan.size()) {
@@ -32,58 +22,86 @@ std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) 
     return labels;
 }
 
-void readTruth(const Recording& recording, std::size_t i, evaluation::GroundTruthScan& scan) {
-    const logs::ScanFolder& folder = recording.folder;
-    const bool is_by_kind = recording.has_label_map && recording.has_kind_files;
-    const fs::path file = is_by_kind ? folder.kindFile(i) : folder.labelFile(i);
+/// A scan folder: the recording and its ground-truth labels.
+class LabelledFolder : public evaluation::LabelledScanSource {
+ public:
+    LabelledFolder(const std::string& path, const std::string& name, const MethodSet& methods,
+                   const std::optional<evaluation::LabelMap>& label_map);
+
+    std::optional<evaluation::GroundTruthScan> next() override;
+    const std::string& name() const override { return name_; }
+    std::size_t size() const override { return folder_.size(); }
+    const evaluation::LabelMap& kinds() const override { return kinds_; }
+    std::vector<evaluation::Method> makeMethods() const override {
+        return methodsFor(methods_, folder_.sensorFile());
+    }
+
+ private:
+    void readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const;
+
+    std::string name_;
+    logs::ScanFolder folder_;
+    std::unique_ptr<logs::ScanSource> scans_;
+    MethodSet methods_;
+    observations::Settings settings_;
+    evaluation::LabelMap kinds_;  ///< of the --label-map or the folder; empty: unknown
+    bool has_label_map_;          ///< ground-truth labels come through `kinds_`
+    bool has_kind_files_;         ///< there is a folder semantic/
+    std::vector<double> altitudes_m_;
+    observations::ObservedScan observed_;
+};
+
+LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
+                               const MethodSet& methods,
+                               const std::optional<evaluation::LabelMap>& label_map)
+    : name_(name),
+      folder_(path),
+      scans_(logs::openRecording(path)),
+      methods_(methods),
+      settings_(scans_->settingsFor(methods.filter.front().settings)),
+      has_label_map_(label_map.has_value()),
+      has_kind_files_(fs::is_directory(folder_.path() / "semantic")),
+      altitudes_m_(folder_.altitudes()) {
+    if (label_map) {
+        kinds_ = *label_map;
+    } else if (has_kind_files_ && fs::exists(folder_.kindNamesFile())) {
+        kinds_ = evaluation::readLabelMap(folder_.kindNamesFile());
+    }
+    // A poses.txt is relative to the first scan, which may have been tilted: no attitude.
+    if (fs::exists(folder_.tumFile())) scans_->usePoses({});
+}
+
+void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const {
+    const bool is_by_kind = has_label_map_ && has_kind_files_;
+    const fs::path file = is_by_kind ? folder_.kindFile(i) : folder_.labelFile(i);
     const std::vector<std::uint16_t> numbers = readLabelsOf(scan.input.scan, file);
     try {
-        scan.truth = recording.has_label_map ? evaluation::labelsOfClasses(numbers, recording.kinds)
-                                             : evaluation::labelsOfNumbers(numbers);
+        scan.truth = has_label_map_ ? evaluation::labelsOfClasses(numbers, kinds_)
+                                    : evaluation::labelsOfNumbers(numbers);
     } catch (const std::invalid_argument& e) {
         throw std::runtime_error(file.string() + ": " + e.what());
     }
-    if (recording.has_label_map) {
+    if (has_label_map_) {
         scan.kinds = numbers;
-    } else if (!recording.kinds.empty()) {
-        scan.kinds = readLabelsOf(scan.input.scan, folder.kindFile(i));
+    } else if (!kinds_.empty()) {
+        scan.kinds = readLabelsOf(scan.input.scan, folder_.kindFile(i));
     }
 }
 
-evaluation::GroundTruthScan readTrueScan(const Recording& recording, std::size_t i) {
+std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
+    const auto recorded = scans_->nextScan();
+    if (!recorded) return std::nullopt;
+    observations::readObservation(*recorded->observation, settings_, observed_);
     evaluation::GroundTruthScan scan;
-    logs::readScan(recording.folder.scanFile(i), scan.input.scan);
-    locateBeams(recording.sensor, scan.input.scan);
-    readTruth(recording, i, scan);
-    if (!recording.altitudes_m.empty()) scan.altitude_m = recording.altitudes_m[i];
-    if (!recording.times_s.empty()) {
-        const auto pose = recording.sensor_poses.at(mrpt::Clock::fromDouble(recording.times_s[i]));
-        if (pose) {
-            scan.input.map_from_sensor = pose->getRotationMatrix().asEigen().template cast<float>();
-        }
+    scan.name = folder_.scanFile(recorded->entry).string();
+    scan.input.scan = observed_.scan;
+    readTruth(recorded->entry, scan);
+    if (!altitudes_m_.empty()) scan.altitude_m = altitudes_m_[recorded->entry];
+    if (recorded->pose.sensor_pose) {
+        scan.input.map_from_sensor =
+            recorded->pose.sensor_pose->getRotationMatrix().asEigen().template cast<float>();
     }
     return scan;
-}
-
-std::shared_ptr<const Recording> openRecording(
-    const std::string& path, const MethodSet& rows,
-    const std::optional<evaluation::LabelMap>& label_map) {
-    Recording recording{logs::ScanFolder(path), {}, {}, label_map.has_value(), false, {}, {}, {}};
-    const logs::ScanFolder& folder = recording.folder;
-    recording.sensor = settingsFor(rows.filter.front().settings, folder.sensorFile()).sensorModel();
-    recording.has_kind_files = fs::is_directory(folder.path() / "semantic");
-    if (label_map) {
-        recording.kinds = *label_map;
-    } else if (recording.has_kind_files && fs::exists(folder.kindNamesFile())) {
-        recording.kinds = evaluation::readLabelMap(folder.kindNamesFile());
-    }
-    recording.times_s = folder.times();
-    recording.altitudes_m = folder.altitudes();
-    // A poses.txt is relative to the first scan, which may have been tilted: no attitude.
-    if (fs::exists(folder.tumFile())) {
-        recording.sensor_poses = logs::posesOfScanFolder(folder, recording.times_s, {}).vehicle;
-    }
-    return std::make_shared<const Recording>(recording);
 }
 
 /// The last `parts` parts of a path.
@@ -119,25 +137,13 @@ std::vector<std::string> namesOf(const std::vector<std::string>& folders) {
 
 }  // namespace
 
-std::vector<evaluation::LabelledScanSource> sourcesOf(
-    const std::vector<std::string>& folders, const MethodSet& rows,
-    const std::optional<evaluation::LabelMap>& label_map) {
+evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folders,
+                                          const MethodSet& rows,
+                                          const std::optional<evaluation::LabelMap>& label_map) {
     const std::vector<std::string> names = namesOf(folders);
-    std::vector<evaluation::LabelledScanSource> sources;
+    evaluation::LabelledScanSources sources;
     for (std::size_t f = 0; f < folders.size(); ++f) {
-        const auto recording = openRecording(folders[f], rows, label_map);
-        evaluation::LabelledScanSource source;
-        source.name = names[f];
-        source.scans = recording->folder.size();
-        source.read = [recording](std::size_t i) { return readTrueScan(*recording, i); };
-        source.scanName = [recording](std::size_t i) {
-            return recording->folder.scanFile(i).string();
-        };
-        source.kinds = recording->kinds;
-        source.makeMethods = [recording, rows] {
-            return methodsFor(rows, recording->folder.sensorFile());
-        };
-        sources.push_back(source);
+        sources.push_back(std::make_unique<LabelledFolder>(folders[f], names[f], rows, label_map));
     }
     return sources;
 }

@@ -89,14 +89,14 @@ const base::OutputKind kOverlays{
                name.compare(name.size() - end.size(), end.size(), end) == 0;
     }};
 
-void drawOverlay(const fs::path& folder, const evaluation::LabelledScanSource& source,
+void drawOverlay(const fs::path& folder, const std::string& source,
                  const evaluation::MethodOutput& view,
                  const evaluation::EvaluationOptions& options) {
     const fs::path own = view.methods == 1 ? folder : folder / fileName(view.method_name);
     fs::create_directories(own);
-    const std::string scan = fs::path(source.scanName(view.scan)).stem().string();
-    draw(own / (fileName(source.name) + "_" + scan + "_overlay.png"),
-         source.name + ", scan " + scan + ", " + view.method_name, view, *options.camera,
+    const std::string scan = fs::path(view.truth.name).stem().string();
+    draw(own / (fileName(source) + "_" + scan + "_overlay.png"),
+         source + ", scan " + scan + ", " + view.method_name, view, *options.camera,
          options.range.max_range_m);
 }
 

@@ -103,8 +103,7 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
     for (const MethodTotals& method : summary.methods) report["methods"].push_back(json(method));
 
     // File names may be invalid UTF-8, which JSON does not allow.
-    base::writeText(report.dump(2, Json::NotUtf8::Replace) + "
-", file, file);
+    base::writeText(report.dump(2, Json::NotUtf8::Replace) + "\n", file, file);
 }
 
 }  // namespace hagen::labelled_scans

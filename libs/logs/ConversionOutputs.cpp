@@ -39,8 +39,8 @@ std::string ConversionOutputs::writeScan(
         }
         const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
         writer->second.write(own_name, *segmented.scan, segmented.result->returns,
-                             *segmented.sensor, time_s, segmented.sensor_pose,
-                             !segmented.sensor_pose || segmented.pose_has_horizon);
+                             *segmented.sensor, time_s, segmented.pose.sensor_pose,
+                             !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);
     }
     if (pictures_) {
         const fs::path folder = pictures_->folderOf(sensor_label) / own_name;

@@ -1,5 +1,6 @@
 #include "Converter.h"
 
+#include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/MrptMessage.h>
@@ -18,6 +19,7 @@
 namespace hagen::logs {
 namespace {
 
+namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
 
 /// The report of one scan, but for what only the converter knows of it.
@@ -41,96 +43,83 @@ ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     return report;
 }
 
-std::unique_ptr<observations::ObservationSegmenter> makeSegmenter(
-    const Conversion& conversion, const observations::Settings& settings) {
-    auto segmenter = std::make_unique<observations::ObservationSegmenter>();
-    segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // remarks go to the listener
-    segmenter->cloud_class = conversion.cloud_class;
-    segmenter->initialize(settings);
-    return segmenter;
+/// Poses with times cost nothing to read.
+bool hasTumFile(const Conversion& conversion) {
+    return !conversion.poses.empty() && kindOfPoseFile(conversion.poses) == PoseFileKind::Tum;
+}
+
+/// Poses of a rawlog are used only if an output needs them, as they may cost another pass.
+bool needsPoses(const Conversion& conversion) {
+    const Options& options = conversion.settings.options;
+    const bool can_level = options.level_by_attitude && hasTumFile(conversion);
+    return fs::is_directory(conversion.input) || options.window_scans > 1 ||
+           !conversion.folder.empty() || !conversion.octomaps.empty() || can_level;
 }
 
 }  // namespace
 
-SegmenterPool::Lease SegmenterPool::lease() {
-    const auto giveBack = [this](observations::ObservationSegmenter* segmenter) {
-        const std::lock_guard lock(is_used_);
-        idle_.emplace_back(segmenter);
-    };
-    {
-        const std::lock_guard lock(is_used_);
-        if (!idle_.empty()) {
-            Lease lease(idle_.back().release(), giveBack);
-            idle_.pop_back();
-            return lease;
-        }
-    }
-    return Lease(make_().release(), giveBack);
-}
-
-Converter::Converter(const Conversion& conversion, const observations::Settings& settings,
-                     const ConversionListener& listener)
+Converter::Converter(const Conversion& conversion, const ConversionListener& listener)
     : conversion_(conversion),
       listener_(listener),
-      has_window_(settings.options.window_scans > 1),
+      source_(openRecording(conversion.input, sourceOptions())),
+      settings_(source_->settingsFor(conversion.settings)),
+      has_window_(settings_.options.window_scans > 1),
       outputs_(conversion),
-      segmenters_([this] { return makeSegmenter(conversion_, report_.settings); }) {
-    report_.settings = settings;
-    segmenters_.lease();  // settings that do not fit are told before anything is read
+      segmenters_(settings_, conversion.cloud_class) {
+    report_.settings = settings_;
+    if (needsPoses(conversion_)) usePoses();
 }
 
-void Converter::setPoses(const LogPoses& poses) {
-    vehicle_ = poses.vehicle;
-    report_.poses = poses.source;
-    levels_by_file_ = !conversion_.poses.empty() && poses.vehicle.has_horizon;
-    if (outputs_.wantsMap() && poses.source.empty()) {
+SourceOptions Converter::sourceOptions() {
+    SourceOptions options;
+    options.sensor_labels = conversion_.sensor_labels;
+    options.first_entry = conversion_.from;
+    options.last_entry = conversion_.to;
+    if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
+    options.keep_going = [this] {
+        const std::lock_guard lock(listens_);
+        return listener_.keep_going();
+    };
+    return options;
+}
+
+void Converter::usePoses() {
+    source_->usePoses(conversion_.poses);
+    report_.poses = source_->poses().source;
+    if (outputs_.wantsMap() && report_.poses.empty()) {
         throw std::runtime_error(conversion_.input.string() +
                                  ": tells no poses, and a map needs them; give them (--poses "
                                  "FILE.tum, lines of 'time x y z qx qy qz qw')");
     }
 }
 
-// Reading, in the log's order.
+// Reading, in the recording's order.
 
-bool Converter::takes(std::size_t entry) {
-    {
-        const std::lock_guard lock(listens_);
-        if (!listener_.keep_going()) throw Interrupted("interrupted");
+bool Converter::read(EntryInConversion& entry) {
+    try {
+        auto recorded = source_->nextEntry();
+        if (!recorded) return false;
+        entry.number = recorded->number;
+        entry.fraction_read = recorded->fraction_read;
+        entry.object = recorded->object;
+        for (RecordedScan& scan : recorded->scans) {
+            entry.scans.emplace_back().recorded = std::move(scan);
+        }
+        return true;
+    } catch (...) {
+        end_ = std::current_exception();  // thrown after what was read before it is converted
+        return false;
     }
-    if (entry < conversion_.from) ++report_.left_out_before;
-    return entry >= conversion_.from;
-}
-
-void Converter::see(const CObservation& observation) {
-    if (!levels_by_file_) horizon_.see(observation);
-}
-
-bool Converter::isWanted(const CObservation& observation) {
-    if (!observations::isLidarScan(observation)) return false;
-    const std::string& label = observation.sensorLabel;
-    const auto& wanted = conversion_.sensor_labels;
-    if (wanted.empty()) return true;
-    if (std::find(wanted.begin(), wanted.end(), label) != wanted.end()) return true;
-    other_labels_.insert(label);
-    return false;
-}
-
-void Converter::add(const CObservation::ConstPtr& observation, EntryOnItsWay& entry,
-                    const std::string& name) {
-    if (!isWanted(*observation)) return;
-    ScanOnItsWay& scan = entry.scans.emplace_back();
-    scan.observation = observation;
-    scan.name = name;
-    scan.whereabouts = horizon_.whereaboutsOf(*observation, vehicle_);
 }
 
 // Segmenting, on any thread.
 
-void Converter::segment(ScanOnItsWay& scan) {
+void Converter::segment(ScanInConversion& scan) {
+    const CObservation& observation = *scan.recorded.observation;
     scan.segmenter = segmenters_.lease();
     try {
-        scan.is_segmented =
-            scan.segmenter->process(*scan.observation, scan.segmented, scan.whereabouts, vehicle_);
+        scan.is_segmented = scan.segmenter->process(observation, scan.segmented, scan.recorded.pose,
+                                                    source_->poses().vehicle);
     } catch (const observations::SettingsError&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -140,16 +129,16 @@ void Converter::segment(ScanOnItsWay& scan) {
         if (scan.why_not.empty()) scan.why_not = "MRPT does not say why";
     }
     if (scan.is_segmented && conversion_.preview && outputs_.wantsRawlog()) {
-        scan.preview = observations::previewOf(*scan.observation, scan.segmented,
-                                               report_.settings.options.zone_m);
+        scan.preview =
+            observations::previewOf(observation, scan.segmented, settings_.options.zone_m);
     }
 }
 
-void Converter::serialiseAll(EntryOnItsWay& entry) const {
+void Converter::serialiseAll(EntryInConversion& entry) const {
     entry.bytes.clear();
     if (!outputs_.wantsRawlog()) return;
     std::vector<CObservation::Ptr> added;
-    for (const ScanOnItsWay& scan : entry.scans) {
+    for (const ScanInConversion& scan : entry.scans) {
         if (!scan.is_segmented) continue;
         added.push_back(scan.segmented.roi);
         added.push_back(scan.segmented.non_roi);
@@ -163,66 +152,65 @@ void Converter::serialiseAll(EntryOnItsWay& entry) const {
     for (const CObservation::Ptr& observation : added) serialise(*observation, entry.bytes);
 }
 
-void Converter::work(EntryOnItsWay& entry) {
+void Converter::segment(EntryInConversion& entry) {
     if (has_window_) return;  // in account(), in the log's order
     try {
-        for (ScanOnItsWay& scan : entry.scans) segment(scan);
+        for (ScanInConversion& scan : entry.scans) segment(scan);
         serialiseAll(entry);
     } catch (...) {
         entry.failure = std::current_exception();
     }
 }
 
-// What others see of it, in the log's order.
+// What a user sees of it, in the recording's order.
 
-void Converter::tellRemarks(const ScanOnItsWay& scan, const std::string& entry) {
+void Converter::tellRemarks(const ScanInConversion& scan) {
+    const std::string title = titleOf(scan.recorded);
     const std::lock_guard lock(listens_);
     if (!scan.is_segmented) {
-        if (!scan.why_not.empty()) listener_.unreadable(entry, scan.why_not);
+        if (!scan.why_not.empty()) listener_.unreadable(title, scan.why_not);
         return;
     }
-    if (!scan.segmented.remark.empty()) listener_.remark(entry, scan.segmented.remark);
-    if (!conversion_.folder.empty() && !report_.poses.empty() && !scan.segmented.sensor_pose) {
-        listener_.remark(entry,
+    if (!scan.segmented.remark.empty()) listener_.remark(title, scan.segmented.remark);
+    if (!conversion_.folder.empty() && !report_.poses.empty() && !scan.recorded.pose.sensor_pose) {
+        listener_.remark(title,
                          "no pose is near its time: poses.tum leaves it out, and "
                          "poses.txt is not written");
     }
 }
 
-void Converter::insertIntoMap(const ScanOnItsWay& scan, const std::string& entry) {
-    const auto mapped = placeInMap(scan.segmented, *scan.observation, vehicle_);
+void Converter::insertIntoMap(const ScanInConversion& scan) {
+    const auto mapped =
+        placeInMap(scan.segmented, *scan.recorded.observation, source_->poses().vehicle);
     if (mapped) {
         outputs_.insertIntoMap(*mapped);
         ++report_.scans_in_map;
         return;
     }
     const std::lock_guard lock(listens_);
-    listener_.remark(entry, "no pose is near its time: the map leaves it out");
+    listener_.remark(titleOf(scan.recorded), "no pose is near its time: the map leaves it out");
 }
 
-void Converter::account(ScanOnItsWay& scan, const EntryOnItsWay& entry) {
-    const std::string& label = scan.observation->sensorLabel;
+void Converter::account(ScanInConversion& scan) {
     if (!scan.is_segmented && !scan.why_not.empty()) ++report_.unreadable_scans;
-    const std::string name = "entry " + std::to_string(entry.number) + " (" +
-                             (scan.name.empty() ? label : scan.name) + ")";
-    tellRemarks(scan, name);
+    tellRemarks(scan);
     if (scan.is_segmented) {
-        if (outputs_.wantsMap()) insertIntoMap(scan, name);
+        if (outputs_.wantsMap()) insertIntoMap(scan);
         ScanReport report = reportOf(scan.segmented);
-        report.entry = entry.number;
-        report.sensor_label = label;
-        report.name =
-            outputs_.writeScan(scan.segmented, label, scan.name, report_.settings.options);
+        report.entry = scan.recorded.entry;
+        report.sensor_label = scan.recorded.observation->sensorLabel;
+        report.name = outputs_.writeScan(scan.segmented, report.sensor_label, scan.recorded.name,
+                                         settings_.options);
         count(scan.segmented, report);
     }
     scan.segmenter.reset();
 }
 
-void Converter::account(EntryOnItsWay& entry) {
+void Converter::account(EntryInConversion& entry) {
     if (entry.failure) std::rethrow_exception(entry.failure);
-    for (ScanOnItsWay& scan : entry.scans) {
+    for (ScanInConversion& scan : entry.scans) {
         if (has_window_) segment(scan);
-        account(scan, entry);
+        account(scan);
     }
     if (has_window_) serialiseAll(entry);
     outputs_.gather(entry.bytes, entry.member);
@@ -231,7 +219,7 @@ void Converter::account(EntryOnItsWay& entry) {
     entry.object.reset();
 
     ++report_.entries;
-    report_.fraction = entry.fraction;
+    report_.fraction = entry.fraction_read;
     const std::lock_guard lock(listens_);
     listener_.progress(report_);
 }
@@ -243,8 +231,8 @@ void Converter::count(const observations::ObservationSegmenter::Output& out,
     report_.roi += scan.roi;
     report_.rou += scan.rou;
     report_.unclassified += scan.unclassified;
-    report_.scans_with_pose += out.sensor_pose.has_value();
-    report_.scans_with_attitude += out.attitude.has_value();
+    report_.scans_with_pose += out.pose.sensor_pose.has_value();
+    report_.scans_with_attitude += out.pose.attitude.has_value();
     report_.sensors[scan.sensor_label] =
         out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams" +
         (out.is_sensor_assumed ? " (assumed; sensor.model in the settings names another)" : "");
@@ -253,45 +241,39 @@ void Converter::count(const observations::ObservationSegmenter::Output& out,
 
 // The whole, and its end.
 
-void Converter::run(const std::function<bool(EntryOnItsWay&)>& read, const std::string& what) {
-    std::exception_ptr end;  // what was read before it is converted first
-    PipelineSteps<EntryOnItsWay> steps;
-    steps.read = [&](EntryOnItsWay& entry) {
-        try {
-            return read(entry);
-        } catch (...) {
-            end = std::current_exception();
-            return false;
-        }
-    };
-    steps.work = [this](EntryOnItsWay& entry) { work(entry); };
-    steps.account = [this](EntryOnItsWay& entry) { account(entry); };
-    steps.pack = [](EntryOnItsWay& entry) {
+ConversionReport Converter::run() {
+    PipelineSteps<EntryInConversion> steps;
+    steps.read = [this](EntryInConversion& entry) { return read(entry); };
+    steps.work = [this](EntryInConversion& entry) { segment(entry); };
+    steps.account = [this](EntryInConversion& entry) { account(entry); };
+    steps.pack = [](EntryInConversion& entry) {
         if (!entry.member.empty()) packGzipMember(entry.member, entry.packed);
     };
-    steps.write = [this](EntryOnItsWay& entry) {
+    steps.write = [this](EntryInConversion& entry) {
         if (!entry.member.empty()) outputs_.writeMember(entry.packed);
     };
-    // Pictures take a second each, one after the other. Threads would gain nothing, but read on,
-    // and have that much to finish when they are interrupted.
+    // Pictures take a second each, one after the other. More threads would gain nothing, but read
+    // ahead, and an interruption would have to wait for that.
     const std::size_t most = conversion_.jobs == 0 ? coresOfThisMachine() : conversion_.jobs;
     runPipeline(steps, conversion_.pictures.empty() ? most : 1);
-    if (!end) return;
+    report_.left_out_before = source_->entriesSkipped();
+    if (!end_) return finish();
     try {
-        std::rethrow_exception(end);
+        std::rethrow_exception(end_);
     } catch (const BrokenRawlog& e) {
-        endEarly(e, what);
+        endEarly(e);
     } catch (const BrokenScan& e) {
-        endEarly(e, what);
+        endEarly(e);
     } catch (const Interrupted& e) {
-        endEarly(e, what);
+        endEarly(e);
     }
 }
 
-ConversionReport Converter::finish(std::size_t entries) {
+ConversionReport Converter::finish() {
     if (report_.entries == 0) {
-        throw std::runtime_error(conversion_.input.string() + ": has " + std::to_string(entries) +
-                                 " entries, none from " + std::to_string(conversion_.from) + " on");
+        throw std::runtime_error(conversion_.input.string() + ": has " +
+                                 std::to_string(source_->entriesKnown()) + " entries, none from " +
+                                 std::to_string(conversion_.from) + " on");
     }
     checkLabels();
     if (outputs_.wantsMap() && report_.scans > 0 && report_.scans_in_map == 0) {
@@ -306,8 +288,9 @@ ConversionReport Converter::finish(std::size_t entries) {
 
 /// Says why it ends early, and where what was done before is kept.
 template <class Error>
-void Converter::endEarly(const Error& why, const std::string& what) {
+void Converter::endEarly(const Error& why) {
     if (report_.entries == 0) throw why;
+    const std::string what = fs::is_directory(conversion_.input) ? "scans" : "entries";
     throw Error(std::string(why.what()) + "; the " + std::to_string(report_.entries) + " " + what +
                 " before it are in" + outputs_.keepPartial(report_));
 }
@@ -320,7 +303,7 @@ void Converter::checkLabels() const {
         if (is_there || report_.unreadable_scans > 0) continue;
         std::string others;
         for (const auto& [other, sensor] : report_.sensors) others += " '" + other + "'";
-        for (const std::string& other : other_labels_) others += " '" + other + "'";
+        for (const std::string& other : source_->otherLabels()) others += " '" + other + "'";
         const std::string what = "has no LiDAR scan of '" + label + "' in what was converted; " +
                                  (others.empty() ? "there is none" : "there are" + others);
         if (report_.scans == 0) {

@@ -1,116 +1,75 @@
 #pragma once
 #include <hagen/logs/Conversion.h>
-#include <hagen/logs/LogPoses.h>
+#include <hagen/logs/ScanSource.h>
 #include <hagen/observations/ObservationSegmenter.h>
-#include <mrpt/obs/CObservation.h>
-#include <mrpt/serialization/CSerializable.h>
 
 #include <exception>
-#include <functional>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "ConversionOutputs.h"
+#include "SegmenterPool.h"
 
 namespace hagen::logs {
 
-/// Segmenters with the same settings, lent out and used again. What one of them says of a scan is
-/// valid while it is lent out.
-class SegmenterPool {
- public:
-    explicit SegmenterPool(
-        std::function<std::unique_ptr<observations::ObservationSegmenter>()> make)
-        : make_(std::move(make)) {}
-
-    using Lease = std::unique_ptr<observations::ObservationSegmenter,
-                                  std::function<void(observations::ObservationSegmenter*)>>;
-    Lease lease();  ///< on any thread
-
- private:
-    std::function<std::unique_ptr<observations::ObservationSegmenter>()> make_;
-    std::mutex is_used_;
-    std::vector<std::unique_ptr<observations::ObservationSegmenter>> idle_;
-};
-
-/// A LiDAR scan on its way through a conversion.
-struct ScanOnItsWay {
-    mrpt::obs::CObservation::ConstPtr observation;
-    std::string name;  ///< in its scan folder, if it is from one
-    observations::ObservationSegmenter::Whereabouts whereabouts;
-
+/// A scan during its conversion.
+struct ScanInConversion {
+    RecordedScan recorded;
     SegmenterPool::Lease segmenter;  ///< holds what `segmented` points to
-    bool is_segmented = false;       ///< `segmented` is about it
-    std::string why_not;             ///< it could not be read
+    bool is_segmented = false;       ///< `segmented` is valid
+    std::string why_not;             ///< reason why it could not be read
     observations::ObservationSegmenter::Output segmented;
     mrpt::obs::CObservation::Ptr preview;
 };
 
-/// An entry of a log on its way through a conversion, with the scans in it that are segmented.
-struct EntryOnItsWay {
+/// An entry during its conversion: read, segmented, accounted for, packed and written.
+struct EntryInConversion {
     std::size_t number = 0;
-    double fraction = 0;                             ///< of the input that is read with it
-    mrpt::serialization::CSerializable::Ptr object;  ///< none: scans alone go into the output
-    std::vector<ScanOnItsWay> scans;
-    std::exception_ptr failure;   ///< that ends the conversion once the entries before it are done
+    double fraction_read = 0;
+    mrpt::serialization::CSerializable::Ptr object;  ///< none: only scans are written
+    std::vector<ScanInConversion> scans;
+    std::exception_ptr failure;   ///< ends the conversion once all entries before it are done
     Bytes bytes, member, packed;  ///< of the output
 };
 
-/// One conversion on its way: segments observations, and counts. Entries are segmented on several
-/// threads, and all that a user sees of it is in the log's order.
+/// A conversion in progress. Entries are segmented on several threads; everything that a user sees
+/// of it is in the order of the recording.
 class Converter {
  public:
-    Converter(const Conversion& conversion, const observations::Settings& settings,
-              const ConversionListener& listener);
-
-    /// Throws std::runtime_error where an output needs poses, and none are known.
-    void setPoses(const LogPoses& poses);
-
-    /// Reads entries until read() says that there are no more. An entry that breaks off, or a
-    /// listener that ends it, leaves what was done before, which is told as so many `what`.
-    void run(const std::function<bool(EntryOnItsWay&)>& read, const std::string& what);
-    /// Ends it well. `entries` of the input were seen.
-    ConversionReport finish(std::size_t entries);
-
-    // For run()'s read().
-    /// Whether the entry is one to convert; counts those that are not. Throws Interrupted.
-    bool takes(std::size_t entry);
-    bool isBeyond(std::size_t entry) const { return entry > conversion_.to; }
-    bool wantsRawlog() const { return outputs_.wantsRawlog(); }
-    /// Notes what an observation tells of the vehicle.
-    void see(const mrpt::obs::CObservation& observation);
-    /// Adds an observation to the scans of its entry, where it is one to segment.
-    void add(const mrpt::obs::CObservation::ConstPtr& observation, EntryOnItsWay& entry,
-             const std::string& name = "");
+    Converter(const Conversion& conversion, const ConversionListener& listener);
+    ConversionReport run();
 
  private:
-    bool isWanted(const mrpt::obs::CObservation& observation);
-    void segment(ScanOnItsWay& scan);
-    void serialiseAll(EntryOnItsWay& entry) const;
-    void work(EntryOnItsWay& entry);
-    void insertIntoMap(const ScanOnItsWay& scan, const std::string& entry);
-    void account(ScanOnItsWay& scan, const EntryOnItsWay& entry);
-    void account(EntryOnItsWay& entry);
+    // The steps of the pipeline (OrderedPipeline.h), and what they consist of.
+    bool read(EntryInConversion& entry);
+    void segment(EntryInConversion& entry);
+    void account(EntryInConversion& entry);
+
+    SourceOptions sourceOptions();
+    void usePoses();
+    void segment(ScanInConversion& scan);
+    void serialiseAll(EntryInConversion& entry) const;
+    void account(ScanInConversion& scan);
+    void tellRemarks(const ScanInConversion& scan);
+    void insertIntoMap(const ScanInConversion& scan);
     void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan);
-    void tellRemarks(const ScanOnItsWay& scan, const std::string& entry);
+    ConversionReport finish();
     void checkLabels() const;
     template <class Error>
-    [[noreturn]] void endEarly(const Error& why, const std::string& what);
+    [[noreturn]] void endEarly(const Error& why);
 
     const Conversion& conversion_;
     const ConversionListener& listener_;
-    std::mutex listens_;           ///< reading asks the listener while it is told of other entries
-    bool levels_by_file_ = false;  ///< poses that the user gave win over what the log tells
-    bool has_window_;              ///< a scan is segmented after those before it
-    observations::Trajectory vehicle_;
+    std::mutex listens_;  ///< reading calls the listener, too, on another thread
+    std::unique_ptr<ScanSource> source_;
+    const observations::Settings settings_;  ///< with those of the recording's own sensor
+    const bool has_window_;                  ///< a scan is segmented after those before it
     ConversionOutputs outputs_;
-    observations::ObservationSegmenter
-        horizon_;  ///< sees the log in its order, and segments nothing
     SegmenterPool segmenters_;
     ConversionReport report_;
-    std::set<std::string> other_labels_;  ///< of LiDAR scans that were not wanted
+    std::exception_ptr end_;  ///< why reading ended early
 };
 
 }  // namespace hagen::logs

@@ -31,7 +31,7 @@ mrpt::Clock::time_point later(mrpt::Clock::time_point time, double by_s) {
 std::optional<mapping::MappedScan> placeInMap(
     const observations::ObservationSegmenter::Output& segmented,
     const mrpt::obs::CObservation& observation, const observations::Trajectory& vehicle) {
-    if (!segmented.sensor_pose) return std::nullopt;
+    if (!segmented.pose.sensor_pose) return std::nullopt;
     const CPose3D sensor_on_vehicle(observation.sensorPose());
     Scan scan = *segmented.scan;
     const bool moves =
@@ -43,10 +43,10 @@ std::optional<mapping::MappedScan> placeInMap(
 
     mapping::MappedScan mapped;
     mapped.time_s = mrpt::Clock::toDouble(observation.timestamp) + duration_s;
-    mapped.origin_m = isometryOf(middle ? *middle + sensor_on_vehicle : *segmented.sensor_pose)
+    mapped.origin_m = isometryOf(middle ? *middle + sensor_on_vehicle : *segmented.pose.sensor_pose)
                           .translation()
                           .cast<float>();
-    const Eigen::Isometry3d to_map = isometryOf(*segmented.sensor_pose);
+    const Eigen::Isometry3d to_map = isometryOf(*segmented.pose.sensor_pose);
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const Label label = segmented.result->returns.label[i];
         if (label == Label::Unclassified) continue;

@@ -87,38 +87,17 @@ const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observ
     return lidar.window.add(deskewed_, *sensor_pose, observed_.sensor);
 }
 
-ObservationSegmenter::Whereabouts ObservationSegmenter::whereaboutsOf(
-    const mrpt::obs::CObservation& scan, const Trajectory& vehicle) const {
-    const mrpt::poses::CPose3D sensor_on_vehicle(scan.sensorPose());
-    Whereabouts known;
-    known.sensor_pose = vehicle.at(scan.timestamp);
-    if (known.sensor_pose) *known.sensor_pose += sensor_on_vehicle;
-    known.pose_has_horizon = known.sensor_pose && vehicle.has_horizon;
-
-    std::optional<mrpt::poses::CPose3D> levelled = horizon_.at(scan.timestamp);
-    if (levelled) {
-        *levelled += sensor_on_vehicle;
-    } else if (known.pose_has_horizon) {
-        levelled = known.sensor_pose;
-    }
-    if (levelled) {
-        known.attitude =
-            Attitude{static_cast<float>(levelled->roll()), static_cast<float>(levelled->pitch())};
-    }
-    return known;
-}
-
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
                                    const Trajectory& vehicle) {
     if (!isLidarScan(observation)) {
         see(observation);
         return false;
     }
-    return process(observation, out, whereaboutsOf(observation, vehicle), vehicle);
+    return process(observation, out, scanPoseOf(observation, vehicle, horizon_), vehicle);
 }
 
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
-                                   const Whereabouts& whereabouts, const Trajectory& vehicle) {
+                                   const ScanPose& pose, const Trajectory& vehicle) {
     const auto start = std::chrono::steady_clock::now();
     if (!isLidarScan(observation)) return false;
     const mrpt::system::CTimeLoggerEntry whole(profiler, "process");
@@ -130,13 +109,13 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     Lidar& lidar = lidarOf(observation.sensorLabel, observed_.sensor);
 
     std::string remark = observed_.remark;
-    const Scan& window = windowOf(observation, vehicle, whereabouts.sensor_pose, lidar, remark);
+    const Scan& window = windowOf(observation, vehicle, pose.sensor_pose, lidar, remark);
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
 
     std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
                                                              "process.segment");
     const auto cpu_start = base::threadCpuTime();
-    const SegmentationResult& result = lidar.filter.segment(window, whereabouts.attitude);
+    const SegmentationResult& result = lidar.filter.segment(window, pose.attitude);
     const auto filter_cpu_time = base::threadCpuTime() - cpu_start;
     segmenting.reset();
     const auto labelled = std::chrono::steady_clock::now();
@@ -150,9 +129,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.result = &result;
     out.sensor = &lidar.filter.sensor();
     out.is_sensor_assumed = observed_.is_sensor_assumed;
-    out.sensor_pose = whereabouts.sensor_pose;
-    out.pose_has_horizon = whereabouts.pose_has_horizon;
-    out.attitude = whereabouts.attitude;
+    out.pose = pose;
     out.remark = remark;
     out.time_to_labels = labelled - start;
     out.filter_cpu_time = filter_cpu_time;

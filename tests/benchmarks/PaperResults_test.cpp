@@ -170,11 +170,11 @@ TEST_F(PaperResults, RefusesWrongUsage) {
 
 TEST_F(PaperResults, NamesTheRecordingThatIsMissing) {
     expectFailure({"-o", folder_.path(), "--labelled", (folder_ / "labelled").string()}, 1,
-                  "beams16: there is no such folder; HAGEN_LABELLED_DATA");
+                  "beams16: no such folder; set HAGEN_LABELLED_DATA");
     fs::create_directories(folder_ / "labelled/beams16");
     fs::create_directories(folder_ / "labelled/beams64");
     expectFailure({"-o", folder_.path(), "--labelled", (folder_ / "labelled").string()}, 1,
-                  "holds no scan folders");
+                  "contains no scan folders");
     EXPECT_FALSE(fs::exists(folder_ / "results.md"));
 }
 

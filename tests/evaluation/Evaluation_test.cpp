@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/evaluation/Evaluation.h>
 
+#include <memory>
 #include <stdexcept>
 
 #include "support/Program.h"
@@ -13,34 +14,62 @@ using testing::HasSubstr;
 
 constexpr auto G = Label::Rou, O = Label::Roi;
 
+std::vector<Method> allRoiAndAllRou() {
+    const auto all = [](Label label) {
+        return [label](const ScanInput& input) {
+            return std::vector<Label>(input.scan.size(), label);
+        };
+    };
+    return {{"all RoI", all(O)}, {"all ROU", all(G)}};
+}
+
 /// Scans of `returns` obstacles, 1 m apart along x.
-LabelledScanSource obstacles(const std::string& name, const std::vector<int>& returns) {
-    LabelledScanSource source;
-    source.name = name;
-    source.scans = returns.size();
-    source.read = [returns](std::size_t i) {
+class Obstacles : public LabelledScanSource {
+ public:
+    Obstacles(std::string name, std::vector<int> returns, std::vector<Method> methods)
+        : name_(std::move(name)), returns_(std::move(returns)), methods_(std::move(methods)) {}
+
+    std::optional<GroundTruthScan> next() override {
+        if (next_ == returns_.size()) return std::nullopt;
         GroundTruthScan scan;
-        for (int r = 1; r <= returns[i]; ++r) scan.input.scan.x_m.push_back(static_cast<float>(r));
+        scan.name = name_ + "/" + std::to_string(next_);
+        for (int r = 1; r <= returns_[next_]; ++r)
+            scan.input.scan.x_m.push_back(static_cast<float>(r));
         scan.input.scan.range_m = scan.input.scan.x_m;
         scan.input.scan.y_m.assign(scan.input.scan.size(), 0);
         scan.input.scan.z_m = scan.input.scan.y_m;
         scan.truth.assign(scan.input.scan.size(), O);
+        ++next_;
         return scan;
-    };
-    source.scanName = [name](std::size_t i) { return name + "/" + std::to_string(i); };
-    source.makeMethods = [] {
-        const auto all = [](Label label) {
-            return [label](const ScanInput& input) {
-                return std::vector<Label>(input.scan.size(), label);
-            };
-        };
-        return std::vector<Method>{{"all RoI", all(O)}, {"all ROU", all(G)}};
-    };
-    return source;
+    }
+    const std::string& name() const override { return name_; }
+    std::size_t size() const override { return returns_.size(); }
+    const LabelMap& kinds() const override { return kinds_; }
+    std::vector<Method> makeMethods() const override { return methods_; }
+
+ private:
+    std::string name_;
+    std::vector<int> returns_;
+    std::vector<Method> methods_;
+    LabelMap kinds_;
+    std::size_t next_ = 0;
+};
+
+/// The sources as evaluate() takes them.
+template <class... Source>
+LabelledScanSources sourcesOf(Source... source) {
+    LabelledScanSources sources;
+    (sources.push_back(std::make_unique<Source>(std::move(source))), ...);
+    return sources;
+}
+
+Obstacles obstacles(const std::string& name, const std::vector<int>& returns,
+                    const std::vector<Method>& methods = allRoiAndAllRou()) {
+    return Obstacles(name, returns, methods);
 }
 
 TEST(Evaluation, ScoresEachMethodOnEachScan) {
-    const auto methods = evaluate({obstacles("a", {3, 2}), obstacles("b", {4})});
+    const auto methods = evaluate(sourcesOf(obstacles("a", {3, 2}), obstacles("b", {4})));
     ASSERT_EQ(methods.size(), 2u);
     EXPECT_EQ(methods[0].name, "all RoI");
     ASSERT_EQ(methods[0].returns.size(), 3u);
@@ -55,7 +84,7 @@ TEST(Evaluation, ScoresEachMethodOnEachScan) {
 TEST(Evaluation, OverPixelsTheNearestReturnCounts) {
     EvaluationOptions options;
     options.camera = PinholeCamera{8, 8, 4, 4, 4, 4, Eigen::Isometry3d::Identity()};
-    const auto methods = evaluate({obstacles("a", {3})}, options);  // one behind the other
+    const auto methods = evaluate(sourcesOf(obstacles("a", {3})), options);  // one behind the other
     ASSERT_EQ(methods[0].pixels.size(), 1u);
     EXPECT_EQ(methods[0].pixels[0].all.returns(), 1);
     EXPECT_EQ(methods[0].returns[0].all.returns(), 3);
@@ -63,7 +92,7 @@ TEST(Evaluation, OverPixelsTheNearestReturnCounts) {
 
 TEST(Evaluation, ShowsEachScanOfEachMethod) {
     std::vector<std::string> seen;
-    evaluate({obstacles("a", {1, 2})}, {}, [&](const MethodOutput& view) {
+    evaluate(sourcesOf(obstacles("a", {1, 2})), {}, [&](const MethodOutput& view) {
         seen.push_back(view.method_name + std::to_string(view.scan) + ":" +
                        std::to_string(view.found.size()));
     });
@@ -72,26 +101,22 @@ TEST(Evaluation, ShowsEachScanOfEachMethod) {
 }
 
 TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
-    LabelledScanSource source = obstacles("a", {2, 2});
-    source.makeMethods = [] {
-        int calls = 0;  // the first scan twice, then the second
-        return std::vector<Method>{{"short", [calls](const ScanInput& input) mutable {
-                                        return std::vector<Label>(
-                                            ++calls == 3 ? 1 : input.scan.size(), O);
-                                    }}};
-    };
-    const std::string message = test::messageOf([&] { evaluate({source}); });
+    int calls = 0;  // the first scan twice, then the second
+    const Method one_too_few{"short", [&calls](const ScanInput& input) {
+                                 return std::vector<Label>(++calls == 3 ? 1 : input.scan.size(), O);
+                             }};
+    const std::string message = test::messageOf([&] {
+        evaluate(sourcesOf(obstacles("a", {2, 2}, {one_too_few})));
+    });
     EXPECT_THAT(message, HasSubstr("a/1: "));
     EXPECT_THAT(message, HasSubstr("1 found labels for 2 returns"));
 }
 
 TEST(Evaluation, RefusesNoSourceAndSourcesThatDiffer) {
-    EXPECT_THROW(evaluate({}), std::invalid_argument);
-    LabelledScanSource other = obstacles("b", {1});
-    other.makeMethods = [] {
-        return std::vector<Method>{{"another", [](const ScanInput&) { return std::vector{O}; }}};
-    };
-    EXPECT_THROW(evaluate({obstacles("a", {1}), other}), std::invalid_argument);
+    EXPECT_THROW(evaluate(LabelledScanSources()), std::invalid_argument);
+    const Method another{"another", [](const ScanInput&) { return std::vector{O}; }};
+    EXPECT_THROW(evaluate(sourcesOf(obstacles("a", {1}), obstacles("b", {1}, {another}))),
+                 std::invalid_argument);
 }
 
 }  // namespace

@@ -125,18 +125,18 @@ TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     ASSERT_TRUE(segmenter.process(*cloud, out));
-    EXPECT_FALSE(out.attitude);
+    EXPECT_FALSE(out.pose.attitude);
 
     EXPECT_FALSE(segmenter.process(poseOf({0, 0, 5, 1.0, -0.05, 0.1}), out));
     ASSERT_TRUE(segmenter.process(*cloud, out));
-    ASSERT_TRUE(out.attitude);
+    ASSERT_TRUE(out.pose.attitude);
     const CPose3D expected = CPose3D(0, 0, 0, 1.0, -0.05, 0.1) + cloud->sensorPose;
-    EXPECT_NEAR(out.attitude->pitch_rad, expected.pitch(), 1e-5);
-    EXPECT_NEAR(out.attitude->roll_rad, expected.roll(), 1e-5);
+    EXPECT_NEAR(out.pose.attitude->pitch_rad, expected.pitch(), 1e-5);
+    EXPECT_NEAR(out.pose.attitude->roll_rad, expected.roll(), 1e-5);
 
     segmenter.initialize({});  // forgets it
     ASSERT_TRUE(segmenter.process(*cloud, out));
-    EXPECT_FALSE(out.attitude);
+    EXPECT_FALSE(out.pose.attitude);
 }
 
 TEST(Horizon, ATrajectoryCountsOnlyWhereItHasOne) {
@@ -146,13 +146,13 @@ TEST(Horizon, ATrajectoryCountsOnlyWhereItHasOne) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     ASSERT_TRUE(segmenter.process(*cloud, out, vehicle));
-    ASSERT_TRUE(out.attitude);
-    EXPECT_NEAR(out.attitude->pitch_rad, 0.15, 1e-6);
+    ASSERT_TRUE(out.pose.attitude);
+    EXPECT_NEAR(out.pose.attitude->pitch_rad, 0.15, 1e-6);
 
     vehicle.has_horizon = false;
     ASSERT_TRUE(segmenter.process(*cloud, out, vehicle));
-    EXPECT_TRUE(out.sensor_pose);
-    EXPECT_FALSE(out.attitude);
+    EXPECT_TRUE(out.pose.sensor_pose);
+    EXPECT_FALSE(out.pose.attitude);
 }
 
 }  // namespace

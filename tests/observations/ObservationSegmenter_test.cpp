@@ -123,9 +123,9 @@ TEST(ObservationSegmenter, AWindowNeedsPosesAndSaysSo) {
     ObservationSegmenter::Output out;
     segmenter.process(*scanFrom(0), out, standingAt({}, 0, 1));
     EXPECT_EQ(out.remark, "");
-    EXPECT_TRUE(out.sensor_pose);
+    EXPECT_TRUE(out.pose.sensor_pose);
     segmenter.process(*scanFrom(1), out);
-    EXPECT_FALSE(out.sensor_pose);
+    EXPECT_FALSE(out.pose.sensor_pose);
     EXPECT_THAT(out.remark, HasSubstr("no pose"));
     EXPECT_EQ(out.window->size(), out.scan->size());
     // Poses are back: the window starts anew, for what came before may lie anywhere.
@@ -227,7 +227,7 @@ TEST(ObservationSegmenter, AScanOfAnUnknownModelThrows) {
     EXPECT_THROW(segmenter.process(*scan, out), std::runtime_error);
 }
 
-TEST(ObservationSegmenter, AScanWhoseWhereaboutsWereNotedMayBeSegmentedLaterAndElsewhere) {
+TEST(ObservationSegmenter, AScanWithAKnownPoseCanBeSegmentedLaterAndElsewhere) {
     const auto poseWithPitch = [](double pitch_rad) {
         mrpt::obs::CObservationRobotPose pose;
         pose.timestamp = scanFrom(0)->timestamp;
@@ -237,16 +237,18 @@ TEST(ObservationSegmenter, AScanWhoseWhereaboutsWereNotedMayBeSegmentedLaterAndE
     const Trajectory vehicle = standingAt(mrpt::poses::CPose3D(1, 2, 3, 0, 0, 0), -0.5, 0.5);
     ObservationSegmenter in_order, elsewhere;
     ObservationSegmenter::Output expected, out;
+    Horizon horizon;
     in_order.see(poseWithPitch(0.1));
-    const auto whereabouts = in_order.whereaboutsOf(*scanFrom(0), vehicle);
+    horizon.see(poseWithPitch(0.1));
+    const ScanPose pose = scanPoseOf(*scanFrom(0), vehicle, horizon);
     ASSERT_TRUE(in_order.process(*scanFrom(0), expected, vehicle));
     in_order.see(poseWithPitch(0.3));
 
-    ASSERT_TRUE(elsewhere.process(*scanFrom(0), out, whereabouts));
-    ASSERT_TRUE(out.attitude && out.sensor_pose);
-    EXPECT_EQ(out.attitude->pitch_rad, expected.attitude->pitch_rad);
-    EXPECT_EQ(*out.sensor_pose, *expected.sensor_pose);
-    EXPECT_TRUE(out.pose_has_horizon);
+    ASSERT_TRUE(elsewhere.process(*scanFrom(0), out, pose));
+    ASSERT_TRUE(out.pose.attitude && out.pose.sensor_pose);
+    EXPECT_EQ(out.pose.attitude->pitch_rad, expected.pose.attitude->pitch_rad);
+    EXPECT_EQ(*out.pose.sensor_pose, *expected.pose.sensor_pose);
+    EXPECT_TRUE(out.pose.pose_has_horizon);
     EXPECT_EQ(out.result->returns.label, expected.result->returns.label);
 }
 

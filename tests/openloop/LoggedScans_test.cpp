@@ -146,7 +146,7 @@ TEST_F(LoggedScansTest, TellsWhatIsMissing) {
     fs::create_directories(folder_ / "scans/velodyne");
     folder_.write("scans/velodyne/0.bin", "");
     EXPECT_THAT(messageOf({folder_ / "scans", posesAt({10}), "roof", {}}),
-                HasSubstr("has no LiDAR scan of 'roof'; a scan folder is all 'velodyne'"));
+                HasSubstr("has no LiDAR scan of 'roof'; there are 'velodyne'"));
     mrpt::obs::CObservationComment comment;
     logs::RawlogWriter writer(folder_ / "words.rawlog", true);
     writer.write(comment);

@@ -2,23 +2,29 @@
 #include <hagen/evaluation/Camera.h>
 #include <hagen/evaluation/ScanScores.h>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hagen::evaluation {
 
-/// Labelled scans of one sensor, from any source.
-struct LabelledScanSource {
-    std::string name;  ///< in tables
-    std::size_t scans = 0;
-    std::function<GroundTruthScan(std::size_t scan)> read;
-    std::function<std::string(std::size_t scan)> scanName;  ///< for messages
-    LabelMap kinds;                                         ///< the object classes of its scans
+/// Labelled scans of one sensor, pulled one after the other.
+class LabelledScanSource {
+ public:
+    virtual ~LabelledScanSource() = default;
+
+    /// The next scan; none at the end.
+    virtual std::optional<GroundTruthScan> next() = 0;
+
+    virtual const std::string& name() const = 0;  ///< in tables
+    virtual std::size_t size() const = 0;         ///< number of scans
+    virtual const LabelMap& kinds() const = 0;    ///< the object classes of its scans
     /// Creates the methods for its sensor; every source must return the same names in the same
     /// order.
-    std::function<std::vector<Method>()> makeMethods;
+    virtual std::vector<Method> makeMethods() const = 0;
 };
+using LabelledScanSources = std::vector<std::unique_ptr<LabelledScanSource>>;
 
 struct EvaluationOptions {
     RangeBands range;
@@ -45,12 +51,12 @@ struct MethodOutput {
 };
 using EvaluationListener = std::function<void(const MethodOutput&)>;
 
-/// Segments every scan with every method and scores the labels. Only one scan is in memory at a
-/// time. Every method processes the first scan of each source twice; the first time is a warm-up,
-/// neither scored nor timed. Throws std::runtime_error if labels do not fit a scan (the message
-/// names it), and std::invalid_argument if there is no source or the sources have different
+/// Segments every scan with every method and scores the labels. Pulls all scans; only one is in
+/// memory at a time. Every method processes the first scan of each source twice; the first time is
+/// a warm-up, neither scored nor timed. Throws std::runtime_error if labels do not fit a scan (the
+/// message names it), and std::invalid_argument if there is no source or the sources have different
 /// methods.
-std::vector<MethodScores> evaluate(const std::vector<LabelledScanSource>& sources,
+std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
                                    const EvaluationOptions& options = {},
                                    const EvaluationListener& listener = {});
 

@@ -12,6 +12,7 @@ namespace hagen::evaluation {
 
 /// A scan with ground-truth labels.
 struct GroundTruthScan {
+    std::string name;  ///< its file or entry, for messages
     ScanInput input;
     std::vector<Label> truth;  ///< one label per return; Unclassified returns are not scored
     std::vector<std::uint16_t> kinds;  ///< class of each return; empty: unknown

@@ -13,8 +13,8 @@ namespace hagen::labelled_scans {
 /// else labels/. Kinds are those of the map, else those of the folder's own kinds.yaml.
 /// Throws std::runtime_error, naming the folder, where one holds no scans, and SettingsError where
 /// one is given twice.
-std::vector<evaluation::LabelledScanSource> sourcesOf(
-    const std::vector<std::string>& folders, const MethodSet& rows,
-    const std::optional<evaluation::LabelMap>& label_map);
+evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folders,
+                                          const MethodSet& rows,
+                                          const std::optional<evaluation::LabelMap>& label_map);
 
 }  // namespace hagen::labelled_scans

@@ -13,7 +13,7 @@ extern const base::OutputKind kOverlays;
 /// RoI each have a colour; pixels that are not scored are pale. The picture is
 /// FOLDER/SOURCE_SCAN_overlay.png; with several methods, FOLDER/METHOD/... Throws
 /// std::runtime_error like runGnuplot().
-void drawOverlay(const std::filesystem::path& folder, const evaluation::LabelledScanSource& source,
+void drawOverlay(const std::filesystem::path& folder, const std::string& source,
                  const evaluation::MethodOutput& view,
                  const evaluation::EvaluationOptions& options);
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/logs/ScanSource.h>
 #include <hagen/mapping/ScanMap.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/Settings.h>
@@ -8,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -83,11 +83,6 @@ struct ConversionListener {
     /// Asked before each entry is read; no ends the conversion with Interrupted, once those before
     /// it are converted.
     std::function<bool()> keep_going = [] { return true; };
-};
-
-/// A conversion that the listener ended. The message says what is kept where.
-struct Interrupted : std::runtime_error {
-    using std::runtime_error::runtime_error;
 };
 
 /// Segments a whole log, a few entries in memory at a time: two for each of `jobs` threads, of

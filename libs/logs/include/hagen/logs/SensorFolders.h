@@ -11,7 +11,8 @@ namespace hagen::logs {
 class SensorFolders {
  public:
     /// Throws std::runtime_error, naming the folder; see OutputPath.
-    SensorFolders(const std::filesystem::path& folder, const base::OutputKind& kind, bool overwrite);
+    SensorFolders(const std::filesystem::path& folder, const base::OutputKind& kind,
+                  bool overwrite);
 
     /// Where to write what belongs to this sensor until commit(); made when first asked for.
     /// Characters that do not go into file names become '_'.

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/observations/Horizon.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/ScanPose.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/SlidingWindow.h>
 #include <hagen/observations/Trajectory.h>
@@ -22,8 +23,8 @@ namespace hagen::observations {
 
 /// The filter as an MRPT observation processor.
 ///
-///     hagen::observations::ObservationSegmenter segmenter;      // or by name, with mrpt::rtti::classFactory()
-///     segmenter.initialize(settings);
+///     hagen::observations::ObservationSegmenter segmenter;      // or by name, with
+///     mrpt::rtti::classFactory() segmenter.initialize(settings);
 ///     hagen::observations::ObservationSegmenter::Output out;
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
@@ -48,12 +49,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
         bool is_sensor_assumed = false;  ///< a VLP-16, for neither recording nor settings tell
-        /// The sensor in the map at the scan's time, where the trajectory tells it.
-        std::optional<mrpt::poses::CPose3D> sensor_pose;
-        bool pose_has_horizon = false;  ///< that map's z axis points against gravity
-
-        /// How the sensor was tilted, where it is known; angles are about that horizon then.
-        std::optional<Attitude> attitude;
+        /// Where the sensor was. If its attitude is known, angles are relative to that horizon.
+        ScanPose pose;
 
         /// What a user should know about this scan; empty where there is nothing. Logged, too.
         std::string remark;
@@ -62,14 +59,6 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         std::chrono::steady_clock::duration time_to_labels{};
         /// Of it, the filter alone: this thread's CPU time.
         std::chrono::nanoseconds filter_cpu_time{};
-    };
-
-    /// What a log tells of a scan besides its returns.
-    struct Whereabouts {
-        /// The sensor in the map at the scan's time, where the trajectory tells it.
-        std::optional<mrpt::poses::CPose3D> sensor_pose;
-        bool pose_has_horizon = false;     ///< that map's z axis points against gravity
-        std::optional<Attitude> attitude;  ///< how the sensor was tilted, where it is known
     };
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
@@ -93,12 +82,10 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const Trajectory& vehicle = Trajectory());
 
-    /// What process() would take the scan's whereabouts to be now. Scans whose whereabouts were
-    /// noted in the log's order may be segmented in any, and by several segmenters at once.
-    Whereabouts whereaboutsOf(const mrpt::obs::CObservation& scan, const Trajectory& vehicle) const;
-    /// process() with whereabouts that are known.
-    bool process(const mrpt::obs::CObservation& observation, Output& out,
-                 const Whereabouts& whereabouts, const Trajectory& vehicle = Trajectory());
+    /// The same for a scan whose pose is known. If poses are noted in the log's order, scans can be
+    /// segmented in any order, and by several segmenters at once.
+    bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
+                 const Trajectory& vehicle = Trajectory());
 
     /// Remembers how the vehicle is tilted, where an observation tells it (Horizon.h). process()
     /// does so with what is no scan; call it for what comes in the same sensory frame as a scan.

@@ -1,5 +1,7 @@
 #pragma once
+#include <hagen/logs/ScanSource.h>
 #include <hagen/mapping/MappedScan.h>
+#include <hagen/observations/ObservationSegmenter.h>
 #include <hagen/observations/Settings.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -35,28 +37,32 @@ class LoggedScans {
     /// Reads poses and times. Throws std::runtime_error, naming the file, where there are no scans,
     /// no poses, or fewer than half of the scans have one; SettingsError where settings do not fit.
     explicit LoggedScans(const LogSource& source);
-    ~LoggedScans();
 
     /// The next scan that has a pose; false at the end. Throws BrokenRawlog or BrokenScan where the
     /// log breaks off. A scan that cannot be read is left out.
     bool next(LoggedScan& scan);
 
-    const std::string& poseSource() const;
-    bool posesHaveHorizon() const;  ///< the map's z axis points against gravity
+    const std::string& poseSource() const { return source_->poses().source; }
+    /// The map's z axis points against gravity.
+    bool posesHaveHorizon() const { return source_->poses().vehicle.has_horizon; }
     /// Scans of the log, and those of them without a pose; they are left out.
-    std::size_t scans() const;
-    std::size_t scansWithoutPose() const;
+    std::size_t scans() const { return scans_; }
+    std::size_t scansWithoutPose() const { return without_pose_; }
     /// Scans met so far that could not be read, and why the last of them could not.
-    std::size_t unreadableScans() const;
-    const std::string& whyUnreadable() const;
-    /// Holds the vehicle at every scan.
-    const Eigen::AlignedBox3f& flight_m() const;
+    std::size_t unreadableScans() const { return unreadable_; }
+    const std::string& whyUnreadable() const { return why_unreadable_; }
+    /// Contains the vehicle's position at every scan.
+    const Eigen::AlignedBox3f& flight_m() const { return flight_m_; }
 
  private:
-    struct Log;
-    class Rawlog;
-    class Folder;
-    std::unique_ptr<Log> log_;
+    void placeAll(const std::vector<mrpt::Clock::time_point>& times, const std::string& log);
+
+    std::unique_ptr<logs::ScanSource> source_;
+    observations::ObservationSegmenter segmenter_;
+    float own_reach_m_;
+    std::size_t scans_ = 0, without_pose_ = 0, unreadable_ = 0;
+    std::string why_unreadable_;
+    Eigen::AlignedBox3f flight_m_;
 };
 
 }  // namespace hagen::openloop

@@ -1,0 +1,71 @@
+#include "RawlogSource.h"
+
+#include <hagen/logs/PoseFile.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+namespace hagen::logs {
+namespace {
+
+using mrpt::obs::CObservation;
+
+/// The observations of an entry, which is one itself or a sensory frame of several.
+std::vector<CObservation::ConstPtr> observationsOf(
+    const mrpt::serialization::CSerializable::Ptr& entry) {
+    if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+        return {frame->begin(), frame->end()};
+    }
+    if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
+        return {observation};
+    }
+    return {};
+}
+
+}  // namespace
+
+RawlogSource::RawlogSource(const std::filesystem::path& rawlog, const SourceOptions& options)
+    : ScanSource(options), rawlog_(rawlog), reader_(rawlog) {}
+
+std::optional<RecordedEntry> RawlogSource::nextEntry() {
+    while (reader_.entries() <= options_.last_entry) {
+        RecordedEntry entry;
+        entry.number = reader_.entries();
+        const bool is_selected = beginEntry(entry.number);
+        entry.object = reader_.next();
+        if (!entry.object) return std::nullopt;
+        // Entries that are skipped may provide the attitude of the first scan.
+        const auto all = observationsOf(entry.object);
+        for (const auto& observation : all) see(*observation);
+        if (!is_selected) continue;
+        for (const auto& observation : all) addIfScan(observation, "", entry);
+        entry.fraction_read = reader_.fractionRead();
+        return entry;
+    }
+    return std::nullopt;
+}
+
+const RawlogSurvey& RawlogSource::survey() {
+    if (!survey_) survey_ = surveyRawlog(rawlog_, options_.keep_going);
+    return *survey_;
+}
+
+LogPoses RawlogSource::readPoses(const std::filesystem::path& file) {
+    // Poses with times need nothing of the log: it is not read beforehand.
+    if (!file.empty() && kindOfPoseFile(file) == PoseFileKind::Tum) {
+        return posesOfRawlog(RawlogSurvey(), file);
+    }
+    RawlogSurvey selected = survey();
+    for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
+        scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
+    }
+    return posesOfRawlog(selected, file);
+}
+
+std::map<std::string, std::vector<mrpt::Clock::time_point>> RawlogSource::scanTimes() {
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
+    for (const auto& [label, places] : survey().scans) {
+        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
+    }
+    return times;
+}
+
+}  // namespace hagen::logs

@@ -1,0 +1,29 @@
+#pragma once
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/RawlogSurvey.h>
+#include <hagen/logs/ScanSource.h>
+
+namespace hagen::logs {
+
+/// A rawlog as a source of scans. Entries are objects of the file; a sensory frame may hold several
+/// scans.
+class RawlogSource : public ScanSource {
+ public:
+    RawlogSource(const std::filesystem::path& rawlog, const SourceOptions& options);
+
+    std::optional<RecordedEntry> nextEntry() override;
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
+    std::size_t entriesKnown() const override { return reader_.entries(); }
+
+ protected:
+    LogPoses readPoses(const std::filesystem::path& file) override;
+
+ private:
+    const RawlogSurvey& survey();
+
+    std::filesystem::path rawlog_;
+    RawlogReader reader_;
+    std::optional<RawlogSurvey> survey_;  ///< once it is needed
+};
+
+}  // namespace hagen::logs

@@ -1,0 +1,54 @@
+#include "ScanFolderSource.h"
+
+#include <hagen/observations/ObservationScan.h>
+
+namespace hagen::logs {
+
+constexpr double kDefaultScanPeriod_s = 0.1;  // of a folder without times
+
+ScanFolderSource::ScanFolderSource(const std::filesystem::path& folder,
+                                   const SourceOptions& options)
+    : ScanSource(options), folder_(folder), times_s_(folder_.times()) {
+    for (std::size_t i = times_s_.size(); i < folder_.size(); ++i) {
+        times_s_.push_back(kDefaultScanPeriod_s * static_cast<double>(i));
+    }
+}
+
+std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
+    while (next_ < folder_.size() && next_ <= options_.last_entry) {
+        const std::size_t i = next_++;
+        if (!beginEntry(i)) continue;
+        readScan(folder_.scanFile(i), scan_);
+        const auto time = mrpt::Clock::fromDouble(times_s_[i]);
+        RecordedEntry entry;
+        entry.number = i;
+        entry.fraction_read = static_cast<double>(i + 1) / static_cast<double>(folder_.size());
+        if (options_.folder_objects) {
+            entry.object =
+                observations::observationOf(scan_, kFolderLabel, time, *options_.folder_objects);
+        }
+        addIfScan(observations::observationOf(scan_, kFolderLabel, time), folder_.name(i), entry);
+        return entry;
+    }
+    return std::nullopt;
+}
+
+LogPoses ScanFolderSource::readPoses(const std::filesystem::path& file) {
+    return posesOfScanFolder(folder_, times_s_, file);
+}
+
+std::map<std::string, std::vector<mrpt::Clock::time_point>> ScanFolderSource::scanTimes() {
+    std::vector<mrpt::Clock::time_point> times;
+    for (const double time_s : times_s_) times.push_back(mrpt::Clock::fromDouble(time_s));
+    return {{kFolderLabel, times}};
+}
+
+observations::Settings ScanFolderSource::settingsFor(const observations::Settings& settings) const {
+    observations::Settings merged = settings;
+    if (std::filesystem::exists(folder_.sensorFile())) {
+        observations::mergeSettings(folder_.sensorFile(), merged);
+    }
+    return merged;
+}
+
+}  // namespace hagen::logs

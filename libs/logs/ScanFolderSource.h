@@ -1,0 +1,28 @@
+#pragma once
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanSource.h>
+
+namespace hagen::logs {
+
+/// A scan folder as a source of scans: each scan is an entry.
+class ScanFolderSource : public ScanSource {
+ public:
+    ScanFolderSource(const std::filesystem::path& folder, const SourceOptions& options);
+
+    std::optional<RecordedEntry> nextEntry() override;
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
+    std::size_t entriesKnown() const override { return folder_.size(); }
+    /// Merges the folder's sensor.yaml.
+    observations::Settings settingsFor(const observations::Settings& settings) const override;
+
+ protected:
+    LogPoses readPoses(const std::filesystem::path& file) override;
+
+ private:
+    ScanFolder folder_;
+    std::vector<double> times_s_;
+    std::size_t next_ = 0;
+    Scan scan_;
+};
+
+}  // namespace hagen::logs

@@ -1,0 +1,76 @@
+#include <hagen/logs/ScanSource.h>
+
+#include <algorithm>
+
+#include "RawlogSource.h"
+#include "ScanFolderSource.h"
+
+namespace hagen::logs {
+
+using mrpt::obs::CObservation;
+
+std::optional<RecordedScan> ScanSource::nextScan() {
+    while (waiting_.empty()) {
+        auto entry = nextEntry();
+        if (!entry) return std::nullopt;
+        std::move(entry->scans.begin(), entry->scans.end(), std::back_inserter(waiting_));
+    }
+    RecordedScan scan = std::move(waiting_.front());
+    waiting_.pop_front();
+    return scan;
+}
+
+void ScanSource::usePoses(const std::filesystem::path& file) {
+    poses_ = readPoses(file);
+    is_levelled_by_file_ = !file.empty() && poses_.vehicle.has_horizon;
+}
+
+observations::Settings ScanSource::settingsFor(const observations::Settings& settings) const {
+    return settings;
+}
+
+bool ScanSource::beginEntry(std::size_t number) {
+    if (!options_.keep_going()) throw Interrupted("interrupted");
+    const bool is_before = number < options_.first_entry;
+    entries_skipped_ += is_before;
+    return !is_before;
+}
+
+bool ScanSource::isSelected(const std::string& sensor_label) const {
+    const auto& labels = options_.sensor_labels;
+    return labels.empty() || std::find(labels.begin(), labels.end(), sensor_label) != labels.end();
+}
+
+void ScanSource::see(const CObservation& observation) {
+    if (!is_levelled_by_file_) horizon_.see(observation);
+}
+
+void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std::string& name,
+                           RecordedEntry& entry) {
+    if (!observations::isLidarScan(*observation)) return;
+    if (!isSelected(observation->sensorLabel)) {
+        other_labels_.insert(observation->sensorLabel);
+        return;
+    }
+    entry.scans.push_back({observation,
+                           observations::scanPoseOf(*observation, poses_.vehicle, horizon_),
+                           entry.number, name});
+}
+
+std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
+                                          const SourceOptions& options) {
+    if (!std::filesystem::exists(recording)) {
+        throw std::runtime_error(recording.string() + ": no such file or folder");
+    }
+    if (std::filesystem::is_directory(recording)) {
+        return std::make_unique<ScanFolderSource>(recording, options);
+    }
+    return std::make_unique<RawlogSource>(recording, options);
+}
+
+std::string titleOf(const RecordedScan& scan) {
+    return "entry " + std::to_string(scan.entry) + " (" +
+           (scan.name.empty() ? scan.observation->sensorLabel : scan.name) + ")";
+}
+
+}  // namespace hagen::logs

@@ -1,0 +1,33 @@
+#include "SegmenterPool.h"
+
+namespace hagen::logs {
+
+using observations::ObservationSegmenter;
+
+SegmenterPool::SegmenterPool(const observations::Settings& settings,
+                             observations::CloudClass cloud_class)
+    : settings_(settings), cloud_class_(cloud_class) {
+    lease();  // reports settings that do not fit before anything is read
+}
+
+SegmenterPool::Lease SegmenterPool::lease() {
+    const auto giveBack = [this](ObservationSegmenter* segmenter) {
+        const std::lock_guard lock(is_used_);
+        idle_.emplace_back(segmenter);
+    };
+    {
+        const std::lock_guard lock(is_used_);
+        if (!idle_.empty()) {
+            Lease lease(idle_.back().release(), giveBack);
+            idle_.pop_back();
+            return lease;
+        }
+    }
+    auto segmenter = std::make_unique<ObservationSegmenter>();
+    segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // remarks go to the listener
+    segmenter->cloud_class = cloud_class_;
+    segmenter->initialize(settings_);
+    return Lease(segmenter.release(), giveBack);
+}
+
+}  // namespace hagen::logs

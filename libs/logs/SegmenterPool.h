@@ -1,0 +1,29 @@
+#pragma once
+#include <hagen/observations/ObservationSegmenter.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace hagen::logs {
+
+/// Segmenters with the same settings, lent to threads and reused.
+class SegmenterPool {
+ public:
+    /// Throws SettingsError if settings and sensor are inconsistent.
+    SegmenterPool(const observations::Settings& settings, observations::CloudClass cloud_class);
+
+    /// Returned to the pool at its end. A segmenter's output is valid as long as the lease.
+    using Lease = std::unique_ptr<observations::ObservationSegmenter,
+                                  std::function<void(observations::ObservationSegmenter*)>>;
+    Lease lease();  ///< on any thread
+
+ private:
+    const observations::Settings settings_;
+    const observations::CloudClass cloud_class_;
+    std::mutex is_used_;
+    std::vector<std::unique_ptr<observations::ObservationSegmenter>> idle_;
+};
+
+}  // namespace hagen::logs

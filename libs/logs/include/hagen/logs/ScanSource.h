@@ -1,0 +1,130 @@
+#pragma once
+#include <hagen/logs/LogPoses.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/ScanPose.h>
+#include <hagen/observations/Settings.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/serialization/CSerializable.h>
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hagen::logs {
+
+/// A LiDAR scan of a recording.
+struct RecordedScan {
+    mrpt::obs::CObservation::ConstPtr observation;  ///< with sensor label, time and mounting pose
+    observations::ScanPose pose;
+    std::size_t entry = 0;  ///< index of its entry in the recording
+    std::string name;       ///< its file's name in a scan folder; empty: from a rawlog
+};
+
+/// An entry of a recording: an object of a rawlog, or a scan of a scan folder.
+struct RecordedEntry {
+    std::size_t number = 0;  ///< index in the recording
+    /// The rawlog's object. For a scan folder, the scan as a rawlog would hold it, if requested.
+    mrpt::serialization::CSerializable::Ptr object;
+    std::vector<RecordedScan> scans;  ///< its scans of the selected LiDARs
+    double fraction_read = 0;         ///< of the recording, up to and with this entry: 0 ... 1
+};
+
+/// What a source reads.
+struct SourceOptions {
+    std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
+    std::size_t first_entry = 0;             ///< to the last one, both included
+    std::size_t last_entry = std::numeric_limits<std::size_t>::max();
+    /// Class of the clouds that RecordedEntry::object gets for scans of a scan folder; none: no
+    /// objects.
+    std::optional<observations::CloudClass> folder_objects;
+    /// Called before each entry is read; false ends reading with Interrupted.
+    std::function<bool()> keep_going = [] { return true; };
+};
+
+/// Reading was ended by SourceOptions::keep_going.
+struct Interrupted : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The sensor label of all scans in a scan folder.
+constexpr const char* kFolderLabel = "velodyne";
+
+/// A recording whose scans are pulled one after the other. Every reader of recordings uses it:
+/// conversion, open loop and evaluation.
+///
+///     const auto source = openRecording("flight.rawlog");
+///     source->usePoses("flight.tum");
+///     while (const auto scan = source->nextScan()) segmenter.process(*scan->observation, ...);
+class ScanSource {
+ public:
+    virtual ~ScanSource() = default;
+
+    /// The next entry within the selected ones, with or without scans; none at the end. Throws
+    /// BrokenRawlog or BrokenScan, naming file and entry, and Interrupted.
+    virtual std::optional<RecordedEntry> nextEntry() = 0;
+
+    /// The next scan of any entry; none at the end. Throws like nextEntry().
+    std::optional<RecordedScan> nextScan();
+
+    /// Poses of the scans come from this file (TUM, KITTI), or from the recording itself if the
+    /// name is empty. Call it before the first entry is read; without it, no poses are known.
+    /// Throws std::runtime_error, naming the file, if it cannot be read.
+    void usePoses(const std::filesystem::path& file);
+    const LogPoses& poses() const { return poses_; }
+
+    /// The times of all scans, by sensor label, of all LiDARs. A rawlog is read beforehand.
+    virtual std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() = 0;
+
+    /// The settings, with those of the recording's own sensor merged in.
+    virtual observations::Settings settingsFor(const observations::Settings& settings) const;
+
+    /// Entries of the recording known so far, skipped ones included. Of a scan folder: all.
+    virtual std::size_t entriesKnown() const = 0;
+    std::size_t entriesSkipped() const { return entries_skipped_; }  ///< before the first selected
+    /// Sensor labels of the LiDAR scans met so far that are not selected.
+    const std::set<std::string>& otherLabels() const { return other_labels_; }
+
+ protected:
+    explicit ScanSource(const SourceOptions& options) : options_(options) {}
+
+    virtual LogPoses readPoses(const std::filesystem::path& file) = 0;
+
+    /// Call it before an entry is read. False if it is before the first selected one. Throws
+    /// Interrupted.
+    bool beginEntry(std::size_t number);
+    bool isSelected(const std::string& sensor_label) const;
+    /// Notes the attitude that an observation provides, unless the file of poses does.
+    void see(const mrpt::obs::CObservation& observation);
+    /// Adds the observation to its entry if it is a scan of a selected LiDAR.
+    void addIfScan(const mrpt::obs::CObservation::ConstPtr& observation, const std::string& name,
+                   RecordedEntry& entry);
+
+    const SourceOptions options_;
+
+ private:
+    LogPoses poses_;
+    bool is_levelled_by_file_ = false;  ///< poses that the user gave win over the recording
+    observations::Horizon horizon_;
+    std::size_t entries_skipped_ = 0;
+    std::set<std::string> other_labels_;
+    std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
+};
+
+/// Opens a .rawlog or a scan folder. Throws std::runtime_error, naming it, if it does not exist or
+/// cannot be opened.
+std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
+                                          const SourceOptions& options = {});
+
+/// "entry 12 (lidar)", for messages about a scan.
+std::string titleOf(const RecordedScan& scan);
+
+}  // namespace hagen::logs

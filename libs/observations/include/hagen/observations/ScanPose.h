@@ -1,0 +1,26 @@
+#pragma once
+#include <hagen/observations/Horizon.h>
+#include <hagen/observations/Trajectory.h>
+#include <hagen/segmentation/Levelling.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <optional>
+
+namespace hagen::observations {
+
+/// Where the sensor was when it took a scan, and how it was tilted.
+struct ScanPose {
+    /// The sensor in the map at the scan's time; none: the trajectory does not cover that time.
+    std::optional<mrpt::poses::CPose3D> sensor_pose;
+    bool pose_has_horizon = false;     ///< the map's z axis points against gravity
+    std::optional<Attitude> attitude;  ///< tilt of the sensor; none: unknown
+};
+
+/// The pose of a scan: interpolated from the vehicle's trajectory and composed with the sensor's
+/// mounting pose. The attitude is the one last seen by `horizon`, if recent, otherwise that of the
+/// trajectory if it has a horizon.
+ScanPose scanPoseOf(const mrpt::obs::CObservation& scan, const Trajectory& vehicle,
+                    const Horizon& horizon);
+
+}  // namespace hagen::observations
