@@ -1,0 +1,294 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/logs/PoseFile.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/RawlogWriter.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanSource.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "support/Program.h"
+
+namespace hagen::logs {
+namespace {
+
+using mrpt::poses::CPose3D;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+using Entries = std::vector<mrpt::serialization::CSerializable::Ptr>;
+
+mrpt::Clock::time_point at(double seconds) { return mrpt::Clock::fromDouble(1000.0 + seconds); }
+
+/// One return, at x.
+Scan returnAt(float x_m) {
+    Scan scan;
+    scan.x_m = {x_m};
+    scan.y_m = {0};
+    scan.z_m = {0};
+    scan.intensity = {0.5f};
+    return scan;
+}
+
+mrpt::obs::CObservationPointCloud::Ptr cloud(double seconds, const std::string& label) {
+    const auto observation =
+        observations::observationOf(returnAt(static_cast<float>(seconds)), label, at(seconds));
+    observation->sensorPose = CPose3D(0, 0, 0.25, 0, 0, 0);
+    return observation;
+}
+
+mrpt::obs::CObservationRobotPose::Ptr pose(double seconds, double x_m, double pitch_rad) {
+    auto observation = mrpt::obs::CObservationRobotPose::Create();
+    observation->timestamp = at(seconds);
+    observation->pose.mean = CPose3D(x_m, 0, 1, 0, pitch_rad, 0);
+    return observation;
+}
+
+mrpt::obs::CSensoryFrame::Ptr frameOf(const std::vector<mrpt::obs::CObservation::Ptr>& all) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    for (const auto& observation : all) frame->insert(observation);
+    return frame;
+}
+
+/// "entry:label:seconds" of every scan that is pulled.
+std::vector<std::string> pulledFrom(ScanSource& source) {
+    std::vector<std::string> pulled;
+    while (const auto scan = source.nextScan()) {
+        const double time_s = mrpt::Clock::toDouble(scan->observation->timestamp) - 1000.0;
+        pulled.push_back(std::to_string(scan->entry) + ":" + scan->observation->sensorLabel + ":" +
+                         std::to_string(static_cast<int>(std::lround(time_s))));
+    }
+    return pulled;
+}
+
+class ScanSourceTest : public testing::Test {
+ protected:
+    fs::path rawlogOf(const Entries& entries) const {
+        RawlogWriter writer(folder_ / "a.rawlog", true);
+        for (const auto& entry : entries) writer.write(*entry);
+        writer.commit();
+        return folder_ / "a.rawlog";
+    }
+    fs::path scanFolderOf(int scans, const std::string& times = "") const {
+        const fs::path path = folder_ / "scans";
+        fs::create_directories(path / "velodyne");
+        for (int i = 0; i < scans; ++i) {
+            writeScan(path / "velodyne" / ("00000" + std::to_string(i) + ".bin"),
+                      returnAt(static_cast<float>(i)));
+        }
+        if (!times.empty()) std::ofstream(path / "times.txt") << times;
+        return path;
+    }
+    /// Two LiDARs, a comment, and a frame with a scan of each.
+    Entries mixed() const {
+        auto comment = mrpt::obs::CObservationComment::Create();
+        return {cloud(1, "front"), comment, frameOf({cloud(3, "front"), cloud(4, "rear")}),
+                cloud(5, "rear"), cloud(6, "front")};
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ScanSourceTest, ScansOfARawlogInOrder) {
+    const auto source = openRecording(rawlogOf(mixed()));
+    EXPECT_THAT(pulledFrom(*source),
+                ElementsAre("0:front:1", "2:front:3", "2:rear:4", "3:rear:5", "4:front:6"));
+    EXPECT_FALSE(source->nextScan());
+    EXPECT_EQ(source->entriesKnown(), 5u);
+}
+
+TEST_F(ScanSourceTest, EveryEntryOfARawlogComesOut) {
+    const fs::path rawlog = rawlogOf(mixed());
+    const auto source = openRecording(rawlog);
+    RawlogReader reader(rawlog);
+    std::size_t scans = 0;
+    while (const auto expected = reader.next()) {
+        const auto entry = source->nextEntry();
+        ASSERT_TRUE(entry);
+        EXPECT_EQ(entry->number, reader.entries() - 1);
+        EXPECT_EQ(entry->object->GetRuntimeClass(), expected->GetRuntimeClass());
+        EXPECT_DOUBLE_EQ(entry->fraction_read, reader.fractionRead());
+        scans += entry->scans.size();
+    }
+    EXPECT_FALSE(source->nextEntry());
+    EXPECT_EQ(scans, 5u);
+}
+
+TEST_F(ScanSourceTest, OnlyTheSelectedLidarsAndEntries) {
+    SourceOptions options;
+    options.sensor_labels = {"front"};
+    options.first_entry = 1;
+    options.last_entry = 3;
+    const auto source = openRecording(rawlogOf(mixed()), options);
+    EXPECT_THAT(pulledFrom(*source), ElementsAre("2:front:3"));
+    EXPECT_THAT(source->otherLabels(), ElementsAre("rear"));
+    EXPECT_EQ(source->entriesSkipped(), 1u);
+    EXPECT_EQ(source->entriesKnown(), 4u);
+}
+
+TEST_F(ScanSourceTest, ScansOfAFolder) {
+    const auto source = openRecording(scanFolderOf(3, "1001\n1002\n1004\n"));
+    EXPECT_EQ(source->entriesKnown(), 3u);
+    for (int i = 0; i < 3; ++i) {
+        const auto entry = source->nextEntry();
+        ASSERT_TRUE(entry);
+        EXPECT_EQ(entry->object, nullptr);
+        ASSERT_EQ(entry->scans.size(), 1u);
+        const RecordedScan& scan = entry->scans[0];
+        EXPECT_EQ(scan.name, "00000" + std::to_string(i));
+        EXPECT_EQ(titleOf(scan),
+                  "entry " + std::to_string(i) + " (00000" + std::to_string(i) + ")");
+        EXPECT_EQ(scan.observation->sensorLabel, "velodyne");
+        observations::ObservedScan observed;
+        observations::readObservation(*scan.observation, {}, observed);
+        EXPECT_EQ(observed.scan.x_m, returnAt(static_cast<float>(i)).x_m);
+        EXPECT_EQ(observed.scan.intensity, returnAt(0).intensity);
+    }
+    EXPECT_FALSE(source->nextEntry());
+}
+
+TEST_F(ScanSourceTest, AFolderWithoutTimesHasTenScansPerSecond) {
+    const auto times = openRecording(scanFolderOf(3))->scanTimes();
+    ASSERT_EQ(times.size(), 1u);
+    const auto& of_folder = times.at("velodyne");
+    ASSERT_EQ(of_folder.size(), 3u);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(mrpt::Clock::toDouble(of_folder[static_cast<std::size_t>(i)]), 0.1 * i, 1e-6);
+    }
+}
+
+TEST_F(ScanSourceTest, FolderScansAsObjectsOfARawlog) {
+    SourceOptions options;
+    options.folder_objects = observations::CloudClass::Simple;
+    const auto entry = openRecording(scanFolderOf(1), options)->nextEntry();
+    ASSERT_TRUE(entry);
+    const auto object = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(entry->object);
+    ASSERT_TRUE(object);
+    EXPECT_EQ(object->pointcloud->size(), 1u);
+    EXPECT_EQ(object->sensorLabel, "velodyne");
+}
+
+TEST_F(ScanSourceTest, WithoutUsePosesNoneAreKnown) {
+    const auto source = openRecording(rawlogOf({pose(0, 5, 0), cloud(1, "front")}));
+    EXPECT_FALSE(source->nextScan()->pose.sensor_pose);
+    EXPECT_EQ(source->poses().source, "");
+}
+
+TEST_F(ScanSourceTest, PosesOfTheRawlogItselfMayComeAfterTheScan) {
+    const auto source =
+        openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front"), pose(1.1, 7, 0)}));
+    source->usePoses({});
+    EXPECT_EQ(source->poses().source, "CObservationRobotPose");
+    const auto scan = source->nextScan();
+    ASSERT_TRUE(scan && scan->pose.sensor_pose);
+    EXPECT_NEAR(scan->pose.sensor_pose->x(), 6.0, 1e-6);
+    EXPECT_NEAR(scan->pose.sensor_pose->z(), 1.25, 1e-6);  // on its mount
+    EXPECT_TRUE(scan->pose.pose_has_horizon);
+}
+
+TEST_F(ScanSourceTest, TheAttitudeIsTheLastOneBeforeTheScanInSkippedEntriesToo) {
+    SourceOptions options;
+    options.first_entry = 2;
+    const auto source = openRecording(
+        rawlogOf({pose(0.9, 0, 0.1), pose(0.95, 0, 0.2), cloud(1, "front"), pose(1.05, 0, 0.3)}),
+        options);
+    const auto scan = source->nextScan();
+    ASSERT_TRUE(scan && scan->pose.attitude);
+    EXPECT_NEAR(scan->pose.attitude->pitch_rad, 0.2, 1e-6);
+}
+
+TEST_F(ScanSourceTest, PosesOfAFileWinOverTheAttitudeInTheRecording) {
+    writeTumPoses(folder_ / "flight.tum", {{1001.0, CPose3D(3, 0, 0, 0, 0.4, 0)}});
+    const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
+    source->usePoses(folder_ / "flight.tum");
+    const auto scan = source->nextScan();
+    ASSERT_TRUE(scan && scan->pose.attitude);
+    EXPECT_NEAR(scan->pose.attitude->pitch_rad, 0.4, 1e-6);
+    EXPECT_EQ(source->poses().source, (folder_ / "flight.tum").string());
+}
+
+TEST_F(ScanSourceTest, AKittiFileIsForTheSelectedLidar) {
+    writeKittiPoses(folder_ / "poses.txt", {CPose3D(0, 0, 0, 0, 0, 0), CPose3D(1, 0, 0, 0, 0, 0),
+                                            CPose3D(2, 0, 0, 0, 0, 0)});
+    SourceOptions options;
+    options.sensor_labels = {"front"};
+    const auto source = openRecording(rawlogOf(mixed()), options);
+    source->usePoses(folder_ / "poses.txt");
+    for (int i = 0; i < 3; ++i) {
+        const auto scan = source->nextScan();
+        ASSERT_TRUE(scan && scan->pose.sensor_pose);
+        EXPECT_NEAR(scan->pose.sensor_pose->x(), i, 1e-6);
+        EXPECT_FALSE(scan->pose.pose_has_horizon);
+        EXPECT_FALSE(scan->pose.attitude);
+    }
+    EXPECT_THAT(
+        test::messageOf([&] { openRecording(rawlogOf(mixed()))->usePoses(folder_ / "poses.txt"); }),
+        HasSubstr("counts the scans of one LiDAR, and the log has 2"));
+}
+
+TEST_F(ScanSourceTest, ScanTimesOfAllLidars) {
+    SourceOptions options;
+    options.sensor_labels = {"rear"};
+    const auto times = openRecording(rawlogOf(mixed()), options)->scanTimes();
+    ASSERT_EQ(times.size(), 2u);
+    EXPECT_EQ(times.at("front").size(), 3u);
+    EXPECT_THAT(times.at("rear"), ElementsAre(at(4), at(5)));
+}
+
+TEST_F(ScanSourceTest, AFolderBringsItsSensor) {
+    const fs::path folder = scanFolderOf(1);
+    std::ofstream(folder / "sensor.yaml") << "sensor:\n  model: HDL-32E\n";
+    EXPECT_EQ(openRecording(folder)->settingsFor({}).sensor.model, "HDL-32E");
+    EXPECT_EQ(openRecording(rawlogOf(mixed()))->settingsFor({}).sensor.model, std::nullopt);
+}
+
+TEST_F(ScanSourceTest, StopsWhenToldTo) {
+    int asked = 0;
+    SourceOptions options;
+    options.keep_going = [&] { return ++asked <= 2; };
+    const auto source = openRecording(rawlogOf(mixed()), options);
+    EXPECT_TRUE(source->nextEntry());
+    EXPECT_TRUE(source->nextEntry());
+    EXPECT_THROW(source->nextEntry(), Interrupted);
+}
+
+TEST_F(ScanSourceTest, ABrokenRawlogGivesWhatIsBeforeTheBreak) {
+    const fs::path whole = rawlogOf(mixed());
+    // Uncompressed, so that it can be cut at any byte.
+    GzipInput stream(whole);
+    std::string bytes(1 << 16, '\0');
+    bytes.resize(stream.Read(bytes.data(), bytes.size()));
+    const fs::path cut = folder_ / "cut.rawlog";
+    std::ofstream(cut, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size() - 10));
+    const auto source = openRecording(cut);
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(source->nextEntry());
+    EXPECT_THROW(source->nextEntry(), BrokenRawlog);
+}
+
+TEST_F(ScanSourceTest, ABrokenScanFileIsNamed) {
+    const fs::path folder = scanFolderOf(2);
+    fs::resize_file(folder / "velodyne" / "000001.bin", 10);
+    const auto source = openRecording(folder);
+    EXPECT_TRUE(source->nextScan());
+    EXPECT_THAT(test::messageOf([&] { source->nextScan(); }), HasSubstr("000001.bin: 10 bytes"));
+}
+
+TEST_F(ScanSourceTest, NamesWhatCannotBeOpened) {
+    EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "none.rawlog"); }),
+                HasSubstr("none.rawlog: no such file or folder"));
+    fs::create_directories(folder_ / "empty");
+    EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "empty"); }),
+                HasSubstr("empty: not a scan folder"));
+    EXPECT_THAT(test::messageOf([&] { openRecording(scanFolderOf(2, "1001\n")); }),
+                HasSubstr("times.txt: has 1 lines for 2 scans"));
+}
+
+}  // namespace
+}  // namespace hagen::logs
