@@ -2,6 +2,7 @@
 #include <hagen/avoidance/Guidance.h>
 #include <hagen/avoidance/Planner.h>
 #include <hagen/avoidance/WorldModel.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/trials/Campaign.h>
 #include <hagen/trials/Course.h>
 #include <cstdio>
@@ -9,7 +10,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <regex>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -28,15 +29,15 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// "12-34" or "1/4", whole numbers alone.
-std::pair<std::uint64_t, std::uint64_t> pairFrom(const std::string& flag, const std::string& text,
-                                                 const std::string& form, const std::string& what) {
-    std::smatch parts;
-    if (!std::regex_match(text, parts, std::regex(form))) {
-        throw UsageError(flag, "'" + text + "' is not " + what);
-    }
-    const std::uint64_t first = std::stoull(parts[1]);
-    return {first, parts[2].matched ? std::stoull(parts[2]) : first};
+/// Two whole numbers around a separator: "12-34" or "1/4".
+std::optional<std::pair<std::uint64_t, std::uint64_t>> pairFrom(const std::string& text,
+                                                                char separator) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string::npos) return std::nullopt;
+    const auto first = base::numberFrom<std::uint64_t>(text.substr(0, at));
+    const auto second = base::numberFrom<std::uint64_t>(text.substr(at + 1));
+    if (!first || !second) return std::nullopt;
+    return std::pair{*first, *second};
 }
 
 /// "all", or names.
@@ -46,10 +47,13 @@ void expandAll(std::vector<std::string>& names, const std::vector<std::string>& 
 
 std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     trials::CampaignPlan& plan = flags.plan;
-    std::tie(plan.first_seed, plan.last_seed) =
-        pairFrom("--seeds", flags.seeds, "(\\d{1,18})(?:-(\\d{1,18}))?", "a seed, or two as A-B");
-    const auto [number, of] =
-        pairFrom("--shard", flags.shard, "(\\d{1,6})/(\\d{1,6})", "i/n, a part of n");
+    const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
+    const auto seeds =
+        one_seed ? std::optional(std::pair{*one_seed, *one_seed}) : pairFrom(flags.seeds, '-');
+    if (!seeds) throw UsageError("--seeds", "'" + flags.seeds + "' is not a seed, or two as A-B");
+    std::tie(plan.first_seed, plan.last_seed) = *seeds;
+    const auto shard = pairFrom(flags.shard, '/');
+    if (!shard) throw UsageError("--shard", "'" + flags.shard + "' is not i/n, a part of n");
     plan.brakes_in_known_space = flags.unknown == "brake-known";
     plan.pose_errors.clear();
     for (const std::string& name : flags.pose_errors)
@@ -59,7 +63,8 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     expandAll(plan.guidances, avoidance::guidanceNames());
     expandAll(plan.planners, avoidance::plannerNames());
     try {
-        return trials::flightsOf(plan, {static_cast<int>(number), static_cast<int>(of)});
+        return trials::flightsOf(plan,
+                                 {static_cast<int>(shard->first), static_cast<int>(shard->second)});
     } catch (const std::invalid_argument& e) {
         throw UsageError("closedloop", e.what());
     }

@@ -88,7 +88,13 @@ Json Json::array(std::initializer_list<Json> items) {
     return json;
 }
 
-Json Json::parse(const std::string& text) { return Text::jsonOf(Text::Value::parse(text)); }
+Json Json::parse(const std::string& text) {
+    try {
+        return Text::jsonOf(Text::Value::parse(text));
+    } catch (const nlohmann::json::exception& e) {
+        throw std::runtime_error(e.what());
+    }
+}
 
 Json& Json::operator[](const std::string& key) {
     if (std::holds_alternative<std::nullptr_t>(value_)) value_ = Object();
@@ -105,6 +111,76 @@ void Json::push_back(Json item) {
     auto* items = std::get_if<Array>(&value_);
     if (items == nullptr) throw std::logic_error("only a JSON array takes items");
     items->push_back(std::move(item));
+}
+
+bool Json::isNumber() const {
+    const auto* scalar = std::get_if<Scalar>(&value_);
+    return scalar != nullptr && !std::holds_alternative<bool>(*scalar);
+}
+
+const Json* Json::find(const std::string& key) const {
+    const auto* members = std::get_if<Object>(&value_);
+    if (members == nullptr) return nullptr;
+    for (const auto& [known, member] : *members) {
+        if (known == key) return &member;
+    }
+    return nullptr;
+}
+
+const Json& Json::at(const std::string& key) const {
+    const Json* member = find(key);
+    if (member == nullptr) throw std::runtime_error("there is no key '" + key + "'");
+    return *member;
+}
+
+const Json& Json::at(std::size_t index) const {
+    if (index >= items().size()) {
+        throw std::runtime_error("expected at least " + std::to_string(index + 1) +
+                                 " items, not: " + dump());
+    }
+    return items()[index];
+}
+
+const std::vector<Json>& Json::items() const {
+    if (!isArray()) throw std::runtime_error("expected an array, not: " + dump());
+    return std::get<Array>(value_);
+}
+
+const std::vector<std::pair<std::string, Json>>& Json::members() const {
+    if (!isObject()) throw std::runtime_error("expected an object, not: " + dump());
+    return std::get<Object>(value_);
+}
+
+const std::string& Json::text() const {
+    if (!isText()) throw std::runtime_error("expected text, not: " + dump());
+    return std::get<std::string>(value_);
+}
+
+double Json::number() const {
+    if (!isNumber()) throw std::runtime_error("expected a number, not: " + dump());
+    return std::visit([](auto number) { return static_cast<double>(number); },
+                      std::get<Scalar>(value_));
+}
+
+std::uint64_t Json::count() const {
+    const auto* scalar = std::get_if<Scalar>(&value_);
+    const auto* count = scalar != nullptr ? std::get_if<std::uint64_t>(scalar) : nullptr;
+    if (count == nullptr) {
+        throw std::runtime_error("expected an integer of at least 0, not: " + dump());
+    }
+    return *count;
+}
+
+std::vector<double> Json::numbers() const {
+    std::vector<double> numbers;
+    for (const Json& item : items()) numbers.push_back(item.number());
+    return numbers;
+}
+
+std::vector<std::string> Json::texts() const {
+    std::vector<std::string> texts;
+    for (const Json& item : items()) texts.push_back(item.text());
+    return texts;
 }
 
 std::string Json::dump(int indent, NotUtf8 not_utf8) const {

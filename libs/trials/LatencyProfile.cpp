@@ -1,3 +1,4 @@
+#include <hagen/base/Json.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/trials/LatencyProfile.h>
@@ -7,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <locale>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -15,17 +15,17 @@
 namespace hagen::trials {
 namespace {
 
-using nlohmann::json;
+using base::Json;
 
 double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
 
-std::vector<double> quantilesFrom(const json& value) {
+std::vector<double> quantilesFrom(const Json& value) {
     const std::string rule = "must be numbers of at least 0 [ms] that do not fall, one or more";
-    if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
+    if (!value.isArray() || value.items().empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
-    for (const json& entry : value) {
-        if (!entry.is_number()) throw std::runtime_error(rule);
-        quantiles.push_back(toMicroseconds(entry.get<double>()));
+    for (const Json& entry : value.items()) {
+        if (!entry.isNumber()) throw std::runtime_error(rule);
+        quantiles.push_back(toMicroseconds(entry.number()));
     }
     const bool is_finite = std::all_of(quantiles.begin(), quantiles.end(),
                                        [](double q) { return std::isfinite(q) && q >= 0; });
@@ -35,19 +35,21 @@ std::vector<double> quantilesFrom(const json& value) {
     return quantiles;
 }
 
-LatencyProfile profileFrom(const json& root) {
-    if (!root.is_object() || !root.contains("quantiles_ms") || !root["quantiles_ms"].is_object()) {
+LatencyProfile profileFrom(const Json& root) {
+    const Json* by_stage = root.find("quantiles_ms");
+    if (by_stage == nullptr || !by_stage->isObject()) {
         throw std::runtime_error("there is no key 'quantiles_ms'; `calibrate` makes such files");
     }
     LatencyProfile profile;
     for (const auto& [key, text] : {std::pair{"machine", &profile.machine},
                                     {"made_by", &profile.made_by},
                                     {"date", &profile.date}}) {
-        if (!root.contains(key)) continue;
-        if (!root[key].is_string()) throw std::runtime_error(std::string(key) + ": must be a text");
-        *text = root[key].get<std::string>();
+        const Json* value = root.find(key);
+        if (value == nullptr) continue;
+        if (!value->isText()) throw std::runtime_error(std::string(key) + ": must be a text");
+        *text = value->text();
     }
-    for (const auto& [stage, value] : root["quantiles_ms"].items()) {
+    for (const auto& [stage, value] : by_stage->members()) {
         try {
             profile.quantiles_ms[stage] = quantilesFrom(value);
         } catch (const std::runtime_error& e) {
@@ -62,14 +64,14 @@ LatencyProfile profileFrom(const json& root) {
 std::string textOf(const LatencyProfile& profile) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
-    text << "{\n  \"machine\": " << json(profile.machine)
-         << ",\n  \"made_by\": " << json(profile.made_by) << ",\n  \"date\": " << json(profile.date)
-         << ",\n  \"quantiles_ms\": {";
+    text << "{\n  \"machine\": " << Json(profile.machine).dump()
+         << ",\n  \"made_by\": " << Json(profile.made_by).dump()
+         << ",\n  \"date\": " << Json(profile.date).dump() << ",\n  \"quantiles_ms\": {";
     const char* before = "\n";
     for (const auto& [stage, quantiles] : profile.quantiles_ms) {
-        text << before << "    " << json(stage) << ": [";
+        text << before << "    " << Json(stage).dump() << ": [";
         for (std::size_t q = 0; q < quantiles.size(); ++q) {
-            text << (q > 0 ? ", " : "") << json(toMicroseconds(quantiles[q]));
+            text << (q > 0 ? ", " : "") << Json(toMicroseconds(quantiles[q])).dump();
         }
         text << "]";
         before = ",\n";
@@ -102,7 +104,7 @@ std::vector<double> quantilesOf(std::vector<double> measured_ms, int count) {
 }
 
 LatencyProfile latencyProfileFrom(const std::string& text) {
-    return profileFrom(json::parse(text));
+    return profileFrom(Json::parse(text));
 }
 
 LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
@@ -111,7 +113,7 @@ LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
     try {
         return latencyProfileFrom(
             {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
-    } catch (const std::exception& e) {  // json's own are none of std::runtime_error
+    } catch (const std::runtime_error& e) {
         throw std::runtime_error(file.string() + ": " + e.what());
     }
 }

@@ -11,13 +11,13 @@
 
 namespace hagen::base {
 
-/// A JSON value to be written. Objects keep their keys in the order in which they were set.
+/// A JSON value. Objects keep their keys in the order in which they were set.
 ///
 ///     Json report{{"runs", 12}, {"names", {"a", "b"}}};
 ///     report["mean"] = Json();  // null
 ///     report.dump(2);
 ///
-/// nlohmann's library turns it into text; Json.cpp alone includes that, which is slow to compile.
+/// nlohmann's library parses and prints; only Json.cpp includes it, because it is slow to compile.
 class Json {
  public:
     Json();  ///< null
@@ -49,7 +49,7 @@ class Json {
 
     static Json object();
     static Json array(std::initializer_list<Json> items = {});
-    /// The value that a text holds. Throws std::exception, saying where it is no JSON.
+    /// Parses a text. Throws std::runtime_error, saying where it is not JSON.
     static Json parse(const std::string& text);
 
     /// The value of a key; null is set for a new one. A null becomes an object; of anything else
@@ -57,6 +57,23 @@ class Json {
     Json& operator[](const std::string& key);
     /// Appends to an array. A null becomes one; anything else throws std::logic_error.
     void push_back(Json item);
+
+    // Reading. What is missing or of another type throws std::runtime_error, saying what is
+    // expected.
+    bool isObject() const { return std::holds_alternative<Object>(value_); }
+    bool isArray() const { return std::holds_alternative<Array>(value_); }
+    bool isNumber() const;
+    bool isText() const { return std::holds_alternative<std::string>(value_); }
+    const Json* find(const std::string& key) const;  ///< nullptr: no object, or no such key
+    const Json& at(const std::string& key) const;
+    const Json& at(std::size_t index) const;
+    const std::vector<Json>& items() const;                            ///< of an array
+    const std::vector<std::pair<std::string, Json>>& members() const;  ///< of an object
+    const std::string& text() const;
+    double number() const;
+    std::uint64_t count() const;  ///< an integer of at least 0
+    std::vector<double> numbers() const;
+    std::vector<std::string> texts() const;
 
     /// What to do about text that is not UTF-8, as file names may be.
     enum class NotUtf8 { Throw, Replace };
