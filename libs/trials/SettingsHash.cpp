@@ -1,6 +1,7 @@
 #include <hagen/avoidance/Vehicle.h>
 #include <hagen/base/Json.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/segmentation/Options.h>
 #include <hagen/trials/SettingsHash.h>
 
 #include <array>
@@ -21,6 +22,15 @@ std::string hashOf(const std::string& text) {
     return digits.data();
 }
 
+/// The filter's default options, one "key=value" per line. Without their descriptions: words do not
+/// change runs.
+std::string filterText() {
+    std::string text;
+    const Options options;
+    for (const OptionKey& key : optionKeys()) text += key.name + "=" + textOf(key, options) + "\n";
+    return text;
+}
+
 }  // namespace
 
 std::string vehicleText() {
@@ -36,8 +46,7 @@ std::string vehicleText() {
 
 std::string hashOfSettings(const LatencyProfile& profile) {
     return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +
-                  vehicleText() + "\n" + observations::dumpSettings(observations::Settings{}) +
-                  "\n" + textOf(profile));
+                  vehicleText() + "\n" + filterText() + textOf(profile));
 }
 
 }  // namespace hagen::trials
