@@ -10,8 +10,8 @@
 #include <memory>
 #include <optional>
 
+#include <hagen/command_line/Interrupt.h>
 #include "Commands.h"
-#include "common/Interrupt.h"
 
 namespace hagen {
 namespace {

@@ -14,9 +14,9 @@
 #include <sstream>
 #include <thread>
 
+#include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/ProgressLine.h>
 #include "Commands.h"
-#include "common/Interrupt.h"
-#include "common/ProgressLine.h"
 
 namespace hagen {
 namespace {

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
+#include <hagen/command_line/Interrupt.h>
 #include "Commands.h"
-#include "common/Interrupt.h"
 
 namespace hagen {
 namespace {

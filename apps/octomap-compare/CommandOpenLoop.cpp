@@ -6,11 +6,11 @@
 #include <memory>
 #include <stdexcept>
 
+#include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/ProgressLine.h>
 #include <hagen/openloop/OpenLoopFiles.h>
 #include <hagen/openloop/OpenLoopTable.h>
 #include "Commands.h"
-#include "common/Interrupt.h"
-#include "common/ProgressLine.h"
 
 namespace hagen {
 namespace {

@@ -1,7 +1,9 @@
 #pragma once
-#include "common/CommandLine.h"
+#include <hagen/command_line/CommandLine.h>
 
 namespace hagen {
+
+using namespace command_line;  // Program, Command, Flag, UsageError
 
 // Each adds a subcommand with its flags.
 void addClosedLoop(Program& program);

@@ -14,12 +14,12 @@ int main(int argc, char** argv) {
         "Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
     program.version(HAGEN_VERSION);
     program.prints("results");
-    addClosedLoop(program);
-    addMerge(program);
-    addFlyRuns(program);
-    addCalibrate(program);
-    addOpenLoop(program);
-    addReport(program);
-    addReplay(program);
+    hagen::addClosedLoop(program);
+    hagen::addMerge(program);
+    hagen::addFlyRuns(program);
+    hagen::addCalibrate(program);
+    hagen::addOpenLoop(program);
+    hagen::addReport(program);
+    hagen::addReplay(program);
     return program.run(argc, argv);
 }

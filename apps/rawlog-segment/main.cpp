@@ -7,14 +7,15 @@
 #include <string>
 #include <vector>
 
+#include <hagen/command_line/CommandLine.h>
+#include <hagen/command_line/Interrupt.h>
 #include "Progress.h"
 #include "Reports.h"
-#include "common/CommandLine.h"
-#include "common/Interrupt.h"
 
 namespace {
 
 using namespace hagen;
+using namespace hagen::command_line;
 
 logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool quiet) {
     Progress progress(conversion.input.string(), quiet);

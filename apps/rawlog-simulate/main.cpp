@@ -6,13 +6,14 @@
 #include <iostream>
 #include <string>
 
+#include <hagen/command_line/CommandLine.h>
+#include <hagen/command_line/Interrupt.h>
 #include <hagen/simulated_logs/SimulatedLog.h>
-#include "common/CommandLine.h"
-#include "common/Interrupt.h"
 
 namespace {
 
 using namespace hagen;
+using namespace hagen::command_line;
 
 void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
     const auto not_empty = [](const std::string& name) {

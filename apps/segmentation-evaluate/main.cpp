@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <hagen/command_line/CommandLine.h>
 #include <hagen/labelled_scans/Charts.h>
 #include <hagen/labelled_scans/LabelledFolders.h>
 #include <hagen/labelled_scans/Methods.h>
@@ -15,11 +16,11 @@
 #include <hagen/labelled_scans/SummaryJson.h>
 #include "Progress.h"
 #include "Report.h"
-#include "common/CommandLine.h"
 
 namespace {
 
 using namespace hagen;
+using namespace hagen::command_line;
 namespace fs = std::filesystem;
 
 struct Flags {

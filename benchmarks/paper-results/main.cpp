@@ -5,13 +5,14 @@
 #include <iostream>
 #include <thread>
 
+#include <hagen/command_line/CommandLine.h>
 #include "Document.h"
 #include "Figures.h"
-#include "common/CommandLine.h"
 
 namespace {
 
 using namespace hagen;
+using namespace hagen::command_line;
 namespace fs = std::filesystem;
 
 struct Flags {

@@ -21,12 +21,13 @@
 #include <string>
 #include <vector>
 
+#include <hagen/command_line/CommandLine.h>
 #include "ConversionTimes.h"
-#include "common/CommandLine.h"
 
 namespace {
 
 using namespace hagen;
+using namespace hagen::command_line;
 namespace fs = std::filesystem;
 
 /// A temporary folder for outputs.

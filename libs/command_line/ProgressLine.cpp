@@ -1,4 +1,4 @@
-#include "ProgressLine.h"
+#include <hagen/command_line/ProgressLine.h>
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-namespace hagen {
+namespace hagen::command_line {
 namespace {
 
 std::string durationText(double seconds) {
@@ -54,4 +54,4 @@ void ProgressLine::show(std::size_t done, std::size_t all) {
     std::cerr << (is_on_terminal_ ? "\r\033[K" + line.str() : line.str() + "\n") << std::flush;
 }
 
-}  // namespace hagen
+}  // namespace hagen::command_line

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace hagen {
+namespace hagen::command_line {
 
 /// Says on stderr how far a long command is. On a terminal that is one line, over and over; where
 /// it is none, such as a log of a cluster's job, a line at first, and then every tenth and minute.
@@ -27,4 +27,4 @@ class ProgressLine {
     Clock::time_point start_ = Clock::now(), last_time_ = start_;
 };
 
-}  // namespace hagen
+}  // namespace hagen::command_line

@@ -1,11 +1,11 @@
-#include "Interrupt.h"
+#include <hagen/command_line/Interrupt.h>
 
 #include <atomic>
 #include <csignal>
 #include <ctime>
 #include <initializer_list>
 
-namespace hagen {
+namespace hagen::command_line {
 namespace {
 
 // Signals may come to any thread, and any may ask.
@@ -43,4 +43,4 @@ void catchSignals() {
 
 bool isInterrupted() { return is_interrupted; }
 
-}  // namespace hagen
+}  // namespace hagen::command_line

@@ -15,7 +15,7 @@ class Option;
 
 /// Command lines of the programs, read by CLI11. CommandLine.cpp alone includes that, which is slow
 /// to compile.
-namespace hagen {
+namespace hagen::command_line {
 
 /// Exit codes of all programs.
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
@@ -125,4 +125,4 @@ class Program : public Command {
     std::string name_, printed_ = "summary", help_ = "text";
 };
 
-}  // namespace hagen
+}  // namespace hagen::command_line

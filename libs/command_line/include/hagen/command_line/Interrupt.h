@@ -1,6 +1,6 @@
 #pragma once
 
-namespace hagen {
+namespace hagen::command_line {
 
 /// Lets a program end in an orderly way: after SIGINT, SIGTERM or SIGHUP (unless ignored)
 /// isInterrupted() is true; another such signal, later, ends it at once. SIGPIPE and SIGXFSZ are
@@ -9,4 +9,4 @@ void catchSignals();
 
 bool isInterrupted();
 
-}  // namespace hagen
+}  // namespace hagen::command_line

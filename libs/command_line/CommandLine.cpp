@@ -1,12 +1,12 @@
-#include "CommandLine.h"
+#include <hagen/command_line/CommandLine.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 
-#include "Interrupt.h"
+#include <hagen/command_line/Interrupt.h>
 
-namespace hagen {
+namespace hagen::command_line {
 
 namespace fs = std::filesystem;
 
@@ -204,4 +204,4 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     }
 }
 
-}  // namespace hagen
+}  // namespace hagen::command_line
