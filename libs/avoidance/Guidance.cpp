@@ -6,14 +6,14 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr double kNearGoal_m = 4;  ///< from here on the goal's own height counts
+constexpr double kNearGoal_m = 4;  ///< closer than this, the goal's own height counts
 constexpr double kCarrot_m = 4, kNearestCarrot_m = 1;
 constexpr double kEase_m = 0.05;
-constexpr double kSight_m = 12;          ///< how far along the path corners are cut
-constexpr double kCutClearance_m = 0.9;  ///< that a cut needs
-constexpr double kGoalSearch_m = 3;  ///< how far from a blocked goal another place is looked for
+constexpr double kSight_m = 12;          ///< corners are cut up to this path length
+constexpr double kCutClearance_m = 0.9;  ///< needed for cutting a corner
+constexpr double kGoalSearch_m = 3;      ///< search radius for a substitute of a blocked goal
 constexpr double kHeightCost_per_m = 0.5;
-constexpr double kHaste = 1.3;  ///< of the search: a third of the questions in a dense forest
+constexpr double kHeuristicWeight = 1.3;  ///< saves two thirds of the queries in dense forest
 constexpr int kMostCells = 4000;
 
 /// The goal, level at the wanted altitude while it is far off: the ground in between is unknown.
@@ -33,21 +33,20 @@ PathSearchOptions searchOptions(const GuidanceTask& task) {
     options.bounds_m = task.bounds_m;
     options.bounds_m.min().z() = task.ground_m + task.lowest_m;
     options.bounds_m.max().z() = task.ground_m + task.highest_m;
-    options.least_clearance_m = task.limits.room_m();
+    options.min_clearance_m = task.limits.room_m();
     options.wanted_height_m = task.ground_m + task.altitude_m;
     options.height_cost_per_m = kHeightCost_per_m;
     options.anchor_m.z() = options.wanted_height_m;
-    options.haste = kHaste;
-    options.most_cells = kMostCells;
+    options.heuristic_weight = kHeuristicWeight;
+    options.max_cells = kMostCells;
     return options;
 }
 
-/// The goal or, where that is blocked or out of the bounds, the nearest free place on a grid
-/// around it.
+/// The goal, or the nearest free point on a grid around it if it is blocked or out of bounds.
 Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& goal_m,
                               const PathSearchOptions& options) {
     const auto isFree = [&](const Eigen::Vector3d& at_m) {
-        return world.clearance_m(at_m.cast<float>()) >= options.least_clearance_m;
+        return world.clearance_m(at_m.cast<float>()) >= options.min_clearance_m;
     };
     Eigen::Vector3d inside_m =
         goal_m.cwiseMax(options.bounds_m.min()).cwiseMin(options.bounds_m.max());
@@ -81,7 +80,7 @@ bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m, const Eig
     return true;
 }
 
-/// The place so far ahead on a path; its end where that is nearer.
+/// The point at this distance along a path, at most its end.
 Eigen::Vector3d placeAt(const std::vector<Eigen::Vector3d>& path_m, double way_m) {
     for (std::size_t i = 1; i < path_m.size(); ++i) {
         const Eigen::Vector3d step_m = path_m[i] - path_m[i - 1];
@@ -98,8 +97,7 @@ double lengthOf(const std::vector<Eigen::Vector3d>& path_m) {
     return length_m;
 }
 
-/// How far along a path the carrot may lie: planners fly straight, so it must not hide behind a
-/// bend.
+/// The maximum path distance of the carrot: planners fly straight, so it must not be behind a bend.
 double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& path_m,
                    double least_m) {
     double way_m = kCarrot_m;
@@ -110,8 +108,8 @@ double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& 
     return way_m;
 }
 
-/// A path over a grid turns by 45 degrees or not at all: where the straight way to a place farther
-/// on has room enough, the carrot lies on it.
+/// Grid paths turn in steps of 45 degrees. If the straight line to a farther point has enough
+/// clearance, the carrot lies on that line.
 Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m, double room_m) {
     const double length_m = lengthOf(path_m);
     const double carrot_m = carrotWay_m(world, path_m, room_m);
@@ -142,15 +140,15 @@ class PathGuidance : public Guidance {
     Carrot carrot(const WorldModel& world, const GuidanceTask& task) const override {
         PathSearchOptions options = searchOptions(task);
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
-        const auto most_m = static_cast<float>(options.wanted_clearance_m);
+        const auto limit_m = static_cast<float>(options.wanted_clearance_m);
         const auto clearance_m = [&](const Eigen::Vector3f& at) {
-            return world.clearanceWithin_m(at, most_m);  // more room costs no less
+            return world.clearanceWithin_m(at, limit_m);  // more clearance does not lower the cost
         };
-        // What planners can follow without touching their margin; else what just fits.
-        options.least_clearance_m += kEase_m;
+        // First with extra clearance that planners can follow easily, otherwise without.
+        options.min_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);
         if (!path_m) {
-            options.least_clearance_m -= kEase_m;
+            options.min_clearance_m -= kEase_m;
             path_m = findPath(clearance_m, task.position_m, goal_m, options);
         }
         if (!path_m) return straightCarrot(task);

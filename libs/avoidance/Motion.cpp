@@ -29,7 +29,7 @@ std::optional<float> freeClearance(const WorldModel& world,
                                    const std::vector<Eigen::Vector3f>& way_m, double room_m) {
     float least_m = WorldModel::kReach_m, needed_m = 0, free_m = 0;
     for (std::size_t i = 0; i < way_m.size(); ++i) {
-        // Within the ball of the last answer there is nothing to ask.
+        // Points within the sphere of the last clearance need no query.
         if (i > 0) free_m -= (way_m[i] - way_m[i - 1]).norm();
         if (free_m > 0) continue;
         const float clearance_m = world.clearance_m(way_m[i]);

@@ -14,20 +14,20 @@ constexpr std::array<double, 4> kSpeedShares{1.0, 0.6, 0.3, 0.1};
 constexpr double kVertical_m_s = 1.0;
 constexpr double kAtGoal_m = 0.5;
 
-// Weights; progress at full speed straight to the carrot is worth 1.
+// Cost weights, relative to progress at full speed straight to the carrot.
 constexpr double kDeviationCost = 0.2;
 constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
 constexpr double kChangeCost = 0.1;
-constexpr double kStandingCost = 0.3;  ///< of a stop away from the goal
+constexpr double kStandingCost = 0.3;  ///< of hovering away from the goal
 constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
 
 struct Candidate {
-    double cost;  ///< without that of proximity, which takes questions
+    double cost;  ///< without proximity, which needs queries
     Eigen::Vector3d command_m_s;
 };
 
-/// Where the candidates are measured against: the carrot or, where way is left beyond it, a place
-/// farther in its direction, for the vehicle shall not slow down for a carrot.
+/// The target of the candidates: the carrot, or a point farther in its direction if the path
+/// continues beyond it, so that the vehicle does not slow down at the carrot.
 Eigen::Vector3d aimOf(const PlanningTask& task) {
     const Eigen::Vector3d way_m = task.carrot_m - task.start.position_m;
     const double length_m = way_m.norm();
@@ -39,7 +39,7 @@ Eigen::Vector3d aimOf(const PlanningTask& task) {
     return aim_m;
 }
 
-/// The height wanted is to be reached within the look-ahead, however far the carrot.
+/// The wanted height is to be reached within the look-ahead time, however far the carrot is.
 std::array<double, 5> elevationsTo(const Eigen::Vector3d& aim_m, const PlanningTask& task,
                                    double speed_m_s) {
     const Eigen::Vector3d way_m = aim_m - task.start.position_m;
@@ -73,7 +73,7 @@ std::vector<Eigen::Vector3d> commandsFor(const PlanningTask& task, const Eigen::
     return commands_m_s;
 }
 
-/// Where a command leads within the look-ahead, in coarse steps: enough to rank by.
+/// Where a command leads within the look-ahead time, in coarse steps, which suffice for ranking.
 Eigen::Vector3d endOf(const PlanningTask& task, const Eigen::Vector3d& command_m_s) {
     constexpr double kStep_s = 0.1;
     VehicleState state = task.start;
@@ -124,7 +124,7 @@ Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) c
     double best = std::numeric_limits<double>::infinity();
     CommandWays ways;
     for (const Candidate& candidate : rankedCandidates(task)) {
-        if (candidate.cost >= best) break;  // the rest cost more, however much room they have
+        if (candidate.cost >= best) break;  // the rest cost more, whatever their clearance
         const std::optional<float> clearance_m =
             checkCommand(world, task, candidate.command_m_s, kLookAhead_s, ways);
         if (task.keeps_candidates) {

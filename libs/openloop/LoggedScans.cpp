@@ -23,13 +23,13 @@ using mrpt::obs::CObservation;
 using mrpt::poses::CPose3D;
 using TimePoint = mrpt::Clock::time_point;
 
-constexpr double kDefaultScanPeriod_s = 0.1;  // of a scan folder without times
+constexpr double kDefaultScanPeriod_s = 0.1;  // for scan folders without times
 
 Eigen::Vector3f positionOf(const CPose3D& pose) {
     return Eigen::Vector3d(pose.x(), pose.y(), pose.z()).cast<float>();
 }
 
-/// Takes out the vehicle's own returns.
+/// Removes the vehicle's own returns.
 void removeOwn(const observations::ObservationSegmenter::Output& out, float own_reach_m,
                mapping::MappedScan& mapped) {
     std::size_t kept = 0, placed = 0;
@@ -52,13 +52,13 @@ void place(const observations::ObservationSegmenter::Output& out, const CObserva
     scan.mapped = *logs::placeInMap(out, observation, vehicle);
     removeOwn(out, own_reach_m, scan.mapped);
     const auto end = vehicle.at(mrpt::Clock::fromDouble(scan.mapped.time_s));
-    scan.is_moved_whole = out.scan->time_s.empty() || !end;
+    scan.is_placed_by_one_pose = out.scan->time_s.empty() || !end;
     scan.vehicle_m = positionOf(end ? *end : *vehicle.at(observation.timestamp));
 }
 
 }  // namespace
 
-/// A log of either kind: what is known of it beforehand, and its scans.
+/// A log of either kind: its poses and scans.
 struct LoggedScans::Log {
     explicit Log(const LogSource& of) : source(of) {}
     virtual ~Log() = default;
@@ -88,7 +88,7 @@ void LoggedScans::Log::setPoses(const logs::LogPoses& known, const std::vector<T
     if (times.empty()) throw std::runtime_error(name + ": has no LiDAR scan");
     if (known.source.empty()) {
         throw std::runtime_error(name +
-                                 ": tells no poses; give them (--poses FILE.tum, lines of "
+                                 ": has no poses; provide them (--poses FILE.tum with lines "
                                  "'time x y z qx qy qz qw')");
     }
     poses = known;
@@ -103,11 +103,11 @@ void LoggedScans::Log::setPoses(const logs::LogPoses& known, const std::vector<T
     const std::string which = placed == 0
                                   ? "has no pose near any of the " + std::to_string(scans)
                                   : "has poses near " + std::to_string(placed) + " of the " +
-                                        std::to_string(scans) + " scans alone, fewer than half,";
+                                        std::to_string(scans) + " scans, fewer than half,";
     throw std::runtime_error(poses.source + ": " + which + (placed == 0 ? " scans" : "") + " of " +
-                             name + ", of which the first was taken at " +
+                             name + ", whose first scan is at " +
                              std::to_string(mrpt::Clock::toDouble(times.front())) +
-                             " s; are they of another flight, or another clock?");
+                             " s; do they belong to another flight or another clock?");
 }
 
 class LoggedScans::Rawlog : public LoggedScans::Log {
@@ -149,7 +149,7 @@ class LoggedScans::Rawlog : public LoggedScans::Log {
  private:
     void take(std::size_t number, const CObservation::ConstPtr& observation) {
         if (!observation) return;
-        // A file of poses tells better how the vehicle was tilted.
+        // A pose file knows the attitude better.
         if (source.poses.empty()) segmenter.see(*observation);
         const bool is_scan = observations::isLidarScan(*observation);
         if (is_scan && isWanted(observation->sensorLabel))
@@ -165,7 +165,8 @@ class LoggedScans::Folder : public LoggedScans::Log {
     explicit Folder(const LogSource& of) : Log(of), folder_(of.log), times_s_(folder_.times()) {
         if (!isWanted(kLabel)) {
             throw std::runtime_error(of.log.string() + ": has no LiDAR scan of '" +
-                                     of.sensor_label + "'; a scan folder is all '" + kLabel + "'");
+                                     of.sensor_label + "'; a scan folder has only '" + kLabel +
+                                     "'");
         }
         for (std::size_t i = times_s_.size(); i < folder_.size(); ++i) {
             times_s_.push_back(kDefaultScanPeriod_s * static_cast<double>(i));

@@ -32,7 +32,7 @@ TEST(FreeDirections, AreUnitVectorsAllRound) {
     EXPECT_NEAR(std::asin(directionOf(299).z()), 0.24f, 1e-6);
     for (std::size_t n = 0; n < kDirections; ++n) {
         EXPECT_NEAR(directionOf(n).norm(), 1, 1e-6);
-        EXPECT_EQ(leadsDown(n), directionOf(n).z() < -1e-3f);
+        EXPECT_EQ(pointsDown(n), directionOf(n).z() < -1e-3f);
     }
 }
 

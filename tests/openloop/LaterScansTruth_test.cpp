@@ -80,8 +80,8 @@ TEST(LaterScansTruth, OnePointIsASpeckTwoAreAnObstacle) {
     EXPECT_TRUE(truthOf(scan).blocked[120]);
 }
 
-TEST(LastingPoints, AreThoseThatAScanBeforeHadNear) {
-    LastingPoints points;
+TEST(PersistentPoints, AreThoseThatAScanBeforeHadNear) {
+    PersistentPoints points;
     mapping::MappedScan scan;
     scan.points_m = {{1, 2, 3}, {-4, 5, -6}, {13, 0, 0}};
     EXPECT_TRUE(points.of(mapping::MappedScan()).empty());
