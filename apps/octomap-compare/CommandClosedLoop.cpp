@@ -137,7 +137,9 @@ void addFlags(Command& app, Flags& flags) {
                "seeds of the courses, A-B; the same seeds make the same runs")
         .required();
     app.option("--speed", plan.speeds_m_s, "maximum speeds in m/s (default: 4)").delimiter(',');
-    takesWorldModels(list("--models", plan.models, "world models or all"), {"all"});
+    takesWorldModels(
+        list("--models", plan.models, "world models, such as W-RoI or \"RoI window\", or all"),
+        {"all"});
     list("--guidance", plan.guidances, "straight, astar or all");
     list("--planner", plan.planners, "primitives, 3dvfh or all");
     list("--pose-error", flags.pose_errors,

@@ -116,7 +116,8 @@ void addOpenLoop(Program& program) {
                "nearer returns [m] are the vehicle's own and are skipped")
         .between(0.0, 5.0)
         .showDefault();
-    takesWorldModels(sub.option("--models", flags->open_loop.models, "world models (default: all)")
+    takesWorldModels(sub.option("--models", flags->open_loop.models,
+                                "world models, such as W-RoI or \"RoI window\" (default: all)")
                          .delimiter(','));
     const Flag scenario =
         sub.option("--truth-scenario", flags->scenario,

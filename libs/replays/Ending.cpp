@@ -71,7 +71,7 @@ std::string wordsForTimeout(const trials::Course& course, const trials::TrialRes
         return "left the course";
     if (result.time_s > trials::TrialJudge::longestFlight_s(course, speed_m_s))
         return "ran out of time";
-    return "gave up after no progress";
+    return "gave up for lack of progress";
 }
 
 }  // namespace

@@ -108,7 +108,10 @@ void addFlights(const Report& report, std::vector<Section>& sections) {
     const trials::Condition& reference = summary.conditions.front();
     const std::string at = " at " + nameOf(reference);
     if (!summary.speed_limits.empty()) {
-        Section speed{"Success and speed", {}, {speedTable(summary)}};
+        Section speed{"Success and speed",
+                      {"The highest speed up to which the success rate, or the lower bound of its "
+                       "95 % Wilson interval, is at least 95 %."},
+                      {speedTable(summary)}};
         speed.charts = {"speed"};
         speed.chart_caption = "Success rates with 95 % intervals; the dashed line is 95 %.";
         sections.push_back(speed);

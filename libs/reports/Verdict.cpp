@@ -233,7 +233,7 @@ std::vector<std::string> verdictOf(const Summary& summary) {
     const int runs = mostRuns(summary, reference);
     sentences.push_back("This does not prove safety: after 0 collisions in " +
                         counted(runs, "run") +
-                        " of a scenario, the true collision rate can still be " +
+                        " of a scenario, the true collision rate can still be up to " +
                         percent(trials::wilsonInterval(0, runs).high) + " % (Wilson, 95 %).");
     return sentences;
 }

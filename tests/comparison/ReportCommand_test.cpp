@@ -51,7 +51,7 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
     EXPECT_THAT(
         outcome.out,
         HasSubstr("after 0 collisions in 10 runs of a scenario, the true collision rate can still "
-                  "be 27.8 %"));
+                  "be up to 27.8 %"));
     std::ifstream in(path("summary.json"));
     const auto json = nlohmann::json::parse(in);
     EXPECT_EQ(json["runs"], 30);
