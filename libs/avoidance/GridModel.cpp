@@ -53,7 +53,7 @@ void GridModel::update(const mapping::MappedScan& scan) {
 }
 
 std::vector<Eigen::Vector3f> GridModel::occupied_m() const {
-    std::vector<Eigen::Vector3f> centers_m;
+    std::vector<Eigen::Vector3f> centres_m;
     const auto& cells = map_->m_grid.data();  // log odds of being free
     std::size_t i = 0;
     for (int z = 0; z < size_.z(); ++z) {
@@ -62,11 +62,11 @@ std::vector<Eigen::Vector3f> GridModel::occupied_m() const {
                 if (cells[i] >= 0) continue;
                 const Eigen::Array3f cell(static_cast<float>(x), static_cast<float>(y),
                                           static_cast<float>(z));
-                centers_m.push_back(corner_m_ + (cell + 0.5f) * edge_m_);
+                centres_m.push_back(corner_m_ + (cell + 0.5f) * edge_m_);
             }
         }
     }
-    return centers_m;
+    return centres_m;
 }
 
 float GridModel::clearance_m(const Eigen::Vector3f& point_m) const {
@@ -89,6 +89,6 @@ std::size_t GridModel::bytes() const {
     return sizeof(*this) + sizeof(*map_) + map_->m_grid.getVoxelCount() + obstacles_.bytes();
 }
 
-WorldModel::Obstacles GridModel::obstacles() const { return {obstacles_.centers_m(), edge_m_}; }
+WorldModel::Obstacles GridModel::obstacles() const { return {obstacles_.centres_m(), edge_m_}; }
 
 }  // namespace hagen::avoidance

@@ -19,8 +19,8 @@ constexpr int kMostCells = 4000;
 /// The goal, level at the wanted altitude while it is far off: the ground in between is unknown.
 Eigen::Vector3d levelGoal(const GuidanceTask& task) {
     Eigen::Vector3d goal_m = task.goal_m;
-    const double way_m = (task.goal_m - task.position_m).head<2>().norm();
-    if (way_m > kNearGoal_m) goal_m.z() = task.ground_m + task.altitude_m;
+    const double distance_m = (task.goal_m - task.position_m).head<2>().norm();
+    if (distance_m > kNearGoal_m) goal_m.z() = task.ground_m + task.altitude_m;
     goal_m.z() =
         std::clamp(goal_m.z(), task.ground_m + task.lowest_m, task.ground_m + task.highest_m);
     return goal_m;
@@ -33,7 +33,7 @@ PathSearchOptions searchOptions(const GuidanceTask& task) {
     options.bounds_m = task.bounds_m;
     options.bounds_m.min().z() = task.ground_m + task.lowest_m;
     options.bounds_m.max().z() = task.ground_m + task.highest_m;
-    options.min_clearance_m = task.limits.room_m();
+    options.min_clearance_m = task.limits.clearance_radius_m();
     options.wanted_height_m = task.ground_m + task.altitude_m;
     options.height_cost_per_m = kHeightCost_per_m;
     options.anchor_m.z() = options.wanted_height_m;
@@ -81,12 +81,12 @@ bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m, const Eig
 }
 
 /// The point at this distance along a path, at most its end.
-Eigen::Vector3d placeAt(const std::vector<Eigen::Vector3d>& path_m, double way_m) {
+Eigen::Vector3d placeAt(const std::vector<Eigen::Vector3d>& path_m, double ahead_m) {
     for (std::size_t i = 1; i < path_m.size(); ++i) {
         const Eigen::Vector3d step_m = path_m[i] - path_m[i - 1];
         const double length_m = step_m.norm();
-        if (length_m > way_m) return path_m[i - 1] + way_m / length_m * step_m;
-        way_m -= length_m;
+        if (length_m > ahead_m) return path_m[i - 1] + ahead_m / length_m * step_m;
+        ahead_m -= length_m;
     }
     return path_m.back();
 }
@@ -100,28 +100,29 @@ double lengthOf(const std::vector<Eigen::Vector3d>& path_m) {
 /// The maximum path distance of the carrot: planners fly straight, so it must not be behind a bend.
 double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& path_m,
                    double least_m) {
-    double way_m = kCarrot_m;
-    while (way_m > kNearestCarrot_m &&
-           !isInSight(world, path_m.front(), placeAt(path_m, way_m), least_m)) {
-        way_m -= 0.5;
+    double ahead_m = kCarrot_m;
+    while (ahead_m > kNearestCarrot_m &&
+           !isInSight(world, path_m.front(), placeAt(path_m, ahead_m), least_m)) {
+        ahead_m -= 0.5;
     }
-    return way_m;
+    return ahead_m;
 }
 
 /// Grid paths turn in steps of 45 degrees. If the straight line to a farther point has enough
 /// clearance, the carrot lies on that line.
-Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m, double room_m) {
+Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m,
+                double clearance_radius_m) {
     const double length_m = lengthOf(path_m);
-    const double carrot_m = carrotWay_m(world, path_m, room_m);
+    const double carrot_m = carrotWay_m(world, path_m, clearance_radius_m);
     Carrot carrot{placeAt(path_m, carrot_m), {}, std::max(0.0, length_m - carrot_m)};
-    for (double way_m = std::min(kSight_m, length_m); way_m > kCarrot_m; way_m -= 2) {
-        const Eigen::Vector3d place_m = placeAt(path_m, way_m);
+    for (double ahead_m = std::min(kSight_m, length_m); ahead_m > kCarrot_m; ahead_m -= 2) {
+        const Eigen::Vector3d place_m = placeAt(path_m, ahead_m);
         if (!isInSight(world, path_m.front(), place_m, kCutClearance_m)) continue;
         const Eigen::Vector3d sight_m = place_m - path_m.front();
         const double distance_m = sight_m.norm();
         if (distance_m <= kCarrot_m) continue;
         carrot.at_m = path_m.front() + kCarrot_m / distance_m * sight_m;
-        carrot.beyond_m = distance_m - kCarrot_m + length_m - way_m;
+        carrot.beyond_m = distance_m - kCarrot_m + length_m - ahead_m;
         break;
     }
     carrot.path_m = std::move(path_m);
@@ -152,7 +153,7 @@ class PathGuidance : public Guidance {
             path_m = findPath(clearance_m, task.position_m, goal_m, options);
         }
         if (!path_m) return straightCarrot(task);
-        return carrotOn(world, std::move(*path_m), task.limits.room_m());
+        return carrotOn(world, std::move(*path_m), task.limits.clearance_radius_m());
     }
 };
 
@@ -166,7 +167,7 @@ const std::vector<std::string>& guidanceNames() {
 std::unique_ptr<Guidance> makeGuidance(const std::string& name) {
     if (name == "straight") return std::make_unique<StraightGuidance>();
     if (name == "astar") return std::make_unique<PathGuidance>();
-    throw std::invalid_argument("there is no guidance \"" + name + "\"; there are straight, astar");
+    throw std::invalid_argument("unknown guidance '" + name + "'; known are straight, astar");
 }
 
 }  // namespace hagen::avoidance

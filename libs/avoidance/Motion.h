@@ -11,25 +11,26 @@ constexpr double kLookAhead_s = 1.2;
 /// The path from a state, one point per control step: the command is held for `hold_s`, then the
 /// vehicle brakes to a stop.
 void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, double hold_s,
-             const VehicleLimits& limits, std::vector<Eigen::Vector3f>& way_m);
+             const VehicleLimits& limits, std::vector<Eigen::Vector3f>& path_m);
 
-/// The minimum clearance along a path, or nothing if it is below `room_m` somewhere. A path that
-/// starts closer than that must not come closer.
+/// The minimum clearance along a path, or nothing if it is below `clearance_radius_m` somewhere. A
+/// path that starts closer than that must not come closer.
 std::optional<float> freeClearance(const WorldModel& world,
-                                   const std::vector<Eigen::Vector3f>& way_m, double room_m);
+                                   const std::vector<Eigen::Vector3f>& path_m,
+                                   double clearance_radius_m);
 
 /// The paths of a command: held and then braking, and interrupted after one period.
-struct CommandWays {
+struct CommandPaths {
     std::vector<Eigen::Vector3f> held_m, broken_off_m;
 };
 
 /// Checks a command: held for `hold_s` and followed by braking, and also interrupted after one
 /// period, so that braking will still be possible then. Too close to an obstacle, it must lead
-/// away. Returns the minimum clearance of both paths, or nothing if one is not free. `ways` is
+/// away. Returns the minimum clearance of both paths, or nothing if one is not free. `paths` is
 /// working memory that a planner reuses.
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
-                                  CommandWays& ways);
+                                  CommandPaths& paths);
 
 /// The maximum speed, reduced so that the vehicle can stop at the goal.
 double speedTowardsGoal(const PlanningTask& task);

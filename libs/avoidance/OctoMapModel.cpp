@@ -23,14 +23,14 @@ OctoMapModel::OctoMapModel(mapping::MapContent content, double resolution_m,
 void OctoMapModel::update(const mapping::MappedScan& scan) {
     map_.insert(scan);
     noteChanges();
-    std::vector<Eigen::Vector3f> centers_m;
-    centers_m.reserve(occupied_.size());
+    std::vector<Eigen::Vector3f> centres_m;
+    centres_m.reserve(occupied_.size());
     for (const Key& key : occupied_) {
         const octomap::point3d middle =
             map_.tree().keyToCoord(octomap::OcTreeKey(key[0], key[1], key[2]));
-        centers_m.emplace_back(middle.x(), middle.y(), middle.z());
+        centres_m.emplace_back(middle.x(), middle.y(), middle.z());
     }
-    obstacles_.rebuild(std::move(centers_m));
+    obstacles_.rebuild(std::move(centres_m));
 }
 
 void OctoMapModel::noteChanges() {
@@ -65,7 +65,7 @@ std::size_t OctoMapModel::bytes() const {
 }
 
 WorldModel::Obstacles OctoMapModel::obstacles() const {
-    return {obstacles_.centers_m(), static_cast<float>(map_.options().resolution_m)};
+    return {obstacles_.centres_m(), static_cast<float>(map_.options().resolution_m)};
 }
 
 }  // namespace hagen::avoidance

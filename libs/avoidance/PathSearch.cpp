@@ -157,16 +157,16 @@ Eigen::Vector3i Search::placeOf(int index) const {
     return {index % size_.x(), row % size_.y(), row / size_.y()};
 }
 
-/// Point 0 is the cell's center, 1 to 4 are beside it. Start and goal are passed at their
+/// Point 0 is the cell's centre, 1 to 4 are beside it. Start and goal are passed at their
 /// positions.
 Eigen::Vector3d Search::pointOf(int index, int place) const {
     if (index == start_) return start_m_;
     if (index == goal_) return goal_m_;
-    const Eigen::Vector3d center_m =
+    const Eigen::Vector3d centre_m =
         options_.anchor_m + options_.cell_m * (placeOf(index) + least_).cast<double>();
-    if (place == 0) return center_m;
+    if (place == 0) return centre_m;
     const double beside_m = options_.cell_m / 4;
-    return center_m +
+    return centre_m +
            Eigen::Vector3d(place & 1 ? beside_m : -beside_m, place > 2 ? beside_m : -beside_m, 0);
 }
 
@@ -202,12 +202,12 @@ bool Search::mayPass(int from, int to) {
         return false;
     }
     const Eigen::Vector3d start_m = pointOf(from, a.place);
-    const Eigen::Vector3d way_m = pointOf(to, b.place) - start_m;
-    const double length_m = way_m.norm();
+    const Eigen::Vector3d offset_m = pointOf(to, b.place) - start_m;
+    const double length_m = offset_m.norm();
     double at_m = std::max(a.clearance_m - least_m, kCheckStep_m);
     const double end_m = length_m - std::max(b.clearance_m - least_m, kCheckStep_m);
     while (at_m < end_m) {
-        const Eigen::Vector3d point_m = start_m + at_m / length_m * way_m;
+        const Eigen::Vector3d point_m = start_m + at_m / length_m * offset_m;
         const double clearance_m = clearance_m_(point_m.cast<float>());
         if (clearance_m < least_m) return false;
         at_m += std::max(clearance_m - least_m, kCheckStep_m);

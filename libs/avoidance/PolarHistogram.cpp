@@ -39,13 +39,14 @@ double lookAhead(const PlanningTask& task) {
 /// The free distance of a sphere of the clearance radius.
 double freeDistance(const WorldModel& world, const PlanningTask& task,
                     const Eigen::Vector3d& direction, double reach_m) {
-    const auto room_m = static_cast<float>(task.limits.room_m());
+    const auto clearance_radius_m = static_cast<float>(task.limits.clearance_radius_m());
     float at_m = 0, needed_m = 0;
     while (at_m < reach_m) {
         const Eigen::Vector3d point_m = task.start.position_m + at_m * direction;
         const float clearance_m = world.clearance_m(point_m.cast<float>());
         if (clearance_m < needed_m) return at_m;
-        needed_m = clearance_m >= room_m ? room_m : std::max(needed_m, clearance_m);
+        needed_m = clearance_m >= clearance_radius_m ? clearance_radius_m
+                                                     : std::max(needed_m, clearance_m);
         at_m += std::max(clearance_m - needed_m, kTraceStep_m);
     }
     return reach_m;
@@ -80,10 +81,11 @@ double costOf(const PlanningTask& task, const Eigen::Vector3d& target,
 /// Rows and columns of the histogram are relative to the direction of the carrot. The wanted height
 /// is to be reached within the look-ahead, however far the carrot is.
 std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
-    const Eigen::Vector3d way_m = task.carrot_m - task.start.position_m;
-    const double heading_rad = std::atan2(way_m.y(), way_m.x());
-    const double level_m = std::min(way_m.head<2>().norm(), kLookAhead_s * speedTowardsGoal(task));
-    const double climb_rad = std::clamp(std::atan2(way_m.z(), std::max(level_m, 1e-3)),
+    const Eigen::Vector3d offset_m = task.carrot_m - task.start.position_m;
+    const double heading_rad = std::atan2(offset_m.y(), offset_m.x());
+    const double level_m =
+        std::min(offset_m.head<2>().norm(), kLookAhead_s * speedTowardsGoal(task));
+    const double climb_rad = std::clamp(std::atan2(offset_m.z(), std::max(level_m, 1e-3)),
                                         -kHighestRow * kCell_rad, kHighestRow * kCell_rad);
     const auto towards = [](double azimuth_rad, double elevation_rad) {
         return Eigen::Vector3d(std::cos(elevation_rad) * std::cos(azimuth_rad),
@@ -109,12 +111,12 @@ std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
 /// The fastest command in a direction that passes the check; nothing if none does.
 std::optional<Eigen::Vector3d> commandAlong(const WorldModel& world, const PlanningTask& task,
                                             const HistogramCell& cell, double free_m,
-                                            CommandWays& ways, Plan& plan) {
+                                            CommandPaths& paths, Plan& plan) {
     double speed_m_s = std::min(speedTowardsGoal(task), speedFor(free_m, task));
     for (int attempt = 0; attempt < 2 && speed_m_s >= kSlowest_m_s; ++attempt) {
         const Eigen::Vector3d command_m_s = speed_m_s * cell.direction;
-        const bool is_free = checkCommand(world, task, command_m_s, kHold_s, ways).has_value();
-        if (task.keeps_candidates) plan.candidates.push_back({ways.held_m, command_m_s, is_free});
+        const bool is_free = checkCommand(world, task, command_m_s, kHold_s, paths).has_value();
+        if (task.keeps_candidates) plan.candidates.push_back({paths.held_m, command_m_s, is_free});
         if (is_free) return command_m_s;
         speed_m_s /= 2;
     }
@@ -128,14 +130,14 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     plan.is_emergency = true;
     if (mustStop(world, task)) return plan;
     const double reach_m = lookAhead(task);
-    CommandWays ways;
+    CommandPaths paths;
     double best = std::numeric_limits<double>::infinity();
     for (const HistogramCell& cell : rankedCells(task)) {
         if (cell.cost >= best) break;  // the rest cost more, whatever their free distance
         const double free_m = freeDistance(world, task, cell.direction, reach_m);
         const double cost = cell.cost + blockedCost(task, free_m, reach_m);
         if (cost >= best) continue;
-        if (const auto command_m_s = commandAlong(world, task, cell, free_m, ways, plan)) {
+        if (const auto command_m_s = commandAlong(world, task, cell, free_m, paths, plan)) {
             best = cost;
             plan.command_m_s = *command_m_s;
             plan.is_emergency = false;

@@ -9,7 +9,7 @@ namespace hagen::avoidance {
 
 namespace {
 
-/// Voxels of equal size, given by their centers.
+/// Voxels of equal size, given by their centres.
 struct Voxels : TreePoints {
     float half_edge_m = 0;
 };
@@ -54,8 +54,8 @@ VoxelTree::VoxelTree(float edge_m) : tree_(std::make_unique<Tree>()) {
 }
 VoxelTree::~VoxelTree() = default;
 
-void VoxelTree::rebuild(std::vector<Eigen::Vector3f> centers_m) {
-    tree_->voxels.at_m = std::move(centers_m);
+void VoxelTree::rebuild(std::vector<Eigen::Vector3f> centres_m) {
+    tree_->voxels.at_m = std::move(centres_m);
     tree_->index = std::make_unique<Index>(3, tree_->voxels, kLeafSize);
 }
 
@@ -65,7 +65,7 @@ float VoxelTree::distance_m(const Eigen::Vector3f& point_m, float limit_m) const
     return std::sqrt(nearest.worstDist());
 }
 
-const std::vector<Eigen::Vector3f>& VoxelTree::centers_m() const { return tree_->voxels.at_m; }
+const std::vector<Eigen::Vector3f>& VoxelTree::centres_m() const { return tree_->voxels.at_m; }
 
 std::size_t VoxelTree::bytes() const {
     return sizeof(Tree) + sizeof(Index) + tree_->index->usedMemory(*tree_->index) +

@@ -18,11 +18,11 @@ class VoxelTree {
     explicit VoxelTree(float edge_m);
     ~VoxelTree();
 
-    void rebuild(std::vector<Eigen::Vector3f> centers_m);
+    void rebuild(std::vector<Eigen::Vector3f> centres_m);
 
     /// 0 inside a voxel; `limit_m` if none is closer.
     float distance_m(const Eigen::Vector3f& point_m, float limit_m) const;
-    const std::vector<Eigen::Vector3f>& centers_m() const;
+    const std::vector<Eigen::Vector3f>& centres_m() const;
     std::size_t bytes() const;
 
  private:

@@ -116,7 +116,7 @@ WorldModel::Obstacles WindowModel::obstacles() const {
     Obstacles obstacles;
     for (const auto& past : past_) {
         const auto first = past->points.at_m.begin();
-        obstacles.center_m.insert(obstacles.center_m.end(), first,
+        obstacles.centre_m.insert(obstacles.centre_m.end(), first,
                                   first + static_cast<std::ptrdiff_t>(past->in_window));
     }
     return obstacles;

@@ -25,11 +25,12 @@ std::array<Eigen::Vector3f, kDirections> makeDirections() {
 bool isBlocked(const std::function<float(const Eigen::Vector3f&)>& clearance_m,
                const Eigen::Vector3f& start_m, const Eigen::Vector3f& direction,
                const FreeDirectionOptions& options) {
-    for (float way_m = 0;;) {
-        const float spare_m = clearance_m(start_m + way_m * direction) - options.room_m;
+    for (float distance_m = 0;;) {
+        const float spare_m =
+            clearance_m(start_m + distance_m * direction) - options.clearance_radius_m;
         if (spare_m < 0) return true;
-        if (way_m >= options.length_m) return false;
-        way_m = std::min(way_m + std::max(spare_m, kMinStep_m), options.length_m);
+        if (distance_m >= options.length_m) return false;
+        distance_m = std::min(distance_m + std::max(spare_m, kMinStep_m), options.length_m);
     }
 }
 

@@ -12,8 +12,8 @@ constexpr std::size_t kPersistenceScans = 5;
 constexpr std::uint8_t kPointsToBlock = 2;
 constexpr float kPi_rad = static_cast<float>(M_PI);
 
-float distanceToWay(const Eigen::Vector3f& point_m, const Eigen::Vector3f& direction,
-                    float length_m) {
+float distanceToPath(const Eigen::Vector3f& point_m, const Eigen::Vector3f& direction,
+                     float length_m) {
     const float along_m = std::clamp(point_m.dot(direction), 0.0f, length_m);
     return (point_m - along_m * direction).norm();
 }
@@ -96,8 +96,8 @@ LaterScansTruth::LaterScansTruth(const Eigen::Vector3f& position_m,
 void LaterScansTruth::addPoint(const Eigen::Vector3f& from_here_m) {
     const float flat_m = from_here_m.head<2>().norm();
     int half = kDirectionAzimuths / 2;
-    if (flat_m > options_.room_m) {
-        const float share = std::asin(options_.room_m / flat_m) / (2 * kPi_rad);
+    if (flat_m > options_.clearance_radius_m) {
+        const float share = std::asin(options_.clearance_radius_m / flat_m) / (2 * kPi_rad);
         half = std::min(half, 1 + static_cast<int>(share * kDirectionAzimuths));
     }
     const float turn = std::atan2(from_here_m.y(), from_here_m.x()) / (2 * kPi_rad);
@@ -108,17 +108,18 @@ void LaterScansTruth::addPoint(const Eigen::Vector3f& from_here_m) {
         if (step == half && 2 * half == kDirectionAzimuths) break;  // the same azimuth as the first
         for (std::size_t n = azimuth; n < kDirections; n += kDirectionAzimuths) {
             if (points_[n] == kPointsToBlock) continue;
-            const float off_m = distanceToWay(from_here_m, directionOf(n), options_.length_m);
-            if (off_m < options_.room_m) ++points_[n];
+            const float off_m = distanceToPath(from_here_m, directionOf(n), options_.length_m);
+            if (off_m < options_.clearance_radius_m) ++points_[n];
         }
     }
 }
 
 void LaterScansTruth::see(const std::vector<Eigen::Vector3f>& persistent_m,
                           const SeenRanges& ranges) {
-    const float reach_m = options_.length_m + options_.room_m;
+    const float reach_m = options_.length_m + options_.clearance_radius_m;
     const float reach_up_m =
-        options_.length_m * std::sin(static_cast<float>(kHighestDirection_rad)) + options_.room_m;
+        options_.length_m * std::sin(static_cast<float>(kHighestDirection_rad)) +
+        options_.clearance_radius_m;
     for (const Eigen::Vector3f& point_m : persistent_m) {
         const Eigen::Vector3f from_here_m = point_m - position_m_;
         if (std::abs(from_here_m.z()) > reach_up_m) continue;
@@ -128,8 +129,8 @@ void LaterScansTruth::see(const std::vector<Eigen::Vector3f>& persistent_m,
     for (std::size_t n = 0; n < kDirections; ++n) {
         for (std::size_t s = 0; s < kSamples; ++s) {
             if (seen_[n][s]) continue;
-            const float way_m = options_.length_m * static_cast<float>(s + 1) / kSamples;
-            seen_[n][s] = ranges.isSeenThrough(position_m_ + way_m * directionOf(n));
+            const float distance_m = options_.length_m * static_cast<float>(s + 1) / kSamples;
+            seen_[n][s] = ranges.isSeenThrough(position_m_ + distance_m * directionOf(n));
         }
     }
 }

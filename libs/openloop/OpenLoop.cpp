@@ -191,7 +191,7 @@ void Run::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pen
         [&](const Eigen::Vector3f& point_m) { return model.clearance_m(point_m); }, scan.vehicle_m);
     cost.queries_ms = base::threadCpuTime_ms() - asking_ms;
 
-    row.obstacles = model.obstacles().center_m.size();
+    row.obstacles = model.obstacles().centre_m.size();
     row.bytes = model.bytes();
     row.blocked = pending.blocked[m].count();
 }

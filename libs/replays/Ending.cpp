@@ -89,7 +89,7 @@ std::string endingOf(const trials::Course& course, const trials::TrialResult& re
     const simulation::ObjectClass kind =
         nearestKind(course.scene, end_m, result.time_s, clearance_m + kMore_m);
     return "hit " + wordsFor(kind) + at + ": " + pages::figure(clearance_m, 2) +
-           " m from the vehicle's center";
+           " m from the vehicle's centre";
 }
 
 }  // namespace hagen::replays

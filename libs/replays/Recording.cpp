@@ -34,11 +34,11 @@ void addReturns(const mapping::MappedScan& scan, const RecordingLimits& limits,
 }
 
 void addMotions(const avoidance::Plan& plan, const RecordingLimits& limits, RecordedStep& step) {
-    constexpr std::size_t kPointsOfWay = 8;
+    constexpr std::size_t kPointsOfPath = 8;
     for (const avoidance::CandidateMotion& motion : thinned(plan.candidates, limits.motions)) {
-        RecordedMotion kept{thinned(motion.way_m, kPointsOfWay), motion.is_free};
-        if (kept.way_m.empty()) continue;
-        kept.way_m.push_back(motion.way_m.back());
+        RecordedMotion kept{thinned(motion.path_m, kPointsOfPath), motion.is_free};
+        if (kept.path_m.empty()) continue;
+        kept.path_m.push_back(motion.path_m.back());
         step.motions.push_back(kept);
     }
 }
@@ -51,16 +51,16 @@ class ModelHistory {
     void add(const avoidance::WorldModel::Obstacles& obstacles, int step) {
         edge_m_ = obstacles.edge_m;
         const float grid_m = edge_m_ > 0 ? edge_m_ : limits_.point_grid_m;
-        for (const Eigen::Vector3f& center_m : obstacles.center_m) {
+        for (const Eigen::Vector3f& centre_m : obstacles.centre_m) {
             std::array<int, 3> key;
             for (int axis = 0; axis < 3; ++axis) {
-                key[axis] = static_cast<int>(std::floor(center_m[axis] / grid_m));
+                key[axis] = static_cast<int>(std::floor(centre_m[axis] / grid_m));
             }
             std::vector<ModelCell>& stays = cells_[key];
             if (!stays.empty() && stays.back().until_step >= step) {
                 stays.back().until_step = step + 1;  // present in the last step, or listed twice
             } else {
-                stays.push_back({center_m, step, step + 1});
+                stays.push_back({centre_m, step, step + 1});
             }
         }
     }

@@ -31,7 +31,7 @@ class PageWriter {
         pages::PackedNumbers lives;
         std::vector<Eigen::Vector3f> middles;
         for (const ModelCell& cell : recording_.model) {
-            middles.push_back(cell.center_m);
+            middles.push_back(cell.centre_m);
             lives.add(cell.from_step);
             lives.add(cell.until_step);
         }
@@ -173,8 +173,8 @@ class PageWriter {
         pages::PackedNumbers ways;
         Json sizes = Json::array();
         for (const RecordedMotion& motion : step.motions) {
-            for (const Eigen::Vector3f& at : motion.way_m) add(at, ways);
-            const int points = static_cast<int>(motion.way_m.size());
+            for (const Eigen::Vector3f& at : motion.path_m) add(at, ways);
+            const int points = static_cast<int>(motion.path_m.size());
             sizes.push_back(motion.is_free ? points : -points);  // negative: not free
         }
         return {{"time_s", step.time_s},

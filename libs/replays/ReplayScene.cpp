@@ -28,11 +28,11 @@ CPointCloud::Ptr cloudOf(const std::vector<Eigen::Vector3f>& points_m, const TCo
     return cloud;
 }
 
-CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& centers_m, float edge_m) {
+CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& centres_m, float edge_m) {
     const auto voxels = COctoMapVoxels::Create();
     voxels->resizeVoxelSets(1);
     voxels->setName("obstacles of the model");
-    for (const Eigen::Vector3f& p : centers_m) {
+    for (const Eigen::Vector3f& p : centres_m) {
         voxels->push_back_Voxel(
             0, COctoMapVoxels::TVoxel({p.x(), p.y(), p.z()}, edge_m, TColor(230, 159, 0)));
     }
@@ -40,8 +40,8 @@ CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& centers_m, float
     voxels->setVisualizationMode(COctoMapVoxels::FIXED);
     const float e = 0.5f * edge_m;
     Eigen::Vector3f low(0, 0, 0), high(0, 0, 0);
-    if (!centers_m.empty()) low = high = centers_m[0];
-    for (const Eigen::Vector3f& p : centers_m) {
+    if (!centres_m.empty()) low = high = centres_m[0];
+    for (const Eigen::Vector3f& p : centres_m) {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
     }
@@ -93,11 +93,11 @@ CSetOfLines::Ptr trackOf(const std::vector<RecordedMoment>& track) {
 /// The model's obstacles at the last step.
 std::vector<Eigen::Vector3f> lastOf(const Recording& recording) {
     const int last = static_cast<int>(recording.steps.size());
-    std::vector<Eigen::Vector3f> centers_m;
+    std::vector<Eigen::Vector3f> centres_m;
     for (const ModelCell& cell : recording.model) {
-        if (cell.until_step == last) centers_m.push_back(cell.center_m);
+        if (cell.until_step == last) centres_m.push_back(cell.centre_m);
     }
-    return centers_m;
+    return centres_m;
 }
 
 void addShape(const simulation::Shape& shape, const Eigen::Affine3f& pose, const TColor& color,

@@ -125,7 +125,7 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
     }
     throw std::runtime_error("course '" + scenario + "', seed " + std::to_string(seed) +
                              ": no scene of " + std::to_string(kMostAttempts) +
-                             " has a path; take another seed");
+                             " has a path; choose another seed");
 }
 
 simulation::SensorErrorModel trialErrorModel() {

@@ -37,7 +37,7 @@ std::vector<double> quantilesFrom(const json& value) {
 
 LatencyProfile profileFrom(const json& root) {
     if (!root.is_object() || !root.contains("quantiles_ms") || !root["quantiles_ms"].is_object()) {
-        throw std::runtime_error("there is no key 'quantiles_ms'; `calibrate` makes such files");
+        throw std::runtime_error("has no key 'quantiles_ms'; expected a file made by `calibrate`");
     }
     LatencyProfile profile;
     for (const auto& [key, text] : {std::pair{"machine", &profile.machine},

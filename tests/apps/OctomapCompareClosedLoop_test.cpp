@@ -208,7 +208,7 @@ TEST(ClosedLoopFlights, InterruptedItKeepsWhatItFinished) {
     EXPECT_THAT(readFile(folder / "err"),
                 AllOf(HasSubstr("octomap-compare: interrupted; "),
                       HasSubstr(" of 6 runs are kept in " + (folder / "stopped/journal").string() +
-                                ", and the same command goes on from there\n")));
+                                "; the same command resumes there\n")));
     EXPECT_EQ(workerOf(folder / "stopped/journal/1.csv"), 0);
     EXPECT_NE(readFile(folder / "stopped/journal/1.csv"), "");
     EXPECT_FALSE(fs::exists(folder / "stopped/runs.csv"));

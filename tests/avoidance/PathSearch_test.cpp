@@ -37,10 +37,10 @@ double lengthOf(const Path& path_m) {
 double leastClearance(const SolidWorld& world, const Path& path_m) {
     double least_m = WorldModel::kReach_m;
     for (std::size_t i = 1; i < path_m.size(); ++i) {
-        const Eigen::Vector3d way_m = path_m[i] - path_m[i - 1];
-        for (double at = 0; at <= 1; at += 0.01 / way_m.norm()) {
+        const Eigen::Vector3d offset_m = path_m[i] - path_m[i - 1];
+        for (double at = 0; at <= 1; at += 0.01 / offset_m.norm()) {
             least_m = std::min<double>(
-                least_m, world.clearance_m((path_m[i - 1] + at * way_m).cast<float>()));
+                least_m, world.clearance_m((path_m[i - 1] + at * offset_m).cast<float>()));
         }
     }
     return least_m;

@@ -124,11 +124,11 @@ TEST(WorldModel, AMapsClearanceIsThatOfADistanceTransform) {
         model->update(seen);
         for (int i = 0; i < 300; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
-            const float centers_m = distances.getDistance(octomap::point3d(at.x(), at.y(), at.z()));
+            const float centres_m = distances.getDistance(octomap::point3d(at.x(), at.y(), at.z()));
             const float clearance_m = model->clearance_m(at);
-            EXPECT_LE(clearance_m, centers_m + 0.87f * kEdge_m);
+            EXPECT_LE(clearance_m, centres_m + 0.87f * kEdge_m);
             EXPECT_GE(clearance_m, std::min(avoidance::WorldModel::kReach_m,
-                                            centers_m - 2 * 0.87f * kEdge_m - kEdge_m));
+                                            centres_m - 2 * 0.87f * kEdge_m - kEdge_m));
         }
     }
 }
@@ -161,7 +161,7 @@ TEST(WorldModel, WithoutAScanAllIsFreeAndUnknown) {
         for (int i = 0; i < 2; ++i) {
             EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({1, 1, 1})) << name;
             EXPECT_FALSE(model->isKnown({1, 1, 1})) << name;
-            EXPECT_TRUE(model->obstacles().center_m.empty()) << name;
+            EXPECT_TRUE(model->obstacles().centre_m.empty()) << name;
             model->update({});  // with nothing in it
         }
     }
@@ -220,7 +220,7 @@ TEST(WorldModel, AWindowForgetsAfterTenScans) {
         EXPECT_NEAR(1.1f, model->clearance_m({4, 0.1f, 1.1f}), 0.05f);
         model->update(scanOf({{-4, 0, 1}}));
         EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({4, 0.1f, 1.1f}));
-        EXPECT_EQ(10u, model->obstacles().center_m.size());
+        EXPECT_EQ(10u, model->obstacles().centre_m.size());
     }
 }
 
@@ -232,7 +232,7 @@ TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
     for (const std::string& name : modelsThatLearn()) {
         const auto model = avoidance::makeWorldModel(name, {wide, nullptr});
         model->update(scanOf(far_off));
-        EXPECT_TRUE(model->obstacles().center_m.empty()) << name;
+        EXPECT_TRUE(model->obstacles().centre_m.empty()) << name;
         EXPECT_EQ(model->clearance_m({20, 0.1f, 1.3f}), avoidance::WorldModel::kReach_m) << name;
     }
 }
@@ -277,7 +277,7 @@ TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
         for (const auto& [cube, range_m] : nearest_m) expected.push_back(range_m);
         const auto model = avoidance::makeWorldModel("W-Full", setting());
         model->update(scanOf(points));
-        for (const Eigen::Vector3f& point : model->obstacles().center_m) {
+        for (const Eigen::Vector3f& point : model->obstacles().centre_m) {
             EXPECT_TRUE(std::find(points.begin(), points.end(), point) != points.end());
             kept.push_back((point - kOrigin).norm());
         }
@@ -305,7 +305,7 @@ TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
         for (std::size_t i = past.size() > 10 ? past.size() - 10 : 0; i < past.size(); ++i) {
             kept.insert(kept.end(), past[i].begin(), past[i].end());
         }
-        EXPECT_EQ(model->obstacles().center_m.size(), kept.size());
+        EXPECT_EQ(model->obstacles().centre_m.size(), kept.size());
         for (int i = 0; i < 50; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
             EXPECT_NEAR(model->clearance_m(at), nearestOf(kept, at), 1e-5f) << number;
@@ -336,8 +336,8 @@ TEST(WorldModel, ObstaclesAreWhereClearanceEnds) {
         model->update(scanOf(wall()));
         const auto obstacles = model->obstacles();
         EXPECT_EQ(edgeOf(name), obstacles.edge_m) << name;
-        ASSERT_FALSE(obstacles.center_m.empty()) << name;
-        for (const auto& middle : obstacles.center_m) {
+        ASSERT_FALSE(obstacles.centre_m.empty()) << name;
+        for (const auto& middle : obstacles.centre_m) {
             EXPECT_NEAR(5.1f, middle.x(), edgeOf(name)) << name;
             EXPECT_EQ(0, model->clearance_m(middle)) << name;
         }

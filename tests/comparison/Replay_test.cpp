@@ -157,7 +157,7 @@ TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
     const std::string ground =
         replays::endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
     EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
-    EXPECT_THAT(ground, HasSubstr(" m from the vehicle's center"));
+    EXPECT_THAT(ground, HasSubstr(" m from the vehicle's centre"));
 
     const simulation::MovingObstacle& person = course.scene.content().movers.front();
     const Eigen::Affine3f pose = simulation::poseOf(person, course.scene.terrain(), result.time_s);

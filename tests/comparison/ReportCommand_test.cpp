@@ -156,7 +156,7 @@ TEST_F(ReportCommand, NamesWhatIsMissing) {
     for (const char* command : {"report", "replay"}) {
         expectFailure(
             {command, folder(), command == std::string("replay") ? "--seed=1" : "--worst=6"}, 1,
-            folder() + ": holds no campaign; give a folder of octomap-compare");
+            folder() + ": contains no campaign; expected a folder of octomap-compare");
     }
     writeRuns({});
     expectFailure({"report", folder()}, 1,
@@ -186,7 +186,7 @@ TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
     expectFailure({"report", folder()}, 1, "memory.csv:2: not model,path_m,bytes");
     folder_.write("memory.csv", "model,path_m,bytes\n");
     folder_.write("measured.csv", "model,peak_model_bytes\nW-RoI,2e6\nW-RoI,much\n");
-    expectFailure({"report", folder()}, 1, "measured.csv:3: \"much\" is no number");
+    expectFailure({"report", folder()}, 1, "measured.csv:3: \"much\" is not a number");
     folder_.write("measured.csv", "model,peak_model_bytes\n");
     folder_.write("profile.json", "{");
     expectFailure({"report", folder()}, 1, "profile.json");
@@ -202,7 +202,7 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
     expectFailure({"report", folder(), "--markdown", path("no/a.md")}, 1, path("no"));
     if (fs::exists("/proc/version")) {
         fs::remove(path("runs.csv"));
-        expectFailure({"report", "/proc"}, 1, "/proc: holds no campaign");
+        expectFailure({"report", "/proc"}, 1, "/proc: contains no campaign");
     }
 }
 

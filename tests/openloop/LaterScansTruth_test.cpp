@@ -113,8 +113,8 @@ TEST(LaterScansTruth, CountsThePointsThatBruteForceCounts) {
             int points = 0;
             for (const auto& p : scan.points_m) {
                 float least_m = std::numeric_limits<float>::infinity();
-                for (float way_m = 0; way_m <= 8; way_m += 0.04f) {
-                    least_m = std::min(least_m, (p - way_m * directionOf(n)).norm());
+                for (float distance_m = 0; distance_m <= 8; distance_m += 0.04f) {
+                    least_m = std::min(least_m, (p - distance_m * directionOf(n)).norm());
                 }
                 if (std::abs(least_m - 0.65f) < 0.001f) points = 100;  // too close to call
                 points += least_m < 0.65f;

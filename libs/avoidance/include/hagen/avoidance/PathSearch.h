@@ -8,19 +8,19 @@
 namespace hagen::avoidance {
 
 struct PathSearchOptions {
-    Eigen::AlignedBox3d bounds_m;  ///< contains the centers of all cells
+    Eigen::AlignedBox3d bounds_m;  ///< contains the centres of all cells
     double cell_m = 0.5;
     double min_clearance_m = 0.65;    ///< of every point of the path
     double wanted_clearance_m = 1.2;  ///< cells with less clearance cost more
     int max_cells = 200000;           ///< limit of expanded cells; then the search gives up
     double heuristic_weight =
         1;  ///< 1: the cheapest path; above: up to so many times dearer, found sooner
-    Eigen::Vector3d anchor_m{0, 0, 0};  ///< the center of one of the cells
+    Eigen::Vector3d anchor_m{0, 0, 0};  ///< the centre of one of the cells
     double wanted_height_m = 0;
     double height_cost_per_m = 0;  ///< per metre of path and metre off the wanted height
 };
 
-/// A* over cubic cells with 26 neighbours (weighted, Pohl 1970). A cell is passed at its center or,
+/// A* over cubic cells with 26 neighbours (weighted, Pohl 1970). A cell is passed at its centre or,
 /// if that is too close to an obstacle, at the clearest of four points beside it at the same
 /// height. The edge to the next cell is checked, too, with a tolerance of 5 cm. Clearances are
 /// queried when a cell is expanded. If the start is too close to an obstacle, paths with growing

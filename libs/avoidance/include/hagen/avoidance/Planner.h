@@ -25,7 +25,7 @@ struct PlanningTask {
 
 /// A candidate motion of a planner.
 struct CandidateMotion {
-    std::vector<Eigen::Vector3f> way_m;
+    std::vector<Eigen::Vector3f> path_m;
     Eigen::Vector3d command_m_s;
     bool is_free;
 };

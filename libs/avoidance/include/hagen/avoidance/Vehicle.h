@@ -12,7 +12,7 @@ struct VehicleLimits {
     double collision_m = 0.30;  ///< a true clearance below this is a collision
     double response_per_s = 5;  ///< gain: acceleration per velocity error
 
-    double room_m() const { return radius_m + margin_m; }
+    double clearance_radius_m() const { return radius_m + margin_m; }
 };
 
 struct VehicleState {

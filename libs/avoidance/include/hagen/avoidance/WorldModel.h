@@ -39,9 +39,9 @@ class WorldModel {
     /// Memory of the model's data, computed from the sizes of its containers.
     virtual std::size_t bytes() const = 0;
 
-    /// Obstacles for visualization: their centers, and the edge length of a voxel (0: points).
+    /// Obstacles for visualization: their centres, and the edge length of a voxel (0: points).
     struct Obstacles {
-        std::vector<Eigen::Vector3f> center_m;
+        std::vector<Eigen::Vector3f> centre_m;
         float edge_m = 0;
     };
     virtual Obstacles obstacles() const = 0;

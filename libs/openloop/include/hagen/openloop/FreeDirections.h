@@ -22,7 +22,7 @@ bool pointsDown(std::size_t number);
 /// How far a direction is checked, and for a sphere of what size.
 struct FreeDirectionOptions {
     float length_m = 8;
-    float room_m = 0.65f;  ///< radius of the sphere: vehicle and margin
+    float clearance_radius_m = 0.65f;  ///< radius of the sphere: vehicle and margin
 };
 
 /// The directions in which a sphere meets an obstacle, by sphere tracing: each step is as long as

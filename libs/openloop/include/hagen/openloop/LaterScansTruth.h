@@ -48,7 +48,7 @@ class PersistentPoints {
 /// scans, regardless of the filter, at the poses of the log.
 ///
 /// A direction is blocked if at least two persistent later points lie within the sphere's path. It
-/// is free if none does and later returns came from behind the path's center line at every half
+/// is free if none does and later returns came from behind the path's centre line at every half
 /// metre. Otherwise it is not scored.
 class LaterScansTruth {
  public:

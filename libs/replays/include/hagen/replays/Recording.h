@@ -11,12 +11,12 @@ namespace hagen::replays {
 
 /// A voxel or point of the world model, present from step `from_step` until before `until_step`.
 struct ModelCell {
-    Eigen::Vector3f center_m;
+    Eigen::Vector3f centre_m;
     int from_step, until_step;
 };
 
 struct RecordedMotion {
-    std::vector<Eigen::Vector3f> way_m;
+    std::vector<Eigen::Vector3f> path_m;
     bool is_free;
 };
 
