@@ -113,7 +113,8 @@ int main(int argc, char** argv) {
                 "heap");
     for (const std::string& name : avoidance::worldModelNames()) {
         bool wanted = argc <= 3;
-        for (int i = 3; i < argc; ++i) wanted = wanted || name == argv[i];
+        for (int i = 3; i < argc; ++i)
+            wanted = wanted || name == avoidance::worldModelFrom(argv[i]);
         if (wanted) measure(name, flight);
     }
 }

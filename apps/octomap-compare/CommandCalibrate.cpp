@@ -1,4 +1,4 @@
-// octomap-compare calibrate: measures what each stage takes on this machine.
+// octomap-compare calibrate: measures the latency of each stage on this machine.
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/trials/Calibration.h>
@@ -27,7 +27,7 @@ void warnIfBusy() {
     double load = 0;
     if (getloadavg(&load, 1) == 1 && load > 0.5) {
         std::cerr << "octomap-compare: this machine is busy (load " << load
-                  << "); latencies measured now may be too long\n";
+                  << "); measured latencies may be too long\n";
     }
 }
 
@@ -43,7 +43,7 @@ void printProfile(const trials::LatencyProfile& profile) {
 }
 
 int run(const Flags& flags, bool has_output) {
-    if (!has_output) throw UsageError("an output (-o or --memory) is required");
+    if (!has_output) throw UsageError("an output is required (-o or --memory)");
     std::vector<std::string> models = flags.models;
     if (models == std::vector<std::string>{"all"}) models = avoidance::worldModelNames();
     std::optional<base::OutputPath> profile_file, memory_file;
@@ -60,7 +60,7 @@ int run(const Flags& flags, bool has_output) {
         options.courses = flags.is_quick ? 1 : 3;
         options.doing = [](const std::string& model) {
             if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
-            std::cerr << "latencies of " << model << "\n";
+            std::cerr << "measuring latencies: " << avoidance::displayName(model) << "\n";
         };
         const trials::LatencyProfile profile = trials::calibrate(options);
         trials::writeLatencyProfile(profile, profile_file->temporary());
@@ -72,7 +72,7 @@ int run(const Flags& flags, bool has_output) {
             if (isInterrupted()) {
                 throw std::runtime_error("interrupted; " + flags.memory + " was not written");
             }
-            std::cerr << "memory of " << model << "\n";
+            std::cerr << "measuring memory: " << avoidance::displayName(model) << "\n";
         };
         trials::writeHeapCurves(models, flags.path_m, begin, memory_file->temporary(),
                                 flags.memory);
@@ -86,20 +86,18 @@ int run(const Flags& flags, bool has_output) {
 void addCalibrate(Program& program) {
     const auto flags = std::make_shared<Flags>();
     Command sub = program.subcommand(
-        "calibrate", "measure what each stage takes on this machine; let nothing else run");
-    const Flag file = sub.option("-o,--output", flags->file, "latency profile (JSON)");
-    const Flag memory = sub.option("--memory", flags->memory,
-                                   "CSV of the heap that each model holds along a flight");
-    sub.option("--models", flags->models, "world models, or all").delimiter(',').oneOf([] {
-        std::vector<std::string> names = avoidance::worldModelNames();
-        names.emplace_back("all");
-        return names;
-    }());
-    sub.option("--path-m", flags->path_m, "length of that flight")
+        "calibrate", "measure the latency of each stage on this machine, which should be idle");
+    const Flag file = sub.option("-o,--output", flags->file, "file for the latency profile (JSON)");
+    const Flag memory =
+        sub.option("--memory", flags->memory, "CSV file for the heap of each model along a flight");
+    takesWorldModels(
+        sub.option("--models", flags->models, "world models (default: all)").delimiter(','),
+        {"all"});
+    sub.option("--path-m", flags->path_m, "length of that flight [m]")
         .between(10.0, 10000.0)
         .showDefault();
     sub.flag("--quick", flags->is_quick, "one course instead of three");
-    sub.flag("--overwrite", flags->overwrites, "replace files that exist");
+    sub.flag("--overwrite", flags->overwrites, "replace existing files");
     sub.does([flags, file, memory] { return run(*flags, file.isGiven() || memory.isGiven()); });
 }
 

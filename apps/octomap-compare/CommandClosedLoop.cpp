@@ -40,7 +40,7 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> pairFrom(const std::strin
     return std::pair{*first, *second};
 }
 
-/// "all", or names.
+/// Replaces "all" by all names.
 void expandAll(std::vector<std::string>& names, const std::vector<std::string>& all) {
     if (names == std::vector<std::string>{"all"}) names = all;
 }
@@ -50,10 +50,10 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
     const auto seeds =
         one_seed ? std::optional(std::pair{*one_seed, *one_seed}) : pairFrom(flags.seeds, '-');
-    if (!seeds) throw UsageError("--seeds", "'" + flags.seeds + "' is not a seed, or two as A-B");
+    if (!seeds) throw UsageError("--seeds", "'" + flags.seeds + "' is not a seed or a range A-B");
     std::tie(plan.first_seed, plan.last_seed) = *seeds;
     const auto shard = pairFrom(flags.shard, '/');
-    if (!shard) throw UsageError("--shard", "'" + flags.shard + "' is not i/n, a part of n");
+    if (!shard) throw UsageError("--shard", "'" + flags.shard + "' is not i/n (part i of n)");
     plan.brakes_in_known_space = flags.unknown == "brake-known";
     plan.pose_errors.clear();
     for (const std::string& name : flags.pose_errors)
@@ -77,7 +77,7 @@ trials::LatencyProfile profileFrom(const std::string& file,
     try {
         trials::checkProfile(profile, flights);
     } catch (const std::runtime_error& e) {
-        throw std::runtime_error((file.empty() ? "the standard profile" : file) + ": " + e.what());
+        throw std::runtime_error((file.empty() ? "the built-in profile" : file) + ": " + e.what());
     }
     return profile;
 }
@@ -94,15 +94,15 @@ void printCells(const std::vector<trials::Run>& runs) {
              << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner
              << " " << std::setw(6) << nameOf(setup.pose_error) << " x" << std::setw(3)
              << setup.latency_scale << " " << std::setw(12)
-             << (setup.brakes_in_known_space ? "brake-known" : "optimistic") << std::setw(15)
-             << setup.model;
+             << (setup.brakes_in_known_space ? "brake-known" : "optimistic") << std::setw(31)
+             << avoidance::displayName(setup.model);
         Cell& cell = cells[name.str()];
         ++cell.runs;
         ++cell.outcomes[static_cast<int>(run.result.outcome)];
     }
     std::cout
-        << "scenario     m/s  guidance  planner     pose   lat  unknown     model            runs  "
-           "success  collision  timeout\n";
+        << "scenario     m/s  guidance  planner     pose   lat  unknown     world model           "
+           "           runs  success  collision  timeout\n";
     for (const auto& [name, cell] : cells) {
         std::cout << name << std::right << std::setw(6) << cell.runs << std::setw(9)
                   << cell.outcomes[0] << std::setw(11) << cell.outcomes[1] << std::setw(9)
@@ -119,7 +119,7 @@ int run(Flags flags) {
     trials::CampaignOptions options;
     options.jobs =
         flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
-    // The very file that runs, even if it is built anew while the campaign goes on.
+    // The running file, even if it is rebuilt during the campaign.
     options.worker = {"/proc/self/exe", {"octomap-compare", "fly-runs"}};
     options.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
@@ -137,34 +137,38 @@ void addFlags(Command& app, Flags& flags) {
         return app.option(flag, names, what).delimiter(',').showDefault();
     };
     trials::CampaignPlan& plan = flags.plan;
-    list("--scenario", plan.scenarios, "courses, or all").required();
-    app.option("--seeds", flags.seeds, "courses' seeds A-B; the same seeds make the same runs")
+    list("--scenario", plan.scenarios, "courses or all").required();
+    app.option("--seeds", flags.seeds,
+               "seeds of the courses, A-B; the same seeds make the same runs")
         .required();
-    app.option("--speed", plan.speeds_m_s, "m/s, at most").delimiter(',');
-    list("--models", plan.models, "world models, or all");
-    list("--guidance", plan.guidances, "straight, astar, or all");
-    list("--planner", plan.planners, "primitives, 3dvfh, or all");
+    app.option("--speed", plan.speeds_m_s, "maximum speeds in m/s (default: 4)").delimiter(',');
+    takesWorldModels(
+        list("--models", plan.models, "world models, such as W-RoI or \"RoI window\", or all"),
+        {"all"});
+    list("--guidance", plan.guidances, "straight, astar or all");
+    list("--planner", plan.planners, "primitives, 3dvfh or all");
     list("--pose-error", flags.pose_errors,
-         "of believed poses: none, noise (5 cm, 0.5 deg), drift (1 %)")
+         "errors of the estimated pose: none, noise (5 cm, 0.5 deg), drift (1 %)")
         .oneOf({"none", "noise", "drift"});
     app.option("--latency-scale", plan.latency_scales,
-               "times the profile's latencies; 4: an embedded computer")
+               "factors on the latencies of the profile (default: 1); 4: an embedded computer")
         .delimiter(',');
     app.option("--unknown", flags.unknown,
-               "space that was never seen: optimistic: free; brake-known: braking must end in "
-               "space that was seen")
+               "space that was never observed; optimistic: counts as free; brake-known: braking "
+               "must end in observed space")
         .oneOf({"optimistic", "brake-known"})
         .showDefault();
-    app.option(
-        "--profile", flags.profile,
-        "latencies to draw from, made by `calibrate`; without it those that come with the program");
-    app.option("--shard", flags.shard, "fly part i of n, for several machines; then `merge`")
+    app.option("--profile", flags.profile,
+               "latency profile made by `calibrate` (default: the one built into the program)");
+    app.option("--shard", flags.shard,
+               "fly part i of n, for several machines; join the parts with `merge`")
         .showDefault();
-    app.option("--jobs", flags.jobs, "processes; without it one a core").between(1, 1024);
+    app.option("--jobs", flags.jobs, "processes (default: one per core)").between(1, 1024);
     app.option("-o,--output", flags.folder,
-               "folder; the same command goes on where one was stopped, another one adds to it")
+               "folder of the campaign; the same command resumes an interrupted campaign, another "
+               "command adds to it")
         .required();
-    app.flag("--overwrite", flags.overwrites, "begin the folder anew");
+    app.flag("--overwrite", flags.overwrites, "start the folder from scratch");
     app.flag("-q,--quiet", flags.is_quiet, "print errors only");
 }
 
@@ -173,7 +177,7 @@ void addFlags(Command& app, Flags& flags) {
 void addClosedLoop(Program& program) {
     const auto flags = std::make_shared<Flags>();
     Command sub =
-        program.subcommand("closedloop", "fly courses in simulation, model against model");
+        program.subcommand("closedloop", "fly courses in simulation to compare world models");
     addFlags(sub, *flags);
     sub.does([flags] { return run(*flags); });
 }

@@ -1,4 +1,4 @@
-// octomap-compare fly-runs: one process of `closedloop`, which starts as many as it needs.
+// octomap-compare fly-runs: a worker process of `closedloop`.
 #include <hagen/trials/FlyRuns.h>
 #include <iostream>
 #include <memory>
@@ -21,7 +21,7 @@ int run(const Flags& flags) {
         trials::flyRuns(flags.keys, trials::readLatencyProfile(flags.profile), flags.journal,
                         [] { return !isInterrupted(); });
         return 0;
-    } catch (const std::exception& e) {  // for the message of `closedloop`
+    } catch (const std::exception& e) {  // closedloop prints it
         std::cerr << e.what() << "\n";
         return 1;
     }
@@ -32,10 +32,10 @@ int run(const Flags& flags) {
 void addFlyRuns(Program& program) {
     const auto flags = std::make_shared<Flags>();
     Command sub = program.subcommand("fly-runs", "fly runs for a campaign");
-    sub.hide();  // not in the help: closedloop alone uses it
-    sub.option("--parent", flags->parent_pid, "process that this one ends with").required();
-    sub.option("--profile", flags->profile, "latencies to draw from").required();
-    sub.option("--journal", flags->journal, "file that finished runs are appended to").required();
+    sub.hide();  // only closedloop uses it
+    sub.option("--parent", flags->parent_pid, "process to end with").required();
+    sub.option("--profile", flags->profile, "latency profile").required();
+    sub.option("--journal", flags->journal, "file to append finished runs to").required();
     sub.option("runs", flags->keys, "keys of runs").required();
     sub.does([flags] { return run(*flags); });
 }

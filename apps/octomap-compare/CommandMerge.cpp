@@ -1,4 +1,4 @@
-// octomap-compare merge: joins the folders of a campaign that was flown in parts.
+// octomap-compare merge: joins folders of a campaign that was flown in parts.
 #include <hagen/trials/MergeCampaigns.h>
 #include <iostream>
 #include <memory>
@@ -28,7 +28,7 @@ void addMerge(Program& program) {
     Command sub = program.subcommand("merge", "join folders of one campaign, such as its shards");
     sub.option("folders", flags->folders, "folders of `closedloop`").required();
     sub.option("-o,--output", flags->into, "folder for all runs").required();
-    sub.flag("--overwrite", flags->overwrites, "begin that folder anew");
+    sub.flag("--overwrite", flags->overwrites, "start that folder from scratch");
     sub.does([flags] { return run(*flags); });
 }
 

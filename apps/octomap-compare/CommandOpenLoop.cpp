@@ -1,4 +1,4 @@
-// octomap-compare openloop: world models digest a recorded log.
+// octomap-compare openloop: compares world models on a recorded log.
 #include <hagen/openloop/OpenLoop.h>
 
 #include <algorithm>
@@ -23,28 +23,28 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// All; the oracle where there is a scene that it can know.
+/// All models; the oracle only if the scene is known.
 std::vector<std::string> standardModels(bool has_scene) {
     std::vector<std::string> models = avoidance::worldModelNames();
     if (!has_scene) models.erase(std::find(models.begin(), models.end(), "oracle"));
     return models;
 }
 
-/// What a user should know about the figures.
-void tellRemarks(const openloop::OpenLoopResult& result) {
-    const auto tell = [](std::size_t scans, const std::string& what) {
-        if (scans > 0) std::cerr << "octomap-compare: " << scans << " " << what << "\n";
+/// Prints what limits the figures.
+void printRemarks(const openloop::OpenLoopResult& result) {
+    const auto print = [](std::size_t count, const std::string& what) {
+        if (count > 0) std::cerr << "octomap-compare: " << count << " " << what << "\n";
     };
-    tell(result.scans_without_pose, "scans have no pose within 0.2 s, and were left out");
-    tell(result.unreadable_scans, "scans could not be read, and were left out");
-    tell(
-        result.scans_moved_whole,
-        "scans were placed by one pose each: their returns have no times, or poses do not reach to "
-        "their ends");
-    tell(result.maps_begun_anew,
-         "times all models were begun anew: the flight is longer than a box of maps");
+    print(result.scans_without_pose, "scans have no pose within 0.2 s and were skipped");
+    print(result.unreadable_scans, "scans could not be read and were skipped");
+    print(
+        result.scans_placed_by_one_pose,
+        "scans were placed by one pose each, because their returns have no times or the poses end "
+        "before the scan");
+    print(result.model_resets,
+          "resets of all models, because the flight is longer than the box of the maps");
     if (!result.poses_have_horizon) {
-        std::cerr << "octomap-compare: the poses are seen from the first scan, and so are level "
+        std::cerr << "octomap-compare: the poses are relative to the first scan, and so are level "
                      "directions\n";
     }
 }
@@ -71,22 +71,22 @@ int run(Flags flags) {
         const openloop::OpenLoopResult result = openloop::runOpenLoop(open_loop, listener);
         files.commit(open_loop, result);
         if (flags.is_quiet) return 0;
-        tellRemarks(result);
+        printRemarks(result);
         std::cout << openloop::tableOf(open_loop, result);
         return 0;
     } catch (const openloop::OpenLoopEnded& ended) {
         files.keepPartial(open_loop, ended.result);
         if (!flags.is_quiet) {
-            tellRemarks(ended.result);
+            printRemarks(ended.result);
             std::cout << openloop::tableOf(open_loop, ended.result);
         }
         throw std::runtime_error(std::string(ended.what()) + "; figures of the " +
-                                 std::to_string(ended.result.scans) + " scans before it are in " +
+                                 std::to_string(ended.result.scans) + " scans before that are in " +
                                  flags.folder + "/*.partial*");
     }
 }
 
-/// Wrong usage is told as such.
+/// Reports wrong settings and names as wrong usage.
 int runChecked(const Flags& flags) {
     try {
         return run(flags);
@@ -103,28 +103,32 @@ void addOpenLoop(Program& program) {
     const auto flags = std::make_shared<Flags>();
     openloop::LogSource& source = flags->open_loop.source;
     Command sub = program.subcommand(
-        "openloop", "let all world models digest a recorded log: what they cost, what they know");
-    sub.option("-i,--input", source.log, "a .rawlog, or a scan folder (KITTI layout)")
+        "openloop", "compare world models on a recorded log: cost and correctness");
+    sub.option("-i,--input", source.log, ".rawlog or scan folder (KITTI layout)")
         .existingPath()
         .required();
     sub.option("--poses", source.poses,
-               "where the vehicle was (TUM), or the sensor scan by scan (KITTI); wins over "
-               "the log's own")
+               "poses of the vehicle (TUM) or of the sensor, one per scan (KITTI); overrides the "
+               "poses in the log")
         .existingFile();
-    sub.option("--sensor-label", source.sensor_label, "this LiDAR alone");
+    sub.option("--sensor-label", source.sensor_label, "use only this LiDAR");
     sub.option("--own-reach-m", source.own_reach_m,
-               "returns nearer to the sensor are the vehicle's own")
+               "nearer returns [m] are the vehicle's own and are skipped")
         .between(0.0, 5.0)
         .showDefault();
-    sub.option("--models", flags->open_loop.models, "world models (default: all)").delimiter(',');
-    const Flag scenario = sub.option("--truth-scenario", flags->scenario,
-                                     "scene that rawlog-simulate made the log in: the truth "
-                                     "(default: the raw points of later scans)");
+    takesWorldModels(sub.option("--models", flags->open_loop.models,
+                                "world models, such as W-RoI or \"RoI window\" (default: all)")
+                         .delimiter(','));
+    const Flag scenario =
+        sub.option("--truth-scenario", flags->scenario,
+                   "scenario of rawlog-simulate that the log was made in, used as "
+                   "ground truth (default: raw points of later scans)");
     sub.option("--truth-seed", flags->seed, "its seed").needs(scenario).showDefault();
-    sub.option("-c,--config", flags->configs, "settings file; may be repeated, later ones win")
+    sub.option("-c,--config", flags->configs,
+               "settings file; repeatable, later files override earlier ones")
         .once();
     sub.option("-o,--output", flags->folder, "folder for tables and summary.json").required();
-    sub.flag("--overwrite", flags->overwrites, "replace tables that exist");
+    sub.flag("--overwrite", flags->overwrites, "replace existing tables");
     sub.flag("-q,--quiet", flags->is_quiet, "print errors only");
     sub.does([flags] { return runChecked(*flags); });
 }

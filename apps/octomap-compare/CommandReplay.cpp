@@ -1,4 +1,5 @@
-// octomap-compare replay: one run of a folder, flown again to be looked at.
+// octomap-compare replay: flies a run again and shows it in 3D.
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
 #include <iostream>
@@ -50,9 +51,10 @@ int run(const Flags& flags) {
               << page.path().string() << "\n"
               << scene.path().string() << "\n";
     if (recording.is_same) return 0;
-    std::cerr << "octomap-compare: flown again it came out otherwise than the table tells; "
-                 "was it flown by another version (here "
-              << HAGEN_VERSION << ", there " << wanted.version << ") or on another machine?\n";
+    std::cerr << "octomap-compare: flown again, the result differs from the table; was it flown by "
+                 "another version (this is "
+              << HAGEN_VERSION << ", the table's is " << wanted.version
+              << ") or on another machine?\n";
     return 1;
 }
 
@@ -62,22 +64,23 @@ void addReplay(Program& program) {
     const auto flags = std::make_shared<Flags>();
     replays::RunWanted& wanted = flags->wanted;
     Command sub = program.subcommand(
-        "replay", "fly one run again: replay-RUN.html, a page, and replay-RUN.3Dscene");
+        "replay", "fly one run again; writes replay-RUN.html and replay-RUN.3Dscene");
     sub.option("DIR", flags->folder, "folder of `closedloop`, finished or not").required();
     sub.option("--seed", wanted.seed, "seed of the run").required();
-    sub.option("--scenario", wanted.scenario, "where several have that seed");
-    sub.option("--model", wanted.model, "where several flew it");
+    sub.option("--scenario", wanted.scenario, "needed if several have that seed");
+    sub.option("--model", wanted.model, "world model; needed if several flew the course")
+        .transform(avoidance::worldModelFrom);
     sub.option("--guidance", wanted.guidance, "straight or astar");
     sub.option("--speed", wanted.speed_m_s, "m/s");
     sub.option("--planner", wanted.planner, "primitives or 3dvfh");
     sub.option("--pose-error", wanted.pose_error, "none, noise or drift");
-    sub.option("--latency-scale", wanted.latency_scale, "of the latency profile");
-    sub.option("--unknown", wanted.unknown, "space that was never seen, as for `closedloop`")
+    sub.option("--latency-scale", wanted.latency_scale, "factor on the latencies");
+    sub.option("--unknown", wanted.unknown, "unobserved space, as for `closedloop`")
         .transform([](const std::string& name) {
-            return name == "brake_known" ? "brake-known" : name;  // as runs.csv has it
+            return name == "brake_known" ? "brake-known" : name;  // as in runs.csv
         })
         .oneOf({"optimistic", "brake-known"});
-    sub.option("-o,--output", flags->output, "folder to write to; without: DIR");
+    sub.option("-o,--output", flags->output, "output folder (default: DIR)");
     sub.flag("--overwrite", flags->overwrite, "replace the replay of this run");
     sub.does([flags] { return run(*flags); });
 }

@@ -1,4 +1,4 @@
-// octomap-compare report: what the runs of a folder tell.
+// octomap-compare report: reports on the runs of a folder.
 #include <hagen/reports/WriteReport.h>
 #include <iostream>
 #include <memory>
@@ -19,15 +19,15 @@ int run(reports::ReportRequest request) {
 void addReport(Program& program) {
     const auto flags = std::make_shared<reports::ReportRequest>();
     Command sub = program.subcommand(
-        "report", "what runs tell: report.html, summary.json and summary.csv in their folder");
+        "report", "write report.html, summary.json and summary.csv of a campaign into its folder");
     sub.option("DIR", flags->folder, "folder of `closedloop`, finished or not").required();
     sub.option("--memory", flags->memory,
-               "CSV of `calibrate --memory`; without: DIR/memory.csv, where there is one");
-    sub.option("--markdown", flags->markdown, "file for the main tables as Markdown");
-    sub.option("--worst", flags->worst, "worst runs to fly again for a look from above")
+               "CSV file of `calibrate --memory` (default: DIR/memory.csv, if it exists)");
+    sub.option("--markdown", flags->markdown, "Markdown file for the main tables");
+    sub.option("--worst", flags->worst, "number of worst runs to fly again for views from above")
         .showDefault()
         .between(0, 100);
-    sub.flag("--overwrite", flags->overwrite, "replace outputs that exist");
+    sub.flag("--overwrite", flags->overwrite, "replace existing outputs");
     sub.does([flags] { return run(*flags); });
 }
 

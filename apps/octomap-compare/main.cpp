@@ -1,17 +1,17 @@
-// Compares avoidance without a map with avoidance by one: flights, recordings, reports.
+// Compares obstacle avoidance with and without a map: flights, recorded logs, reports.
 #include "Commands.h"
 
 int main(int argc, char** argv) {
-    hagen::Program program(
-        "octomap-compare",
-        "Compares avoidance without a map (RoI points of the filter) with mapped avoidance.");
+    hagen::Program program("octomap-compare",
+                           "Compares obstacle avoidance based on RoI points of the filter with "
+                           "avoidance based on maps.");
     program.footer(
         "Examples:\n"
         "  octomap-compare closedloop --scenario forest-0.05 --seeds 1000-1019 --models "
         "W-RoI,O-Full-0.4 -o runs\n"
         "  octomap-compare openloop -i flight.rawlog --poses flight.tum -o models\n"
         "  octomap-compare COMMAND --help\n"
-        "Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     program.version(HAGEN_VERSION);
     program.prints("results");
     hagen::addClosedLoop(program);

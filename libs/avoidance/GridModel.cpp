@@ -8,8 +8,8 @@ namespace {
 
 mrpt::math::TPoint3D pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
-/// MRPT takes the end of every ray for occupied, whatever it is told: of one that met nothing the
-/// end stays what it was.
+/// MRPT marks the end of every ray as occupied, even if there was no return. This restores the end
+/// cell of such a ray.
 void insertRay(mrpt::maps::COccupancyGridMap3D& map, const mrpt::math::TPoint3D& from,
                const mrpt::math::TPoint3D& to, bool is_hit) {
     auto& grid = map.m_grid;
@@ -29,8 +29,8 @@ GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m)
     : edge_m_(edge_m),
       map_(std::make_unique<mrpt::maps::COccupancyGridMap3D>()),
       obstacles_(edge_m) {
-    // Corners on whole cells: MRPT rounds others. One cell more all around, for MRPT takes what is
-    // less than a cell outside to be in the first.
+    // Corners on whole cells, because MRPT rounds others. One more cell on each side, because MRPT
+    // assigns points less than a cell outside to the first cell.
     const Eigen::Array3f least = ((bounds_m.min().array() - kMapMargin_m) / edge_m).floor() - 1;
     const Eigen::Array3f most = ((bounds_m.max().array() + kMapMargin_m) / edge_m).ceil() + 1;
     size_ = (most - least).cast<int>();
@@ -53,7 +53,7 @@ void GridModel::update(const mapping::MappedScan& scan) {
 }
 
 std::vector<Eigen::Vector3f> GridModel::occupied_m() const {
-    std::vector<Eigen::Vector3f> middles_m;
+    std::vector<Eigen::Vector3f> centres_m;
     const auto& cells = map_->m_grid.data();  // log odds of being free
     std::size_t i = 0;
     for (int z = 0; z < size_.z(); ++z) {
@@ -62,19 +62,19 @@ std::vector<Eigen::Vector3f> GridModel::occupied_m() const {
                 if (cells[i] >= 0) continue;
                 const Eigen::Array3f cell(static_cast<float>(x), static_cast<float>(y),
                                           static_cast<float>(z));
-                middles_m.push_back(corner_m_ + (cell + 0.5f) * edge_m_);
+                centres_m.push_back(corner_m_ + (cell + 0.5f) * edge_m_);
             }
         }
     }
-    return middles_m;
+    return centres_m;
 }
 
 float GridModel::clearance_m(const Eigen::Vector3f& point_m) const {
     return obstacles_.distance_m(point_m, kReach_m);
 }
 
-float GridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const {
-    return obstacles_.distance_m(point_m, std::min(most_m, kReach_m));
+float GridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
+    return obstacles_.distance_m(point_m, std::min(limit_m, kReach_m));
 }
 
 bool GridModel::isKnown(const Eigen::Vector3f& point_m) const {
@@ -89,6 +89,6 @@ std::size_t GridModel::bytes() const {
     return sizeof(*this) + sizeof(*map_) + map_->m_grid.getVoxelCount() + obstacles_.bytes();
 }
 
-WorldModel::Obstacles GridModel::obstacles() const { return {obstacles_.middles_m(), edge_m_}; }
+WorldModel::Obstacles GridModel::obstacles() const { return {obstacles_.centres_m(), edge_m_}; }
 
 }  // namespace hagen::avoidance

@@ -10,18 +10,18 @@ class COccupancyGridMap3D;
 
 namespace hagen::avoidance {
 
-/// MRPT's COccupancyGridMap3D of all points, within the bounds, and a tree of what is occupied in
-/// it.
+/// MRPT's COccupancyGridMap3D of all points within the bounds, and a k-d tree of its occupied
+/// cells.
 class GridModel : public WorldModel {
  public:
-    static constexpr float kMaxRange_m = 20;  ///< farther returns clear up to here, and are no hits
+    static constexpr float kMaxRange_m = 20;  ///< farther returns only clear, up to this range
 
     GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m);
     ~GridModel() override;
 
     void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
-    float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const override;
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;
     Obstacles obstacles() const override;
@@ -30,7 +30,7 @@ class GridModel : public WorldModel {
     std::vector<Eigen::Vector3f> occupied_m() const;
 
     float edge_m_;
-    Eigen::Array3f corner_m_;  ///< least
+    Eigen::Array3f corner_m_;  ///< minimum corner
     Eigen::Array3i size_;      ///< in cells
     std::unique_ptr<mrpt::maps::COccupancyGridMap3D> map_;
     VoxelTree obstacles_;

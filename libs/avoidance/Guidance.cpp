@@ -6,21 +6,21 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr double kNearGoal_m = 4;  ///< from here on the goal's own height counts
+constexpr double kNearGoal_m = 4;  ///< closer than this, the goal's own height counts
 constexpr double kCarrot_m = 4, kNearestCarrot_m = 1;
 constexpr double kEase_m = 0.05;
-constexpr double kSight_m = 12;          ///< how far along the path corners are cut
-constexpr double kCutClearance_m = 0.9;  ///< that a cut needs
-constexpr double kGoalSearch_m = 3;  ///< how far from a blocked goal another place is looked for
+constexpr double kSight_m = 12;          ///< corners are cut up to this path length
+constexpr double kCutClearance_m = 0.9;  ///< needed for cutting a corner
+constexpr double kGoalSearch_m = 3;      ///< search radius for a substitute of a blocked goal
 constexpr double kHeightCost_per_m = 0.5;
-constexpr double kHaste = 1.3;  ///< of the search: a third of the questions in a dense forest
+constexpr double kHeuristicWeight = 1.3;  ///< saves two thirds of the queries in dense forest
 constexpr int kMostCells = 4000;
 
 /// The goal, level at the wanted altitude while it is far off: the ground in between is unknown.
 Eigen::Vector3d levelGoal(const GuidanceTask& task) {
     Eigen::Vector3d goal_m = task.goal_m;
-    const double way_m = (task.goal_m - task.position_m).head<2>().norm();
-    if (way_m > kNearGoal_m) goal_m.z() = task.ground_m + task.altitude_m;
+    const double distance_m = (task.goal_m - task.position_m).head<2>().norm();
+    if (distance_m > kNearGoal_m) goal_m.z() = task.ground_m + task.altitude_m;
     goal_m.z() =
         std::clamp(goal_m.z(), task.ground_m + task.lowest_m, task.ground_m + task.highest_m);
     return goal_m;
@@ -33,21 +33,20 @@ PathSearchOptions searchOptions(const GuidanceTask& task) {
     options.bounds_m = task.bounds_m;
     options.bounds_m.min().z() = task.ground_m + task.lowest_m;
     options.bounds_m.max().z() = task.ground_m + task.highest_m;
-    options.least_clearance_m = task.limits.room_m();
+    options.min_clearance_m = task.limits.clearance_radius_m();
     options.wanted_height_m = task.ground_m + task.altitude_m;
     options.height_cost_per_m = kHeightCost_per_m;
     options.anchor_m.z() = options.wanted_height_m;
-    options.haste = kHaste;
-    options.most_cells = kMostCells;
+    options.heuristic_weight = kHeuristicWeight;
+    options.max_cells = kMostCells;
     return options;
 }
 
-/// The goal or, where that is blocked or out of the bounds, the nearest free place on a grid
-/// around it.
+/// The goal, or the nearest free point on a grid around it if it is blocked or out of bounds.
 Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& goal_m,
                               const PathSearchOptions& options) {
     const auto isFree = [&](const Eigen::Vector3d& at_m) {
-        return world.clearance_m(at_m.cast<float>()) >= options.least_clearance_m;
+        return world.clearance_m(at_m.cast<float>()) >= options.min_clearance_m;
     };
     Eigen::Vector3d inside_m =
         goal_m.cwiseMax(options.bounds_m.min()).cwiseMin(options.bounds_m.max());
@@ -81,13 +80,13 @@ bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m, const Eig
     return true;
 }
 
-/// The place so far ahead on a path; its end where that is nearer.
-Eigen::Vector3d placeAt(const std::vector<Eigen::Vector3d>& path_m, double way_m) {
+/// The point at this distance along a path, at most its end.
+Eigen::Vector3d placeAt(const std::vector<Eigen::Vector3d>& path_m, double ahead_m) {
     for (std::size_t i = 1; i < path_m.size(); ++i) {
         const Eigen::Vector3d step_m = path_m[i] - path_m[i - 1];
         const double length_m = step_m.norm();
-        if (length_m > way_m) return path_m[i - 1] + way_m / length_m * step_m;
-        way_m -= length_m;
+        if (length_m > ahead_m) return path_m[i - 1] + ahead_m / length_m * step_m;
+        ahead_m -= length_m;
     }
     return path_m.back();
 }
@@ -98,32 +97,32 @@ double lengthOf(const std::vector<Eigen::Vector3d>& path_m) {
     return length_m;
 }
 
-/// How far along a path the carrot may lie: planners fly straight, so it must not hide behind a
-/// bend.
+/// The maximum path distance of the carrot: planners fly straight, so it must not be behind a bend.
 double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& path_m,
                    double least_m) {
-    double way_m = kCarrot_m;
-    while (way_m > kNearestCarrot_m &&
-           !isInSight(world, path_m.front(), placeAt(path_m, way_m), least_m)) {
-        way_m -= 0.5;
+    double ahead_m = kCarrot_m;
+    while (ahead_m > kNearestCarrot_m &&
+           !isInSight(world, path_m.front(), placeAt(path_m, ahead_m), least_m)) {
+        ahead_m -= 0.5;
     }
-    return way_m;
+    return ahead_m;
 }
 
-/// A path over a grid turns by 45 degrees or not at all: where the straight way to a place farther
-/// on has room enough, the carrot lies on it.
-Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m, double room_m) {
+/// Grid paths turn in steps of 45 degrees. If the straight line to a farther point has enough
+/// clearance, the carrot lies on that line.
+Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m,
+                double clearance_radius_m) {
     const double length_m = lengthOf(path_m);
-    const double carrot_m = carrotWay_m(world, path_m, room_m);
+    const double carrot_m = carrotWay_m(world, path_m, clearance_radius_m);
     Carrot carrot{placeAt(path_m, carrot_m), {}, std::max(0.0, length_m - carrot_m)};
-    for (double way_m = std::min(kSight_m, length_m); way_m > kCarrot_m; way_m -= 2) {
-        const Eigen::Vector3d place_m = placeAt(path_m, way_m);
+    for (double ahead_m = std::min(kSight_m, length_m); ahead_m > kCarrot_m; ahead_m -= 2) {
+        const Eigen::Vector3d place_m = placeAt(path_m, ahead_m);
         if (!isInSight(world, path_m.front(), place_m, kCutClearance_m)) continue;
         const Eigen::Vector3d sight_m = place_m - path_m.front();
         const double distance_m = sight_m.norm();
         if (distance_m <= kCarrot_m) continue;
         carrot.at_m = path_m.front() + kCarrot_m / distance_m * sight_m;
-        carrot.beyond_m = distance_m - kCarrot_m + length_m - way_m;
+        carrot.beyond_m = distance_m - kCarrot_m + length_m - ahead_m;
         break;
     }
     carrot.path_m = std::move(path_m);
@@ -142,19 +141,19 @@ class PathGuidance : public Guidance {
     Carrot carrot(const WorldModel& world, const GuidanceTask& task) const override {
         PathSearchOptions options = searchOptions(task);
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
-        const auto most_m = static_cast<float>(options.wanted_clearance_m);
+        const auto limit_m = static_cast<float>(options.wanted_clearance_m);
         const auto clearance_m = [&](const Eigen::Vector3f& at) {
-            return world.clearanceWithin_m(at, most_m);  // more room costs no less
+            return world.clearanceWithin_m(at, limit_m);  // more clearance does not lower the cost
         };
-        // What planners can follow without touching their margin; else what just fits.
-        options.least_clearance_m += kEase_m;
+        // First with extra clearance that planners can follow easily, otherwise without.
+        options.min_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);
         if (!path_m) {
-            options.least_clearance_m -= kEase_m;
+            options.min_clearance_m -= kEase_m;
             path_m = findPath(clearance_m, task.position_m, goal_m, options);
         }
         if (!path_m) return straightCarrot(task);
-        return carrotOn(world, std::move(*path_m), task.limits.room_m());
+        return carrotOn(world, std::move(*path_m), task.limits.clearance_radius_m());
     }
 };
 
@@ -168,7 +167,7 @@ const std::vector<std::string>& guidanceNames() {
 std::unique_ptr<Guidance> makeGuidance(const std::string& name) {
     if (name == "straight") return std::make_unique<StraightGuidance>();
     if (name == "astar") return std::make_unique<PathGuidance>();
-    throw std::invalid_argument("there is no guidance \"" + name + "\"; there are straight, astar");
+    throw std::invalid_argument("unknown guidance '" + name + "'; known are straight, astar");
 }
 
 }  // namespace hagen::avoidance

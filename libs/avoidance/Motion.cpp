@@ -13,28 +13,29 @@ constexpr double kLeastApproach_m_s = 0.5;
 }  // namespace
 
 void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, double hold_s,
-             const VehicleLimits& limits, std::vector<Eigen::Vector3f>& way_m) {
+             const VehicleLimits& limits, std::vector<Eigen::Vector3f>& path_m) {
     const Eigen::Vector3d none = Eigen::Vector3d::Zero();
     VehicleState state = start;
-    way_m.clear();
-    way_m.push_back(state.position_m.cast<float>());
+    path_m.clear();
+    path_m.push_back(state.position_m.cast<float>());
     const int held = static_cast<int>(std::ceil(hold_s / kControlStep_s - 1e-9));
     for (int step = 0; step < held || state.velocity_m_s.norm() > kStanding_m_s; ++step) {
         state = advance(state, step < held ? command_m_s : none, kControlStep_s, limits);
-        way_m.push_back(state.position_m.cast<float>());
+        path_m.push_back(state.position_m.cast<float>());
     }
 }
 
 std::optional<float> freeClearance(const WorldModel& world,
-                                   const std::vector<Eigen::Vector3f>& way_m, double room_m) {
+                                   const std::vector<Eigen::Vector3f>& path_m,
+                                   double clearance_radius_m) {
     float least_m = WorldModel::kReach_m, needed_m = 0, free_m = 0;
-    for (std::size_t i = 0; i < way_m.size(); ++i) {
-        // Within the ball of the last answer there is nothing to ask.
-        if (i > 0) free_m -= (way_m[i] - way_m[i - 1]).norm();
+    for (std::size_t i = 0; i < path_m.size(); ++i) {
+        // Points within the sphere of the last clearance need no query.
+        if (i > 0) free_m -= (path_m[i] - path_m[i - 1]).norm();
         if (free_m > 0) continue;
-        const float clearance_m = world.clearance_m(way_m[i]);
+        const float clearance_m = world.clearance_m(path_m[i]);
         if (clearance_m < needed_m) return std::nullopt;
-        const auto room = static_cast<float>(room_m);
+        const auto room = static_cast<float>(clearance_radius_m);
         needed_m = clearance_m >= room ? room : clearance_m;
         least_m = std::min(least_m, clearance_m);
         free_m = std::max(clearance_m - needed_m, kCheckStep_m);
@@ -44,27 +45,29 @@ std::optional<float> freeClearance(const WorldModel& world,
 
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
-                                  CommandWays& ways) {
-    const std::vector<Eigen::Vector3f>&way_m = ways.held_m, &broken_off_m = ways.broken_off_m;
-    rollOut(task.start, command_m_s, task.period_s, task.limits, ways.broken_off_m);
-    rollOut(task.start, command_m_s, hold_s, task.limits, ways.held_m);
+                                  CommandPaths& paths) {
+    const std::vector<Eigen::Vector3f>&path_m = paths.held_m, &broken_off_m = paths.broken_off_m;
+    rollOut(task.start, command_m_s, task.period_s, task.limits, paths.broken_off_m);
+    rollOut(task.start, command_m_s, hold_s, task.limits, paths.held_m);
     if (task.brakes_in_known_space &&
-        !(world.isKnown(broken_off_m.back()) && world.isKnown(way_m.back()))) {
+        !(world.isKnown(broken_off_m.back()) && world.isKnown(path_m.back()))) {
         return std::nullopt;
     }
-    const std::optional<float> soon_m = freeClearance(world, broken_off_m, task.limits.room_m());
+    const std::optional<float> soon_m =
+        freeClearance(world, broken_off_m, task.limits.clearance_radius_m());
     if (!soon_m) return std::nullopt;
-    const std::optional<float> later_m = freeClearance(world, way_m, task.limits.room_m());
+    const std::optional<float> later_m =
+        freeClearance(world, path_m, task.limits.clearance_radius_m());
     if (!later_m) return std::nullopt;
-    const bool is_near = *later_m < static_cast<float>(task.limits.room_m());
-    if (is_near && !(world.clearance_m(way_m.back()) > *later_m)) return std::nullopt;
+    const bool is_near = *later_m < static_cast<float>(task.limits.clearance_radius_m());
+    if (is_near && !(world.clearance_m(path_m.back()) > *later_m)) return std::nullopt;
     return std::min(*soon_m, *later_m);
 }
 
 double speedTowardsGoal(const PlanningTask& task) {
-    const double way_m = (task.carrot_m - task.start.position_m).norm() + task.beyond_carrot_m;
+    const double distance_m = (task.carrot_m - task.start.position_m).norm() + task.beyond_carrot_m;
     const double stopping_m_s =
-        std::sqrt(2 * kApproachShare * task.limits.acceleration_m_s2 * way_m);
+        std::sqrt(2 * kApproachShare * task.limits.acceleration_m_s2 * distance_m);
     return std::min(task.speed_m_s, std::max(kLeastApproach_m_s, stopping_m_s));
 }
 

@@ -3,38 +3,39 @@
 #include <optional>
 #include <vector>
 
-// What planners share: where a command leads, and whether the way there is free.
+// Shared by the planners: the path of a command, and whether it is free.
 namespace hagen::avoidance {
 
 constexpr double kLookAhead_s = 1.2;
 
-/// The way from a state, a point each control step: a command for so long, then braking until the
-/// vehicle stands.
+/// The path from a state, one point per control step: the command is held for `hold_s`, then the
+/// vehicle brakes to a stop.
 void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, double hold_s,
-             const VehicleLimits& limits, std::vector<Eigen::Vector3f>& way_m);
+             const VehicleLimits& limits, std::vector<Eigen::Vector3f>& path_m);
 
-/// The least clearance seen on a way; none where it is less than `room_m` somewhere. A way that
-/// begins nearer than that must not come nearer still.
+/// The minimum clearance along a path, or nothing if it is below `clearance_radius_m` somewhere. A
+/// path that starts closer than that must not come closer.
 std::optional<float> freeClearance(const WorldModel& world,
-                                   const std::vector<Eigen::Vector3f>& way_m, double room_m);
+                                   const std::vector<Eigen::Vector3f>& path_m,
+                                   double clearance_radius_m);
 
-/// The ways of a command: held, then braking; and broken off after a period.
-struct CommandWays {
+/// The paths of a command: held and then braking, and interrupted after one period.
+struct CommandPaths {
     std::vector<Eigen::Vector3f> held_m, broken_off_m;
 };
 
-/// Whether a command can be flown: held for `hold_s` and followed by braking, and just as well
-/// broken off after a period, so that braking at once will be possible then. From too near an
-/// obstacle it must lead away. The least clearance of both. The ways are left in `ways`, which a
-/// planner reuses from command to command.
+/// Checks a command: held for `hold_s` and followed by braking, and also interrupted after one
+/// period, so that braking will still be possible then. Too close to an obstacle, it must lead
+/// away. Returns the minimum clearance of both paths, or nothing if one is not free. `paths` is
+/// working memory that a planner reuses.
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
-                                  CommandWays& ways);
+                                  CommandPaths& paths);
 
-/// At most the speed wanted, and slow enough to stop at the goal.
+/// The maximum speed, reduced so that the vehicle can stop at the goal.
 double speedTowardsGoal(const PlanningTask& task);
 
-/// How far a height is out of the altitudes allowed [m]; 0 within.
+/// How far a height is outside the altitude limits [m]; 0 within them.
 double outOfAltitudes(double height_m, const PlanningTask& task);
 
 }  // namespace hagen::avoidance

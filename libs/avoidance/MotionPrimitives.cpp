@@ -14,44 +14,44 @@ constexpr std::array<double, 4> kSpeedShares{1.0, 0.6, 0.3, 0.1};
 constexpr double kVertical_m_s = 1.0;
 constexpr double kAtGoal_m = 0.5;
 
-// Weights; progress at full speed straight to the carrot is worth 1.
+// Cost weights, relative to progress at full speed straight to the carrot.
 constexpr double kDeviationCost = 0.2;
 constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
 constexpr double kChangeCost = 0.1;
-constexpr double kStandingCost = 0.3;  ///< of a stop away from the goal
+constexpr double kStandingCost = 0.3;  ///< of hovering away from the goal
 constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
 
 struct Candidate {
-    double cost;  ///< without that of proximity, which takes questions
+    double cost;  ///< without proximity, which needs queries
     Eigen::Vector3d command_m_s;
 };
 
-/// Where the candidates are measured against: the carrot or, where way is left beyond it, a place
-/// farther in its direction, for the vehicle shall not slow down for a carrot.
+/// The target of the candidates: the carrot, or a point farther in its direction if the path
+/// continues beyond it, so that the vehicle does not slow down at the carrot.
 Eigen::Vector3d aimOf(const PlanningTask& task) {
-    const Eigen::Vector3d way_m = task.carrot_m - task.start.position_m;
-    const double length_m = way_m.norm();
+    const Eigen::Vector3d offset_m = task.carrot_m - task.start.position_m;
+    const double length_m = offset_m.norm();
     const double reach_m =
         std::min(task.speed_m_s * kLookAhead_s + 1, length_m + task.beyond_carrot_m);
     if (length_m < 1e-6 || length_m >= reach_m) return task.carrot_m;
-    Eigen::Vector3d aim_m = task.start.position_m + reach_m / length_m * way_m;
+    Eigen::Vector3d aim_m = task.start.position_m + reach_m / length_m * offset_m;
     aim_m.z() = task.carrot_m.z();
     return aim_m;
 }
 
-/// The height wanted is to be reached within the look-ahead, however far the carrot.
+/// The wanted height is to be reached within the look-ahead time, however far the carrot is.
 std::array<double, 5> elevationsTo(const Eigen::Vector3d& aim_m, const PlanningTask& task,
                                    double speed_m_s) {
-    const Eigen::Vector3d way_m = aim_m - task.start.position_m;
-    const double level_m = std::min(way_m.head<2>().norm(), speed_m_s * kLookAhead_s);
-    const double exact_rad = std::atan2(way_m.z(), std::max(level_m, 1e-3));
+    const Eigen::Vector3d offset_m = aim_m - task.start.position_m;
+    const double level_m = std::min(offset_m.head<2>().norm(), speed_m_s * kLookAhead_s);
+    const double exact_rad = std::atan2(offset_m.z(), std::max(level_m, 1e-3));
     return {std::clamp(exact_rad, -kSteepest_rad, kSteepest_rad), -kSteepest_rad,
             -kSteepest_rad / 2, kSteepest_rad / 2, kSteepest_rad};
 }
 
 std::vector<Eigen::Vector3d> commandsFor(const PlanningTask& task, const Eigen::Vector3d& aim_m) {
-    const Eigen::Vector3d way_m = aim_m - task.start.position_m;
-    const double heading_rad = std::atan2(way_m.y(), way_m.x());
+    const Eigen::Vector3d offset_m = aim_m - task.start.position_m;
+    const double heading_rad = std::atan2(offset_m.y(), offset_m.x());
     const double speed_m_s = speedTowardsGoal(task);
     const std::array<double, 5> elevations_rad = elevationsTo(aim_m, task, speed_m_s);
     std::vector<Eigen::Vector3d> commands_m_s{{0, 0, 0}};
@@ -73,7 +73,7 @@ std::vector<Eigen::Vector3d> commandsFor(const PlanningTask& task, const Eigen::
     return commands_m_s;
 }
 
-/// Where a command leads within the look-ahead, in coarse steps: enough to rank by.
+/// Where a command leads within the look-ahead time, in coarse steps, which suffice for ranking.
 Eigen::Vector3d endOf(const PlanningTask& task, const Eigen::Vector3d& command_m_s) {
     constexpr double kStep_s = 0.1;
     VehicleState state = task.start;
@@ -86,14 +86,15 @@ Eigen::Vector3d endOf(const PlanningTask& task, const Eigen::Vector3d& command_m
 double costOf(const PlanningTask& task, const Eigen::Vector3d& aim_m,
               const Eigen::Vector3d& command_m_s) {
     const Eigen::Vector3d end_m = endOf(task, command_m_s);
-    const Eigen::Vector3d way_m = (aim_m - task.start.position_m);
+    const Eigen::Vector3d offset_m = (aim_m - task.start.position_m);
     const Eigen::Vector2d flown_m = (end_m - task.start.position_m).head<2>();
     const double reach_m = task.speed_m_s * kLookAhead_s;
-    const double progress = (way_m.head<2>().norm() - (aim_m - end_m).head<2>().norm()) / reach_m;
-    const Eigen::Vector2d ahead = way_m.head<2>().normalized();
+    const double progress =
+        (offset_m.head<2>().norm() - (aim_m - end_m).head<2>().norm()) / reach_m;
+    const Eigen::Vector2d ahead = offset_m.head<2>().normalized();
     const double deviation = std::abs(ahead.x() * flown_m.y() - ahead.y() * flown_m.x()) / reach_m;
     const double change = (command_m_s - task.start.velocity_m_s).norm() / task.speed_m_s;
-    const bool stands = command_m_s.isZero() && way_m.norm() > kAtGoal_m;
+    const bool stands = command_m_s.isZero() && offset_m.norm() > kAtGoal_m;
     return (stands ? kStandingCost : 0) - progress + kDeviationCost * deviation +
            kHeightCost_per_m * std::abs(end_m.z() - aim_m.z()) +
            kOutOfAltitudesCost_per_m * outOfAltitudes(end_m.z(), task) + kChangeCost * change;
@@ -112,7 +113,8 @@ std::vector<Candidate> rankedCandidates(const PlanningTask& task) {
 
 double proximityCost(double clearance_m, const VehicleLimits& limits) {
     const double short_m = kComfortable_m - clearance_m;
-    return kProximityCost * std::clamp(short_m / (kComfortable_m - limits.room_m()), 0.0, 1.0);
+    return kProximityCost *
+           std::clamp(short_m / (kComfortable_m - limits.clearance_radius_m()), 0.0, 1.0);
 }
 
 }  // namespace
@@ -122,14 +124,14 @@ Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) c
     plan.is_emergency = true;
     if (mustStop(world, task)) return plan;
     double best = std::numeric_limits<double>::infinity();
-    CommandWays ways;
+    CommandPaths paths;
     for (const Candidate& candidate : rankedCandidates(task)) {
-        if (candidate.cost >= best) break;  // the rest cost more, however much room they have
+        if (candidate.cost >= best) break;  // the rest cost more, whatever their clearance
         const std::optional<float> clearance_m =
-            checkCommand(world, task, candidate.command_m_s, kLookAhead_s, ways);
+            checkCommand(world, task, candidate.command_m_s, kLookAhead_s, paths);
         if (task.keeps_candidates) {
             plan.candidates.push_back(
-                {ways.held_m, candidate.command_m_s, clearance_m.has_value()});
+                {paths.held_m, candidate.command_m_s, clearance_m.has_value()});
         }
         if (!clearance_m) continue;
         const double cost = candidate.cost + proximityCost(*clearance_m, task.limits);

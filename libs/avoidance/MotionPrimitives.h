@@ -3,7 +3,7 @@
 
 namespace hagen::avoidance {
 
-/// "primitives": the cheapest free one of a fixed set of motions.
+/// "primitives": chooses the cheapest free motion of a fixed set.
 class MotionPrimitives : public Planner {
  public:
     Plan plan(const WorldModel& world, const PlanningTask& task) const override;

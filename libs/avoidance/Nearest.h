@@ -8,7 +8,7 @@
 
 namespace hagen::avoidance {
 
-/// Points as nanoflann reads them.
+/// Points in the interface that nanoflann expects.
 struct TreePoints {
     std::vector<Eigen::Vector3f> at_m;
 
@@ -22,13 +22,13 @@ struct TreePoints {
     }
 };
 
-/// A result set for nanoflann: the least squared distance, of several trees one after the other.
-/// It begins with the farthest that matters, so that what is farther costs little.
+/// A result set for nanoflann: the minimum squared distance over several trees, searched one after
+/// the other. It starts with a limit, so that searches beyond it end early.
 class Nearest {
  public:
-    explicit Nearest(float most_m) : least_m2_(most_m * most_m) {}
+    explicit Nearest(float limit_m) : least_m2_(limit_m * limit_m) {}
 
-    /// Of the next tree, only so many of the first points count.
+    /// Only the first `points` points of the next tree count.
     void consider(std::size_t points) { counting_ = points; }
 
     bool addPoint(float distance_m2, std::uint32_t point) {

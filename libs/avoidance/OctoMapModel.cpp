@@ -23,14 +23,14 @@ OctoMapModel::OctoMapModel(mapping::MapContent content, double resolution_m,
 void OctoMapModel::update(const mapping::MappedScan& scan) {
     map_.insert(scan);
     noteChanges();
-    std::vector<Eigen::Vector3f> middles_m;
-    middles_m.reserve(occupied_.size());
+    std::vector<Eigen::Vector3f> centres_m;
+    centres_m.reserve(occupied_.size());
     for (const Key& key : occupied_) {
         const octomap::point3d middle =
             map_.tree().keyToCoord(octomap::OcTreeKey(key[0], key[1], key[2]));
-        middles_m.emplace_back(middle.x(), middle.y(), middle.z());
+        centres_m.emplace_back(middle.x(), middle.y(), middle.z());
     }
-    obstacles_.rebuild(std::move(middles_m));
+    obstacles_.rebuild(std::move(centres_m));
 }
 
 void OctoMapModel::noteChanges() {
@@ -50,8 +50,8 @@ float OctoMapModel::clearance_m(const Eigen::Vector3f& point_m) const {
     return obstacles_.distance_m(point_m, kReach_m);
 }
 
-float OctoMapModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const {
-    return obstacles_.distance_m(point_m, std::min(most_m, kReach_m));
+float OctoMapModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
+    return obstacles_.distance_m(point_m, std::min(limit_m, kReach_m));
 }
 
 bool OctoMapModel::isKnown(const Eigen::Vector3f& point_m) const {
@@ -65,7 +65,7 @@ std::size_t OctoMapModel::bytes() const {
 }
 
 WorldModel::Obstacles OctoMapModel::obstacles() const {
-    return {obstacles_.middles_m(), static_cast<float>(map_.options().resolution_m)};
+    return {obstacles_.centres_m(), static_cast<float>(map_.options().resolution_m)};
 }
 
 }  // namespace hagen::avoidance

@@ -9,8 +9,8 @@
 
 namespace hagen::avoidance {
 
-/// An OctoMap within the bounds, and a tree of what is occupied in it, kept up to date by the map's
-/// own change detection.
+/// An OctoMap within the bounds, and a k-d tree of its occupied voxels, updated by the map's change
+/// detection.
 class OctoMapModel : public WorldModel {
  public:
     OctoMapModel(mapping::MapContent content, double resolution_m,
@@ -18,7 +18,7 @@ class OctoMapModel : public WorldModel {
 
     void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
-    float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const override;
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;
     Obstacles obstacles() const override;
@@ -28,7 +28,7 @@ class OctoMapModel : public WorldModel {
     void noteChanges();
 
     mapping::ScanMap map_;
-    std::set<Key> occupied_;  ///< in an order that no hash decides
+    std::set<Key> occupied_;  ///< ordered, so that no hash decides the order
     VoxelTree obstacles_;
 };
 

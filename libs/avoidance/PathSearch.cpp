@@ -12,31 +12,31 @@ namespace {
 
 using Clearance = std::function<float(const Eigen::Vector3f&)>;
 
-/// Costs are whole numbers of 0.1 mm, so that sums are exact and ties are ties on every machine.
+/// Costs are integers of 0.1 mm, so that sums are exact and ties are the same on every machine.
 using Cost = std::int64_t;
 constexpr double kCostPerMetre = 10000;
-constexpr double kProximityCost = 2;  ///< of a metre at the least clearance, besides its length
+constexpr double kProximityCost = 2;  ///< extra cost per metre at the minimum clearance
 constexpr double kCheckStep_m = 0.1;
-constexpr double kGrazing_m = 0.05;  ///< by which the way between two cells may be nearer
+constexpr double kGrazing_m = 0.05;  ///< tolerance of edges between cells
 constexpr std::int64_t kMostCellsOfGrid = 30'000'000;
 
-/// What is known of a cell; it is of this search only if it bears its number.
+/// State of a cell. Valid only if it has the number of the current search.
 struct Cell {
     std::uint32_t search = 0;
     int parent;
     Cost cost;
     float clearance_m;
-    Cost extra_permille;  ///< cost of a metre of way there, besides its length
-    std::int8_t place;    ///< at which point it is passed; -1: not known yet, -2: nowhere
+    Cost extra_permille;  ///< extra cost per metre
+    std::int8_t place;    ///< passing point; -1: not known yet, -2: none
     bool is_closed;
 };
 
 struct Entry {
     Cost estimate, cost;
     int cell, parent;
-    bool is_exact;  ///< false: the cell was not looked at yet, it may cost more
+    bool is_exact;  ///< false: clearance not queried yet, may cost more
 
-    /// Of the same estimate the one farther on goes first; then those that are certain.
+    /// Among equal estimates, the one with more path done goes first, then exact ones.
     bool operator<(const Entry& other) const {
         if (estimate != other.estimate) return estimate > other.estimate;
         if (cost != other.cost) return cost < other.cost;
@@ -47,7 +47,7 @@ struct Entry {
 };
 
 double extraCost(double clearance_m, double height_m, const PathSearchOptions& options) {
-    const double range_m = options.wanted_clearance_m - options.least_clearance_m;
+    const double range_m = options.wanted_clearance_m - options.min_clearance_m;
     const double short_m = options.wanted_clearance_m - clearance_m;
     const double share = range_m > 0 ? std::clamp(short_m / range_m, 0.0, 1.0) : 0.0;
     return kProximityCost * share +
@@ -81,13 +81,13 @@ class Search {
     Eigen::Vector3i least_, size_;  ///< of the grid, in cells from the anchor
     int start_ = 0, goal_ = 0;
     std::uint32_t number_ = 0;
-    Cost haste_permille_;
+    Cost heuristic_permille_;
     std::vector<Cell>& cells_;
     std::vector<Entry> entries_;  ///< a heap
     std::array<Cost, 4> lengths_{};
 };
 
-/// Kept from search to search, for clearing it would cost more than most searches.
+/// Reused by later searches, because clearing it would cost more than most searches.
 struct Memory {
     std::vector<Cell> cells;
     std::uint32_t search = 0;
@@ -103,7 +103,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
       start_m_(start_m),
       goal_m_(goal_m),
       options_(options),
-      haste_permille_(std::llround(1000 * std::max(1.0, options.haste))),
+      heuristic_permille_(std::llround(1000 * std::max(1.0, options.heuristic_weight))),
       cells_(memory().cells) {
     if (!(options.cell_m > 0) || options.bounds_m.isEmpty()) {
         throw std::invalid_argument("path search: cells need a size, and bounds to lie in");
@@ -115,7 +115,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
         ((options.bounds_m.min() - options.anchor_m) / options.cell_m).array() - 1e-9;
     const Eigen::Vector3d high =
         ((options.bounds_m.max() - options.anchor_m) / options.cell_m).array() + 1e-9;
-    // The start's own cell belongs to the grid wherever it is: the vehicle is there.
+    // The start cell always belongs to the grid, because the vehicle is there.
     const Eigen::Vector3d first = low.array().ceil().min(nearest(start_m).array());
     const Eigen::Vector3d last = high.array().floor().max(nearest(start_m).array());
     const Eigen::Vector3d count = (last - first).array() + 1;
@@ -133,7 +133,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
     const auto cells = static_cast<std::size_t>(size_.prod());
     Memory& kept = memory();
     if (kept.cells.size() < cells) kept.cells.resize(cells);
-    if (++kept.search == 0) {  // after four thousand million searches
+    if (++kept.search == 0) {  // overflow after 2^32 searches
         std::fill(kept.cells.begin(), kept.cells.end(), Cell{});
         kept.search = 1;
     }
@@ -157,25 +157,26 @@ Eigen::Vector3i Search::placeOf(int index) const {
     return {index % size_.x(), row % size_.y(), row / size_.y()};
 }
 
-/// Place 0 is the cell's middle, 1 to 4 lie beside it; start and goal are passed where they are.
+/// Point 0 is the cell's centre, 1 to 4 are beside it. Start and goal are passed at their
+/// positions.
 Eigen::Vector3d Search::pointOf(int index, int place) const {
     if (index == start_) return start_m_;
     if (index == goal_) return goal_m_;
-    const Eigen::Vector3d middle_m =
+    const Eigen::Vector3d centre_m =
         options_.anchor_m + options_.cell_m * (placeOf(index) + least_).cast<double>();
-    if (place == 0) return middle_m;
+    if (place == 0) return centre_m;
     const double beside_m = options_.cell_m / 4;
-    return middle_m +
+    return centre_m +
            Eigen::Vector3d(place & 1 ? beside_m : -beside_m, place > 2 ? beside_m : -beside_m, 0);
 }
 
 void Search::look(int index) {
     Cell& at = cell(index);
     if (at.place != -1) return;
-    const double least_m = options_.least_clearance_m;
+    const double least_m = options_.min_clearance_m;
     at.place = 0;
     at.clearance_m = clearance_m_(pointOf(index, 0).cast<float>());
-    // Clearance changes by no more than the way: only near misses are worth another look.
+    // Clearance is 1-Lipschitz, so only near misses need more queries.
     const double beside_m = options_.cell_m / 4 * std::sqrt(2.0);
     if (at.clearance_m < least_m && at.clearance_m + beside_m >= least_m && index != start_ &&
         index != goal_) {
@@ -191,22 +192,22 @@ void Search::look(int index) {
     at.extra_permille = std::llround(1000 * extraCost(at.clearance_m, height_m, options_));
 }
 
-/// Whether the straight way between two cells that were looked at is clear. From where the start is
-/// too near to an obstacle, clearance must grow.
+/// Whether the edge between two expanded cells is free. If the start is too close to an obstacle,
+/// clearance must grow.
 bool Search::mayPass(int from, int to) {
     const Cell &a = cell(from), &b = cell(to);
     const double ends_m = std::min(a.clearance_m, b.clearance_m);
-    const double least_m = std::min(options_.least_clearance_m - kGrazing_m, ends_m);
-    if (b.clearance_m < options_.least_clearance_m && !(b.clearance_m > a.clearance_m)) {
+    const double least_m = std::min(options_.min_clearance_m - kGrazing_m, ends_m);
+    if (b.clearance_m < options_.min_clearance_m && !(b.clearance_m > a.clearance_m)) {
         return false;
     }
     const Eigen::Vector3d start_m = pointOf(from, a.place);
-    const Eigen::Vector3d way_m = pointOf(to, b.place) - start_m;
-    const double length_m = way_m.norm();
+    const Eigen::Vector3d offset_m = pointOf(to, b.place) - start_m;
+    const double length_m = offset_m.norm();
     double at_m = std::max(a.clearance_m - least_m, kCheckStep_m);
     const double end_m = length_m - std::max(b.clearance_m - least_m, kCheckStep_m);
     while (at_m < end_m) {
-        const Eigen::Vector3d point_m = start_m + at_m / length_m * way_m;
+        const Eigen::Vector3d point_m = start_m + at_m / length_m * offset_m;
         const double clearance_m = clearance_m_(point_m.cast<float>());
         if (clearance_m < least_m) return false;
         at_m += std::max(clearance_m - least_m, kCheckStep_m);
@@ -222,7 +223,7 @@ Cost Search::costOfStep(int from, int to) const {
     return length + length * (a.extra_permille + b.extra_permille) / 2000;
 }
 
-/// The way through empty space over a grid with diagonals, times the haste.
+/// The distance through empty space on a grid with diagonals, times the heuristic weight.
 Cost Search::leastCostToGoal(const Eigen::Vector3i& place) const {
     std::array<int, 3> steps{};
     const Eigen::Vector3i goal = placeOf(goal_);
@@ -232,7 +233,7 @@ Cost Search::leastCostToGoal(const Eigen::Vector3i& place) const {
     std::sort(steps.begin(), steps.end());
     const Cost way = lengths_[3] * steps[0] + lengths_[2] * (steps[1] - steps[0]) +
                      lengths_[1] * (steps[2] - steps[1]);
-    return way * haste_permille_ / 1000;
+    return way * heuristic_permille_ / 1000;
 }
 
 void Search::push(int from, int to, const Eigen::Vector3i& place, Cost length) {
@@ -276,12 +277,12 @@ std::optional<std::vector<Eigen::Vector3d>> Search::run() {
     if (goal_ < 0) return std::nullopt;
     if (start_ == goal_) return std::vector<Eigen::Vector3d>{start_m_, goal_m_};
     look(goal_);
-    if (cell(goal_).clearance_m < options_.least_clearance_m) return std::nullopt;
+    if (cell(goal_).clearance_m < options_.min_clearance_m) return std::nullopt;
     look(start_);
     cell(start_).cost = 0;
     open(start_);
     int opened = 1;
-    while (!entries_.empty() && opened < options_.most_cells) {
+    while (!entries_.empty() && opened < options_.max_cells) {
         std::pop_heap(entries_.begin(), entries_.end());
         Entry entry = entries_.back();
         entries_.pop_back();

@@ -10,18 +10,18 @@ namespace {
 constexpr double kCell_rad = 6 * M_PI / 180;
 constexpr int kAzimuths = 60, kHighestRow = 3;  ///< elevations of -18 to 18 degrees
 constexpr float kTraceStep_m = 0.1f;
-constexpr double kReaction_s = 0.3;  ///< that speeds leave, besides the way to stop
-constexpr double kHold_s = 0.4;      ///< that a command is held in the check, before braking
+constexpr double kReaction_s = 0.3;  ///< reaction time in addition to the stopping distance
+constexpr double kHold_s = 0.4;      ///< in the check, before braking
 constexpr double kSlowest_m_s = 0.3;
 
-// Weights; of angles in radians, and of the way that an obstacle cuts off.
+// Cost weights of angles in radians and of the blocked fraction.
 constexpr double kTargetCost = 1.0, kChangeCost = 0.25;
 constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
 constexpr double kBlockedCost = 1.5;
 constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< directions free for less are a last resort
 
 struct HistogramCell {
-    double cost;  ///< without that of what blocks it, which takes questions
+    double cost;  ///< without the blocked fraction, which needs queries
     Eigen::Vector3d direction;
 };
 
@@ -29,35 +29,36 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// How far cells look: what it takes to stop from full speed, and the look-ahead.
+/// The range of cells: stopping distance from full speed plus the look-ahead.
 double lookAhead(const PlanningTask& task) {
     const double speed_m_s = task.speed_m_s;
     return speed_m_s * speed_m_s / (2 * task.limits.acceleration_m_s2) + kLookAhead_s * speed_m_s +
            1;
 }
 
-/// How far a ball of the vehicle's room gets before it touches something.
+/// The free distance of a sphere of the clearance radius.
 double freeDistance(const WorldModel& world, const PlanningTask& task,
                     const Eigen::Vector3d& direction, double reach_m) {
-    const auto room_m = static_cast<float>(task.limits.room_m());
+    const auto clearance_radius_m = static_cast<float>(task.limits.clearance_radius_m());
     float at_m = 0, needed_m = 0;
     while (at_m < reach_m) {
         const Eigen::Vector3d point_m = task.start.position_m + at_m * direction;
         const float clearance_m = world.clearance_m(point_m.cast<float>());
         if (clearance_m < needed_m) return at_m;
-        needed_m = clearance_m >= room_m ? room_m : std::max(needed_m, clearance_m);
+        needed_m = clearance_m >= clearance_radius_m ? clearance_radius_m
+                                                     : std::max(needed_m, clearance_m);
         at_m += std::max(clearance_m - needed_m, kTraceStep_m);
     }
     return reach_m;
 }
 
-/// The speed from which the vehicle still stops within a distance.
+/// The speed from which the vehicle can stop within a distance.
 double speedFor(double free_m, const PlanningTask& task) {
     const double a = task.limits.acceleration_m_s2;
     return a * (std::sqrt(kReaction_s * kReaction_s + 2 * free_m / a) - kReaction_s);
 }
 
-/// What it costs that a direction is not free all the way.
+/// The cost of a direction that is blocked before the end of the range.
 double blockedCost(const PlanningTask& task, double free_m, double reach_m) {
     const double goal_m = (task.carrot_m - task.start.position_m).norm() + task.beyond_carrot_m;
     const bool is_shut = free_m < std::min(kOpen_m, goal_m);
@@ -77,13 +78,14 @@ double costOf(const PlanningTask& task, const Eigen::Vector3d& target,
            kOutOfAltitudesCost_per_m * outOfAltitudes(end_m, task);
 }
 
-/// Rows and columns of the histogram lie about the direction of the carrot; the height wanted is
-/// to be reached within the look-ahead, however far the carrot.
+/// Rows and columns of the histogram are relative to the direction of the carrot. The wanted height
+/// is to be reached within the look-ahead, however far the carrot is.
 std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
-    const Eigen::Vector3d way_m = task.carrot_m - task.start.position_m;
-    const double heading_rad = std::atan2(way_m.y(), way_m.x());
-    const double level_m = std::min(way_m.head<2>().norm(), kLookAhead_s * speedTowardsGoal(task));
-    const double climb_rad = std::clamp(std::atan2(way_m.z(), std::max(level_m, 1e-3)),
+    const Eigen::Vector3d offset_m = task.carrot_m - task.start.position_m;
+    const double heading_rad = std::atan2(offset_m.y(), offset_m.x());
+    const double level_m =
+        std::min(offset_m.head<2>().norm(), kLookAhead_s * speedTowardsGoal(task));
+    const double climb_rad = std::clamp(std::atan2(offset_m.z(), std::max(level_m, 1e-3)),
                                         -kHighestRow * kCell_rad, kHighestRow * kCell_rad);
     const auto towards = [](double azimuth_rad, double elevation_rad) {
         return Eigen::Vector3d(std::cos(elevation_rad) * std::cos(azimuth_rad),
@@ -106,15 +108,15 @@ std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
     return cells;
 }
 
-/// The fastest command of a direction that the check lets pass; none of zero.
+/// The fastest command in a direction that passes the check; nothing if none does.
 std::optional<Eigen::Vector3d> commandAlong(const WorldModel& world, const PlanningTask& task,
                                             const HistogramCell& cell, double free_m,
-                                            CommandWays& ways, Plan& plan) {
+                                            CommandPaths& paths, Plan& plan) {
     double speed_m_s = std::min(speedTowardsGoal(task), speedFor(free_m, task));
     for (int attempt = 0; attempt < 2 && speed_m_s >= kSlowest_m_s; ++attempt) {
         const Eigen::Vector3d command_m_s = speed_m_s * cell.direction;
-        const bool is_free = checkCommand(world, task, command_m_s, kHold_s, ways).has_value();
-        if (task.keeps_candidates) plan.candidates.push_back({ways.held_m, command_m_s, is_free});
+        const bool is_free = checkCommand(world, task, command_m_s, kHold_s, paths).has_value();
+        if (task.keeps_candidates) plan.candidates.push_back({paths.held_m, command_m_s, is_free});
         if (is_free) return command_m_s;
         speed_m_s /= 2;
     }
@@ -128,14 +130,14 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     plan.is_emergency = true;
     if (mustStop(world, task)) return plan;
     const double reach_m = lookAhead(task);
-    CommandWays ways;
+    CommandPaths paths;
     double best = std::numeric_limits<double>::infinity();
     for (const HistogramCell& cell : rankedCells(task)) {
-        if (cell.cost >= best) break;  // the rest cost more, however far they are free
+        if (cell.cost >= best) break;  // the rest cost more, whatever their free distance
         const double free_m = freeDistance(world, task, cell.direction, reach_m);
         const double cost = cell.cost + blockedCost(task, free_m, reach_m);
         if (cost >= best) continue;
-        if (const auto command_m_s = commandAlong(world, task, cell, free_m, ways, plan)) {
+        if (const auto command_m_s = commandAlong(world, task, cell, free_m, paths, plan)) {
             best = cost;
             plan.command_m_s = *command_m_s;
             plan.is_emergency = false;

@@ -4,7 +4,7 @@
 namespace hagen::avoidance {
 
 /// "3dvfh": the cheapest direction of a polar histogram, after 3DVFH+ (Vanneste, Bellekens and
-/// Weyn, 2014). A cell holds how far a ball of the vehicle's room can go its way.
+/// Weyn, 2014). A cell holds the free distance of a sphere of the clearance radius.
 class PolarHistogram : public Planner {
  public:
     Plan plan(const WorldModel& world, const PlanningTask& task) const override;

@@ -6,8 +6,8 @@
 
 namespace hagen::avoidance {
 
-/// How far was seen from a place: in each cell of about 2 degrees, the farthest return. The cells
-/// are those of a cube's faces around the place, which needs no arctangents.
+/// The farthest return from a position in each cell of about 2 degrees. Cells are a grid on the
+/// faces of a cube around the position, which needs no arctangents.
 class SeenDirections {
  public:
     SeenDirections() : seen_cm_(6 * kCellsAcross * kCellsAcross, 0) {}
@@ -20,7 +20,7 @@ class SeenDirections {
     static constexpr int kCellsAcross = 45;
     static std::size_t cellOf(const Eigen::Vector3f& direction);
 
-    std::vector<std::uint16_t> seen_cm_;  ///< 0: nothing
+    std::vector<std::uint16_t> seen_cm_;  ///< 0: no return
 };
 
 }  // namespace hagen::avoidance

@@ -4,9 +4,9 @@
 namespace hagen::avoidance {
 
 bool mustStop(const WorldModel& world, const PlanningTask& task) {
-    std::vector<Eigen::Vector3f> way_m;
-    rollOut(task.start, task.start.velocity_m_s, task.period_s, task.limits, way_m);
-    return !freeClearance(world, way_m, task.limits.radius_m);
+    std::vector<Eigen::Vector3f> path_m;
+    rollOut(task.start, task.start.velocity_m_s, task.period_s, task.limits, path_m);
+    return !freeClearance(world, path_m, task.limits.radius_m);
 }
 
 }  // namespace hagen::avoidance

@@ -9,13 +9,13 @@ namespace hagen::avoidance {
 
 namespace {
 
-/// Voxels of one size by their middles.
+/// Voxels of equal size, given by their centres.
 struct Voxels : TreePoints {
     float half_edge_m = 0;
 };
 
-/// Squared distance from a point to a cube, as nanoflann asks for it. Of the planes that it cuts
-/// space by, too: beyond one there are middles, and cubes reach half an edge over it.
+/// Squared distance from a point to a cube, for nanoflann. It also applies to the splitting planes,
+/// since cubes extend half an edge across them.
 struct CubeDistance {
     using ElementType = float;
     using DistanceType = float;
@@ -54,18 +54,18 @@ VoxelTree::VoxelTree(float edge_m) : tree_(std::make_unique<Tree>()) {
 }
 VoxelTree::~VoxelTree() = default;
 
-void VoxelTree::rebuild(std::vector<Eigen::Vector3f> middles_m) {
-    tree_->voxels.at_m = std::move(middles_m);
+void VoxelTree::rebuild(std::vector<Eigen::Vector3f> centres_m) {
+    tree_->voxels.at_m = std::move(centres_m);
     tree_->index = std::make_unique<Index>(3, tree_->voxels, kLeafSize);
 }
 
-float VoxelTree::distance_m(const Eigen::Vector3f& point_m, float most_m) const {
-    Nearest nearest(most_m);
+float VoxelTree::distance_m(const Eigen::Vector3f& point_m, float limit_m) const {
+    Nearest nearest(limit_m);
     tree_->index->findNeighbors(nearest, point_m.data(), {});
     return std::sqrt(nearest.worstDist());
 }
 
-const std::vector<Eigen::Vector3f>& VoxelTree::middles_m() const { return tree_->voxels.at_m; }
+const std::vector<Eigen::Vector3f>& VoxelTree::centres_m() const { return tree_->voxels.at_m; }
 
 std::size_t VoxelTree::bytes() const {
     return sizeof(Tree) + sizeof(Index) + tree_->index->usedMemory(*tree_->index) +

@@ -16,7 +16,7 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
 constexpr std::size_t kLeafSize = 32;
 constexpr std::size_t kScansPerTree = 3;
 
-/// Where a scan was taken, what it saw, and how many points of it count.
+/// The origin of a scan, its farthest returns by direction, and its number of points.
 struct View {
     Eigen::Vector3f origin_m;
     SeenDirections seen;
@@ -27,7 +27,7 @@ struct View {
 
 struct WindowModel::PastScans {
     std::vector<View> views;  ///< newest first
-    TreePoints points;        ///< in the views' order; of scans that are forgotten, too
+    TreePoints points;        ///< in the order of the views; includes dropped scans
     std::size_t in_window = 0;
     std::unique_ptr<Tree> tree;
 
@@ -69,7 +69,7 @@ void WindowModel::update(const mapping::MappedScan& scan) {
     if (++scans_ > kScans) forgetOldest();
 }
 
-/// Its points stay in the tree that it shares, but count no more.
+/// Its points stay in the shared tree, but no longer count.
 void WindowModel::forgetOldest() {
     PastScans& oldest = *past_.back();
     oldest.in_window -= oldest.views.back().points;
@@ -82,8 +82,8 @@ float WindowModel::clearance_m(const Eigen::Vector3f& point_m) const {
     return clearanceWithin_m(point_m, kReach_m);
 }
 
-float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const {
-    Nearest nearest(std::min(most_m, kReach_m));
+float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
+    Nearest nearest(std::min(limit_m, kReach_m));
     for (const auto& past : past_) {
         nearest.consider(past->in_window);
         past->tree->findNeighbors(nearest, point_m.data(), {});
@@ -116,7 +116,7 @@ WorldModel::Obstacles WindowModel::obstacles() const {
     Obstacles obstacles;
     for (const auto& past : past_) {
         const auto first = past->points.at_m.begin();
-        obstacles.middle_m.insert(obstacles.middle_m.end(), first,
+        obstacles.centre_m.insert(obstacles.centre_m.end(), first,
                                   first + static_cast<std::ptrdiff_t>(past->in_window));
     }
     return obstacles;

@@ -1,6 +1,7 @@
 #include <hagen/avoidance/WorldModel.h>
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 #include "GridModel.h"
@@ -11,12 +12,12 @@ namespace hagen::avoidance {
 
 namespace {
 
-/// Knows the true scene.
+/// Queries the true scene.
 class OracleModel : public WorldModel {
  public:
     explicit OracleModel(std::function<float(const Eigen::Vector3f&)> true_clearance_m)
         : true_clearance_m_(std::move(true_clearance_m)) {
-        if (!true_clearance_m_) throw std::invalid_argument("an oracle needs the true clearance");
+        if (!true_clearance_m_) throw std::invalid_argument("the oracle needs the true clearance");
     }
 
     void update(const mapping::MappedScan&) override {}
@@ -31,12 +32,12 @@ class OracleModel : public WorldModel {
     std::function<float(const Eigen::Vector3f&)> true_clearance_m_;
 };
 
-using Making = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
+using Factory = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
 
 struct Entry {
-    std::string name;
+    std::string name, display_name;
     bool needs_labels;
-    Making make;
+    Factory make;
 };
 
 template <bool kRoiOnly>
@@ -59,16 +60,18 @@ std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
-        {"W-RoI", true, makeWindow<true>},
-        {"W-Full", false, makeWindow<false>},
-        {"O-Full-0.2", false, makeOctoMap<mapping::MapContent::Full, 20>},
-        {"O-Full-0.4", false, makeOctoMap<mapping::MapContent::Full, 40>},
-        {"O-RoI-0.2", true, makeOctoMap<mapping::MapContent::Roi, 20>},
-        {"O-RoI-0.4", true, makeOctoMap<mapping::MapContent::Roi, 40>},
-        {"O-RoI+rays-0.2", true, makeOctoMap<mapping::MapContent::RoiAndRays, 20>},
-        {"O-RoI+rays-0.4", true, makeOctoMap<mapping::MapContent::RoiAndRays, 40>},
-        {"G-Full", false, makeGrid},
-        {"oracle", false, makeOracle},
+        {"W-RoI", "RoI window", true, makeWindow<true>},
+        {"W-Full", "full window", false, makeWindow<false>},
+        {"O-Full-0.2", "OctoMap 0.2 m", false, makeOctoMap<mapping::MapContent::Full, 20>},
+        {"O-Full-0.4", "OctoMap 0.4 m", false, makeOctoMap<mapping::MapContent::Full, 40>},
+        {"O-RoI-0.2", "RoI OctoMap 0.2 m", true, makeOctoMap<mapping::MapContent::Roi, 20>},
+        {"O-RoI-0.4", "RoI OctoMap 0.4 m", true, makeOctoMap<mapping::MapContent::Roi, 40>},
+        {"O-RoI+rays-0.2", "RoI OctoMap with all rays 0.2 m", true,
+         makeOctoMap<mapping::MapContent::RoiAndRays, 20>},
+        {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", true,
+         makeOctoMap<mapping::MapContent::RoiAndRays, 40>},
+        {"G-Full", "occupancy grid 0.2 m", false, makeGrid},
+        {"oracle", "true scene", false, makeOracle},
     };
     return entries;
 }
@@ -77,9 +80,15 @@ const Entry& entryOf(const std::string& name) {
     for (const Entry& entry : entries()) {
         if (entry.name == name) return entry;
     }
-    std::string known;
-    for (const Entry& entry : entries()) known += " " + entry.name;
-    throw std::invalid_argument("no world model \"" + name + "\"; there are:" + known);
+    throw std::invalid_argument("unknown world model '" + name + "'; known are " +
+                                worldModelList());
+}
+
+std::string lowerCase(std::string text) {
+    for (char& letter : text) {
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    return text;
 }
 
 }  // namespace
@@ -91,6 +100,28 @@ const std::vector<std::string>& worldModelNames() {
         return of_entries;
     }();
     return names;
+}
+
+std::string displayName(const std::string& model) {
+    for (const Entry& entry : entries()) {
+        if (entry.name == model) return entry.display_name;
+    }
+    return model;
+}
+
+std::string worldModelFrom(const std::string& text) {
+    for (const Entry& entry : entries()) {
+        if (lowerCase(entry.display_name) == lowerCase(text)) return entry.name;
+    }
+    return text;
+}
+
+std::string worldModelList() {
+    std::string list;
+    for (const Entry& entry : entries()) {
+        list += (list.empty() ? "" : ", ") + entry.name + " (" + entry.display_name + ")";
+    }
+    return list;
 }
 
 bool needsLabels(const std::string& model) { return entryOf(model).needs_labels; }

@@ -6,7 +6,7 @@
 namespace hagen::openloop {
 namespace {
 
-constexpr float kLeastStep_m = 0.05f;
+constexpr float kMinStep_m = 0.05f;
 
 std::array<Eigen::Vector3f, kDirections> makeDirections() {
     std::array<Eigen::Vector3f, kDirections> directions;
@@ -25,11 +25,12 @@ std::array<Eigen::Vector3f, kDirections> makeDirections() {
 bool isBlocked(const std::function<float(const Eigen::Vector3f&)>& clearance_m,
                const Eigen::Vector3f& start_m, const Eigen::Vector3f& direction,
                const FreeDirectionOptions& options) {
-    for (float way_m = 0;;) {
-        const float spare_m = clearance_m(start_m + way_m * direction) - options.room_m;
+    for (float distance_m = 0;;) {
+        const float spare_m =
+            clearance_m(start_m + distance_m * direction) - options.clearance_radius_m;
         if (spare_m < 0) return true;
-        if (way_m >= options.length_m) return false;
-        way_m = std::min(way_m + std::max(spare_m, kLeastStep_m), options.length_m);
+        if (distance_m >= options.length_m) return false;
+        distance_m = std::min(distance_m + std::max(spare_m, kMinStep_m), options.length_m);
     }
 }
 
@@ -49,7 +50,7 @@ Eigen::Vector3f directionOf(std::size_t number) {
     return directions[number];
 }
 
-bool leadsDown(std::size_t number) {
+bool pointsDown(std::size_t number) {
     return number / kDirectionAzimuths < kDirectionElevations / 2;
 }
 
@@ -79,11 +80,11 @@ DirectionCounts& DirectionCounts::operator+=(const DirectionCounts& other) {
     return *this;
 }
 
-DirectionCounts countBlocked(const DirectionSet& said_blocked, const DirectionSet& truly_blocked,
-                             const DirectionSet& scored) {
-    return {scored.count(), (said_blocked & truly_blocked & scored).count(),
-            (said_blocked & ~truly_blocked & scored).count(),
-            (~said_blocked & truly_blocked & scored).count()};
+DirectionCounts countBlocked(const DirectionSet& predicted_blocked,
+                             const DirectionSet& truly_blocked, const DirectionSet& scored) {
+    return {scored.count(), (predicted_blocked & truly_blocked & scored).count(),
+            (predicted_blocked & ~truly_blocked & scored).count(),
+            (~predicted_blocked & truly_blocked & scored).count()};
 }
 
 }  // namespace hagen::openloop

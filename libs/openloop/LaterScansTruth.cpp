@@ -6,19 +6,19 @@
 namespace hagen::openloop {
 namespace {
 
-constexpr float kVehicleReach_m = 1.0f;  // where it is, there is room for it
-constexpr float kLastingReach_m = 12, kCell_m = 0.3f;
-constexpr std::size_t kScansToLast = 5;
-constexpr std::uint8_t kEnoughPoints = 2;
+constexpr float kVehicleRadius_m = 1.0f;  // around the vehicle, space is free
+constexpr float kPersistenceRange_m = 12, kCell_m = 0.3f;
+constexpr std::size_t kPersistenceScans = 5;
+constexpr std::uint8_t kPointsToBlock = 2;
 constexpr float kPi_rad = static_cast<float>(M_PI);
 
-float distanceToWay(const Eigen::Vector3f& point_m, const Eigen::Vector3f& direction,
-                    float length_m) {
+float distanceToPath(const Eigen::Vector3f& point_m, const Eigen::Vector3f& direction,
+                     float length_m) {
     const float along_m = std::clamp(point_m.dot(direction), 0.0f, length_m);
     return (point_m - along_m * direction).norm();
 }
 
-/// 21 bits an axis: 600 km.
+/// 21 bits per axis: 600 km.
 std::uint64_t cellNumber(const Eigen::Array3i& cell) {
     constexpr std::uint64_t kMiddle = 1u << 20, kMask = (1u << 21) - 1;
     std::uint64_t number = 0;
@@ -34,19 +34,21 @@ Eigen::Array3i cellOf(const Eigen::Vector3f& point_m) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> LastingPoints::of(const mapping::MappedScan& next) {
+std::vector<Eigen::Vector3f> PersistentPoints::of(const mapping::MappedScan& next) {
     const auto lasts = [&](const Eigen::Array3i& cell) {
         for (int i = 0; i < 27; ++i) {
             const Eigen::Array3i beside = cell + Eigen::Array3i(i % 3, i / 3 % 3, i / 9) - 1;
             const auto before = last_scan_.find(cellNumber(beside));
-            if (before != last_scan_.end() && before->second + kScansToLast >= scans_) return true;
+            if (before != last_scan_.end() && before->second + kPersistenceScans >= scans_)
+                return true;
         }
         return false;
     };
     std::vector<Eigen::Vector3f> lasting;
-    std::unordered_map<std::uint64_t, bool> cells;  // of this scan: whether they last
+    std::unordered_map<std::uint64_t, bool>
+        cells;  // cells of this scan: whether they are persistent
     for (const Eigen::Vector3f& point_m : next.points_m) {
-        if ((point_m - next.origin_m).norm() > kLastingReach_m) continue;
+        if ((point_m - next.origin_m).norm() > kPersistenceRange_m) continue;
         const Eigen::Array3i cell = cellOf(point_m);
         const auto [entry, is_new] = cells.try_emplace(cellNumber(cell), false);
         if (is_new) entry->second = lasts(cell);
@@ -55,7 +57,7 @@ std::vector<Eigen::Vector3f> LastingPoints::of(const mapping::MappedScan& next) 
     for (const auto& [cell, is_lasting] : cells) last_scan_[cell] = scans_;
     ++scans_;
     for (auto cell = last_scan_.begin(); scans_ % 100 == 0 && cell != last_scan_.end();) {
-        cell = cell->second + kScansToLast < scans_ ? last_scan_.erase(cell) : std::next(cell);
+        cell = cell->second + kPersistenceScans < scans_ ? last_scan_.erase(cell) : std::next(cell);
     }
     return lasting;
 }
@@ -83,19 +85,19 @@ std::size_t SeenRanges::cellOf(const Eigen::Vector3f& from_origin_m, float range
 bool SeenRanges::isSeenThrough(const Eigen::Vector3f& point_m) const {
     const Eigen::Vector3f from_origin_m = point_m - origin_m_;
     const float range_m = from_origin_m.norm();
-    return range_m < kVehicleReach_m || farthest_m_[cellOf(from_origin_m, range_m)] > range_m;
+    return range_m < kVehicleRadius_m || farthest_m_[cellOf(from_origin_m, range_m)] > range_m;
 }
 
 LaterScansTruth::LaterScansTruth(const Eigen::Vector3f& position_m,
                                  const FreeDirectionOptions& options)
     : position_m_(position_m), options_(options) {}
 
-/// Of all azimuths only those are tried that the point's sphere covers.
-void LaterScansTruth::seePoint(const Eigen::Vector3f& from_here_m) {
+/// Tries only the azimuths that the point's sphere covers.
+void LaterScansTruth::addPoint(const Eigen::Vector3f& from_here_m) {
     const float flat_m = from_here_m.head<2>().norm();
     int half = kDirectionAzimuths / 2;
-    if (flat_m > options_.room_m) {
-        const float share = std::asin(options_.room_m / flat_m) / (2 * kPi_rad);
+    if (flat_m > options_.clearance_radius_m) {
+        const float share = std::asin(options_.clearance_radius_m / flat_m) / (2 * kPi_rad);
         half = std::min(half, 1 + static_cast<int>(share * kDirectionAzimuths));
     }
     const float turn = std::atan2(from_here_m.y(), from_here_m.x()) / (2 * kPi_rad);
@@ -103,30 +105,32 @@ void LaterScansTruth::seePoint(const Eigen::Vector3f& from_here_m) {
     for (int step = -half; step <= half; ++step) {
         const auto azimuth = static_cast<std::size_t>((nearest + step + 2 * kDirectionAzimuths) %
                                                       kDirectionAzimuths);
-        if (step == half && 2 * half == kDirectionAzimuths) break;  // it was the first, too
+        if (step == half && 2 * half == kDirectionAzimuths) break;  // the same azimuth as the first
         for (std::size_t n = azimuth; n < kDirections; n += kDirectionAzimuths) {
-            if (points_[n] == kEnoughPoints) continue;
-            const float off_m = distanceToWay(from_here_m, directionOf(n), options_.length_m);
-            if (off_m < options_.room_m) ++points_[n];
+            if (points_[n] == kPointsToBlock) continue;
+            const float off_m = distanceToPath(from_here_m, directionOf(n), options_.length_m);
+            if (off_m < options_.clearance_radius_m) ++points_[n];
         }
     }
 }
 
-void LaterScansTruth::see(const std::vector<Eigen::Vector3f>& lasting_m, const SeenRanges& ranges) {
-    const float reach_m = options_.length_m + options_.room_m;
+void LaterScansTruth::see(const std::vector<Eigen::Vector3f>& persistent_m,
+                          const SeenRanges& ranges) {
+    const float reach_m = options_.length_m + options_.clearance_radius_m;
     const float reach_up_m =
-        options_.length_m * std::sin(static_cast<float>(kHighestDirection_rad)) + options_.room_m;
-    for (const Eigen::Vector3f& point_m : lasting_m) {
+        options_.length_m * std::sin(static_cast<float>(kHighestDirection_rad)) +
+        options_.clearance_radius_m;
+    for (const Eigen::Vector3f& point_m : persistent_m) {
         const Eigen::Vector3f from_here_m = point_m - position_m_;
         if (std::abs(from_here_m.z()) > reach_up_m) continue;
         if (from_here_m.squaredNorm() > reach_m * reach_m) continue;
-        seePoint(from_here_m);
+        addPoint(from_here_m);
     }
     for (std::size_t n = 0; n < kDirections; ++n) {
         for (std::size_t s = 0; s < kSamples; ++s) {
             if (seen_[n][s]) continue;
-            const float way_m = options_.length_m * static_cast<float>(s + 1) / kSamples;
-            seen_[n][s] = ranges.isSeenThrough(position_m_ + way_m * directionOf(n));
+            const float distance_m = options_.length_m * static_cast<float>(s + 1) / kSamples;
+            seen_[n][s] = ranges.isSeenThrough(position_m_ + distance_m * directionOf(n));
         }
     }
 }
@@ -134,7 +138,7 @@ void LaterScansTruth::see(const std::vector<Eigen::Vector3f>& lasting_m, const S
 TrueDirections LaterScansTruth::directions() const {
     TrueDirections truth;
     for (std::size_t n = 0; n < kDirections; ++n) {
-        truth.blocked[n] = points_[n] == kEnoughPoints;
+        truth.blocked[n] = points_[n] == kPointsToBlock;
         truth.scored[n] = truth.blocked[n] || (points_[n] == 0 && seen_[n].all());
     }
     return truth;

@@ -17,7 +17,7 @@ Eigen::Vector3f positionOf(const CPose3D& pose) {
     return Eigen::Vector3d(pose.x(), pose.y(), pose.z()).cast<float>();
 }
 
-/// Takes out the vehicle's own returns.
+/// Removes the vehicle's own returns.
 void removeOwn(const observations::ObservationSegmenter::Output& out, float own_reach_m,
                mapping::MappedScan& mapped) {
     std::size_t kept = 0, placed = 0;
@@ -40,7 +40,7 @@ void place(const observations::ObservationSegmenter::Output& out, const CObserva
     scan.mapped = *logs::placeInMap(out, observation, vehicle);
     removeOwn(out, own_reach_m, scan.mapped);
     const auto end = vehicle.at(mrpt::Clock::fromDouble(scan.mapped.time_s));
-    scan.is_moved_whole = out.scan->time_s.empty() || !end;
+    scan.is_placed_by_one_pose = out.scan->time_s.empty() || !end;
     scan.vehicle_m = positionOf(end ? *end : *vehicle.at(observation.timestamp));
 }
 
@@ -68,7 +68,7 @@ LoggedScans::LoggedScans(const LogSource& source) : own_reach_m_(source.own_reac
     source_->usePoses(source.poses);
     if (poseSource().empty()) {
         throw std::runtime_error(name +
-                                 ": tells no poses; give them (--poses FILE.tum, lines of "
+                                 ": has no poses; provide them (--poses FILE.tum with lines "
                                  "'time x y z qx qy qz qw')");
     }
     placeAll(times, name);
@@ -89,11 +89,11 @@ void LoggedScans::placeAll(const std::vector<TimePoint>& times, const std::strin
     const std::string which = placed == 0
                                   ? "has no pose near any of the " + std::to_string(scans_)
                                   : "has poses near " + std::to_string(placed) + " of the " +
-                                        std::to_string(scans_) + " scans alone, fewer than half,";
+                                        std::to_string(scans_) + " scans, fewer than half,";
     throw std::runtime_error(poseSource() + ": " + which + (placed == 0 ? " scans" : "") + " of " +
-                             log + ", of which the first was taken at " +
+                             log + ", whose first scan is at " +
                              std::to_string(mrpt::Clock::toDouble(times.front())) +
-                             " s; are they of another flight, or another clock?");
+                             " s; do they belong to another flight or another clock?");
 }
 
 bool LoggedScans::next(LoggedScan& scan) {

@@ -17,12 +17,13 @@ namespace {
 constexpr float kMapMargin_m = 20, kMapMarginUp_m = 10;  // around the whole flight
 constexpr float kLargestMap_m3 = 100000;
 constexpr float kHalfBox_m = 30, kHalfBoxUp_m = 10;  // around the vehicle
-constexpr float kBorder_m = 12, kBorderUp_m = 5;     // beyond what queries and clearances reach
-constexpr double kKept_s = 3;                        // of scans, for maps that are begun anew
+constexpr float kBorder_m = 12, kBorderUp_m = 5;     // more than queries and clearances reach
+constexpr double kReplayed_s = 3;                    // of scans, processed again after a reset
 
-// Half of a scan's obstacles lie nearer than this to those of its own scene (1 to 2 cm as a rule).
-constexpr float kMostOffScene_m = 0.08f;
-constexpr std::size_t kFewestForFit = 100;
+// Half of a scan's obstacles are closer than this to the obstacles of its scene (usually 1 to 2
+// cm).
+constexpr float kMaxSceneDistance_m = 0.08f;
+constexpr std::size_t kMinPointsToCheck = 100;
 
 Eigen::AlignedBox3f widened(const Eigen::AlignedBox3f& box, float aside_m, float up_m) {
     const Eigen::Vector3f by(aside_m, aside_m, up_m);
@@ -38,12 +39,12 @@ class SceneTruth {
                     widened(flight_m, kMapMargin_m, kMapMarginUp_m).cast<double>(),
                     avoidance::WorldModel::kReach_m) {}
 
-    /// As of the last scan.
+    /// At the time of the last scan.
     float clearance_m(const Eigen::Vector3f& point_m) const {
         return distance_.at(point_m, time_s_);
     }
 
-    /// Throws std::runtime_error where the scan's obstacles are not the scene's.
+    /// Throws std::runtime_error if the scan's obstacles are not those of the scene.
     void see(const mapping::MappedScan& scan) {
         time_s_ = scan.time_s - simulation::kSimulatedLogStart_s;
         if (is_checked_) return;
@@ -51,14 +52,14 @@ class SceneTruth {
         for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
             if (scan.labels[i] == Label::Roi) off_m.push_back(clearance_m(scan.points_m[i]));
         }
-        if (off_m.size() < kFewestForFit) return;
+        if (off_m.size() < kMinPointsToCheck) return;
         is_checked_ = true;
         const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
         std::nth_element(off_m.begin(), middle, off_m.end());
-        if (*middle < kMostOffScene_m) return;
+        if (*middle < kMaxSceneDistance_m) return;
         throw std::runtime_error("the log was not simulated in " + name_ +
-                                 ": half of a scan's obstacles lie " + std::to_string(*middle) +
-                                 " m and more off the scene's");
+                                 ": half of a scan's obstacles are at least " +
+                                 std::to_string(*middle) + " m from those of the scene");
     }
 
  private:
@@ -68,9 +69,9 @@ class SceneTruth {
     bool is_checked_ = false;
 };
 
-/// Scans whose truth is not known yet.
-struct Judgement {
-    std::vector<OpenLoopRow> rows;  ///< a model each
+/// A scan whose truth is not known yet.
+struct PendingScan {
+    std::vector<OpenLoopRow> rows;  ///< one per model
     std::vector<OpenLoopCost> costs;
     std::vector<DirectionSet> blocked;
     double time_s = 0;
@@ -80,7 +81,7 @@ struct Judgement {
 
 DirectionSet levelDirections() {
     DirectionSet level;
-    for (std::size_t n = 0; n < kDirections; ++n) level[n] = !leadsDown(n);
+    for (std::size_t n = 0; n < kDirections; ++n) level[n] = !pointsDown(n);
     return level;
 }
 
@@ -106,15 +107,15 @@ class Run {
         heap_bytes_.resize(models);
         if (open_loop.scene) truth_.emplace(*open_loop.scene, scans_.flight_m());
         const Eigen::AlignedBox3f whole = widened(scans_.flight_m(), kMapMargin_m, kMapMarginUp_m);
-        is_whole_mapped_ = whole.volume() <= kLargestMap_m3;
-        if (is_whole_mapped_) box_m_ = whole;
+        maps_whole_flight_ = whole.volume() <= kLargestMap_m3;
+        if (maps_whole_flight_) box_m_ = whole;
     }
 
     OpenLoopResult result() {
         LoggedScan scan;
         try {
             while (listener_.keep_going() && scans_.next(scan)) {
-                digest(scan);
+                process(scan);
                 listener_.progress(result_.scans, scans_.scans() - scans_.scansWithoutPose());
             }
         } catch (const logs::BrokenRawlog& e) {
@@ -127,36 +128,36 @@ class Run {
     }
 
  private:
-    void digest(const LoggedScan& scan);
+    void process(const LoggedScan& scan);
     void prepareModels(const LoggedScan& scan);
-    Judgement judgementOf(const LoggedScan& scan) const;
-    void askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement);
-    void judgeOldest();
-    void agree(const Judgement& judgement);
+    PendingScan pendingScanOf(const LoggedScan& scan) const;
+    void updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending);
+    void scoreOldest();
+    void agree(const PendingScan& pending);
     OpenLoopResult finish();
 
     const OpenLoop& open_loop_;
     const OpenLoopListener& listener_;
     LoggedScans scans_;
     std::optional<SceneTruth> truth_;
-    bool is_whole_mapped_ = false;
+    bool maps_whole_flight_ = false;
     Eigen::AlignedBox3f box_m_;
     std::vector<std::unique_ptr<avoidance::WorldModel>> models_;
     std::vector<double> heap_bytes_;
     std::deque<mapping::MappedScan> kept_;
-    std::deque<Judgement> waiting_;
-    LastingPoints lasting_;
+    std::deque<PendingScan> waiting_;
+    PersistentPoints persistent_points_;
     OpenLoopResult result_;
     std::string why_ended_;
 };
 
-/// Makes the models at first, and anew where the vehicle nears the border of their box.
+/// Makes the models, and makes them anew when the vehicle nears the border of their box.
 void Run::prepareModels(const LoggedScan& scan) {
     const bool is_begun = result_.scans > 0;
     const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
-    if (is_begun && (is_whole_mapped_ || inner.contains(scan.vehicle_m))) return;
-    result_.maps_begun_anew += is_begun;
-    if (!is_whole_mapped_) {
+    if (is_begun && (maps_whole_flight_ || inner.contains(scan.vehicle_m))) return;
+    result_.model_resets += is_begun;
+    if (!maps_whole_flight_) {
         box_m_ = widened({scan.vehicle_m, scan.vehicle_m}, kHalfBox_m, kHalfBoxUp_m);
     }
     avoidance::WorldModelSetting setting;
@@ -175,10 +176,10 @@ void Run::prepareModels(const LoggedScan& scan) {
     }
 }
 
-void Run::askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement) {
+void Run::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending) {
     avoidance::WorldModel& model = *models_[m];
-    OpenLoopRow& row = judgement.rows[m];
-    OpenLoopCost& cost = judgement.costs[m];
+    OpenLoopRow& row = pending.rows[m];
+    OpenLoopCost& cost = pending.costs[m];
     const double before = base::heapBytes(), start_ms = base::threadCpuTime_ms();
     model.update(scan.mapped);
     cost.update_ms = base::threadCpuTime_ms() - start_ms;
@@ -186,74 +187,74 @@ void Run::askModel(std::size_t m, const LoggedScan& scan, Judgement& judgement) 
     cost.heap_bytes = heap_bytes_[m];
 
     const double asking_ms = base::threadCpuTime_ms();
-    judgement.blocked[m] = blockedDirections(
+    pending.blocked[m] = blockedDirections(
         [&](const Eigen::Vector3f& point_m) { return model.clearance_m(point_m); }, scan.vehicle_m);
     cost.queries_ms = base::threadCpuTime_ms() - asking_ms;
 
-    row.obstacles = model.obstacles().middle_m.size();
+    row.obstacles = model.obstacles().centre_m.size();
     row.bytes = model.bytes();
-    row.blocked = judgement.blocked[m].count();
+    row.blocked = pending.blocked[m].count();
 }
 
-/// What is asked of a scan, before anybody answers.
-Judgement Run::judgementOf(const LoggedScan& scan) const {
+/// The entry of a scan before the models are queried.
+PendingScan Run::pendingScanOf(const LoggedScan& scan) const {
     const std::size_t models = models_.size();
-    Judgement judgement{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),
+    PendingScan pending{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),
                         std::vector<DirectionSet>(models), scan.mapped.time_s,
                         LaterScansTruth(scan.vehicle_m),   {}};
     const auto& labels = scan.mapped.labels;
     for (std::size_t m = 0; m < models; ++m) {
-        OpenLoopRow& row = judgement.rows[m];
+        OpenLoopRow& row = pending.rows[m];
         row.scan = result_.scans;
         row.entry = scan.entry;
         row.time_s = scan.mapped.time_s;
         row.model = open_loop_.models[m];
         row.returns = labels.size();
         row.roi = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), Label::Roi));
-        judgement.costs[m].scan = row.scan;
-        judgement.costs[m].model = row.model;
-        judgement.costs[m].filter_ms = scan.filter_ms;
+        pending.costs[m].scan = row.scan;
+        pending.costs[m].model = row.model;
+        pending.costs[m].filter_ms = scan.filter_ms;
     }
-    if (!truth_) return judgement;
-    judgement.truth.emplace();
-    judgement.truth->scored.set();
-    judgement.truth->blocked = blockedDirections(
+    if (!truth_) return pending;
+    pending.truth.emplace();
+    pending.truth->scored.set();
+    pending.truth->blocked = blockedDirections(
         [this](const Eigen::Vector3f& point_m) { return truth_->clearance_m(point_m); },
         scan.vehicle_m);
-    return judgement;
+    return pending;
 }
 
-void Run::digest(const LoggedScan& scan) {
+void Run::process(const LoggedScan& scan) {
     if (truth_) truth_->see(scan.mapped);
     prepareModels(scan);
-    Judgement judgement = judgementOf(scan);
-    for (std::size_t m = 0; m < models_.size(); ++m) askModel(m, scan, judgement);
-    result_.returns.push_back(static_cast<double>(judgement.rows.front().returns));
-    result_.roi.push_back(static_cast<double>(judgement.rows.front().roi));
+    PendingScan pending = pendingScanOf(scan);
+    for (std::size_t m = 0; m < models_.size(); ++m) updateAndQuery(m, scan, pending);
+    result_.returns.push_back(static_cast<double>(pending.rows.front().returns));
+    result_.roi.push_back(static_cast<double>(pending.rows.front().roi));
     result_.filter_ms.push_back(scan.filter_ms);
-    result_.scans_moved_whole += scan.is_moved_whole;
+    result_.scans_placed_by_one_pose += scan.is_placed_by_one_pose;
     ++result_.scans;
 
     const double now_s = scan.mapped.time_s;
     while (!waiting_.empty() && waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
-        judgeOldest();
+        scoreOldest();
     }
     if (!truth_) {
         const SeenRanges ranges(scan.mapped);
-        const auto lasting_m = lasting_.of(scan.mapped);
-        for (Judgement& earlier : waiting_) earlier.later.see(lasting_m, ranges);
+        const auto persistent_m = persistent_points_.of(scan.mapped);
+        for (PendingScan& earlier : waiting_) earlier.later.see(persistent_m, ranges);
     }
-    waiting_.push_back(std::move(judgement));
-    if (truth_) judgeOldest();
+    waiting_.push_back(std::move(pending));
+    if (truth_) scoreOldest();
 
     kept_.push_back(scan.mapped);
-    while (kept_.front().time_s + kKept_s < now_s) kept_.pop_front();
+    while (kept_.front().time_s + kReplayed_s < now_s) kept_.pop_front();
 }
 
-/// Counts what the models said of the oldest scan, and tells of it.
-void Run::judgeOldest() {
+/// Scores the models on the oldest pending scan and reports its rows.
+void Run::scoreOldest() {
     static const DirectionSet level = levelDirections();
-    Judgement& oldest = waiting_.front();
+    PendingScan& oldest = waiting_.front();
     const TrueDirections truth = oldest.truth ? *oldest.truth : oldest.later.directions();
     for (std::size_t m = 0; m < models_.size(); ++m) {
         OpenLoopRow& row = oldest.rows[m];
@@ -282,21 +283,21 @@ void Run::judgeOldest() {
     waiting_.pop_front();
 }
 
-void Run::agree(const Judgement& judgement) {
+void Run::agree(const PendingScan& pending) {
     for (std::size_t a = 0; a < models_.size(); ++a) {
         for (std::size_t b = 0; b < models_.size(); ++b) {
-            result_.agreement[a][b] += freeAgreement(judgement.blocked[a], judgement.blocked[b]);
+            result_.agreement[a][b] += freeAgreement(pending.blocked[a], pending.blocked[b]);
         }
     }
 }
 
 OpenLoopResult Run::finish() {
-    while (!waiting_.empty()) judgeOldest();
+    while (!waiting_.empty()) scoreOldest();
     result_.unreadable_scans = scans_.unreadableScans();
     if (result_.scans == 0) {
         const std::string why = why_ended_.empty() ? scans_.whyUnreadable() : why_ended_;
         throw std::runtime_error(open_loop_.source.log.string() +
-                                 ": none of its scans was digested: " + why);
+                                 ": none of its scans could be processed: " + why);
     }
     for (auto& line : result_.agreement) {
         for (double& sum : line) sum /= static_cast<double>(result_.scans);
@@ -308,15 +309,15 @@ OpenLoopResult Run::finish() {
 }  // namespace
 
 void checkOpenLoop(const OpenLoop& open_loop) {
-    if (open_loop.models.empty()) throw std::invalid_argument("no world model is named");
+    if (open_loop.models.empty()) throw std::invalid_argument("no world model is given");
     for (const std::string& model : open_loop.models) {
-        avoidance::needsLabels(model);  // throws for an unknown one
+        avoidance::needsLabels(model);  // throws for unknown names
         if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
-            throw std::invalid_argument("world model '" + model + "' is named twice");
+            throw std::invalid_argument("world model '" + model + "' is listed twice");
         }
         if (model == "oracle" && !open_loop.scene) {
             throw std::invalid_argument(
-                "the oracle knows the scene that a log was simulated in: name it "
+                "the true scene (oracle) needs the scenario that the log was simulated in "
                 "(--truth-scenario, --truth-seed)");
         }
     }

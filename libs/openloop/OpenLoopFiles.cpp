@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using base::Json;
 
-/// Fixed decimals; an empty field where there is no figure.
+/// Fixed decimals; NaN is an empty field.
 struct Fixed {
     double value;
     int decimals;
@@ -120,8 +120,8 @@ Json summaryOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
                 {"scans", result.scans},
                 {"scans_without_pose", result.scans_without_pose},
                 {"unreadable_scans", result.unreadable_scans},
-                {"scans_moved_whole", result.scans_moved_whole},
-                {"maps_begun_anew", result.maps_begun_anew},
+                {"scans_moved_whole", result.scans_placed_by_one_pose},
+                {"maps_begun_anew", result.model_resets},
                 {"returns", number(median(result.returns))},
                 {"roi", number(median(result.roi))}};
     Json names = Json::array(), measured = Json::array();
@@ -139,7 +139,7 @@ Json summaryOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
     return report;
 }
 
-/// Removes what earlier runs that ended early left of a file: x.partial.csv, x.partial-2.csv.
+/// Removes partial files of earlier runs: x.partial.csv, x.partial-2.csv, ...
 void removePartsOf(const fs::path& file) {
     for (int number = 1;; ++number) {
         fs::path part = file.parent_path() / file.stem();
@@ -173,9 +173,9 @@ OpenLoopFiles::OpenLoopFiles(const fs::path& folder, bool overwrite)
 }
 
 OpenLoopFiles::~OpenLoopFiles() {
-    files_.clear();  // removes what is temporary
+    files_.clear();  // removes temporary files
     std::error_code ignored;
-    if (is_own_folder_) fs::remove(folder_, ignored);  // where nothing is in it
+    if (is_own_folder_) fs::remove(folder_, ignored);  // only if it is empty
 }
 
 OpenLoopFiles::File& OpenLoopFiles::open(const std::string& name, bool overwrite) {
@@ -205,7 +205,7 @@ void OpenLoopFiles::finish(const OpenLoop& open_loop, const OpenLoopResult& resu
     writeModels(models_->out, result);
     writeModelsMeasured(models_measured_->out, result);
     writeAgreement(agreement_->out, result);
-    // File names need not be UTF-8, JSON must be.
+    // File names may not be UTF-8, JSON must be.
     summary_->out << summaryOf(open_loop, result).dump(2, Json::NotUtf8::Replace) << "\n";
     for (const auto& file : files_) base::closeWritten(file->out, file->path.path());
 }

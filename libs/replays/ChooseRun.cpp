@@ -44,7 +44,7 @@ std::string joined(const std::set<std::string>& names) {
     return text;
 }
 
-/// A line a scenario: "gap: seeds 1000-1049, 4 m/s, G-Full,W-RoI, astar".
+/// One line per scenario: "gap: seeds 1000-1049, 4 m/s, G-Full,W-RoI, astar".
 std::string overviewOf(const std::vector<trials::Run>& runs) {
     struct Scenario {
         std::set<std::uint64_t> seeds;
@@ -75,7 +75,7 @@ std::string choiceOf(const trials::Run& run, const std::vector<trials::Run>& amo
     const trials::TrialSetup &setup = run.setup, usual;
     std::string flags = "--scenario " + run.scenario + " --model " + setup.model + " --guidance " +
                         setup.guidance + " --speed " + base::shortestText(setup.speed_m_s);
-    // What is as usual goes without saying, unless others differ in it.
+    // Defaults are left out unless other runs differ in them.
     const auto add = [&](const std::string& flag, const auto& valueOf, bool is_usual) {
         const auto differs = [&](const trials::Run& other) {
             return valueOf(other) != valueOf(run);
@@ -122,13 +122,13 @@ trials::Run chooseRun(const std::vector<trials::Run>& runs, const RunWanted& wan
     const std::string seed = "of seed " + std::to_string(wanted.seed);
     if (!found.empty()) {
         throw std::invalid_argument(std::to_string(found.size()) + " runs " + seed +
-                                    " fit; choose one by flags:" + listOf(found));
+                                    " match; select one by flags:" + listOf(found));
     }
     const std::vector<trials::Run> of_seed =
         thoseThat([&](const trials::Run& run) { return run.seed == wanted.seed; });
     if (!of_seed.empty()) {
         throw std::invalid_argument("has no run " + seed +
-                                    " with these flags; of that seed are:" + overviewOf(of_seed));
+                                    " with these flags; that seed has:" + overviewOf(of_seed));
     }
     throw std::invalid_argument("has no run " + seed +
                                 (runs.empty() ? ", nor any other" : "; there are:") +

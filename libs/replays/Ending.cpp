@@ -10,9 +10,9 @@
 namespace hagen::replays {
 namespace {
 
-/// Directions all around, evenly spread: along a spiral from pole to pole, each a golden angle on.
+/// Evenly spread directions: a Fibonacci spiral from pole to pole.
 std::vector<simulation::Ray> raysAround(const Eigen::Vector3f& at_m) {
-    // 1.4 degrees apart: a wire at 0.3 m is met by several.
+    // 1.4 degrees apart: several hit a wire at 0.3 m.
     constexpr int kRays = 20000;
     const double golden = kPi * (3 - std::sqrt(5.0));
     std::vector<simulation::Ray> rays;
@@ -25,7 +25,7 @@ std::vector<simulation::Ray> raysAround(const Eigen::Vector3f& at_m) {
     return rays;
 }
 
-/// What the nearest thing within `reach_m` is; ObjectClass::None where there is none.
+/// The class of the nearest object within `reach_m`; ObjectClass::None if there is none.
 simulation::ObjectClass nearestKind(const simulation::Scene& scene, const Eigen::Vector3d& at_m,
                                     double time_s, double reach_m) {
     constexpr double kMoment_s = 0.001;
@@ -34,7 +34,7 @@ simulation::ObjectClass nearestKind(const simulation::Scene& scene, const Eigen:
         .cast(raysAround(at_m.cast<float>()), static_cast<float>(reach_m), hits);
     simulation::RayHit nearest{static_cast<float>(reach_m)};
     for (const simulation::RayHit& hit : hits) {
-        // Grass and crop bend, and nothing was hit where they were.
+        // Grass and crop bend and are no obstacles.
         if (hit.range_m <= nearest.range_m && hit.kind != simulation::ObjectClass::Canopy)
             nearest = hit;
     }
@@ -58,13 +58,13 @@ std::string wordsFor(simulation::ObjectClass kind) {
         case simulation::ObjectClass::Wall:
             return "a wall or rock";
         case simulation::ObjectClass::Mover:
-            return "something that moves";
+            return "a moving object";
         default:
             return "an obstacle";
     }
 }
 
-/// Which of the judge's limits a timeout went beyond.
+/// Which limit of the judge a timeout exceeded.
 std::string wordsForTimeout(const trials::Course& course, const trials::TrialResult& result,
                             double speed_m_s, const Eigen::Vector3d& end_m) {
     if (course.bounds_m.exteriorDistance(end_m) > trials::TrialJudge::kOutside_m)
@@ -79,17 +79,17 @@ std::string wordsForTimeout(const trials::Course& course, const trials::TrialRes
 std::string endingOf(const trials::Course& course, const trials::TrialResult& result,
                      double speed_m_s, const Eigen::Vector3d& end_m) {
     const std::string at = " at " + pages::figure(result.time_s, 2) + " s";
-    if (result.outcome == trials::Outcome::Success) return "arrived" + at;
+    if (result.outcome == trials::Outcome::Success) return "reached the goal" + at;
     if (result.outcome == trials::Outcome::Timeout) {
         return wordsForTimeout(course, result, speed_m_s, end_m) + at;
     }
     const auto clearance_m =
         static_cast<double>(course.distance.at(end_m.cast<float>(), result.time_s));
-    constexpr double kMore_m = 0.05;  // rays pass a little beside the nearest point
+    constexpr double kMore_m = 0.05;  // rays may miss the nearest point slightly
     const simulation::ObjectClass kind =
         nearestKind(course.scene, end_m, result.time_s, clearance_m + kMore_m);
     return "hit " + wordsFor(kind) + at + ": " + pages::figure(clearance_m, 2) +
-           " m from it to the vehicle's middle";
+           " m from the vehicle's centre";
 }
 
 }  // namespace hagen::replays

@@ -31,8 +31,8 @@ struct Box {
     double x0, x1, y0, y1;
 };
 
-/// The whole flight with a margin, and enough to either side to see what it flew around. Marks are
-/// up to 1.5 m about what they mark.
+/// The whole flight with a margin, and wide enough to show what it flew around. Marks have a radius
+/// of up to 1.5 m.
 Box boxOf(const OverheadView& view) {
     constexpr double kRoom_m = 5, kLeastWidthToHeight = 1.5;
     Box box{view.start_m.x(), view.start_m.x(), view.start_m.y(), view.start_m.y()};
@@ -49,7 +49,7 @@ Box boxOf(const OverheadView& view) {
     return {box.x0 - more_x, box.x1 + more_x, box.y0 - more_y, box.y1 + more_y};
 }
 
-/// Cells side by side are one rectangle. SVG's y points down.
+/// Adjacent cells are one rectangle. The y axis of SVG points down.
 std::string cellsPath(const OverheadView& view, const Box& box) {
     constexpr double cell_m = OverheadView::kCell_m;
     std::string path;
@@ -83,7 +83,7 @@ std::string circle(const Eigen::Vector2d& at, double radius_m, const std::string
 
 std::string startMark(const Eigen::Vector2d& at) { return circle(at, 0.6, "class=\"start\""); }
 
-/// As large as what counts as arrived, and a dot.
+/// A circle of the size that counts as arrived, and a dot.
 std::string goalMark(const Eigen::Vector2d& at) {
     return circle(at, trials::TrialJudge::kArrived_m, "class=\"goal\"") +
            circle(at, 0.25, "class=\"goal-dot\"");
@@ -112,7 +112,7 @@ std::string legendItem(const std::string& mark, const std::string& words) {
 OverheadView viewFromAbove(const trials::Run& run, const trials::LatencyProfile& profile) {
     OverheadView view{run, false, {}, {}, {}, {}, {}};
     const trials::Course course = trials::makeCourse(run.scenario, run.seed);
-    std::set<std::pair<int, int>> cells;  // y, x: rows are together
+    std::set<std::pair<int, int>> cells;  // y, x: sorted by rows
     trials::TrialListener listener;
     listener.step = [&](const trials::TrialStep& step) {
         addObstacles(step.scan, course.scene.terrain(), cells);
@@ -184,7 +184,7 @@ std::string overheadLegend() {
            legendItem(hitMark(middle), "collision") +
            legendItem(stopMark(middle), "emergency stop") +
            legendItem("<path class=\"obstacles\" d=\"M-1 -1h2v2h-2z\"/>",
-                      "what the LiDAR saw 0.5 to 4.5 m above the ground") +
+                      "LiDAR returns 0.5 to 4.5 m above the ground") +
            "</ul>\n";
 }
 

@@ -10,7 +10,7 @@
 namespace hagen::replays {
 namespace {
 
-/// Every so many, that no more than `most` are left.
+/// Every n-th item, so that at most `most` are left.
 template <class Item>
 std::vector<Item> thinned(const std::vector<Item>& all, std::size_t most) {
     const std::size_t every = (all.size() + most - 1) / std::max<std::size_t>(most, 1);
@@ -34,16 +34,16 @@ void addReturns(const mapping::MappedScan& scan, const RecordingLimits& limits,
 }
 
 void addMotions(const avoidance::Plan& plan, const RecordingLimits& limits, RecordedStep& step) {
-    constexpr std::size_t kPointsOfWay = 8;
+    constexpr std::size_t kPointsOfPath = 8;
     for (const avoidance::CandidateMotion& motion : thinned(plan.candidates, limits.motions)) {
-        RecordedMotion kept{thinned(motion.way_m, kPointsOfWay), motion.is_free};
-        if (kept.way_m.empty()) continue;
-        kept.way_m.push_back(motion.way_m.back());
+        RecordedMotion kept{thinned(motion.path_m, kPointsOfPath), motion.is_free};
+        if (kept.path_m.empty()) continue;
+        kept.path_m.push_back(motion.path_m.back());
         step.motions.push_back(kept);
     }
 }
 
-/// Cells that were there at one step or another.
+/// Collects the cells of all steps.
 class ModelHistory {
  public:
     explicit ModelHistory(const RecordingLimits& limits) : limits_(limits) {}
@@ -51,20 +51,20 @@ class ModelHistory {
     void add(const avoidance::WorldModel::Obstacles& obstacles, int step) {
         edge_m_ = obstacles.edge_m;
         const float grid_m = edge_m_ > 0 ? edge_m_ : limits_.point_grid_m;
-        for (const Eigen::Vector3f& middle_m : obstacles.middle_m) {
+        for (const Eigen::Vector3f& centre_m : obstacles.centre_m) {
             std::array<int, 3> key;
             for (int axis = 0; axis < 3; ++axis) {
-                key[axis] = static_cast<int>(std::floor(middle_m[axis] / grid_m));
+                key[axis] = static_cast<int>(std::floor(centre_m[axis] / grid_m));
             }
             std::vector<ModelCell>& stays = cells_[key];
             if (!stays.empty() && stays.back().until_step >= step) {
-                stays.back().until_step = step + 1;  // it was there a step before, or is twice
+                stays.back().until_step = step + 1;  // present in the last step, or listed twice
             } else {
-                stays.push_back({middle_m, step, step + 1});
+                stays.push_back({centre_m, step, step + 1});
             }
         }
     }
-    void tell(Recording& recording) const {
+    void writeTo(Recording& recording) const {
         recording.model_edge_m = edge_m_;
         for (const auto& [key, stays] : cells_) {
             recording.model.insert(recording.model.end(), stays.begin(), stays.end());
@@ -96,7 +96,7 @@ RecordedStep recorded(const trials::TrialStep& step, const RecordingLimits& limi
     return kept;
 }
 
-/// Long runs keep less of each step.
+/// Long runs keep fewer points per step.
 void thinLongRun(const RecordingLimits& limits, Recording& recording) {
     const std::size_t steps = recording.steps.size();
     if (steps <= limits.full_steps) return;
@@ -108,7 +108,7 @@ void thinLongRun(const RecordingLimits& limits, Recording& recording) {
     }
 }
 
-/// What is known of the whole flight only when its course is at hand again.
+/// Adds what needs the course: true clearances, ending, true scene.
 void addTruth(const Reflown& again, Recording& recording) {
     for (std::size_t i = 0; i < recording.track.size(); ++i) {
         RecordedMoment& moment = recording.track[i];
@@ -146,7 +146,7 @@ Recording record(const trials::Run& run, const trials::LatencyProfile& profile,
     recording.ground_m =
         again.course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
     addTruth(again, recording);
-    model.tell(recording);
+    model.writeTo(recording);
     thinLongRun(limits, recording);
     return recording;
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <map>
 
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Json.h>
 #include <hagen/pages/PackedNumbers.h>
 #include <hagen/pages/Page.h>
@@ -14,10 +15,9 @@ namespace {
 
 using base::Json;
 
-/// A centimetre: coordinates of pages are whole numbers of it, 16 bits from the start on, so they
-/// reach 327 m.
+/// Coordinates of pages are 16-bit centimetres from the start, so they reach 327 m.
 constexpr double kUnit_m = 0.01;
-constexpr double kShapeUnit_m = 0.005;    // of what stands about: 164 m
+constexpr double kShapeUnit_m = 0.005;    // of shapes: up to 164 m
 constexpr double kTurnUnit_rad = 0.0001;  // more than half a turn
 
 class PageWriter {
@@ -31,7 +31,7 @@ class PageWriter {
         pages::PackedNumbers lives;
         std::vector<Eigen::Vector3f> middles;
         for (const ModelCell& cell : recording_.model) {
-            middles.push_back(cell.middle_m);
+            middles.push_back(cell.centre_m);
             lives.add(cell.from_step);
             lives.add(cell.until_step);
         }
@@ -53,7 +53,7 @@ class PageWriter {
         return {
             {"scenario", run.scenario},
             {"seed", run.seed},
-            {"model_name", run.setup.model},
+            {"model_name", avoidance::displayName(run.setup.model)},
             {"guidance", run.setup.guidance},
             {"speed_m_s", run.setup.speed_m_s},
             {"outcome", trials::nameOf(run.result.outcome)},
@@ -79,7 +79,7 @@ class PageWriter {
         data["clearances"] = clearances.text();
     }
 
-    /// Shapes once each, and where they stand.
+    /// Each shape once, and the poses of its instances.
     Json scene() const {
         const TrueScene& scene = recording_.scene;
         Json shapes = Json::array(), things = Json::array(), movers = Json::array();
@@ -130,7 +130,7 @@ class PageWriter {
         return rows;
     }
 
-    /// Places and headings, one after the other.
+    /// Positions and headings, alternating.
     std::string json(const std::vector<Eigen::Affine3f>& poses) const {
         pages::PackedNumbers numbers;
         for (const Eigen::Affine3f& pose : poses) {
@@ -173,8 +173,8 @@ class PageWriter {
         pages::PackedNumbers ways;
         Json sizes = Json::array();
         for (const RecordedMotion& motion : step.motions) {
-            for (const Eigen::Vector3f& at : motion.way_m) add(at, ways);
-            const int points = static_cast<int>(motion.way_m.size());
+            for (const Eigen::Vector3f& at : motion.path_m) add(at, ways);
+            const int points = static_cast<int>(motion.path_m.size());
             sizes.push_back(motion.is_free ? points : -points);  // negative: not free
         }
         return {{"time_s", step.time_s},

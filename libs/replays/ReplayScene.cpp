@@ -28,11 +28,11 @@ CPointCloud::Ptr cloudOf(const std::vector<Eigen::Vector3f>& points_m, const TCo
     return cloud;
 }
 
-CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& middles_m, float edge_m) {
+CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& centres_m, float edge_m) {
     const auto voxels = COctoMapVoxels::Create();
     voxels->resizeVoxelSets(1);
     voxels->setName("obstacles of the model");
-    for (const Eigen::Vector3f& p : middles_m) {
+    for (const Eigen::Vector3f& p : centres_m) {
         voxels->push_back_Voxel(
             0, COctoMapVoxels::TVoxel({p.x(), p.y(), p.z()}, edge_m, TColor(230, 159, 0)));
     }
@@ -40,8 +40,8 @@ CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& middles_m, float
     voxels->setVisualizationMode(COctoMapVoxels::FIXED);
     const float e = 0.5f * edge_m;
     Eigen::Vector3f low(0, 0, 0), high(0, 0, 0);
-    if (!middles_m.empty()) low = high = middles_m[0];
-    for (const Eigen::Vector3f& p : middles_m) {
+    if (!centres_m.empty()) low = high = centres_m[0];
+    for (const Eigen::Vector3f& p : centres_m) {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
     }
@@ -59,7 +59,7 @@ CSphere::Ptr sphereAt(const Eigen::Vector3d& at, float radius_m, const TColor& c
     return sphere;
 }
 
-/// Lines along the ground, as its slopes are.
+/// The ground as a wire grid.
 CSetOfLines::Ptr linesOf(const TrueScene::Ground& ground) {
     const auto lines = CSetOfLines::Create();
     const auto corner = [&](int i, int j) {
@@ -86,18 +86,18 @@ CSetOfLines::Ptr trackOf(const std::vector<RecordedMoment>& track) {
     }
     lines->setColor_u8(TColor(0, 114, 178));
     lines->setLineWidth(3);
-    lines->setName("way flown");
+    lines->setName("path flown");
     return lines;
 }
 
-/// What the model held at the last step.
+/// The model's obstacles at the last step.
 std::vector<Eigen::Vector3f> lastOf(const Recording& recording) {
     const int last = static_cast<int>(recording.steps.size());
-    std::vector<Eigen::Vector3f> middles_m;
+    std::vector<Eigen::Vector3f> centres_m;
     for (const ModelCell& cell : recording.model) {
-        if (cell.until_step == last) middles_m.push_back(cell.middle_m);
+        if (cell.until_step == last) centres_m.push_back(cell.centre_m);
     }
-    return middles_m;
+    return centres_m;
 }
 
 void addShape(const simulation::Shape& shape, const Eigen::Affine3f& pose, const TColor& color,
@@ -114,7 +114,7 @@ void addShape(const simulation::Shape& shape, const Eigen::Affine3f& pose, const
     }
 }
 
-/// What truly stands, and what moves where it was at the end.
+/// The true scene, with movers where they were at the end.
 CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
     const TColor standing(110, 130, 105), moving(170, 60, 60);
     const TrueScene& scene = recording.scene;
@@ -135,7 +135,7 @@ CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
 
 void writeReplayScene(const Recording& recording, const std::filesystem::path& place,
                       const std::filesystem::path& file) {
-    base::openToWrite(place, file);  // MRPT does not tell why it cannot
+    base::openToWrite(place, file);  // MRPT does not report why writing fails
     COpenGLScene scene;
     scene.insert(linesOf(recording.scene.ground));
     if (!recording.scene.shapes.empty()) scene.insert(trueSceneOf(recording));
@@ -147,7 +147,7 @@ void writeReplayScene(const Recording& recording, const std::filesystem::path& p
     }
     if (!recording.steps.empty()) {
         const RecordedStep& last = recording.steps.back();
-        scene.insert(cloudOf(last.rou_m, TColor(120, 120, 120), 2, "last scan: uninteresting"));
+        scene.insert(cloudOf(last.rou_m, TColor(120, 120, 120), 2, "last scan: other returns"));
         scene.insert(cloudOf(last.roi_m, TColor(213, 94, 0), 3, "last scan: regions of interest"));
     }
     scene.insert(trackOf(recording.track));

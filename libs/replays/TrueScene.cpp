@@ -6,7 +6,7 @@
 namespace hagen::replays {
 namespace {
 
-/// Wires are 24 mm thick, less than a pixel from anywhere: what is thin is drawn thicker.
+/// Thin rods are drawn thicker: a wire of 24 mm would be less than a pixel wide.
 constexpr float kLeastRadius_m = 0.03f;
 
 simulation::Shape drawn(const simulation::Shape& shape) {

@@ -1,4 +1,5 @@
 #include "Phrases.h"
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/reports/Figures.h>
 
 namespace hagen::reports {
@@ -34,8 +35,9 @@ std::string capital(std::string text) {
     return text;
 }
 
-std::string spoken(const trials::Contender& contender) {
-    return contender.model + (contender.guidance == "astar" ? " with A*" : " flown straight");
+std::string withGuidance(const trials::Contender& contender) {
+    return avoidance::displayName(contender.model) +
+           (contender.guidance == "astar" ? " with A*" : " with straight guidance");
 }
 
 }  // namespace hagen::reports

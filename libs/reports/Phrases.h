@@ -6,7 +6,7 @@
 
 namespace hagen::reports {
 
-/// A share of 0 to 1 in percentage points, with its sign: "+1.2", "-0.4", "0.0".
+/// A difference of shares (0 to 1) in percentage points, with its sign: "+1.2", "-0.4", "0.0".
 std::string points(double share);
 
 /// "-0.7 to +0.9".
@@ -20,10 +20,10 @@ std::string listed(const std::vector<std::string>& words);
 /// "3 runs", "1 run".
 std::string counted(int count, const std::string& what);
 
-/// With a capital at its beginning.
+/// With a capital first letter.
 std::string capital(std::string text);
 
-/// "W-RoI with A*".
-std::string spoken(const trials::Contender& contender);
+/// "RoI window with A*".
+std::string withGuidance(const trials::Contender& contender);
 
 }  // namespace hagen::reports

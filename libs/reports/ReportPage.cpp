@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/pages/Page.h>
 #include <hagen/reports/Report.h>
-#include <hagen/reports/ReportWords.h>
+#include <hagen/reports/ReportSentences.h>
 #include <hagen/reports/SharedCourses.h>
 #include <hagen/reports/Verdict.h>
 #include "ReportTables.h"
@@ -16,20 +17,21 @@ namespace {
 
 using base::Json;
 
-/// A part of the report; HTML and Markdown are made from the same ones.
+/// A section of the report, for HTML and Markdown.
 struct Section {
     std::string title;
-    std::vector<std::string> words;
+    std::vector<std::string> paragraphs;
     std::vector<pages::Table> tables;
     std::vector<std::string> charts{};  ///< ids that the page's script draws
-    std::string html{};                 ///< more, on the page alone
-    bool is_long = false;               ///< folded on the page, left out of documents
-    bool is_list = false;               ///< words are a list
+    std::string chart_caption{};        ///< only on the page, where the charts are
+    std::string html{};                 ///< more content, only on the page
+    bool is_long = false;               ///< folded on the page, left out of Markdown
+    bool is_list = false;               ///< paragraphs are list items
 };
 
 Section conditionSection(const Summary& summary, const trials::Condition& condition) {
-    return {"Outcomes at " + nameOf(condition),
-            {"Success in percent (Wilson's 95 % interval; runs)."},
+    return {"Success at " + nameOf(condition),
+            {"Success rate in percent (95 % Wilson interval; number of runs)."},
             {successTable(summary, condition)}};
 }
 
@@ -41,14 +43,15 @@ void addOutcomes(const Report& report, std::vector<Section>& sections) {
     sections.push_back(first);
     sections.push_back(
         {"Collisions at " + nameOf(reference),
-         {"Collisions in percent (Wilson's 95 % interval; runs). A collision is a true "
-          "clearance under 0.30 m."},
+         {"Collision rate in percent (95 % Wilson interval; number of runs). A collision is a true "
+          "clearance below 0.30 m."},
          {collisionTable(summary, reference)}});
     for (std::size_t c = 1; c < summary.conditions.size(); ++c) {
         sections.push_back(conditionSection(summary, summary.conditions[c]));
     }
     for (const trials::Condition& condition : summary.conditions) {
-        Section all{"Success, collision and timeout at " + nameOf(condition) + ", every cell",
+        Section all{"Success, collisions and timeouts at " + nameOf(condition) +
+                        ", by scenario and contender",
                     {},
                     {outcomeTable(summary, condition)}};
         all.is_long = true;
@@ -58,26 +61,30 @@ void addOutcomes(const Report& report, std::vector<Section>& sections) {
 
 void addPairings(const Report& report, std::vector<Section>& sections) {
     const Summary& summary = report.summary;
+    const std::string margin = pages::figure(100 * kMargin, 0);
     sections.push_back(
-        {"The same courses, pair by pair",
-         {"Success of the first less that of the second on courses that both flew; Newcombe's 95 % "
-          "interval; McNemar's exact test with Holm's correction. \"Not inferior\": the interval "
-          "excludes a loss of " +
-          pages::figure(100 * kMargin, 0) +
-          " points; \"open\": it does not, but holds smaller losses, too. \"All\": all "
-          "scenarios that both flew. Intervals, and so \"not inferior\", and the p of collisions "
-          "are not corrected for the number of comparisons; p (Holm) is."},
+        {"Paired comparisons on the same courses",
+         {"Difference: success rate of the first contender minus that of the second on the courses "
+          "that both flew, with Newcombe's 95 % interval. p (Holm): McNemar's exact test with "
+          "Holm's correction. \"Not inferior\": the interval excludes a loss of " +
+          margin +
+          " points. \"Inferior\": it contains only larger losses. \"Undecided\": it "
+          "contains a loss of " +
+          margin +
+          " points. \"All\": all scenarios that both flew. Only p (Holm) is corrected for the "
+          "number of comparisons. The intervals, and with them \"not inferior\", and the p of "
+          "collisions are not."},
          {pairingTable(summary.overall)}});
-    Section each{"The same, in each scenario", {}, {pairingTable(summary.pairings)}};
+    Section each{"Paired comparisons in each scenario", {}, {pairingTable(summary.pairings)}};
     each.is_long = true;
     sections.push_back(each);
     const pages::Table square = squareTable(summary, summary.conditions.front());
     if (!square.rows.empty() && square.header.size() > 3) {
-        sections.push_back(
-            {"World model by guidance",
-             {"Success in percent (interval; runs) at " + nameOf(summary.conditions.front()) +
-              ": is it the map, or the search for a way, that helps?"},
-             {square}});
+        sections.push_back({"World model by guidance",
+                            {"Success rate in percent (95 % Wilson interval; number of runs) at " +
+                             nameOf(summary.conditions.front()) +
+                             ". It shows whether the map or the path search makes the difference."},
+                            {square}});
     }
     const std::vector<Pairing> losses = lossesOf(summary);
     const auto significant = std::count_if(
@@ -86,9 +93,9 @@ void addPairings(const Report& report, std::vector<Section>& sections) {
         std::count_if(summary.pairings.begin(), summary.pairings.end(),
                       [](const Pairing& pairing) { return pairing.second.model != "oracle"; });
     Section loses{
-        "Where W-RoI loses",
+        "Where the RoI window has less success",
         {"Of " + std::to_string(compared) +
-         " comparisons in single scenarios, W-RoI has less success in " +
+         " comparisons in single scenarios, the RoI window has less success in " +
          std::to_string(losses.size()) + "; significant after Holm's correction (p < 0.05): " +
          std::to_string(significant) + ". The others may be chance. Largest loss first."},
         {}};
@@ -101,41 +108,46 @@ void addFlights(const Report& report, std::vector<Section>& sections) {
     const trials::Condition& reference = summary.conditions.front();
     const std::string at = " at " + nameOf(reference);
     if (!summary.speed_limits.empty()) {
-        Section speed{"Success against speed",
-                      {"Lines are success with 95 % intervals; the dashed line is 95 %."},
+        Section speed{"Success and speed",
+                      {"The highest speed up to which the success rate, or the lower bound of its "
+                       "95 % Wilson interval, is at least 95 %."},
                       {speedTable(summary)}};
         speed.charts = {"speed"};
+        speed.chart_caption = "Success rates with 95 % intervals; the dashed line is 95 %.";
         sections.push_back(speed);
     }
-    Section flight{"How they fly" + at,
-                   {"Only courses on which all contenders of a table arrived: medians with "
-                    "bootstrap 95 % intervals. Those that flew fewer courses come in with a table "
-                    "of their own. First reaction: the free way ahead when the vehicle "
-                    "first left its course, where all did. The chart has all courses that all "
-                    "flew, whatever came out."},
-                   {}};
+    Section flight{
+        "Flight quality" + at,
+        {"Medians with bootstrap 95 % intervals over the courses on which all contenders "
+         "of a table reached the goal. Contenders that flew fewer courses appear in a "
+         "table of their own. First reaction: true free distance ahead when a command "
+         "first left the straight line or slowed down, over courses on which all "
+         "reacted."},
+        {}};
     for (const SharedCourses& shared : sharedCourses(report.flown.runs, summary, reference)) {
-        flight.words.push_back(sharedWords(shared));
+        flight.paragraphs.push_back(sharedCoursesSentence(shared));
         if (!shared.cells.empty()) flight.tables.push_back(flightTable(shared));
     }
     flight.charts = {"clearance"};
+    flight.chart_caption =
+        "The charts cover all courses that all contenders flew, whatever the outcome.";
     sections.push_back(flight);
 }
 
-/// Wires by contender, and W-RoI against W-Full with and without them.
+/// Outcomes on wires by contender, and W-RoI against W-Full without and on wires.
 void addWires(const Report& report, std::vector<Section>& sections) {
     const Summary& summary = report.summary;
     const trials::Condition& reference = summary.conditions.front();
     const pages::Table table = wiresTable(summary, reference);
     if (table.rows.empty()) return;
-    Section wires{"Wires, and where none are, at " + nameOf(reference),
-                  {"What the filter takes away may be a wire: W-RoI against W-Full, which keeps "
-                   "all points."},
+    Section wires{"Courses with and without wires at " + nameOf(reference),
+                  {"The filter may remove a wire, so the RoI window is compared with the full "
+                   "window, which keeps all points. The table covers the courses with wires."},
                   {table}};
     for (const Pairing& pairing : summary.overall) {
         if (!(pairing.condition == reference)) continue;
-        for (const Pairing& apart : wiresApart(summary, pairing)) {
-            wires.words.push_back(differenceText(apart));
+        for (const Pairing& apart : splitByWires(summary, pairing)) {
+            wires.paragraphs.push_back(differenceText(apart));
         }
     }
     sections.push_back(wires);
@@ -144,37 +156,39 @@ void addWires(const Report& report, std::vector<Section>& sections) {
 void addEffort(const Report& report, std::vector<Section>& sections) {
     const Summary& summary = report.summary;
     const trials::Condition& reference = summary.conditions.front();
-    Section effort{"Time from sensor to command at " + nameOf(reference),
-                   {"From the end of a turn to the command: waiting and all stages. Medians over "
-                    "a contender's own runs of a run's p50 and p95. A scan that waits when a newer "
-                    "one comes is "
-                    "dropped. Who flew straight flew other scenarios: compare within a guidance "
-                    "alone."},
-                   {effortTable(summary, reference)}};
+    Section effort{
+        "Latency from sensor to command at " + nameOf(reference),
+        {"From the end of a scan to the command, including waiting and all stages: "
+         "medians of the p50 and p95 of each run over all runs of a contender. A waiting "
+         "scan is dropped when a newer one arrives. Contenders with different guidance "
+         "flew different scenarios, so compare only contenders with the same guidance."},
+        {effortTable(summary, reference)}};
     effort.charts = {"command"};
     sections.push_back(effort);
     if (report.profile) {
-        Section stages{"Time of each stage",
-                       {"By the latency profile, one core of " + report.profile->machine + "."},
-                       {stageTable(summary, *report.profile)}};
+        Section stages{
+            "Time of each stage",
+            {"From the latency profile, measured on one core of " + report.profile->machine + "."},
+            {stageTable(summary, *report.profile)}};
         stages.charts = {"stages"};
         sections.push_back(stages);
     }
     if (!report.flown.measured.empty()) {
-        sections.push_back({"Memory and CPU time, measured while flying",
-                            {"On the machine that flew the campaign, perhaps on several cores at a "
-                             "time: medians over runs. Flights draw their latencies from the "
-                             "profile, not from these. Heap is what a model held at most."},
+        sections.push_back({"Memory and CPU time measured during the flights",
+                            {"Medians over runs, measured on the machine that flew the campaign, "
+                             "possibly with several processes at a time. Flights draw their "
+                             "latencies from the profile, not from these times. Peak heap is the "
+                             "maximum that a model held during a run."},
                             {measuredTable(report.flown.measured)}});
     }
     if (!report.memory.empty()) {
-        Section memory{"Memory against distance",
-                       {"Heap that a model holds, measured. One flight through forest-0.05 is "
-                        "repeated, each time "
-                        "from where it ended; the grid is allocated for the whole length at once. "
-                        "OctoMaps are not pruned "
-                        "in flight, which is quicker; pruned, they would hold about 0.6 of it."},
-                       {memoryTable(report.memory)}};
+        Section memory{
+            "Memory over distance flown",
+            {"Measured heap of each model along one flight through forest-0.05, repeated "
+             "end to end. The grid is allocated for the whole length at once. OctoMaps "
+             "are not pruned in flight, which is faster; pruned, they would take about "
+             "0.6 of this memory."},
+            {memoryTable(report.memory)}};
         memory.charts = {"memory"};
         sections.push_back(memory);
     }
@@ -186,23 +200,23 @@ std::string captionOf(const replays::OverheadView& view) {
                        nameOf(trials::Contender{run.setup.model, run.setup.guidance}) + ", " +
                        pages::figure(run.setup.speed_m_s, 1) +
                        " m/s: " + nameOf(run.result.outcome) + " after " +
-                       pages::figure(run.result.time_s, 1) + " s, least clearance " +
+                       pages::figure(run.result.time_s, 1) + " s, minimum clearance " +
                        pages::figure(run.result.min_clearance_m, 2) + " m.";
-    if (!view.is_same) text += " Flown again it came out otherwise: another version, or machine?";
+    if (!view.is_same) text += " Flown again, the result differs: another version or machine?";
     return text;
 }
 
 void addWorst(const Report& report, std::vector<Section>& sections) {
     if (report.worst.empty() && report.worst_missing.empty()) return;
-    Section worst{"The worst runs, from above", {}, {}};
+    Section worst{"The worst runs from above", {}, {}};
     if (!report.worst.empty()) {
-        worst.words.push_back(
-            "Flown again from their seeds: collisions first, then timeouts, by clearance; one of "
-            "each "
+        worst.paragraphs.push_back(
+            "Flown again from their seeds. Collisions first, then timeouts, by clearance; one per "
             "scenario and contender.");
         worst.html = replays::overheadLegend();
     }
-    worst.words.insert(worst.words.end(), report.worst_missing.begin(), report.worst_missing.end());
+    worst.paragraphs.insert(worst.paragraphs.end(), report.worst_missing.begin(),
+                            report.worst_missing.end());
     worst.html += "<div class=\"views\">";
     for (const replays::OverheadView& view : report.worst) {
         worst.html += "<figure>" + replays::svgOf(view) + "<figcaption>" +
@@ -216,12 +230,12 @@ std::vector<Section> sectionsOf(const Report& report) {
     std::vector<Section> sections;
     Section verdict{"Verdict", verdictOf(report.summary), {}};
     verdict.is_list = true;
-    const std::string unfinished = unfinishedWords(report.flown);
-    if (!unfinished.empty()) verdict.words.insert(verdict.words.begin(), unfinished);
+    const std::string unfinished = unfinishedSentence(report.flown);
+    if (!unfinished.empty()) verdict.paragraphs.insert(verdict.paragraphs.begin(), unfinished);
     sections.push_back(verdict);
-    Section flown{"What was flown", flownWords(report), {}};
+    Section flown{"Flights", flightSentences(report), {}};
     if (!unfinished.empty()) {
-        flown.words.push_back(unfinished);
+        flown.paragraphs.push_back(unfinished);
         flown.tables.push_back(shortfallTable(report.flown));
     }
     sections.push_back(flown);
@@ -238,11 +252,14 @@ std::vector<Section> sectionsOf(const Report& report) {
 std::string html(const Section& section) {
     std::string text;
     if (section.is_list) text += "<ul>";
-    for (const std::string& words : section.words) {
+    for (const std::string& paragraph : section.paragraphs) {
         const std::string tag = section.is_list ? "li" : "p";
-        text += "<" + tag + ">" + pages::htmlText(words) + "</" + tag + ">\n";
+        text += "<" + tag + ">" + pages::htmlText(paragraph) + "</" + tag + ">\n";
     }
     if (section.is_list) text += "</ul>";
+    if (!section.chart_caption.empty()) {
+        text += "<p>" + pages::htmlText(section.chart_caption) + "</p>\n";
+    }
     for (const std::string& chart : section.charts) {
         text += "<div class=\"charts\" id=\"chart-" + chart + "\"></div>\n";
     }
@@ -257,8 +274,8 @@ std::string html(const Section& section) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// The distribution of least clearances on courses that all of a guidance flew: quantiles at 0,
-/// 0.02, ..., 1.
+/// The distribution of minimum clearances on courses that all contenders of a guidance flew:
+/// quantiles at 0, 0.02, ..., 1.
 Json clearancesOf(const Report& report) {
     Json groups = Json::array();
     for (const SharedCourses& shared :
@@ -288,7 +305,8 @@ Json stagesJson(const Report& report) {
         for (const std::string& stage :
              stageNamesOf(contender, report.summary.conditions.front().planner, *report.profile)) {
             const std::vector<double>& q = report.profile->quantiles_ms.at(stage);
-            stages.push_back({{"stage", stage.substr(stage.find('/') + 1)},
+            stages.push_back({{"stage", stageText(stage, "")},
+                              {"of", stage.substr(stage.find_last_of("/+") + 1)},
                               {"p50_ms", base::quantile(q, 0.5)},
                               {"p95_ms", base::quantile(q, 0.95)}});
         }
@@ -298,10 +316,13 @@ Json stagesJson(const Report& report) {
     return all;
 }
 
-/// What the page's charts are drawn from.
+/// The data of the page's charts.
 Json dataOf(const Report& report) {
     Json data{{"summary", jsonOf(report.summary)}};
     if (report.summary.conditions.empty()) return data;
+    for (const std::string& model : avoidance::worldModelNames()) {
+        data["model_names"][model] = avoidance::displayName(model);
+    }
     data["reference"] = nameOf(report.summary.conditions.front());
     data["clearances"] = clearancesOf(report);
     data["stages"] = stagesJson(report);
@@ -329,13 +350,13 @@ std::string reportPage(const Report& report) {
 }
 
 std::string reportMarkdown(const Report& report) {
-    std::string text = "# Mapped against mapping-free avoidance\n";
+    std::string text = "# Obstacle avoidance with and without a map\n";
     for (const Section& section : sectionsOf(report)) {
         if (section.is_long || (!section.html.empty() && section.tables.empty())) continue;
         if (text.substr(text.size() - 2) != "\n\n") text += "\n";
         text += "## " + section.title + "\n\n";
-        for (const std::string& words : section.words) {
-            text += section.is_list ? "- " + words + "\n" : words + "\n\n";
+        for (const std::string& paragraph : section.paragraphs) {
+            text += section.is_list ? "- " + paragraph + "\n" : paragraph + "\n\n";
         }
         for (const pages::Table& table : section.tables) text += pages::markdownOf(table) + "\n";
     }

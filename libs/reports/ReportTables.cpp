@@ -1,5 +1,6 @@
 #include "ReportTables.h"
 
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Quantile.h>
 
 #include <algorithm>
@@ -62,17 +63,18 @@ pages::Table outcomeTable(const Summary& summary, const trials::Condition& condi
 }
 
 pages::Table pairingTable(const std::vector<Pairing>& pairings) {
-    pages::Table table{
-        {"scenario", "condition", "first", "second", "pairs", "only first", "only second",
-         "difference, points", "p (Holm)", "first is", "only it collided: first / second (p)"},
-        {}};
+    pages::Table table{{"scenario", "condition", "first", "second", "pairs", "only first succeeded",
+                        "only second succeeded", "difference, points", "p (Holm)", "first is",
+                        "only one collided: first / second (p)"},
+                       {}};
     for (const Pairing& pairing : pairings) {
         table.rows.push_back(
             {pairing.scenario.empty() ? "all" : pairing.scenario, nameOf(pairing.condition),
              nameOf(pairing.first), nameOf(pairing.second), std::to_string(pairing.pairs()),
              std::to_string(pairing.only_first), std::to_string(pairing.only_second),
              points(pairing.difference) + " (" + pointsOf(pairing.interval) + ")",
-             pText(pairing.p_holm), nameOf(pairing.verdict),
+             pText(pairing.p_holm),
+             pairing.verdict == Verdict::Open ? "undecided" : nameOf(pairing.verdict),
              std::to_string(pairing.only_first_collided) + " / " +
                  std::to_string(pairing.only_second_collided) + " (" +
                  pText(trials::mcNemar(pairing.only_first_collided, pairing.only_second_collided)) +
@@ -83,8 +85,8 @@ pages::Table pairingTable(const std::vector<Pairing>& pairings) {
 
 pages::Table speedTable(const Summary& summary) {
     pages::Table table{
-        {"scenario", "contender", "flown up to, m/s", "highest speed with success >= 95 %, m/s",
-         "the same of the interval's lower bound, m/s"},
+        {"scenario", "contender", "highest speed flown, m/s",
+         "highest speed with success >= 95 %, m/s", "highest speed with lower bound >= 95 %, m/s"},
         {}};
     for (const SpeedLimit& limit : summary.speed_limits) {
         const auto text = [](double speed) {
@@ -106,18 +108,18 @@ pages::Table squareTable(const Summary& summary, const trials::Condition& condit
         models.insert(cell.contender.model);
         scenarios.insert(cell.scenario);
     }
-    pages::Table table{{"scenario", "model"}, {}};
+    pages::Table table{{"scenario", "world model"}, {}};
     for (const std::string& guidance : guidances) {
         table.header.push_back(guidance == "astar" ? "A*" : guidance);
     }
     for (const std::string& scenario : scenarios) {
         for (const std::string& model : models) {
-            std::vector<std::string> row{scenario, model};
+            std::vector<std::string> row{scenario, avoidance::displayName(model)};
             for (const std::string& guidance : guidances) {
                 const Cell* cell = find(summary, scenario, condition, {model, guidance});
                 row.push_back(cell == nullptr ? "" : percentOfRuns(cell->successes, cell->runs));
             }
-            // A row of one cell compares nothing.
+            // A row with a single figure compares nothing.
             if (std::count(row.begin(), row.end(), "") + 2 < static_cast<long>(row.size()) - 1) {
                 table.rows.push_back(row);
             }
@@ -128,8 +130,8 @@ pages::Table squareTable(const Summary& summary, const trials::Condition& condit
 
 pages::Table flightTable(const SharedCourses& shared) {
     pages::Table table{
-        {"contender", "courses", "least clearance p5, m", "median, m", "path / oracle's",
-         "time to goal, s", "first reaction, m", "RMS jerk, m/s^3"},
+        {"contender", "courses", "minimum clearance p5, m", "minimum clearance median, m",
+         "path / shortest path", "time to goal, s", "first reaction, m", "RMS jerk, m/s^3"},
         {}};
     for (const Cell& cell : shared.cells) {
         table.rows.push_back({nameOf(cell.contender), std::to_string(cell.runs),
@@ -154,7 +156,7 @@ pages::Table wiresTable(const Summary& summary, const trials::Condition& conditi
 }
 
 pages::Table shortfallTable(const trials::FlownRuns& flown) {
-    pages::Table table{{"condition", "contender", "runs flown", "planned"}, {}};
+    pages::Table table{{"condition", "contender", "runs done", "runs planned"}, {}};
     for (const trials::Shortfall& one : flown.shortfalls) {
         table.rows.push_back({nameOf(one.condition), nameOf(one.contender),
                               std::to_string(one.flown), std::to_string(one.planned)});
@@ -163,8 +165,8 @@ pages::Table shortfallTable(const trials::FlownRuns& flown) {
 }
 
 pages::Table effortTable(const Summary& summary, const trials::Condition& condition) {
-    pages::Table table{{"contender", "sensor to command p50, ms", "p95, ms", "max, ms",
-                        "dropped scans, %", "emergency stops a km"},
+    pages::Table table{{"contender", "latency p50, ms", "latency p95, ms", "latency max, ms",
+                        "dropped scans, %", "emergency stops per km"},
                        {}};
     for (const trials::Contender& contender : contendersUnder(summary, condition)) {
         const Cell& cell = *find(summary, "", condition, contender);
@@ -194,6 +196,21 @@ std::vector<std::string> stageNamesOf(const trials::Contender& contender,
     return stages;
 }
 
+std::string stageText(const std::string& stage, const std::string& after_model) {
+    const std::size_t slash = stage.find('/');
+    if (slash == std::string::npos) return stage;
+    const auto guidanceText = [](const std::string& guidance) {
+        return guidance == "astar" ? "A*" : guidance;
+    };
+    std::string step = stage.substr(slash + 1);
+    const std::size_t plus = step.find('+');
+    step = plus == std::string::npos
+               ? guidanceText(step)
+               : step.substr(plus + 1) + " after " + guidanceText(step.substr(0, plus));
+    if (after_model.empty()) return step;
+    return avoidance::displayName(stage.substr(0, slash)) + after_model + step;
+}
+
 pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& profile) {
     pages::Table table{{"stage", "p50, ms", "p95, ms", "max, ms"}, {}};
     if (summary.conditions.empty()) return table;
@@ -203,7 +220,7 @@ pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& pr
              stageNamesOf(contender, summary.conditions.front().planner, profile)) {
             if (!shown.insert(stage).second) continue;
             const std::vector<double>& q = profile.quantiles_ms.at(stage);
-            table.rows.push_back({stage, pages::figure(base::quantile(q, 0.5), 2),
+            table.rows.push_back({stageText(stage, ": "), pages::figure(base::quantile(q, 0.5), 2),
                                   pages::figure(base::quantile(q, 0.95), 2),
                                   pages::figure(q.back(), 2)});
         }
@@ -212,7 +229,7 @@ pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& pr
 }
 
 pages::Table measuredTable(const trials::MeasuredByModel& measured) {
-    pages::Table table{{"model", "runs", "peak heap, median, MB", "most, MB"}, {}};
+    pages::Table table{{"world model", "runs", "peak heap median, MB", "peak heap max, MB"}, {}};
     std::set<std::string> stages;
     for (const auto& [model, runs] : measured) {
         for (const auto& [stage, values] : runs.p50_ms) stages.insert(stage);
@@ -220,7 +237,7 @@ pages::Table measuredTable(const trials::MeasuredByModel& measured) {
     for (const std::string& stage : stages) table.header.push_back(stage + " p50, ms");
     for (const auto& [model, runs] : measured) {
         const std::vector<double>& bytes = runs.peak_model_bytes;
-        std::vector<std::string> row{model, std::to_string(bytes.size()),
+        std::vector<std::string> row{avoidance::displayName(model), std::to_string(bytes.size()),
                                      pages::figure(1e-6 * base::quantile(bytes, 0.5), 2),
                                      pages::figure(1e-6 * base::quantile(bytes, 1), 2)};
         for (const std::string& stage : stages) {
@@ -235,14 +252,15 @@ pages::Table measuredTable(const trials::MeasuredByModel& measured) {
 }
 
 pages::Table memoryTable(const std::vector<trials::HeapCurve>& memory) {
-    pages::Table table{{"model", "flown, m", "at the end, MB", "peak, MB"}, {}};
+    pages::Table table{{"world model", "distance flown, m", "heap at the end, MB", "peak heap, MB"},
+                       {}};
     for (const trials::HeapCurve& curve : memory) {
         if (curve.bytes_by_path_m.empty()) continue;
         double peak = 0;
         for (const auto& [path_m, bytes] : curve.bytes_by_path_m) peak = std::max(peak, bytes);
         const auto& [path_m, bytes] = curve.bytes_by_path_m.back();
-        table.rows.push_back({curve.model, pages::figure(path_m, 0), pages::figure(1e-6 * bytes, 2),
-                              pages::figure(1e-6 * peak, 2)});
+        table.rows.push_back({avoidance::displayName(curve.model), pages::figure(path_m, 0),
+                              pages::figure(1e-6 * bytes, 2), pages::figure(1e-6 * peak, 2)});
     }
     return table;
 }

@@ -8,32 +8,36 @@
 
 namespace hagen::reports {
 
-/// Scenarios by contenders, of a condition: share in percent, its interval, and of how many runs.
+/// Scenarios by contenders under one condition: rate in percent, its interval, number of runs.
 pages::Table successTable(const Summary& summary, const trials::Condition& condition);
 pages::Table collisionTable(const Summary& summary, const trials::Condition& condition);
 pages::Table outcomeTable(const Summary& summary,
-                          const trials::Condition& condition);  ///< a row a cell
+                          const trials::Condition& condition);  ///< one row per cell
 
 pages::Table pairingTable(const std::vector<Pairing>& pairings);
 pages::Table speedTable(const Summary& summary);
 pages::Table squareTable(const Summary& summary,
                          const trials::Condition& condition);  ///< model x guidance
-pages::Table flightTable(const SharedCourses& shared);         ///< clearance, path, ...
+pages::Table flightTable(const SharedCourses& shared);         ///< clearance, path, time, ...
 pages::Table wiresTable(const Summary& summary,
-                        const trials::Condition& condition);  ///< a row a contender
+                        const trials::Condition& condition);  ///< one row per contender
 pages::Table shortfallTable(const trials::FlownRuns& flown);
 pages::Table effortTable(const Summary& summary,
                          const trials::Condition& condition);  ///< latency, drops, ...
-/// p50, p95 and max of each stage of the models that flew.
+/// p50, p95 and maximum of each stage of the models that flew.
 pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& profile);
-/// CPU time and heap of each model, as measured while flying.
+/// CPU time and heap of each model, measured during the flights.
 pages::Table measuredTable(const trials::MeasuredByModel& measured);
 pages::Table memoryTable(const std::vector<trials::HeapCurve>& memory);
 
-/// Stages that a contender's scans go through, in order, by the profile's names; those alone that
-/// the profile has.
+/// The stages of a contender's planning step, in order, by their names in the profile. Stages that
+/// the profile lacks are left out.
 std::vector<std::string> stageNamesOf(const trials::Contender& contender,
                                       const std::string& planner,
                                       const trials::LatencyProfile& profile);
+
+/// A stage for people: "W-RoI/astar+primitives" as "RoI window: primitives after A*". Without
+/// `after_model` (here ": ") the model is left out.
+std::string stageText(const std::string& stage, const std::string& after_model);
 
 }  // namespace hagen::reports

@@ -17,7 +17,7 @@ bool allOf(const std::vector<const trials::Run*>& flights, Holds holds) {
                        [&](const trials::Run* run) { return holds(run->result); });
 }
 
-/// A course's flights in the order of the contenders; none where one of them did not fly it.
+/// The flights of a course in the order of the contenders; empty if one of them did not fly it.
 std::vector<const trials::Run*> flightsOf(const std::vector<trials::Contender>& contenders,
                                           const ByContender& flights) {
     std::vector<const trials::Run*> of;
@@ -76,8 +76,8 @@ std::map<trials::Contender, int> flownBy(const std::map<CourseKey, ByContender>&
     return counts;
 }
 
-/// Numbers of courses that contenders have in common, the largest first; those that differ by less
-/// than a tenth are one.
+/// Distinct numbers of courses flown, the largest first; those that differ by less than a tenth are
+/// merged.
 std::vector<int> levelsOf(const std::map<trials::Contender, int>& counts) {
     std::vector<int> sorted;
     for (const auto& [contender, count] : counts) sorted.push_back(count);

@@ -55,7 +55,7 @@ struct Comparison {
     trials::Contender first, second;
 };
 
-/// Who is compared with whom, of those that flew under a condition.
+/// The comparisons between contenders that flew under one condition.
 std::vector<Comparison> comparisonsOf(const std::set<trials::Contender>& contenders) {
     std::vector<Comparison> comparisons;
     for (const trials::Contender& first : contenders) {
@@ -63,11 +63,11 @@ std::vector<Comparison> comparisonsOf(const std::set<trials::Contender>& contend
         for (const trials::Contender& second : contenders) {
             const bool same_guidance = second.guidance == first.guidance;
             const bool is_itself = second == first;
-            const bool free_or_mapped = first.guidance == "straight" &&
-                                        second.guidance != "straight" && isMap(second.model);
+            const bool is_map_with_search = first.guidance == "straight" &&
+                                            second.guidance != "straight" && isMap(second.model);
             const bool other_guidance =
                 first.guidance != "straight" && second.model == kMappingFree;
-            if (is_itself || !(same_guidance || free_or_mapped || other_guidance)) continue;
+            if (is_itself || !(same_guidance || is_map_with_search || other_guidance)) continue;
             comparisons.push_back({first, second});
         }
     }
@@ -129,9 +129,9 @@ void addPairings(const Flights& flights, Summary& summary) {
             }
             if (all.pairs() > 0) summary.overall.push_back(all);
             for (const auto& [scenario, one] : by_scenario) summary.pairings.push_back(one);
-            const bool is_of_windows = comparison.second.model == "W-Full";
+            const bool is_full_window = comparison.second.model == "W-Full";
             const int others = without_wires.pairs();
-            if (is_of_windows && others > 0 && others < all.pairs()) {
+            if (is_full_window && others > 0 && others < all.pairs()) {
                 summary.without_wires.push_back(without_wires);
             }
         }
@@ -163,7 +163,7 @@ void addCells(const Flights& flights, Summary& summary) {
     }
 }
 
-/// Speeds at which all else is the same, from low to high.
+/// Compares speeds under otherwise equal conditions, from low to high.
 void addSpeedLimits(Summary& summary) {
     std::map<std::tuple<std::string, trials::Contender,
                         std::tuple<std::string, trials::PoseError, double, bool>>,
@@ -245,7 +245,7 @@ Cell cellOf(const std::string& scenario, const Runs& runs) {
     cell.timeouts = cell.runs - cell.successes - cell.collisions;
     cell.min_clearance_m = spreadOf(runs, &trials::TrialResult::min_clearance_m);
     cell.path_ratio =
-        spreadOf(won, [](const trials::Run& run) {  // a flight ends that far from the goal
+        spreadOf(won, [](const trials::Run& run) {  // a flight ends this far from the goal
             return run.result.path_m / (run.oracle_path_m - trials::TrialJudge::kArrived_m);
         });
     cell.time_s = spreadOf(won, &trials::TrialResult::time_s);

@@ -4,7 +4,7 @@
 
 namespace hagen::reports {
 
-/// All of a summary; what is NaN is null.
+/// The whole summary; NaN is null.
 base::Json jsonOf(const Summary& summary);
 
 }  // namespace hagen::reports

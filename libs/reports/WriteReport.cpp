@@ -1,7 +1,8 @@
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/reports/Report.h>
-#include <hagen/reports/ReportWords.h>
+#include <hagen/reports/ReportSentences.h>
 #include <hagen/reports/SummaryFiles.h>
 #include <hagen/reports/Verdict.h>
 #include <hagen/reports/WriteReport.h>
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text file that is to appear with others.
+/// A text file that appears together with others.
 struct TextOutput {
     TextOutput(const fs::path& path, bool overwrite, std::string content)
         : place(path, base::kFile, overwrite), text(std::move(content)) {
@@ -23,19 +24,19 @@ struct TextOutput {
     std::string text;
 };
 
-/// All that the folder tells, but for the worst runs.
+/// Everything except the worst runs.
 Report readReport(const ReportRequest& request) {
     const fs::path& folder = request.folder;
     if (!fs::is_directory(folder)) {
-        throw std::runtime_error(folder.string() +
-                                 ": no such folder; give one of octomap-compare closedloop");
+        throw std::runtime_error(
+            folder.string() +
+            ": no such folder; expected one written by octomap-compare closedloop");
     }
     Report report;
     report.flown = trials::readFlownRuns(folder);
     if (report.flown.runs.empty()) {
         throw std::runtime_error(folder.string() +
-                                 ": no run is finished yet; fly some with octomap-compare "
-                                 "closedloop");
+                                 ": no run is finished yet; run octomap-compare closedloop");
     }
     report.summary = summarize(report.flown.runs);
     if (fs::exists(folder / "profile.json")) {
@@ -47,7 +48,7 @@ Report readReport(const ReportRequest& request) {
     return report;
 }
 
-/// What cannot be written is to be told before minutes of flying.
+/// Finds out what cannot be written before minutes of flying.
 void checkOutputs(const ReportRequest& request) {
     const auto check = [&](const fs::path& path) {
         base::OutputPath(path, base::kFile, request.overwrite);
@@ -61,12 +62,12 @@ void checkOutputs(const ReportRequest& request) {
 void addWorst(const ReportRequest& request, Report& report) {
     if (request.worst == 0) return;
     if (!report.profile) {
-        report.worst_missing = {"They cannot be flown again: the folder has no profile.json."};
+        report.worst_missing = {"The runs cannot be flown again: the folder has no profile.json."};
         return;
     }
     for (const trials::Run& run : replays::worstRuns(report.flown.runs, request.worst)) {
         const std::string course = run.scenario + ", seed " + std::to_string(run.seed);
-        request.doing("flying again: " + course + ", " + run.setup.model);
+        request.doing("flying again: " + course + ", " + avoidance::displayName(run.setup.model));
         try {
             report.worst.push_back(replays::viewFromAbove(run, *report.profile));
         } catch (const std::exception& e) {
@@ -98,9 +99,9 @@ std::vector<std::string> writeReport(const ReportRequest& request) {
     writeOutputs(request, report);
 
     std::vector<std::string> lines;
-    const std::string unfinished = unfinishedWords(report.flown);
+    const std::string unfinished = unfinishedSentence(report.flown);
     if (!unfinished.empty()) lines.push_back(unfinished);
-    for (const std::string& words : verdictOf(report.summary)) lines.push_back(words);
+    for (const std::string& sentence : verdictOf(report.summary)) lines.push_back(sentence);
     lines.push_back((request.folder / "report.html").string());
     return lines;
 }

@@ -34,7 +34,7 @@ std::string today() {
     return text;
 }
 
-/// A flight's scans, and the way flown when each was taken.
+/// The scans of a flight, and the distance flown at each.
 struct RecordedScans {
     std::vector<mapping::MappedScan> scans;
     std::vector<double> path_m;

@@ -138,8 +138,8 @@ std::size_t flyCampaign(const std::vector<CourseFlights>& flights, const Campaig
     }
     const std::string failure = flyAll(shares, all, options, jobs);
     const std::size_t done = doneOf(jobs);
-    const std::string kept = " are kept in " + (folder.path() / "journal").string() +
-                             ", and the same command goes on from there";
+    const std::string kept =
+        " are kept in " + (folder.path() / "journal").string() + "; the same command resumes there";
     if (!failure.empty()) {
         throw std::runtime_error(failure + "; " + std::to_string(done) + " finished runs" + kept);
     }

@@ -22,11 +22,11 @@ CampaignFolder::CampaignFolder(fs::path folder, const LatencyProfile& profile, b
 
 void CampaignFolder::open(bool overwrite) {
     fs::create_directories(folder_);
-    lock_ = lockFolder(folder_);  // before looking: another program may be making it a campaign's
+    lock_ = lockFolder(folder_);  // first of all, because another program may be setting it up
     const bool is_new = fs::is_empty(folder_);
     if (!is_new && !fs::exists(folder_ / "campaign.json")) {
         throw std::runtime_error(folder_.string() +
-                                 ": exists, and holds no campaign; name another folder");
+                                 ": exists and contains no campaign; choose another folder");
     }
     if (overwrite) removeAll();
     if (is_new || overwrite) return begin();
@@ -34,8 +34,8 @@ void CampaignFolder::open(bool overwrite) {
     if (found.settings_hash != settingsHash()) {
         throw std::runtime_error(
             folder_.string() +
-            ": holds runs of other settings (profile, version, filter or vehicle); name another "
-            "folder, give the profile of this one, or --overwrite");
+            ": contains runs with other settings (profile, version, filter or vehicle); choose "
+            "another folder, give the profile of this one, or use --overwrite");
     }
     campaign_ = std::move(found);
     readTables();
@@ -71,7 +71,7 @@ void CampaignFolder::note(const CampaignPlan& plan) {
 void CampaignFolder::keep(const std::string& text, const std::string& measured,
                           const std::string& from) {
     const Run run = runOf(text);
-    if (run.settings_hash != settingsHash()) throw std::runtime_error("a run of other settings");
+    if (run.settings_hash != settingsHash()) throw std::runtime_error("a run with other settings");
     const auto [row, is_new] = rows_.try_emplace(keyOf(run), Row{run, text, measured});
     if (!is_new && row->second.text != text) {
         throw std::runtime_error("contradicts another result of the same run (" + from +

@@ -9,14 +9,18 @@
 namespace hagen::trials {
 namespace {
 
+std::string joined(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all;
+}
+
 void checkNames(const std::string& what, const std::vector<std::string>& names,
-                const std::vector<std::string>& known) {
+                const std::vector<std::string>& known, const std::string& list) {
     if (names.empty()) throw std::invalid_argument("no " + what + " is given");
     for (const std::string& name : names) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        std::string all;
-        for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
-        throw std::invalid_argument("unknown " + what + " '" + name + "'; known are " + all);
+        throw std::invalid_argument("unknown " + what + " '" + name + "'; known are " + list);
     }
 }
 
@@ -24,16 +28,19 @@ void checkPositive(const std::string& what, const std::vector<double>& values) {
     if (values.empty()) throw std::invalid_argument("no " + what + " is given");
     for (const double value : values) {
         if (!(value > 0 && value <= 100)) {
-            throw std::invalid_argument("a " + what + " must be more than 0, and at most 100");
+            throw std::invalid_argument("a " + what + " must be above 0 and at most 100");
         }
     }
 }
 
 void check(const CampaignPlan& plan, const Shard& shard) {
-    checkNames("scenario", plan.scenarios, courseNames());
-    checkNames("model", plan.models, avoidance::worldModelNames());
-    checkNames("guidance", plan.guidances, avoidance::guidanceNames());
-    checkNames("planner", plan.planners, avoidance::plannerNames());
+    checkNames("scenario", plan.scenarios, courseNames(), joined(courseNames()));
+    checkNames("world model", plan.models, avoidance::worldModelNames(),
+               avoidance::worldModelList());
+    checkNames("guidance", plan.guidances, avoidance::guidanceNames(),
+               joined(avoidance::guidanceNames()));
+    checkNames("planner", plan.planners, avoidance::plannerNames(),
+               joined(avoidance::plannerNames()));
     checkPositive("speed", plan.speeds_m_s);
     checkPositive("latency scale", plan.latency_scales);
     if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
@@ -41,7 +48,7 @@ void check(const CampaignPlan& plan, const Shard& shard) {
         throw std::invalid_argument("the last seed is before the first");
     }
     if (shard.of < 1 || shard.number < 1 || shard.number > shard.of) {
-        throw std::invalid_argument("a shard is i/n with i from 1 to n");
+        throw std::invalid_argument("a shard must be i/n with i from 1 to n");
     }
 }
 

@@ -1,9 +1,10 @@
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/trials/Condition.h>
 
 namespace hagen::trials {
 namespace {
 
-/// Without zeros at the end.
+/// Without trailing zeros.
 std::string numberText(double value) {
     std::string text = std::to_string(value);
     text.erase(text.find_last_not_of('0') + 1);
@@ -22,7 +23,8 @@ Condition conditionOf(const Run& run) {
 Contender contenderOf(const Run& run) { return {run.setup.model, run.setup.guidance}; }
 
 std::string nameOf(const Contender& contender) {
-    return contender.model + ", " + (contender.guidance == "astar" ? "A*" : contender.guidance);
+    return avoidance::displayName(contender.model) + ", " +
+           (contender.guidance == "astar" ? "A*" : contender.guidance);
 }
 
 std::string nameOf(const Condition& condition) {

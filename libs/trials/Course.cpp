@@ -69,7 +69,7 @@ std::optional<double> oraclePath_m(const Course& course) {
     };
     avoidance::PathSearchOptions options;
     options.bounds_m = course.bounds_m;
-    options.least_clearance_m = options.wanted_clearance_m = kCourseClearance_m;
+    options.min_clearance_m = options.wanted_clearance_m = kCourseClearance_m;
     const auto path = avoidance::findPath(clearance_m, course.start_m, course.goal_m, options);
     if (!path) return std::nullopt;
     return cutLength_m(clearance_m, *path);
@@ -125,7 +125,7 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
     }
     throw std::runtime_error("course '" + scenario + "', seed " + std::to_string(seed) +
                              ": no scene of " + std::to_string(kMostAttempts) +
-                             " has a path; take another seed");
+                             " has a path; choose another seed");
 }
 
 simulation::SensorErrorModel trialErrorModel() {

@@ -12,7 +12,8 @@ namespace {
 using Eigen::Vector2d;
 using Shapes = std::vector<std::size_t>;
 
-/// Only what is flown over is meshed finely, so that scenes are made, and scanned, quickly.
+/// Only the ground that is flown over is meshed finely, so that scenes are made and scanned
+/// quickly.
 constexpr simulation::GroundExtent kGround{48, 20, 90};
 
 simulation::SceneBuilder groundOf(double slope_deg, double bump_m, double grass_m,
@@ -35,20 +36,20 @@ Vector2d anywhere(simulation::Random& random) {
     return {x_m, y_m};
 }
 
-/// Whether what reaches this far about a place leaves start and goal free.
+/// Whether an object of this radius at a place leaves start and goal free.
 bool leavesEndsFree(const Vector2d& at_m, double radius_m) {
     const double near_m = radius_m + kFreeAtEnds_m;
     return (at_m - kCourseStart_m).norm() > near_m && (at_m - kCourseGoal_m).norm() > near_m;
 }
 
-/// Calls put(place) at random places of a density over the field (a Poisson process).
+/// Calls put(place) at random places with a density over the field (a Poisson process).
 template <class Put>
 void scatter(simulation::SceneBuilder& builder, double per_m2, const Put& put) {
     const int count = builder.random().poisson(per_m2 * kCourseField_m.volume());
     for (int i = 0; i < count; ++i) put(anywhere(builder.random()));
 }
 
-/// A tree of a wood, of fewer and larger leaves than those of the scenarios.
+/// A forest tree with fewer and larger leaves than in the scenarios.
 simulation::TreeParameters lightTree(simulation::Random& random) {
     simulation::TreeParameters form;
     form.height_m = random.uniform(5.5, 9.0);
@@ -101,8 +102,8 @@ simulation::Scene makeForest(double per_m2, const simulation::Random& random) {
     return builder.build();
 }
 
-/// Rows 4 m apart, a tree every 3 m, at an angle to the way: the flight has to change rows where a
-/// tree is missing.
+/// Rows 4 m apart with a tree every 3 m, at an angle to the path: the flight has to change rows
+/// where a tree is missing.
 simulation::Scene makeOrchard(simulation::Random random) {
     simulation::SceneBuilder builder = groundOf(3, 0.04, 0.15, random);
     simulation::Random& r = builder.random();
@@ -137,7 +138,7 @@ simulation::Scene makeOrchard(simulation::Random random) {
     return builder.build();
 }
 
-constexpr double kWallHeight_m = 6;  // higher than one may fly
+constexpr double kWallHeight_m = 6;  // above the altitude limit
 constexpr double kBesideField_m = 19;
 
 /// A wall across the field, with a gap that is not straight ahead; few trees.
@@ -194,7 +195,7 @@ simulation::Scene makeTerrain(const simulation::Random& random) {
     return builder.build();
 }
 
-/// Lines of poles across the way. Of each one wire is about as high as one flies, others above.
+/// Lines of poles across the path. One wire of each is at about flight altitude, the others above.
 simulation::Scene makeWires(const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(3, 0.04, 0.12, random);
     simulation::Random& r = builder.random();
@@ -217,7 +218,7 @@ simulation::Scene makeWires(const simulation::Random& random) {
 
 constexpr double kLongestMover_m = 2.3;  // half of it: a car's
 
-/// Adds movers whose circles cross the way, but not where it begins or ends.
+/// Adds movers whose circles cross the path, but not near its ends.
 template <class ShapeOf>
 void addMovers(simulation::SceneBuilder& builder, int count,
                const simulation::MovingObstacle& least, const simulation::MovingObstacle& most,
@@ -280,7 +281,8 @@ void addGardenWalls(simulation::SceneBuilder& builder) {
     }
 }
 
-/// Parked cars, also in the middle, where one flies as high as they are; lamps, trees, walls.
+/// Parked cars, also in the middle of the street and as tall as the flight altitude; lamps, trees,
+/// walls.
 simulation::Scene makeStreet(const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(2, 0.02, 0.08, random);
     simulation::Random& r = builder.random();

@@ -15,7 +15,7 @@ inline std::string measureText(double value, int decimals) {
 template <class Number>
 Number parsedNumber(const std::string& text) {
     if (const auto value = base::numberFrom<Number>(text)) return *value;
-    throw std::runtime_error("\"" + text + "\" is no number");
+    throw std::runtime_error("\"" + text + "\" is not a number");
 }
 
 }  // namespace hagen::trials

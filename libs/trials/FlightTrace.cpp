@@ -26,9 +26,9 @@ void FlightTrace::add(const avoidance::VehicleState& state,
     const double share = 1 - std::exp(-avoidance::kControlStep_s / kTilt_s);
     const Eigen::Vector3d change = share * (acceleration_m_s2 - last.smooth_m_s2);
     const Eigen::Vector3d smooth = last.smooth_m_s2 + change;
-    const double way_m = last.way_m + (state.position_m - last.pose.position_m).norm();
+    const double distance_m = last.distance_m + (state.position_m - last.pose.position_m).norm();
     squared_jerk_ += (change / avoidance::kControlStep_s).squaredNorm();
-    samples_.push_back({{state.position_m, tiltedBy(smooth)}, smooth, way_m});
+    samples_.push_back({{state.position_m, tiltedBy(smooth)}, smooth, distance_m});
 }
 
 FlightTrace::Place FlightTrace::placeOf(double time_s) const {
@@ -46,9 +46,10 @@ simulation::SensorPose FlightTrace::at(double time_s) const {
             a.attitude.slerp(place.share, b.attitude)};
 }
 
-double FlightTrace::way_m(double time_s) const {
+double FlightTrace::distance_m(double time_s) const {
     const Place place = placeOf(time_s);
-    return place.before.way_m + place.share * (place.after.way_m - place.before.way_m);
+    return place.before.distance_m +
+           place.share * (place.after.distance_m - place.before.distance_m);
 }
 
 double FlightTrace::rmsJerk_m_s3() const {

@@ -30,7 +30,7 @@ void addJournal(const fs::path& journal, std::set<std::string>& keys, FlownRuns&
     }
 }
 
-/// Each planned run once, whatever the number of plans that ask for it.
+/// Each planned run once, even if several plans contain it.
 std::map<std::string, Run> plannedRuns(const fs::path& folder) {
     std::map<std::string, Run> planned;
     for (const CampaignPlan& plan : readPlans(folder)) {
@@ -76,7 +76,8 @@ FlownRuns readWith(const std::vector<fs::path>& journals, const fs::path& folder
     const bool has_table = fs::exists(folder / "runs.csv");
     if (!has_table && journals.empty() && !fs::exists(folder / "campaign.json")) {
         throw std::runtime_error(
-            folder.string() + ": holds no campaign; give a folder of octomap-compare closedloop");
+            folder.string() +
+            ": contains no campaign; expected a folder of octomap-compare closedloop");
     }
     if (has_table) flown.runs = readRuns(folder / "runs.csv");
     if (fs::exists(folder / "measured.csv")) flown.measured = readMeasured(folder / "measured.csv");
@@ -96,8 +97,8 @@ bool isOneGone(const std::vector<fs::path>& journals) {
 }  // namespace
 
 FlownRuns readFlownRuns(const fs::path& folder) {
-    // A campaign that ends meanwhile writes runs.csv and removes its journals: then all is read
-    // anew, for what stood in them is in the table now.
+    // A campaign that ends meanwhile writes runs.csv and removes its journals. Then everything is
+    // read again, because the table has the runs of the journals now.
     constexpr int kAttempts = 5;
     for (int attempt = 1;; ++attempt) {
         const std::vector<fs::path> journals = journalsIn(folder);

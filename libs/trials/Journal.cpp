@@ -43,7 +43,7 @@ std::vector<JournalLine> readJournal(const fs::path& file) {
         const std::size_t tab = lines[line].find('\t');
         if (tab == std::string::npos || lines[line].back() != ';') {
             if (line + 1 == lines.size()) break;  // torn: this run is flown again
-            throw std::runtime_error(placeOf(file, line) + ": is no line of a journal");
+            throw std::runtime_error(placeOf(file, line) + ": is not a line of a journal");
         }
         whole.push_back({lines[line].substr(0, tab),
                          lines[line].substr(tab + 1, lines[line].size() - tab - 2)});

@@ -38,7 +38,7 @@ std::vector<double> quantilesFrom(const Json& value) {
 LatencyProfile profileFrom(const Json& root) {
     const Json* by_stage = root.find("quantiles_ms");
     if (by_stage == nullptr || !by_stage->isObject()) {
-        throw std::runtime_error("there is no key 'quantiles_ms'; `calibrate` makes such files");
+        throw std::runtime_error("has no key 'quantiles_ms'; expected a file made by `calibrate`");
     }
     LatencyProfile profile;
     for (const auto& [key, text] : {std::pair{"machine", &profile.machine},

@@ -22,7 +22,7 @@ std::vector<std::string> fieldsOf(const std::string& line) {
 void add(const std::string& text, std::vector<double>& values) {
     if (text.empty()) return;
     const auto value = base::numberFrom<double>(text);
-    if (!value) throw std::runtime_error("\"" + text + "\" is no number");
+    if (!value) throw std::runtime_error("\"" + text + "\" is not a number");
     values.push_back(*value);
 }
 
@@ -30,7 +30,8 @@ void add(const std::string& text, std::vector<double>& values) {
 
 void addMeasured(const std::string& header, const std::string& row, MeasuredByModel& all) {
     const std::vector<std::string> names = fieldsOf(header), fields = fieldsOf(row);
-    if (fields.size() != names.size()) throw std::runtime_error("not as many fields as columns");
+    if (fields.size() != names.size())
+        throw std::runtime_error("number of fields differs from the header");
     std::string model;
     for (std::size_t c = 0; c < names.size(); ++c) {
         if (names[c] == "model") model = fields[c];

@@ -11,10 +11,10 @@ std::size_t mergeCampaigns(const std::vector<fs::path>& folders, const fs::path&
     if (folders.empty()) throw std::invalid_argument("no folder to merge is given");
     for (const fs::path& folder : folders) {
         if (!fs::exists(folder / "campaign.json")) {
-            throw std::runtime_error(folder.string() + ": holds no campaign (campaign.json)");
+            throw std::runtime_error(folder.string() + ": contains no campaign (campaign.json)");
         }
         if (fs::exists(into) && fs::equivalent(folder, into)) {
-            throw std::runtime_error(folder.string() + ": is the output, too");
+            throw std::runtime_error(folder.string() + ": is also the output");
         }
     }
     const auto profileOf = [](const fs::path& folder) {

@@ -47,7 +47,7 @@ PoseBelief::Knot PoseBelief::knotAt(double time_s) {
 
 Eigen::Vector3d PoseBelief::offset_m(const FlightTrace& trace, double time_s) {
     if (error_ == PoseError::Noise) return knotAt(time_s).offset_m;
-    if (error_ == PoseError::Drift) return kDrift * trace.way_m(time_s) * direction_;
+    if (error_ == PoseError::Drift) return kDrift * trace.distance_m(time_s) * direction_;
     return Eigen::Vector3d::Zero();
 }
 

@@ -131,7 +131,8 @@ class TrialFlight {
         scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
         const std::string prefix = setup_.model + "/";
         const std::string planner = prefix + setup_.guidance + "+" + setup_.planner;
-        stopwatch_.weigh(prefix + "update", trace_.way_m(time_s), [&] { world_->update(scan); });
+        stopwatch_.weigh(prefix + "update", trace_.distance_m(time_s),
+                         [&] { world_->update(scan); });
 
         const avoidance::VehicleState now =
             commands_.advanced(state_, time_s, start_s, setup_.limits);
@@ -206,14 +207,14 @@ class TrialFlight {
     void note(const avoidance::Plan& plan, const avoidance::VehicleState& now, double time_s) {
         if (plan.is_emergency && !in_emergency_) {
             ++result_.emergency_stops;
-            tell("emergency stop");
+            notify("emergency stop");
         }
         in_emergency_ = plan.is_emergency;
         const Eigen::Vector3d to_goal = course_.goal_m - now.position_m;
         if (std::isnan(result_.first_reaction_m) &&
             leavesCourse(plan.command_m_s, to_goal, setup_.speed_m_s)) {
             result_.first_reaction_m =
-                freeWay_m(course_, now.position_m, setup_.limits.room_m(), time_s);
+                freeDistance_m(course_, now.position_m, setup_.limits.clearance_radius_m(), time_s);
         }
     }
 
@@ -224,13 +225,13 @@ class TrialFlight {
         result_.latency_p50_ms = base::quantile(latency_ms_, 0.5);
         result_.latency_p95_ms = base::quantile(latency_ms_, 0.95);
         result_.latency_max_ms = base::quantile(latency_ms_, 1);
-        tell(outcome == Outcome::Success     ? "success"
-             : outcome == Outcome::Collision ? "collision"
-                                             : "timeout");
+        notify(outcome == Outcome::Success     ? "success"
+               : outcome == Outcome::Collision ? "collision"
+                                               : "timeout");
         return result_;
     }
 
-    void tell(const std::string& what) const {
+    void notify(const std::string& what) const {
         if (listener_.event) listener_.event(what);
     }
 

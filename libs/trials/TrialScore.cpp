@@ -43,16 +43,16 @@ bool TrialJudge::isLate(const Eigen::Vector3d& position_m, double time_s) {
            course_.bounds_m.exteriorDistance(position_m) > kOutside_m;
 }
 
-double freeWay_m(const Course& course, const Eigen::Vector3d& position_m, double room_m,
-                 double time_s) {
+double freeDistance_m(const Course& course, const Eigen::Vector3d& position_m,
+                      double clearance_radius_m, double time_s) {
     constexpr double kLeastStep_m = 0.05;
     const Eigen::Vector3d to_goal = course.goal_m - position_m;
     const double all_m = to_goal.norm();
-    for (double way_m = 0; way_m < all_m;) {
-        const Eigen::Vector3d at = position_m + to_goal * (way_m / all_m);
+    for (double distance_m = 0; distance_m < all_m;) {
+        const Eigen::Vector3d at = position_m + to_goal * (distance_m / all_m);
         const auto clearance_m = static_cast<double>(course.distance.at(at.cast<float>(), time_s));
-        if (clearance_m < room_m) return way_m;
-        way_m += std::max(kLeastStep_m, clearance_m - room_m);
+        if (clearance_m < clearance_radius_m) return distance_m;
+        distance_m += std::max(kLeastStep_m, clearance_m - clearance_radius_m);
     }
     return kNone;
 }

@@ -20,7 +20,7 @@ Value wordFrom(const std::string& text, const std::array<const char*, count>& wo
         if (text == words[w]) return static_cast<Value>(w);
         known += std::string(w > 0 ? ", " : "") + words[w];
     }
-    throw std::runtime_error("\"" + text + "\" is none of " + known);
+    throw std::runtime_error("\"" + text + "\" is not one of " + known);
 }
 
 }  // namespace hagen::trials

@@ -113,8 +113,11 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
     EXPECT_THAT(one.err, Not(HasSubstr("\r")));
     const std::string runs = readFile(folder / "one/runs.csv");
     EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 7);
-    ASSERT_EQ(octomapCompare(flying(folder, "two", {"--jobs", "2"})).exit_code, 0);
+    auto two = flying(folder, "two", {"--jobs", "2"});
+    *(std::find(two.begin(), two.end(), "--models") + 1) = "RoI window,true scene";
+    ASSERT_EQ(octomapCompare(two).exit_code, 0);
     EXPECT_EQ(readFile(folder / "two/runs.csv"), runs);
+    EXPECT_EQ(readFile(folder / "two/campaign.json"), readFile(folder / "one/campaign.json"));
     for (const char* shard : {"1/3", "2/3", "3/3"}) {
         const std::string into = std::string("shard") + shard[0];
         ASSERT_EQ(octomapCompare(flying(folder, into, {"--shard", shard})).exit_code, 0);
@@ -127,6 +130,7 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
                   .exit_code,
               0);
     EXPECT_EQ(readFile(folder / "merged/runs.csv"), runs);
+    EXPECT_THAT(one.out, AllOf(HasSubstr(" RoI window "), HasSubstr(" true scene ")));
     EXPECT_EQ(readFile(folder / "merged/campaign.json"), readFile(folder / "one/campaign.json"));
     // Nothing is left to fly.
     ASSERT_EQ(octomapCompare(flying(folder, "merged")).exit_code, 0);
@@ -204,7 +208,7 @@ TEST(ClosedLoopFlights, InterruptedItKeepsWhatItFinished) {
     EXPECT_THAT(readFile(folder / "err"),
                 AllOf(HasSubstr("octomap-compare: interrupted; "),
                       HasSubstr(" of 6 runs are kept in " + (folder / "stopped/journal").string() +
-                                ", and the same command goes on from there\n")));
+                                "; the same command resumes there\n")));
     EXPECT_EQ(workerOf(folder / "stopped/journal/1.csv"), 0);
     EXPECT_NE(readFile(folder / "stopped/journal/1.csv"), "");
     EXPECT_FALSE(fs::exists(folder / "stopped/runs.csv"));
@@ -251,7 +255,9 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
         EXPECT_FALSE(fs::exists(folder / "none"));
     };
     failsInstead("--scenario", "moon", "forest-0.05");
-    failsInstead("--models", "W-RoI,X-Ray", "'X-Ray'");
+    failsInstead("--models", "W-RoI,X-Ray",
+                 "unknown world model 'X-Ray'; known are W-RoI (RoI window), ");
+    failsInstead("--models", "RoI window,RoI windows", "'RoI windows'");
     failsInstead("--guidance", "psychic", "'psychic'");
     failsInstead("--seeds", "7-3", "seed");
     failsInstead("--seeds", "a-b", "'a-b'");
@@ -309,8 +315,12 @@ TEST(ClosedLoop, FoldersOfOthersAreLeftAlone) {
 TEST(Calibrate, AsksForAnOutputAndKnownModels) {
     expectFailure(octomapCompare({"calibrate"}), 2, "-o");
     expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2, "X");
-    expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "oracle"}), 1,
-                  "/nowhere");
+    expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2,
+                  "known are W-RoI (RoI window), ");
+    for (const char* model : {"oracle", "true scene", "RoI window,OctoMap 0.4 m", "all"}) {
+        expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", model}), 1,
+                      "/nowhere");
+    }
 }
 
 }  // namespace

@@ -61,10 +61,10 @@ TEST(Guidance, TheCarrotIsInSight) {
         task.position_m = {0.8, y_m, 2};
         const Carrot behind = carrot("astar", world, task);
         ASSERT_GT(behind.path_m.size(), 2u);
-        const Eigen::Vector3d way_m = behind.at_m - task.position_m;
-        EXPECT_GT(way_m.norm(), 0.9);
+        const Eigen::Vector3d offset_m = behind.at_m - task.position_m;
+        EXPECT_GT(offset_m.norm(), 0.9);
         for (double share = 0; share <= 1; share += 0.02) {
-            const Eigen::Vector3d at_m = task.position_m + share * way_m;
+            const Eigen::Vector3d at_m = task.position_m + share * offset_m;
             EXPECT_GE(world.clearance_m(at_m.cast<float>()), 0.6) << y_m << " " << share;
         }
     }

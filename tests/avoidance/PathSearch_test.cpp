@@ -37,10 +37,10 @@ double lengthOf(const Path& path_m) {
 double leastClearance(const SolidWorld& world, const Path& path_m) {
     double least_m = WorldModel::kReach_m;
     for (std::size_t i = 1; i < path_m.size(); ++i) {
-        const Eigen::Vector3d way_m = path_m[i] - path_m[i - 1];
-        for (double at = 0; at <= 1; at += 0.01 / way_m.norm()) {
+        const Eigen::Vector3d offset_m = path_m[i] - path_m[i - 1];
+        for (double at = 0; at <= 1; at += 0.01 / offset_m.norm()) {
             least_m = std::min<double>(
-                least_m, world.clearance_m((path_m[i - 1] + at * way_m).cast<float>()));
+                least_m, world.clearance_m((path_m[i - 1] + at * offset_m).cast<float>()));
         }
     }
     return least_m;
@@ -85,7 +85,7 @@ TEST(PathSearch, AGapThatIsWideEnoughIsFoundWhereverItLies) {
         const SolidWorld world = wallWithGap(middle_m, 1.6f);
         const auto path = search(world, {0, 0, 2}, {20, 0, 2}, options);
         ASSERT_TRUE(path) << middle_m;
-        EXPECT_GT(leastClearance(world, *path), options.least_clearance_m - 0.1) << middle_m;
+        EXPECT_GT(leastClearance(world, *path), options.min_clearance_m - 0.1) << middle_m;
     }
 }
 
@@ -100,7 +100,7 @@ TEST(PathSearch, AThinWallBetweenCellsIsNotStridOver) {
     SolidWorld world;
     world.box({9.74f, -30, -10}, {9.76f, 30, 20});
     PathSearchOptions options = within({-1, -10, 0}, {20, 10, 4});
-    options.least_clearance_m = 0.1;
+    options.min_clearance_m = 0.1;
     EXPECT_FALSE(search(world, {0, 0, 2}, {20, 0, 2}, options));
 }
 
@@ -117,7 +117,7 @@ TEST(PathSearch, NoWayToAGoalThatIsShutInOrWithinAnObstacleOrOutOfBounds) {
 
 TEST(PathSearch, GivesUpAfterSoManyCells) {
     PathSearchOptions options = within({-1, -10, 0}, {20, 10, 4});
-    options.most_cells = 10;
+    options.max_cells = 10;
     EXPECT_FALSE(search({}, {0, 0, 2}, {20, 0, 2}, options));
 }
 
@@ -129,8 +129,8 @@ TEST(PathSearch, FromTooNearAnObstacleTheWayOutIsTaken) {
     double before_m = 0.29;
     for (const Eigen::Vector3d& at : *path) {  // grows until there is room, and room it stays
         const double clearance_m = world.clearance_m(at.cast<float>());
-        EXPECT_TRUE(clearance_m > before_m || clearance_m >= options.least_clearance_m - 1e-6);
-        before_m = std::min(clearance_m, options.least_clearance_m);
+        EXPECT_TRUE(clearance_m > before_m || clearance_m >= options.min_clearance_m - 1e-6);
+        before_m = std::min(clearance_m, options.min_clearance_m);
     }
     EXPECT_GT(lengthOf(*path), 12);
 }
@@ -188,8 +188,8 @@ class PlainGraph {
             return middle_m;
         }
         Eigen::Vector3d best_m = middle_m;
-        if (clearance(middle_m) >= options_.least_clearance_m ||
-            clearance(middle_m) + 0.125 * std::sqrt(2.0) < options_.least_clearance_m) {
+        if (clearance(middle_m) >= options_.min_clearance_m ||
+            clearance(middle_m) + 0.125 * std::sqrt(2.0) < options_.min_clearance_m) {
             return best_m;
         }
         for (double y : {-0.125, 0.125}) {
@@ -205,7 +205,7 @@ class PlainGraph {
     }
     double extra(const Eigen::Vector3d& at) const {
         return 2 * std::clamp((options_.wanted_clearance_m - clearance(at)) /
-                                  (options_.wanted_clearance_m - options_.least_clearance_m),
+                                  (options_.wanted_clearance_m - options_.min_clearance_m),
                               0.0, 1.0);
     }
     double stepCost(const Key& a, const Key& b) const {
@@ -216,7 +216,7 @@ class PlainGraph {
     }
     bool mayPass(const Key& a, const Key& b) const {
         const Eigen::Vector3d from_m = pointOf(a), to_m = pointOf(b);
-        const double least_m = options_.least_clearance_m;
+        const double least_m = options_.min_clearance_m;
         if (clearance(to_m) < least_m || clearance(from_m) < least_m) return false;
         return leastClearance(world_, {from_m, to_m}) >= least_m - 0.05;
     }

@@ -242,8 +242,8 @@ TEST_P(Planners, TheSameTaskGetsTheSamePlan) {
     EXPECT_EQ(first.command_m_s, kept.command_m_s);
     ASSERT_FALSE(kept.candidates.empty());
     for (const CandidateMotion& motion : kept.candidates) {  // each ends standing, where it says
-        EXPECT_TRUE(motion.way_m.front().isApprox(Eigen::Vector3f(0, 0, 2)));
-        EXPECT_LT((motion.way_m.back() - motion.way_m[motion.way_m.size() - 2]).norm(), 0.005f);
+        EXPECT_TRUE(motion.path_m.front().isApprox(Eigen::Vector3f(0, 0, 2)));
+        EXPECT_LT((motion.path_m.back() - motion.path_m[motion.path_m.size() - 2]).norm(), 0.005f);
     }
 }
 

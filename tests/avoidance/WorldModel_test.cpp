@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace {
@@ -123,11 +124,11 @@ TEST(WorldModel, AMapsClearanceIsThatOfADistanceTransform) {
         model->update(seen);
         for (int i = 0; i < 300; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
-            const float middles_m = distances.getDistance(octomap::point3d(at.x(), at.y(), at.z()));
+            const float centres_m = distances.getDistance(octomap::point3d(at.x(), at.y(), at.z()));
             const float clearance_m = model->clearance_m(at);
-            EXPECT_LE(clearance_m, middles_m + 0.87f * kEdge_m);
+            EXPECT_LE(clearance_m, centres_m + 0.87f * kEdge_m);
             EXPECT_GE(clearance_m, std::min(avoidance::WorldModel::kReach_m,
-                                            middles_m - 2 * 0.87f * kEdge_m - kEdge_m));
+                                            centres_m - 2 * 0.87f * kEdge_m - kEdge_m));
         }
     }
 }
@@ -160,7 +161,7 @@ TEST(WorldModel, WithoutAScanAllIsFreeAndUnknown) {
         for (int i = 0; i < 2; ++i) {
             EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({1, 1, 1})) << name;
             EXPECT_FALSE(model->isKnown({1, 1, 1})) << name;
-            EXPECT_TRUE(model->obstacles().middle_m.empty()) << name;
+            EXPECT_TRUE(model->obstacles().centre_m.empty()) << name;
             model->update({});  // with nothing in it
         }
     }
@@ -219,7 +220,7 @@ TEST(WorldModel, AWindowForgetsAfterTenScans) {
         EXPECT_NEAR(1.1f, model->clearance_m({4, 0.1f, 1.1f}), 0.05f);
         model->update(scanOf({{-4, 0, 1}}));
         EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({4, 0.1f, 1.1f}));
-        EXPECT_EQ(10u, model->obstacles().middle_m.size());
+        EXPECT_EQ(10u, model->obstacles().centre_m.size());
     }
 }
 
@@ -231,7 +232,7 @@ TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
     for (const std::string& name : modelsThatLearn()) {
         const auto model = avoidance::makeWorldModel(name, {wide, nullptr});
         model->update(scanOf(far_off));
-        EXPECT_TRUE(model->obstacles().middle_m.empty()) << name;
+        EXPECT_TRUE(model->obstacles().centre_m.empty()) << name;
         EXPECT_EQ(model->clearance_m({20, 0.1f, 1.3f}), avoidance::WorldModel::kReach_m) << name;
     }
 }
@@ -243,9 +244,9 @@ TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
         for (int scan = 0; scan < 3; ++scan) model->update(scanOf(sparsePoints(random, 40)));
         for (int i = 0; i < 200; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
-            for (const float most_m : {0.3f, 1.2f, 9.0f}) {
-                EXPECT_FLOAT_EQ(model->clearanceWithin_m(at, most_m),
-                                std::min(model->clearance_m(at), most_m))
+            for (const float limit_m : {0.3f, 1.2f, 9.0f}) {
+                EXPECT_FLOAT_EQ(model->clearanceWithin_m(at, limit_m),
+                                std::min(model->clearance_m(at), limit_m))
                     << name;
             }
         }
@@ -276,7 +277,7 @@ TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
         for (const auto& [cube, range_m] : nearest_m) expected.push_back(range_m);
         const auto model = avoidance::makeWorldModel("W-Full", setting());
         model->update(scanOf(points));
-        for (const Eigen::Vector3f& point : model->obstacles().middle_m) {
+        for (const Eigen::Vector3f& point : model->obstacles().centre_m) {
             EXPECT_TRUE(std::find(points.begin(), points.end(), point) != points.end());
             kept.push_back((point - kOrigin).norm());
         }
@@ -304,7 +305,7 @@ TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
         for (std::size_t i = past.size() > 10 ? past.size() - 10 : 0; i < past.size(); ++i) {
             kept.insert(kept.end(), past[i].begin(), past[i].end());
         }
-        EXPECT_EQ(model->obstacles().middle_m.size(), kept.size());
+        EXPECT_EQ(model->obstacles().centre_m.size(), kept.size());
         for (int i = 0; i < 50; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
             EXPECT_NEAR(model->clearance_m(at), nearestOf(kept, at), 1e-5f) << number;
@@ -335,8 +336,8 @@ TEST(WorldModel, ObstaclesAreWhereClearanceEnds) {
         model->update(scanOf(wall()));
         const auto obstacles = model->obstacles();
         EXPECT_EQ(edgeOf(name), obstacles.edge_m) << name;
-        ASSERT_FALSE(obstacles.middle_m.empty()) << name;
-        for (const auto& middle : obstacles.middle_m) {
+        ASSERT_FALSE(obstacles.centre_m.empty()) << name;
+        for (const auto& middle : obstacles.centre_m) {
             EXPECT_NEAR(5.1f, middle.x(), edgeOf(name)) << name;
             EXPECT_EQ(0, model->clearance_m(middle)) << name;
         }
@@ -380,6 +381,23 @@ TEST(WorldModel, NamesTheKnownOnesForAnother) {
             EXPECT_THAT(error.what(), HasSubstr("O-RoI+rays-0.4"));
         }
     }
+}
+
+TEST(WorldModel, HasANameForPeopleThatUsersMayGive) {
+    EXPECT_EQ(avoidance::displayName("W-RoI"), "RoI window");
+    EXPECT_EQ(avoidance::displayName("O-RoI+rays-0.4"), "RoI OctoMap with all rays 0.4 m");
+    EXPECT_EQ(avoidance::displayName("X-Ray"), "X-Ray");
+    std::set<std::string> spelled;
+    for (const std::string& name : avoidance::worldModelNames()) {
+        const std::string shown = avoidance::displayName(name);
+        EXPECT_TRUE(spelled.insert(shown).second) << shown;
+        EXPECT_EQ(avoidance::worldModelFrom(name), name);
+        EXPECT_EQ(avoidance::worldModelFrom(shown), name);
+        EXPECT_THAT(avoidance::worldModelList(), HasSubstr(name + " (" + shown + ")"));
+        EXPECT_THROW(avoidance::needsLabels(shown), std::invalid_argument);  // no key
+    }
+    EXPECT_EQ(avoidance::worldModelFrom("Full window"), "W-Full");
+    EXPECT_EQ(avoidance::worldModelFrom("OctoMap"), "OctoMap");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(ChooseRun, ListsWhatThereIsInstead) {
     wanted.seed = 3;
     wanted.model = "G-Full";
     EXPECT_EQ(refusal(runs),
-              "has no run of seed 3 with these flags; of that seed are:\n  gap: seed 3, 4 m/s, "
+              "has no run of seed 3 with these flags; that seed has:\n  gap: seed 3, 4 m/s, "
               "O-Full-0.4,W-RoI, astar,straight");
     EXPECT_EQ(refusal({}), "has no run of seed 3, nor any other");
 }

@@ -23,7 +23,7 @@ replays::Recording smallRecording() {
     replays::Recording recording;
     recording.run = test::runOf("gap", 1, "O-Full-0.4", "astar", kWon);
     recording.is_same = true;
-    recording.ending = "arrived at 9.00 s";
+    recording.ending = "reached the goal at 9.00 s";
     recording.start_m = {5, 0, 2};
     recording.goal_m = {45, 0, 2};
     replays::RecordedStep step{};
@@ -42,9 +42,9 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
     EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
     EXPECT_THAT(page, HasSubstr("\"clearances\":\"MgA=\""));  // 50: 32 00
-    EXPECT_THAT(page, HasSubstr("\"ending\":\"arrived at 9.00 s\""));
+    EXPECT_THAT(page, HasSubstr("\"ending\":\"reached the goal at 9.00 s\""));
     EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // not free
-    EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, O-Full-0.4, A*, 4.0 m/s: success</title>"));
+    EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, OctoMap 0.4 m, A*, 4.0 m/s: success</title>"));
     EXPECT_THAT(replays::replayPage(replays::Recording{}), HasSubstr("\"steps\":[]"));
 }
 
@@ -157,16 +157,16 @@ TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
     const std::string ground =
         replays::endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
     EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
-    EXPECT_THAT(ground, HasSubstr(" m from it to the vehicle's middle"));
+    EXPECT_THAT(ground, HasSubstr(" m from the vehicle's centre"));
 
     const simulation::MovingObstacle& person = course.scene.content().movers.front();
     const Eigen::Affine3f pose = simulation::poseOf(person, course.scene.terrain(), result.time_s);
     const Eigen::Vector3f above_head = pose * Eigen::Vector3f(0, 0, 2);
     const std::string moving = replays::endingOf(course, result, 4, above_head.cast<double>());
-    EXPECT_EQ(moving.rfind("hit something that moves at 2.50 s: 0.2", 0), 0u) << moving;
+    EXPECT_EQ(moving.rfind("hit a moving object at 2.50 s: 0.2", 0), 0u) << moving;
 
     result.outcome = kWon;
-    EXPECT_EQ(replays::endingOf(course, result, 4, course.goal_m), "arrived at 2.50 s");
+    EXPECT_EQ(replays::endingOf(course, result, 4, course.goal_m), "reached the goal at 2.50 s");
     result.outcome = kLate;
     EXPECT_EQ(replays::endingOf(course, result, 4, start_m),
               "gave up for lack of progress at 2.50 s");

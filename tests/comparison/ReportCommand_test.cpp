@@ -50,7 +50,8 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(
         outcome.out,
-        HasSubstr("0 collisions in 10 runs of a scenario still allow a true share of 27.8 %"));
+        HasSubstr("after 0 collisions in 10 runs of a scenario, the true collision rate can still "
+                  "be up to 27.8 %"));
     std::ifstream in(path("summary.json"));
     const auto json = nlohmann::json::parse(in);
     EXPECT_EQ(json["runs"], 30);
@@ -71,8 +72,8 @@ TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
                   "W-RoI,0.8,9,1.25,2000000\nW-RoI,0.6,9,1.75,4000000\nG-Full,,,14,1\n");
     ASSERT_EQ(run({"report", folder(), "--markdown", path("a.md")}).exit_code, 0);
     const std::string text = test::readFile(path("a.md"));
-    EXPECT_THAT(text, HasSubstr("| W-RoI | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"));
-    EXPECT_THAT(text, HasSubstr("| G-Full | 1 | 0.00 | 0.00 | - | 14.00 |"));
+    EXPECT_THAT(text, HasSubstr("| RoI window | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"));
+    EXPECT_THAT(text, HasSubstr("| occupancy grid 0.2 m | 1 | 0.00 | 0.00 | - | 14.00 |"));
 }
 
 TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
@@ -89,19 +90,19 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
         "unknown": "optimistic"}]})");
     const test::Outcome before = run({"report", folder()});  // no runs.csv yet
     ASSERT_EQ(before.exit_code, 0) << before.err;
-    EXPECT_THAT(before.out, HasSubstr("Unfinished: 3 of 20 runs planned so far are flown."));
+    EXPECT_THAT(before.out, HasSubstr("Unfinished: 3 of 20 planned runs are done."));
     writeRuns({test::runOf("gap", 0, "W-RoI", "astar", kWon)});
     const test::Outcome outcome =
         run({"report", folder(), "--overwrite", "--markdown", path("a.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("Unfinished: 4 of 20 runs planned so far are flown."));
+    EXPECT_THAT(outcome.out, HasSubstr("Unfinished: 4 of 20 planned runs are done."));
     for (const char* name : {"report.html", "a.md"}) {
-        EXPECT_THAT(test::readFile(path(name)), HasSubstr("4 of 20 runs planned so far"));
+        EXPECT_THAT(test::readFile(path(name)), HasSubstr("4 of 20 planned runs"));
     }
     const std::string text = test::readFile(path("a.md"));
-    EXPECT_THAT(text, HasSubstr("| 4 m/s | W-RoI, A* | 4 | 10 |"));
-    EXPECT_THAT(text, HasSubstr("| 4 m/s | G-Full, A* | 0 | 10 |"));
-    EXPECT_THAT(text, HasSubstr("| W-RoI | 3 | 2.00 | 3.00 |"));  // measured
+    EXPECT_THAT(text, HasSubstr("| 4 m/s | RoI window, A* | 4 | 10 |"));
+    EXPECT_THAT(text, HasSubstr("| 4 m/s | occupancy grid 0.2 m, A* | 0 | 10 |"));
+    EXPECT_THAT(text, HasSubstr("| RoI window | 3 | 2.00 | 3.00 |"));  // measured
     std::ifstream in(path("summary.json"));
     EXPECT_EQ(nlohmann::json::parse(in)["missing_runs"], 16);
 
@@ -155,10 +156,11 @@ TEST_F(ReportCommand, NamesWhatIsMissing) {
     for (const char* command : {"report", "replay"}) {
         expectFailure(
             {command, folder(), command == std::string("replay") ? "--seed=1" : "--worst=6"}, 1,
-            folder() + ": holds no campaign; give a folder of octomap-compare");
+            folder() + ": contains no campaign; expected a folder of octomap-compare");
     }
     writeRuns({});
-    expectFailure({"report", folder()}, 1, folder() + ": no run is finished yet; fly some");
+    expectFailure({"report", folder()}, 1,
+                  folder() + ": no run is finished yet; run octomap-compare closedloop");
     folder_.write("runs.csv", "");
     expectFailure({"report", folder()}, 1, "runs.csv:1: is empty");
     expectFailure({"report"}, 2, "DIR is required");
@@ -184,7 +186,7 @@ TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
     expectFailure({"report", folder()}, 1, "memory.csv:2: not model,path_m,bytes");
     folder_.write("memory.csv", "model,path_m,bytes\n");
     folder_.write("measured.csv", "model,peak_model_bytes\nW-RoI,2e6\nW-RoI,much\n");
-    expectFailure({"report", folder()}, 1, "measured.csv:3: \"much\" is no number");
+    expectFailure({"report", folder()}, 1, "measured.csv:3: \"much\" is not a number");
     folder_.write("measured.csv", "model,peak_model_bytes\n");
     folder_.write("profile.json", "{");
     expectFailure({"report", folder()}, 1, "profile.json");
@@ -200,7 +202,7 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
     expectFailure({"report", folder(), "--markdown", path("no/a.md")}, 1, path("no"));
     if (fs::exists("/proc/version")) {
         fs::remove(path("runs.csv"));
-        expectFailure({"report", "/proc"}, 1, "/proc: holds no campaign");
+        expectFailure({"report", "/proc"}, 1, "/proc: contains no campaign");
     }
 }
 
@@ -242,7 +244,9 @@ TEST_F(ReportCommand, AReplayNeedsOneRun) {
         expectFailure({"replay", folder(), "--seed", "1", "--unknown", spelling}, 2,
                       "no run of seed 1 with these flags");
     }
-    expectFailure({"replay", folder(), "--seed", "1", "--model", "O-Full-0.4"}, 1, "profile.json");
+    for (const char* model : {"O-Full-0.4", "OctoMap 0.4 m", "octomap 0.4 m"}) {
+        expectFailure({"replay", folder(), "--seed", "1", "--model", model}, 1, "profile.json");
+    }
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <hagen/reports/ReportWords.h>
+#include <hagen/reports/ReportSentences.h>
 #include <hagen/reports/SharedCourses.h>
 #include <hagen/reports/Summary.h>
 #include "SampleRuns.h"
@@ -17,7 +17,7 @@ using namespace test;
 TEST(Summary, CountsCellsAndSpreads) {
     const reports::Summary summary = reports::summarize(threeContenders());
     ASSERT_EQ(summary.contenders.size(), 3u);
-    EXPECT_EQ(nameOf(summary.contenders[0]), "W-RoI, A*");
+    EXPECT_EQ(nameOf(summary.contenders[0]), "RoI window, A*");
     const reports::Cell* cell = reports::find(summary, "gap", kReference, {"W-RoI", "astar"});
     ASSERT_NE(cell, nullptr);
     EXPECT_EQ(cell->runs, 10);
@@ -114,16 +114,17 @@ TEST(SharedCourses, AreThoseOnWhichAllArrived) {
         EXPECT_EQ(cell.first_reaction_m.count, 6);
     }
     EXPECT_EQ(shared[0].min_clearances_m[1].size(), 10u);
-    EXPECT_EQ(reports::sharedWords(shared[0]),
-              "With A*: 10 courses were flown by both contenders; on 7 of these all arrived, on 6 "
-              "all reacted to something.");
+    EXPECT_EQ(
+        reports::sharedCoursesSentence(shared[0]),
+        "With A*: both contenders flew the same 10 courses; both reached the goal on 7 of them "
+        "and reacted to an obstacle on 6.");
     EXPECT_EQ(shared[1].arrived, 0);
     EXPECT_TRUE(shared[1].cells.empty());
-    EXPECT_EQ(reports::sharedWords(shared[1]),
-              "Flown straight: 10 courses were flown by W-RoI, straight; it arrived on none.");
+    EXPECT_EQ(reports::sharedCoursesSentence(shared[1]),
+              "With straight guidance: RoI window flew 10 courses; it never reached the goal.");
 }
 
-/// Maps are slow to fly: their few courses must not be all that is told of the others.
+/// Maps are slow to fly: their few courses must not limit the table of the others.
 TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -142,7 +143,7 @@ TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
 
 TEST(Summary, OfNothingIsEmpty) {
     EXPECT_TRUE(reports::summarize({}).cells.empty());
-    EXPECT_THAT(reports::reportPage(reports::Report{}), HasSubstr("Nothing was flown"));
+    EXPECT_THAT(reports::reportPage(reports::Report{}), HasSubstr("There are no runs."));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is said of figures.
+// The sentences of the verdict.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::Not;
 
 using namespace test;
 
-TEST(Verdict, TellsWiresApartFromTheRest) {
+TEST(Verdict, ReportsWiresSeparately) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         runs.push_back(test::runOf("gap", seed, "W-RoI", "astar", kWon));
@@ -27,42 +27,47 @@ TEST(Verdict, TellsWiresApartFromTheRest) {
     EXPECT_EQ(summary.without_wires[0].pairs(), 400);
     EXPECT_EQ(summary.without_wires[0].verdict, reports::Verdict::NotInferior);
     const std::vector<std::string> words = reports::verdictOf(summary);
-    EXPECT_EQ(words[0],
-              "W-RoI with A* at 4 m/s arrives less often than W-Full (among wires), by more than "
-              "3 points. It loses less than 3 points, if any, to W-Full (where no wires are).");
     EXPECT_EQ(
-        words[1].find("Where no wires are, W-RoI with A* against W-Full: success 100.0 % against "
-                      "99.8 % of the same 400 courses, +0.2 points (95 % interval "),
+        words[0],
+        "RoI window with A* at 4 m/s succeeds less often than full window (on wires), by more "
+        "than 3 points. It is not inferior, with a margin of 3 points, to full window "
+        "(without wires).");
+    EXPECT_EQ(
+        words[1].find("Without wires, RoI window with A* vs. full window: success 100.0 % vs. "
+                      "99.8 % on the same 400 courses, +0.2 points (95 % interval "),
         0u)
         << words[1];
     EXPECT_EQ(
-        words[2].find("Among wires, W-RoI with A* against W-Full: success 75.0 % against 100.0 %"),
+        words[2].find("On wires, RoI window with A* vs. full window: success 75.0 % vs. 100.0 %"),
         0u)
         << words[2];
-    // Where nobody flew wires, all is where no wires are.
+    // If nobody flew wires, the total is already without wires.
     EXPECT_TRUE(reports::summarize({test::runOf("gap", 0, "W-RoI", "astar", kWon),
                                     test::runOf("gap", 0, "W-Full", "astar", kWon)})
                     .without_wires.empty());
 }
 
-TEST(Verdict, SpeaksOfOneAsOne) {
+TEST(Verdict, UsesTheSingular) {
     const std::vector<std::string> words =
         reports::verdictOf(reports::summarize({test::runOf("gap", 0, "W-RoI", "astar", kHit),
                                                test::runOf("gap", 0, "G-Full", "astar", kWon)}));
     ASSERT_EQ(words.size(), 6u);
-    EXPECT_EQ(words[0], "W-RoI with A* at 4 m/s: nothing is decided yet. Open: G-Full.");
-    EXPECT_EQ(words[1].find(
-                  "Open: W-RoI with A* against G-Full: success 0.0 % against 100.0 % of the same "
-                  "1 course, -100.0 points ("),
-              0u)
+    EXPECT_EQ(
+        words[0],
+        "RoI window with A* at 4 m/s: no comparison is decided yet. Undecided: occupancy grid "
+        "0.2 m.");
+    EXPECT_EQ(
+        words[1].find("Undecided: RoI window with A* vs. occupancy grid 0.2 m: success 0.0 % vs. "
+                      "100.0 % on the same 1 course, -100.0 points ("),
+        0u)
         << words[1];
-    EXPECT_EQ(words[2], "What is open needs more courses to be decided.");
-    EXPECT_EQ(words[3].find("W-RoI with A*: 1 collision in 1 run ("), 0u) << words[3];
-    EXPECT_EQ(words[4], "G-Full with A*: no collision in 1 run.");
-    EXPECT_THAT(words[5], HasSubstr("0 collisions in 1 run of a scenario still allows"));
+    EXPECT_EQ(words[2], "Undecided comparisons need more courses.");
+    EXPECT_EQ(words[3].find("RoI window with A*: 1 collision in 1 run ("), 0u) << words[3];
+    EXPECT_EQ(words[4], "Occupancy grid 0.2 m with A*: no collision in 1 run.");
+    EXPECT_THAT(words[5], HasSubstr("after 0 collisions in 1 run of a scenario, the true"));
 }
 
-TEST(Verdict, CallsNothingWorseThatMayBeChance) {
+TEST(Verdict, DoesNotCallChanceALoss) {
     // The interval excludes 3 points, but among so many comparisons the test does not.
     reports::Pairing pairing{"", kReference, {"W-RoI", "astar"}, {"G-Full", "astar"}};
     pairing.both = 90;
@@ -71,15 +76,15 @@ TEST(Verdict, CallsNothingWorseThatMayBeChance) {
     pairing.interval = {-0.17, -0.04};
     pairing.verdict = reports::Verdict::Inferior;
     pairing.p_holm = 0.06;
-    EXPECT_EQ(reports::differenceText(pairing).find("Open: "), 0u);
+    EXPECT_EQ(reports::differenceText(pairing).find("Undecided: "), 0u);
     EXPECT_THAT(reports::differenceText(pairing), HasSubstr("may be chance"));
     pairing.p_holm = 0.04;
     EXPECT_EQ(reports::differenceText(pairing).find(
-                  "W-RoI with A* against G-Full: success 90.0 % against 100.0 %"),
+                  "RoI window with A* vs. occupancy grid 0.2 m: success 90.0 % vs. 100.0 %"),
               0u);
 }
 
-TEST(Verdict, TellsLossesThatGoUnderInTheWhole) {
+TEST(Verdict, ReportsLossesThatTheTotalHides) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         for (const char* scenario : {"gap", "movers"}) {
@@ -91,21 +96,25 @@ TEST(Verdict, TellsLossesThatGoUnderInTheWhole) {
         }
     }
     const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
-    EXPECT_EQ(words[0],
-              "W-RoI with A* at 4 m/s: nothing is decided yet. But it arrives less often than "
-              "G-Full (in movers). Open: G-Full.");
-    EXPECT_EQ(words[1].find("Open: W-RoI with A* against G-Full: success 90.0 % against 89.0 %"),
-              0u)
+    EXPECT_EQ(
+        words[0],
+        "RoI window with A* at 4 m/s: no comparison is decided yet. But it succeeds less often "
+        "than occupancy grid 0.2 m (in movers). Undecided: occupancy grid 0.2 m.");
+    EXPECT_EQ(
+        words[1].find("Undecided: RoI window with A* vs. occupancy grid 0.2 m: success 90.0 % "
+                      "vs. 89.0 %"),
+        0u)
         << words[1];
-    EXPECT_EQ(words[2].find("In movers, W-RoI with A* against G-Full: success 80.0 % against "
-                            "100.0 % of the same 100 courses, -20.0 points"),
-              0u)
+    EXPECT_EQ(
+        words[2].find("In movers, RoI window with A* vs. occupancy grid 0.2 m: success 80.0 % vs. "
+                      "100.0 % on the same 100 courses, -20.0 points"),
+        0u)
         << words[2];
-    EXPECT_EQ(words[3], "What is open needs more courses to be decided.");
+    EXPECT_EQ(words[3], "Undecided comparisons need more courses.");
 }
 
-/// 45 of 200 lost in one of ten scenarios are no 3 points of the whole.
-TEST(Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
+/// 45 of 200 lost in one of ten scenarios are less than 3 points of the total.
+TEST(Verdict, ReportsLossesOnWiresThatTheTotalHides) {
     std::vector<Row> runs;
     for (const char* scenario : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "wires"}) {
         const bool is_wires = scenario == std::string("wires");
@@ -117,24 +126,27 @@ TEST(Verdict, TellsLossesThatGoUnderAmongWiresAndBelowAVerdict) {
     }
     const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
     EXPECT_EQ(words[0],
-              "W-RoI with A* at 4 m/s, on the whole, arrives less often than G-Full, by less than "
-              "3 points. But it arrives less often than G-Full (among wires).");
-    EXPECT_EQ(words[2].find("Among wires, W-RoI with A* against G-Full: success 77.5 %"), 0u)
+              "RoI window with A* at 4 m/s, over all scenarios, succeeds less often than occupancy "
+              "grid 0.2 m, by less than 3 points. But it succeeds less often than occupancy grid "
+              "0.2 m (on wires).");
+    EXPECT_EQ(
+        words[2].find("On wires, RoI window with A* vs. occupancy grid 0.2 m: success 77.5 %"), 0u)
         << words[2];
 }
 
-TEST(Verdict, TellsOfOneScenarioOnce) {
+TEST(Verdict, ReportsASingleScenarioOnce) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         runs.push_back(test::runOf("gap", seed, "W-RoI", "astar", seed < 5 ? kHit : kWon));
         runs.push_back(test::runOf("gap", seed, "G-Full", "astar", kWon));
     }
     const std::vector<std::string> words = reports::verdictOf(reports::summarize(runs));
-    EXPECT_EQ(words[1].find("Open: W-RoI with A* against G-Full"), 0u) << words[1];
-    EXPECT_EQ(words[2], "What is open needs more courses to be decided.");
+    EXPECT_EQ(words[1].find("Undecided: RoI window with A* vs. occupancy grid 0.2 m"), 0u)
+        << words[1];
+    EXPECT_EQ(words[2], "Undecided comparisons need more courses.");
 }
 
-TEST(Verdict, SaysWhereWhatWasNotFlownEverywhere) {
+TEST(Verdict, NamesTheScenariosOfPartialComparisons) {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         for (const char* scenario : {"gap", "u-trap"}) {
@@ -144,8 +156,8 @@ TEST(Verdict, SaysWhereWhatWasNotFlownEverywhere) {
         runs.push_back(test::runOf("gap", seed, "O-Full-0.4", "astar", kWon));
     }
     const std::string headline = reports::verdictOf(reports::summarize(runs)).front();
-    EXPECT_THAT(headline, HasSubstr("O-Full-0.4 (in gap)"));
-    EXPECT_THAT(headline, Not(HasSubstr("G-Full (")));
+    EXPECT_THAT(headline, HasSubstr("OctoMap 0.4 m (in gap)"));
+    EXPECT_THAT(headline, Not(HasSubstr("occupancy grid 0.2 m (in")));
 }
 
 }  // namespace

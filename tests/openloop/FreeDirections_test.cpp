@@ -19,8 +19,8 @@ float nearest(const Points& points_m, const Eigen::Vector3f& to_m) {
 }
 
 /// From a point to the way that a direction leads.
-float distanceToWay(const Eigen::Vector3f& point_m, const Eigen::Vector3f& direction,
-                    float length_m) {
+float distanceToPath(const Eigen::Vector3f& point_m, const Eigen::Vector3f& direction,
+                     float length_m) {
     const float along_m = std::clamp(point_m.dot(direction), 0.0f, length_m);
     return (point_m - along_m * direction).norm();
 }
@@ -32,7 +32,7 @@ TEST(FreeDirections, AreUnitVectorsAllRound) {
     EXPECT_NEAR(std::asin(directionOf(299).z()), 0.24f, 1e-6);
     for (std::size_t n = 0; n < kDirections; ++n) {
         EXPECT_NEAR(directionOf(n).norm(), 1, 1e-6);
-        EXPECT_EQ(leadsDown(n), directionOf(n).z() < -1e-3f);
+        EXPECT_EQ(pointsDown(n), directionOf(n).z() < -1e-3f);
     }
 }
 
@@ -76,7 +76,7 @@ TEST(FreeDirections, PointsBlockWhatBruteForceSaysTheyDo) {
         for (std::size_t n = 0; n < kDirections; ++n) {
             float least_m = std::numeric_limits<float>::infinity();
             for (const auto& p : points_m) {
-                least_m = std::min(least_m, distanceToWay(p, directionOf(n), 8.0f));
+                least_m = std::min(least_m, distanceToPath(p, directionOf(n), 8.0f));
             }
             // A least step may pass what the sphere would but graze.
             if (std::abs(least_m - 0.65f) > 0.002f) {

@@ -80,8 +80,8 @@ TEST(LaterScansTruth, OnePointIsASpeckTwoAreAnObstacle) {
     EXPECT_TRUE(truthOf(scan).blocked[120]);
 }
 
-TEST(LastingPoints, AreThoseThatAScanBeforeHadNear) {
-    LastingPoints points;
+TEST(PersistentPoints, AreThoseThatAScanBeforeHadNear) {
+    PersistentPoints points;
     mapping::MappedScan scan;
     scan.points_m = {{1, 2, 3}, {-4, 5, -6}, {13, 0, 0}};
     EXPECT_TRUE(points.of(mapping::MappedScan()).empty());
@@ -113,8 +113,8 @@ TEST(LaterScansTruth, CountsThePointsThatBruteForceCounts) {
             int points = 0;
             for (const auto& p : scan.points_m) {
                 float least_m = std::numeric_limits<float>::infinity();
-                for (float way_m = 0; way_m <= 8; way_m += 0.04f) {
-                    least_m = std::min(least_m, (p - way_m * directionOf(n)).norm());
+                for (float distance_m = 0; distance_m <= 8; distance_m += 0.04f) {
+                    least_m = std::min(least_m, (p - distance_m * directionOf(n)).norm());
                 }
                 if (std::abs(least_m - 0.65f) < 0.001f) points = 100;  // too close to call
                 points += least_m < 0.65f;

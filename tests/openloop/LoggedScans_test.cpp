@@ -61,7 +61,7 @@ TEST_F(LoggedScansTest, PutsPointsWhereVehicleAndSensorWere) {
     LoggedScan scan;
     ASSERT_TRUE(scans.next(scan));
     EXPECT_EQ(scan.entry, 0u);
-    EXPECT_TRUE(scan.is_moved_whole);  // such clouds have no times
+    EXPECT_TRUE(scan.is_placed_by_one_pose);  // such clouds have no times
     EXPECT_EQ(scan.mapped.time_s, 10);
     EXPECT_NEAR((scan.mapped.origin_m - Eigen::Vector3f(20.5f, 0, 2)).norm(), 0, 1e-5);
     EXPECT_NEAR((scan.vehicle_m - Eigen::Vector3f(20, 0, 2)).norm(), 0, 1e-5);
@@ -109,7 +109,7 @@ TEST_F(LoggedScansTest, EachReturnIsPlacedByThePoseAtItsOwnTime) {
     LoggedScan scan;
     for (int n = 0; n < 5; ++n) {
         ASSERT_TRUE(scans.next(scan));
-        EXPECT_FALSE(scan.is_moved_whole);
+        EXPECT_FALSE(scan.is_placed_by_one_pose);
         std::vector<float> off_m;
         for (const auto& point_m : scan.mapped.points_m) {
             if ((point_m - scan.mapped.origin_m).norm() > 8) continue;
@@ -136,11 +136,11 @@ TEST_F(LoggedScansTest, ScansWithoutAPoseAreLeftOutAndCounted) {
 TEST_F(LoggedScansTest, TellsWhatIsMissing) {
     EXPECT_THAT(messageOf({folder_ / "none.rawlog", "", "", {}}),
                 HasSubstr("none.rawlog: no such file"));
-    EXPECT_THAT(messageOf({poleLog(1), "", "", {}}), HasSubstr("tells no poses; give them"));
+    EXPECT_THAT(messageOf({poleLog(1), "", "", {}}), HasSubstr("has no poses; provide them"));
     EXPECT_THAT(messageOf({poleLog(3), posesAt({5, 6}), "", {}}),
                 HasSubstr("has no pose near any of the 3 scans"));
     EXPECT_THAT(messageOf({poleLog(5), posesAt({10, 11}), "", {}}),
-                HasSubstr("has poses near 2 of the 5 scans alone, fewer than half, of "));
+                HasSubstr("has poses near 2 of the 5 scans, fewer than half, of "));
     EXPECT_THAT(messageOf({poleLog(1), posesAt({10}), "roof", {}}),
                 HasSubstr("has no LiDAR scan of 'roof'; there are 'lidar'"));
     fs::create_directories(folder_ / "scans/velodyne");

@@ -96,7 +96,7 @@ TEST_F(OpenLoopTest, WhoKnowsTheWorldIsRightByTheLaterScansToo) {
     EXPECT_EQ(result.agreement, (std::vector<std::vector<double>>{{1}}));
     EXPECT_EQ(model.bytes, std::vector<double>(8, 7));
     EXPECT_EQ(model.obstacles, std::vector<double>(8, 1));
-    EXPECT_EQ(result.scans_moved_whole, 8u);
+    EXPECT_EQ(result.scans_placed_by_one_pose, 8u);
 }
 
 TEST_F(OpenLoopTest, ModelsOfScansSeeTheWall) {
@@ -143,7 +143,7 @@ TEST_F(OpenLoopTest, OfTheLastScanNothingIsKnownByLaterOnes) {
 
 TEST_F(OpenLoopTest, AShortFlightHasOneBoxOfMaps) {
     const auto result = runOpenLoop(wallsOnly(wallFlight(5)));
-    EXPECT_EQ(result.maps_begun_anew, 0u);
+    EXPECT_EQ(result.model_resets, 0u);
     EXPECT_EQ(notes_.bounds_m.size(), 1u);
     EXPECT_EQ(notes_.updates, std::vector<int>{5});
     EXPECT_TRUE(notes_.bounds_m[0].contains(Eigen::Vector3f(-19.9f, 19.9f, 11.9f)));
@@ -152,8 +152,8 @@ TEST_F(OpenLoopTest, AShortFlightHasOneBoxOfMaps) {
 TEST_F(OpenLoopTest, OnALongFlightMapsMoveWithTheVehicle) {
     // 10 m a second, away from the wall.
     const auto result = runOpenLoop(wallsOnly(wallFlight(25, -10, 1, 90)));
-    EXPECT_GE(result.maps_begun_anew, 10u);
-    ASSERT_EQ(notes_.bounds_m.size(), result.maps_begun_anew + 1);
+    EXPECT_GE(result.model_resets, 10u);
+    ASSERT_EQ(notes_.bounds_m.size(), result.model_resets + 1);
     Eigen::AlignedBox3f all;
     for (const auto& box : notes_.bounds_m) {
         EXPECT_NEAR(box.sizes().x(), 60, 1e-3);

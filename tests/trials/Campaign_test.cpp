@@ -109,7 +109,7 @@ TEST_F(Campaign, ProgressCountsFinishedRuns) {
 
 TEST_F(Campaign, WhyAWorkerFailedIsToldAndFinishedRunsAreKept) {
     const std::string kept = " finished runs are kept in " + (place_ / "c/journal").string() +
-                             ", and the same command goes on from there";
+                             "; the same command resumes there";
     const auto failsWith = [&](const std::string& script) {
         return messageOf([&] { fly(running(script), "c"); });
     };

@@ -33,7 +33,7 @@ TEST(FlightTrace, BetweenSamplesItGoesStraightAndBeyondThemItStays) {
     EXPECT_NEAR(trace.at(0.51).position_m.x(), 0.5 * (0.25 + 0.2704), 1e-9);
     EXPECT_EQ(trace.at(7).position_m, trace.at(1).position_m);
     EXPECT_EQ(trace.at(-1).position_m, Eigen::Vector3d::Zero());
-    EXPECT_NEAR(trace.way_m(1), 1, 1e-9);
+    EXPECT_NEAR(trace.distance_m(1), 1, 1e-9);
 }
 
 TEST(FlightTrace, JerkIsThatOfTheSmoothedAcceleration) {
@@ -53,8 +53,8 @@ TEST(PoseBelief, DriftIsAHundredthOfTheWayInOneDirection) {
     const FlightTrace trace = accelerating(20);  // 10 m
     PoseBelief belief(PoseError::Drift, 1);
     EXPECT_NEAR(belief.offset_m(trace, 1).norm(), 0.1, 1e-9);
-    EXPECT_NEAR((belief.offset_m(trace, 1) / trace.way_m(1) -
-                 belief.offset_m(trace, 0.5) / trace.way_m(0.5))
+    EXPECT_NEAR((belief.offset_m(trace, 1) / trace.distance_m(1) -
+                 belief.offset_m(trace, 0.5) / trace.distance_m(0.5))
                     .norm(),
                 0, 1e-12);
 }

@@ -100,7 +100,7 @@ TEST(RunTable, AKeyIsTheCourseAndSetupOfARowAndIsReadBack) {
     }
     EXPECT_EQ(test::messageOf([] { runOfKey("gap,1"); }), "2 fields, not 9");
     EXPECT_EQ(test::messageOf([] { runOfKey("gap,x,W-RoI,astar,4,primitives,none,1,optimistic"); }),
-              "column seed: \"x\" is no number");
+              "column seed: \"x\" is not a number");
 }
 
 TEST(RunTable, TheOrderDoesNotDependOnTheOneBefore) {
@@ -140,13 +140,13 @@ TEST(RunTable, SaysWhichLineAndColumnIsBroken) {
     const auto with = [&](const std::string& from, const std::string& to) {
         return std::string(good).replace(good.find(from), from.size(), to);
     };
-    EXPECT_EQ(broken(with("1007", "-1")), at + "column seed: \"-1\" is no number");
-    EXPECT_EQ(broken(with("43.250", "43.25m")), at + "column path_m: \"43.25m\" is no number");
-    EXPECT_EQ(broken(with(",123,", ",,")), at + "column scans: \"\" is no number");
+    EXPECT_EQ(broken(with("1007", "-1")), at + "column seed: \"-1\" is not a number");
+    EXPECT_EQ(broken(with("43.250", "43.25m")), at + "column path_m: \"43.25m\" is not a number");
+    EXPECT_EQ(broken(with(",123,", ",,")), at + "column scans: \"\" is not a number");
     EXPECT_EQ(broken(with("success", "won")),
-              at + "column outcome: \"won\" is none of success, collision, timeout");
+              at + "column outcome: \"won\" is not one of success, collision, timeout");
     EXPECT_EQ(broken(with("optimistic", "")),
-              at + "column unknown: \"\" is none of optimistic, brake_known");
+              at + "column unknown: \"\" is not one of optimistic, brake_known");
 }
 
 TEST(RunTable, SaysWhichFileIsNoTable) {

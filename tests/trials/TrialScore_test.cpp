@@ -42,14 +42,14 @@ TEST(TrialJudge, NoFlightIsEndless) {
     EXPECT_EQ(TrialJudge::longestFlight_s(course, 4), 35);
 }
 
-TEST(FreeWay, EndsWhereTheRoomDoes) {
+TEST(FreeDistance, EndsWhereTheRoomDoes) {
     simulation::SceneContent content = emptyContent();
-    EXPECT_TRUE(std::isnan(freeWay_m(simpleCourse(content), {0, 0, 2}, 0.65, 0)));
+    EXPECT_TRUE(std::isnan(freeDistance_m(simpleCourse(content), {0, 0, 2}, 0.65, 0)));
     putWall(content, -5, 5);
     const Course course = simpleCourse(std::move(content));
-    EXPECT_NEAR(freeWay_m(course, {0, 0, 2}, 0.65, 0), 10 - 0.65, 0.06);
-    EXPECT_NEAR(freeWay_m(course, {9.5, 0, 2}, 0.65, 0), 0, 1e-9);
-    EXPECT_TRUE(std::isnan(freeWay_m(course, {12, 0, 2}, 0.65, 0)));
+    EXPECT_NEAR(freeDistance_m(course, {0, 0, 2}, 0.65, 0), 10 - 0.65, 0.06);
+    EXPECT_NEAR(freeDistance_m(course, {9.5, 0, 2}, 0.65, 0), 0, 1e-9);
+    EXPECT_TRUE(std::isnan(freeDistance_m(course, {12, 0, 2}, 0.65, 0)));
 }
 
 TEST(LeavesCourse, AsideOrSlow) {

@@ -1,4 +1,4 @@
-// Plays a recorded run: what the vehicle saw, what its model held, what it considered, what it did.
+// Plays a recorded run: scans, world model, candidate motions and commands.
 'use strict';
 (() => {
 const data = JSON.parse(document.getElementById('data').textContent);
@@ -28,7 +28,7 @@ let renderer;
 try {
   renderer = new THREE.WebGLRenderer({antialias: true});
 } catch (error) {
-  view.innerHTML = '<p class="failed">This page needs WebGL, which this browser does not give.</p>';
+  view.innerHTML = '<p class="failed">This page needs WebGL, which this browser does not provide.</p>';
   return;
 }
 renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
@@ -45,7 +45,7 @@ camera.position.set(-10, -5, 6);
 const controls = new THREE.OrbitControls(camera, renderer.domElement);
 controls.maxDistance = 150;
 
-// ---- what truly stands and moves: shapes once each, and where they are
+// ---- true scene: each shape once, and the poses of its instances
 const truth = new THREE.Group();
 scene.add(truth);
 const shapes = data.scene.shapes.map(text => {
@@ -78,7 +78,7 @@ const movers = data.scene.movers.map(mover => {
   }};
 });
 
-/// The ground: lines from corner to corner, and a surface, a little lower so that returns stay above it.
+/// The ground: a wire grid, and a surface a little lower so that returns stay above it.
 function ground() {
   const {x_m, y_m, step_m, along_x, along_y} = data.scene.ground, heights = points(data.scene.ground.heights);
   const corners = [], edges = [], faces = [];
@@ -173,10 +173,10 @@ function vehicle() {
 }
 const {body: drone, room} = vehicle();
 
-// The model's cells: boxes where they have an edge, else points. Low ones, mostly
-// ground, are paler; those above where one may fly are hidden unless asked for.
+// The model's cells: boxes if they have an edge, otherwise points. Low ones, mostly ground, are
+// paler; those above the altitude limit are hidden by default.
 function boxes(color, opacity) {
-  const size = 0.5 * edge;  // so that one sees what is behind
+  const size = 0.5 * edge;  // so that one can see through the gaps
   const made = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(size, size, size),
       new THREE.MeshLambertMaterial({color, transparent: opacity < 1, opacity, depthWrite: opacity === 1}),
       Math.max(1, cells));
@@ -231,7 +231,7 @@ function stepData(index) {
   return decoded.get(index);
 }
 function stepAt(time) {
-  let low = -1, high = data.steps.length - 1;  // the last one that is not later
+  let low = -1, high = data.steps.length - 1;  // the last one not later than `time`
   while (low < high) {
     const middle = Math.ceil((low + high) / 2);
     if (data.steps[middle].time_s <= time) low = middle; else high = middle - 1;
@@ -285,24 +285,24 @@ function layer(name, label, color, objects, hidden) {
 }
 layer('scene', 'true scene', colors.scene, [truth]);
 layer('roi', 'regions of interest', colors.roi, [roi.object]);
-layer('rou', 'rest of the scan', colors.rou, [rou.object]);
-layer('model', edge > 0 ? 'map (' + data.model_name + ')' : 'window (' + data.model_name + ')', colors.model, [model.object]);
+layer('rou', 'other returns', colors.rou, [rou.object]);
+layer('model', 'world model (' + data.model_name + ')', colors.model, [model.object]);
 if (low) {
-  layer('low', 'map, below 0.6 m', colors.rou, [low.object]);
-  layer('above', 'map, above 4.5 m', colors.above, [above.object], true);
+  layer('low', 'voxels below 0.6 m', colors.rou, [low.object]);
+  layer('above', 'voxels above 4.5 m', colors.above, [above.object], true);
 }
 layer('free', 'motions, free', colors.free, [free.object]);
 layer('blocked', 'motions, blocked', colors.blocked, [blocked.object]);
-layer('path', 'path and carrot', colors.path, [path.object, carrot]);
-layer('flown', 'way flown', colors.track, [flown.object]);
+layer('path', 'planned path and carrot', colors.path, [path.object, carrot]);
+layer('flown', 'path flown', colors.track, [flown.object]);
 layer('command', 'command', colors.command, [arrow]);
 
 byId('ending').textContent = data.ending.charAt(0).toUpperCase() + data.ending.slice(1);
 byId('ending').className = data.outcome === 'success' ? '' : 'alarm';
 byId('note').textContent = data.is_same ? '' :
-    'Flown again it came out otherwise than the table tells: another version, or machine?';
+    'Flown again, the result differs from the table: another version or machine?';
 const figures = {};
-for (const name of ['clearance', 'speed', 'latency', 'in the model', 'state']) {
+for (const name of ['clearance', 'speed', 'latency', 'model size', 'state']) {
   const term = document.createElement('dt'), value = document.createElement('dd');
   term.textContent = name;
   byId('figures').append(term, value);
@@ -325,7 +325,7 @@ function showFigures() {
   figures.clearance.className = clearance < data.radius_m ? 'alarm' : '';
   figures.speed.textContent = moments > 0 ? speeds[moment].toFixed(1) + ' m/s' : '-';
   figures.latency.textContent = step ? step.latency_ms.toFixed(1) + ' ms' : '-';
-  figures['in the model'].textContent = held + (edge > 0 ? ' voxels' : ' points');
+  figures['model size'].textContent = held + (edge > 0 ? ' voxels' : ' points');
   const over = time >= ends;
   figures.state.textContent = over ? data.outcome : step && step.emergency ? 'emergency stop' : 'flying';
   figures.state.className = (over && data.outcome !== 'success') || (step && step.emergency) ? 'alarm' : '';
@@ -386,8 +386,8 @@ function tick(now) {
   seek(time + passed * Number(byId('rate').value));
   if (time >= ends) pause(); else requestAnimationFrame(tick);
 }
-/// The flight goes on after its last command, to its end, which comes after the last step here. A
-/// command that was still being thought of then was never given.
+/// The flight continues after its last command to its end, which follows the last step here. A
+/// command that was still being computed at the end was never given.
 const given = data.steps.filter(step => step.time_s < ends).length;
 function toStep(index) {
   pause();
@@ -425,7 +425,7 @@ function resize() {
 window.addEventListener('resize', resize);
 resize();
 controls.target.set(0, 0, 0);
-// The page's address with #t=5 begins at 5 s; else the first plan is shown.
+// The address with #t=5 starts at 5 s, otherwise the first plan is shown.
 const asked = window.location.hash.match(/^#t=([0-9.]+)$/);
 seek(asked ? Number(asked[1]) : data.steps.length > 0 ? data.steps[0].time_s : 0);
 controls.update();

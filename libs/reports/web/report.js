@@ -1,10 +1,10 @@
-// Draws the charts of a report from the JSON that comes with the page.
+// Draws the charts of a report from the JSON in the page.
 'use strict';
 (() => {
 const data = JSON.parse(document.getElementById('data').textContent);
 const summary = data.summary;
 
-// Okabe and Ito's colours, and a mark each, so that nothing hangs on colour alone.
+// Okabe and Ito's colours, each with a mark, so that nothing depends on colour alone.
 const looks = {
   'W-RoI': ['#0072B2', 'circle'], 'W-Full': ['#56B4E9', 'rect'], 'G-Full': ['#009E73', 'triangle'],
   'O-Full-0.2': ['#D55E00', 'rectRot'], 'O-Full-0.4': ['#E69F00', 'rectRot'],
@@ -16,7 +16,8 @@ const look = who => {
   const [color, mark] = looks[who.model] || ['#777777', 'circle'];
   return {color, mark, dash: who.guidance === 'astar' ? [] : [6, 4]};
 };
-const nameOf = who => who.model + (who.guidance === 'astar' ? ', A*' : ', ' + who.guidance);
+const modelOf = who => (data.model_names || {})[who.model] || who.model;
+const nameOf = who => modelOf(who) + (who.guidance === 'astar' ? ', A*' : ', ' + who.guidance);
 const same = (a, b) => a.model === b.model && a.guidance === b.guidance;
 
 Chart.defaults.animation = false;
@@ -26,7 +27,7 @@ Chart.defaults.color = '#1d2530';
 Object.assign(Chart.defaults.plugins.legend.labels, {usePointStyle: true, boxWidth: 9, boxHeight: 9});
 Chart.defaults.plugins.legend.position = 'bottom';
 
-// Intervals: points that have `low` and `high` along the axis of values get a bar.
+// Points with `low` and `high` get an interval bar along the value axis.
 const intervals = {
   id: 'intervals',
   beforeDatasetsDraw(chart, args, options) {
@@ -75,7 +76,7 @@ function withPlace(name, use) {
 }
 const axis = (text, more) => Object.assign({title: {display: true, text}}, more);
 const percent = share => 100 * share;
-/// Where an axis of shares begins, so that no interval is cut off.
+/// The lower end of an axis of rates, so that no interval is cut off.
 const lowest = datasets => Math.max(0, Math.min(...datasets.flatMap(
     set => set.data.map(point => 10 * Math.floor(point.low / 10)))));
 const inReference = cell => cell.condition.name === data.reference;
@@ -139,7 +140,7 @@ withPlace('speed', place => {
   }
 });
 
-// Curves have no points: the legend shows a piece of the line, dashed as it is.
+// Curves have no marks: the legend shows a piece of the line with its dashes.
 const lineLegend = {plugins: {legend: {labels: {
   pointStyleWidth: 42, boxHeight: 9,
   generateLabels: chart => Chart.defaults.plugins.legend.labels.generateLabels(chart).map(
@@ -153,14 +154,14 @@ withPlace('clearance', place => {
       borderDash: look(curve).dash, pointRadius: 0, borderWidth: 2.5, pointStyle: 'line',
       data: curve.quantiles_m.map((x, i) => ({x, y: 100 * i / (curve.quantiles_m.length - 1)}))
     }));
-    datasets.push({label: '0.30 m: under it is a collision', borderColor: '#777777', borderDash: [2, 4],
+    datasets.push({label: '0.30 m: collision below', borderColor: '#777777', borderDash: [2, 4],
                    pointRadius: 0, borderWidth: 2, pointStyle: 'line', data: [{x: 0.3, y: 0}, {x: 0.3, y: 100}]});
-    const guidance = group.guidance === 'astar' ? 'with A*' : 'flown ' + group.guidance;
-    draw(place, `Least true clearance of a flight, ${guidance}: share of flights below it, of the same ` +
+    const guidance = group.guidance === 'astar' ? 'with A*' : `with ${group.guidance} guidance`;
+    draw(place, `Minimum true clearance of a flight ${guidance}: share of flights below it, on the same ` +
                 `${group.courses} course${group.courses === 1 ? '' : 's'}`, 340, {
       type: 'line', data: {datasets},
-      options: {...lineLegend, scales: {x: axis('least clearance, m', {type: 'linear', min: 0}),
-                                        y: axis('runs, %', {min: 0, max: 100})}}
+      options: {...lineLegend, scales: {x: axis('minimum clearance, m', {type: 'linear', min: 0}),
+                                        y: axis('flights, %', {min: 0, max: 100})}}
     }, true);
   }
 });
@@ -171,7 +172,7 @@ withPlace('command', place => {
   const bars = (label, color, value) => ({
     label, backgroundColor: color, borderColor: color,
     data: cells.map(cell => value(cell)), barPercentage: 0.8});
-  draw(place, 'Sensor to command (logarithmic)', 90 + 46 * cells.length, {
+  draw(place, 'Latency from sensor to command (logarithmic)', 90 + 46 * cells.length, {
     type: 'bar',
     data: {labels: cells.map(nameOf), datasets: [
       bars('p50', '#0072B2', cell => cell.latency_p50_ms.median),
@@ -184,27 +185,29 @@ withPlace('command', place => {
 withPlace('stages', place => {
   const colors = {filter: '#0072B2', update: '#E69F00', astar: '#009E73', straight: '#B8C4CE',
                   primitives: '#CC79A7', '3dvfh': '#A0527F'};
+  const colorOf = {};
   const who = data.stages.filter(one => one.stages.length > 0);
-  const stages = [...new Set(who.flatMap(one => one.stages.map(stage => stage.stage)))];
+  for (const one of who) one.stages.forEach(stage => { colorOf[stage.stage] = colors[stage.of]; });
+  const stages = Object.keys(colorOf);
   for (const [key, title] of [['p50_ms', 'Stages, median'], ['p95_ms', 'Stages, 95th percentile']]) {
     draw(place, title, 110 + 30 * who.length, {
       type: 'bar',
       data: {labels: who.map(nameOf), datasets: stages.map(stage => ({
-        label: stage, backgroundColor: colors[stage] || '#777777',
+        label: stage, backgroundColor: colorOf[stage] || '#777777',
         data: who.map(one => (one.stages.find(s => s.stage === stage) || {})[key] || 0)}))},
-      options: {indexAxis: 'y', scales: {x: axis('ms a scan', {stacked: true}), y: {stacked: true}}}
+      options: {indexAxis: 'y', scales: {x: axis('ms per scan', {stacked: true}), y: {stacked: true}}}
     });
   }
 });
 
 withPlace('memory', place => {
   const datasets = data.memory.map(curve => ({
-    label: curve.model, borderColor: look(curve).color, backgroundColor: look(curve).color,
+    label: modelOf(curve), borderColor: look(curve).color, backgroundColor: look(curve).color,
     pointRadius: 0, borderWidth: 2, pointStyle: 'line',
     data: curve.megabytes_by_m.map(([x, y]) => ({x, y}))}));
   draw(place, 'Memory of the world model', 320, {
     type: 'line', data: {datasets},
-    options: {...lineLegend, scales: {x: axis('flown, m', {type: 'linear'}), y: axis('MB', {type: 'logarithmic'})}}
+    options: {...lineLegend, scales: {x: axis('distance flown, m', {type: 'linear'}), y: axis('MB', {type: 'logarithmic'})}}
   }, true);
 });
 document.body.dataset.charts = String(document.querySelectorAll('canvas').length);

@@ -8,31 +8,31 @@
 
 namespace hagen::avoidance {
 
-/// What a local planner is asked.
+/// The input of a local planner.
 struct PlanningTask {
-    VehicleState start;          ///< when a command given now will be followed (predicted)
-    Eigen::Vector3d carrot_m;    ///< where guidance wants it to go, and how high
-    double beyond_carrot_m = 0;  ///< way that is left from there; 0: it is the goal, to stop at
-    double speed_m_s = 4;        ///< at most
-    double ground_m = 0;         ///< height of the ground below, by the altimeter
+    VehicleState start;          ///< predicted for when a command given now takes effect
+    Eigen::Vector3d carrot_m;    ///< lookahead point of the guidance
+    double beyond_carrot_m = 0;  ///< remaining path length from there; 0: the carrot is the goal
+    double speed_m_s = 4;        ///< maximum
+    double ground_m = 0;         ///< height of the ground below, from the altimeter
     double altitude_m = 2;       ///< wanted, above the ground
-    double lowest_m = 1.0, highest_m = 4.5;  ///< altitudes allowed
+    double lowest_m = 1.0, highest_m = 4.5;  ///< altitude limits above the ground
     VehicleLimits limits;
-    double period_s = 0.1;  ///< the longest that a command may hold before the next can replace it
-    bool brakes_in_known_space = false;  ///< a braking tail must end in space that was seen
-    bool keeps_candidates = false;       ///< for pictures
+    double period_s = 0.1;               ///< longest time until the next command can replace one
+    bool brakes_in_known_space = false;  ///< braking must end in observed space
+    bool keeps_candidates = false;       ///< for visualization
 };
 
-/// A motion that was considered.
+/// A candidate motion of a planner.
 struct CandidateMotion {
-    std::vector<Eigen::Vector3f> way_m;
+    std::vector<Eigen::Vector3f> path_m;
     Eigen::Vector3d command_m_s;
     bool is_free;
 };
 
 struct Plan {
     Eigen::Vector3d command_m_s{0, 0, 0};  ///< velocity to fly
-    bool is_emergency = false;             ///< nothing is free, or contact is near: it brakes
+    bool is_emergency = false;             ///< no motion is free or contact is near: brake
     std::vector<CandidateMotion> candidates;
 };
 
@@ -42,15 +42,16 @@ class Planner {
     virtual Plan plan(const WorldModel& world, const PlanningTask& task) const = 0;
 };
 
-/// "primitives": motions of 36 azimuths x 5 elevations x 4 speeds, up, down and standing,
-/// with a braking tail.
-/// "3dvfh": polar histogram of 6 degree cells (3DVFH+).
-/// Both stop where contact is near (mustStop). Throws std::invalid_argument for other names.
+/// "primitives": motion primitives of 36 azimuths x 5 elevations x 4 speeds, up, down and hovering,
+/// each followed by braking.
+/// "3dvfh": polar histogram with 6 degree cells (3DVFH+).
+/// Both brake if contact is near (mustStop). makePlanner() throws std::invalid_argument for other
+/// names.
 const std::vector<std::string>& plannerNames();
 std::unique_ptr<Planner> makePlanner(const std::string& name);
 
-/// The guard of both: whether braking must begin now, for going on with the present velocity for
-/// another period would leave no room to stop.
+/// Whether braking must begin now, because another period at the current velocity would leave too
+/// little distance to stop.
 bool mustStop(const WorldModel& world, const PlanningTask& task);
 
 }  // namespace hagen::avoidance

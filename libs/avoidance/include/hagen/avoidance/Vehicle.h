@@ -3,16 +3,16 @@
 
 namespace hagen::avoidance {
 
-/// What a multirotor can do, and how much room it needs.
+/// Dynamics and size of a multirotor.
 struct VehicleLimits {
     double acceleration_m_s2 = 5;
-    double actuation_delay_s = 0.05;  ///< from a command to when it is followed
+    double actuation_delay_s = 0.05;  ///< until a command takes effect
     double radius_m = 0.45;
-    double margin_m = 0.2;      ///< that planners keep beyond the radius
-    double collision_m = 0.30;  ///< a true clearance under this is a collision
-    double response_per_s = 5;  ///< acceleration asked for, per difference of velocity
+    double margin_m = 0.2;      ///< that planners add to the radius
+    double collision_m = 0.30;  ///< a true clearance below this is a collision
+    double response_per_s = 5;  ///< gain: acceleration per velocity error
 
-    double room_m() const { return radius_m + margin_m; }
+    double clearance_radius_m() const { return radius_m + margin_m; }
 };
 
 struct VehicleState {
@@ -22,11 +22,11 @@ struct VehicleState {
 
 constexpr double kControlStep_s = 0.02;  ///< 50 Hz
 
-/// The acceleration that a commanded velocity causes: towards it, at most what the limits allow.
+/// The acceleration towards a commanded velocity, within the limits.
 Eigen::Vector3d accelerationFor(const VehicleState& state, const Eigen::Vector3d& command_m_s,
                                 const VehicleLimits& limits);
 
-/// A double integrator that follows a commanded velocity for a step.
+/// One step of a double integrator that follows a commanded velocity.
 VehicleState advance(const VehicleState& state, const Eigen::Vector3d& command_m_s, double step_s,
                      const VehicleLimits& limits);
 

@@ -11,63 +11,82 @@
 
 namespace hagen::avoidance {
 
-/// What a vehicle knows of what is around it. A planner asks nothing else, so that models can be
-/// compared under one planner. Points are in the map, as the vehicle believes it to be.
+/// What a vehicle knows about the obstacles around it. A planner queries nothing else, so that
+/// models can be compared under one planner. Points are in the map frame, as estimated by the
+/// vehicle.
 class WorldModel {
  public:
-    /// Clearances are told up to here: what is farther off is no nearer than this.
+    /// Clearances are limited to this value.
     static constexpr float kReach_m = 3.0f;
 
     virtual ~WorldModel() = default;
 
-    /// Takes in the next scan.
+    /// Updates the model with the next scan.
     virtual void update(const mapping::MappedScan& scan) = 0;
 
-    /// From a point to the nearest obstacle known, at most kReach_m; 0 within one. What is unknown
-    /// counts as free.
+    /// Distance from a point to the nearest known obstacle, at most kReach_m; 0 inside one. Unknown
+    /// space counts as free.
     virtual float clearance_m(const Eigen::Vector3f& point_m) const = 0;
 
-    /// The same, at most `most_m`: a model may answer sooner where no more matters.
-    virtual float clearanceWithin_m(const Eigen::Vector3f& point_m, float most_m) const {
-        return std::min(clearance_m(point_m), most_m);
+    /// The same, at most `limit_m`, which may be faster to compute.
+    virtual float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
+        return std::min(clearance_m(point_m), limit_m);
     }
 
-    /// Whether a point was seen, free or not.
+    /// Whether a point was observed, as free or occupied.
     virtual bool isKnown(const Eigen::Vector3f& point_m) const = 0;
 
-    /// What the model holds, by the sizes of what it is made of.
+    /// Memory of the model's data, computed from the sizes of its containers.
     virtual std::size_t bytes() const = 0;
 
-    /// Obstacles for a picture: their middles, and the edge of each (0: points).
+    /// Obstacles for visualization: their centres, and the edge length of a voxel (0: points).
     struct Obstacles {
-        std::vector<Eigen::Vector3f> middle_m;
+        std::vector<Eigen::Vector3f> centre_m;
         float edge_m = 0;
     };
     virtual Obstacles obstacles() const = 0;
 };
 
-/// What a world model is told before the flight.
+/// Parameters of a world model that are known before the flight.
 struct WorldModelSetting {
-    Eigen::AlignedBox3f bounds_m;  ///< where the flight can lead; maps end 3 m beyond
-    /// The true distance to the nearest obstacle at the time of the last scan, for the oracle.
+    Eigen::AlignedBox3f bounds_m;  ///< of the flight; maps extend 3 m beyond
+    /// The true distance to the nearest obstacle at the time of the last scan. Only the oracle
+    /// needs it.
     std::function<float(const Eigen::Vector3f&)> true_clearance_m;
 };
 
-/// Names of all world models:
+/// Names of all world models. The first is the key in flags, files and hashes, the second is what
+/// people read (displayName()):
 ///
-///     W-RoI           sliding window of RoI points: 10 scans, within 15 m, one point a 10 cm cube
-///     W-Full          the same of all points
-///     O-Full-0.2      OctoMap of all points at 0.2 m; O-Full-0.4
-///     O-RoI-0.2       of RoI points alone; O-RoI-0.4
-///     O-RoI+rays-0.2  RoI points are hits, rays of all points clear; O-RoI+rays-0.4
-///     G-Full          MRPT's COccupancyGridMap3D of all points at 0.2 m
-///     oracle          the true scene
+///     W-RoI           RoI window: RoI points of 10 scans within 15 m, one per 10 cm cube
+///     W-Full          full window: the same with all points
+///     O-Full-0.2      OctoMap 0.2 m: all points
+///     O-Full-0.4      OctoMap 0.4 m
+///     O-RoI-0.2       RoI OctoMap 0.2 m: only RoI points
+///     O-RoI-0.4       RoI OctoMap 0.4 m
+///     O-RoI+rays-0.2  RoI OctoMap with all rays 0.2 m: RoI points are hits, all rays clear
+///     O-RoI+rays-0.4  RoI OctoMap with all rays 0.4 m
+///     G-Full          occupancy grid 0.2 m: MRPT's COccupancyGridMap3D of all points
+///     oracle          true scene
 const std::vector<std::string>& worldModelNames();
 
-/// Whether a model needs the filter's labels (its cost counts then).
+/// The name of a model for people, such as "RoI window" for W-RoI. A name that is not in
+/// worldModelNames(), such as one in a table of another version, is returned as it is.
+std::string displayName(const std::string& model);
+
+/// The entry of worldModelNames() for user input: either that name, or displayName() in upper or
+/// lower case. Any other text is returned as it is, for the caller to reject.
+std::string worldModelFrom(const std::string& text);
+
+/// All names for error messages: "W-RoI (RoI window), W-Full (full window), ...".
+std::string worldModelList();
+
+/// Whether a model needs the filter's labels; then the filter's latency counts. Throws
+/// std::invalid_argument for unknown names.
 bool needsLabels(const std::string& model);
 
-/// Throws std::invalid_argument, naming the known ones, for any other name.
+/// Throws std::invalid_argument for unknown names and lists the known ones; also if the oracle gets
+/// no true clearance.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
 

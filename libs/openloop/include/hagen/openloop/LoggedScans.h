@@ -12,43 +12,44 @@
 
 namespace hagen::openloop {
 
-/// A recorded log, and how its scans are to be segmented.
+/// A recorded log and the settings for segmenting its scans.
 struct LogSource {
-    std::filesystem::path log;    ///< a .rawlog, or a scan folder
-    std::filesystem::path poses;  ///< where the vehicle was (TUM, KITTI); empty: what the log tells
-    std::string sensor_label;     ///< of the LiDAR; empty: all of the log
+    std::filesystem::path log;    ///< a .rawlog or a scan folder
+    std::filesystem::path poses;  ///< pose file (TUM, KITTI); empty: poses in the log
+    std::string sensor_label;     ///< of the LiDAR; empty: all LiDARs of the log
     observations::Settings settings;
-    float own_reach_m = 0.8f;  ///< nearer returns are the vehicle's own, and in no mapped scan
+    float own_reach_m = 0.8f;  ///< nearer returns are the vehicle's own and are left out
 };
 
-/// A segmented scan of a log, in the map.
+/// A segmented scan of a log in the map frame.
 struct LoggedScan {
-    std::size_t entry = 0;  ///< of the log, from 0; of a scan folder: the scan
+    std::size_t entry = 0;  ///< of the log, from 0; in a scan folder the scan
     mapping::MappedScan mapped;
-    Eigen::Vector3f vehicle_m{0, 0, 0};  ///< where the vehicle was when the turn was complete
-    bool is_moved_whole = false;  ///< placed by one pose: returns have no times, or poses end
-    double filter_ms = 0;         ///< this thread's CPU time, of the filter alone
+    Eigen::Vector3f vehicle_m{0, 0, 0};  ///< position of the vehicle at the end of the scan
+    /// Returns have no times, or the poses end before the scan does.
+    bool is_placed_by_one_pose = false;
+    double filter_ms = 0;  ///< CPU time of this thread in the filter
 };
 
-/// The scans of a log, segmented, one after the other. Poses are those of `poses`, else the log's
-/// own; each return is placed by the pose at its own time.
+/// The segmented scans of a log, one after the other. Poses come from `poses` or, if that is empty,
+/// from the log; each return is placed by the pose at its own time.
 class LoggedScans {
  public:
-    /// Reads poses and times. Throws std::runtime_error, naming the file, where there are no scans,
-    /// no poses, or fewer than half of the scans have one; SettingsError where settings do not fit.
+    /// Reads poses and times. Throws std::runtime_error, naming the file, if there are no scans or
+    /// no poses, or if fewer than half of the scans have one; SettingsError for invalid settings.
     explicit LoggedScans(const LogSource& source);
 
-    /// The next scan that has a pose; false at the end. Throws BrokenRawlog or BrokenScan where the
-    /// log breaks off. A scan that cannot be read is left out.
+    /// Reads the next scan that has a pose; false at the end. Throws BrokenRawlog or BrokenScan if
+    /// the log is truncated. Skips scans that cannot be read.
     bool next(LoggedScan& scan);
 
     const std::string& poseSource() const { return source_->poses().source; }
     /// The map's z axis points against gravity.
     bool posesHaveHorizon() const { return source_->poses().vehicle.has_horizon; }
-    /// Scans of the log, and those of them without a pose; they are left out.
+    /// Number of scans in the log, and of those without a pose, which are skipped.
     std::size_t scans() const { return scans_; }
     std::size_t scansWithoutPose() const { return without_pose_; }
-    /// Scans met so far that could not be read, and why the last of them could not.
+    /// Number of scans so far that could not be read, and the error of the last of them.
     std::size_t unreadableScans() const { return unreadable_; }
     const std::string& whyUnreadable() const { return why_unreadable_; }
     /// Contains the vehicle's position at every scan.

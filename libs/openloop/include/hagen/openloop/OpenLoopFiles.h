@@ -11,27 +11,27 @@ namespace hagen::openloop {
 
 /// The folder that `octomap-compare openloop` writes:
 ///
-///     openloop.csv           a row a model
-///     scans.csv              a row a scan and model
-///     agreement.csv          a row a pair of models
-///     summary.json           all of the first and third, and what was digested
-///     openloop_measured.csv  a row a model: what this machine took
-///     scans_measured.csv     a row a scan and model: what this machine took
+///     openloop.csv           one row per model
+///     scans.csv              one row per scan and model
+///     agreement.csv          one row per pair of models
+///     summary.json           openloop.csv, agreement.csv and a description of the log
+///     openloop_measured.csv  one row per model: cost on this machine
+///     scans_measured.csv     one row per scan and model: cost on this machine
 ///
-/// All but the measured are the same, byte for byte, whenever the same log is digested. Files
-/// appear when they are whole.
+/// Except for the measured values, the same log gives the same bytes. Files appear when they are
+/// complete.
 class OpenLoopFiles {
  public:
-    /// Throws std::runtime_error, naming it, where a file exists and `overwrite` is not set, and
-    /// where the folder cannot be made.
+    /// Throws std::runtime_error, naming it, if a file exists and `overwrite` is not set, or if the
+    /// folder cannot be made.
     OpenLoopFiles(const std::filesystem::path& folder, bool overwrite);
     ~OpenLoopFiles();
 
-    /// Throws std::runtime_error, naming the file, where it cannot be written.
+    /// Throws std::runtime_error, naming the file, if it cannot be written.
     void add(const OpenLoopRow& row, const OpenLoopCost& cost);
-    /// Parts that earlier runs left are removed.
+    /// Completes the files and removes partial files of earlier runs.
     void commit(const OpenLoop& open_loop, const OpenLoopResult& result);
-    /// What was digested of a log that ended early: scans.partial.csv and so on.
+    /// Keeps the results of a log that ended early as scans.partial.csv and so on.
     void keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result);
 
  private:
@@ -50,7 +50,7 @@ class OpenLoopFiles {
     File *models_, *scans_, *agreement_, *summary_, *models_measured_, *scans_measured_;
 };
 
-/// How the truth of an open loop is called.
+/// A description of the ground truth.
 std::string truthOf(const OpenLoop& open_loop);
 
 }  // namespace hagen::openloop

@@ -4,7 +4,7 @@
 
 namespace hagen::openloop {
 
-/// What was digested, a line a model, and how they agree; for a terminal.
+/// The result for a terminal: the log, one line per model, and the agreement of the models.
 std::string tableOf(const OpenLoop& open_loop, const OpenLoopResult& result);
 
 }  // namespace hagen::openloop

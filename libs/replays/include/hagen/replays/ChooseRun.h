@@ -6,7 +6,7 @@
 
 namespace hagen::replays {
 
-/// What is known of the run that is wanted. Empty names and 0: any.
+/// Criteria for selecting a run. Empty names and 0: any.
 struct RunWanted {
     std::uint64_t seed = 0;
     std::string scenario, model, guidance, planner, pose_error;
@@ -14,16 +14,16 @@ struct RunWanted {
     double speed_m_s = 0, latency_scale = 0;
 };
 
-/// The only run that is wanted. Throws std::invalid_argument where there is none, or several: then
-/// the message lists what there is to choose from.
+/// The run that matches. Throws std::invalid_argument and lists the candidates if none or several
+/// match.
 trials::Run chooseRun(const std::vector<trials::Run>& runs, const RunWanted& wanted);
 
-/// A run, by the flags that tell it from those of its seed `among` which it is, as a shell takes
-/// them: "--scenario gap --model W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
+/// The flags that select a run `among` others of its seed, for a shell:
+/// "--scenario gap --model W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
 std::string choiceOf(const trials::Run& run, const std::vector<trials::Run>& among);
 
-/// A run as a file is called, different of each: "gap-7-W-RoI-astar-4mps"; conditions that are not
-/// the usual ones follow: "-3dvfh-noise-latency4-brake-known".
+/// A unique name of a run for files: "gap-7-W-RoI-astar-4mps", followed by conditions that differ
+/// from the defaults: "-3dvfh-noise-latency4-brake-known".
 std::string fileNameOf(const trials::Run& run);
 
 }  // namespace hagen::replays

@@ -6,8 +6,8 @@
 
 namespace hagen::replays {
 
-/// How a flight ended, in words: "hit a tree at 7.42 s: 0.28 m from it to the vehicle's middle".
-/// `speed_m_s` is the speed that the flight was to have, `end_m` where the vehicle was then.
+/// How a flight ended: "hit a tree at 7.42 s: 0.28 m from the vehicle's centre".
+/// `speed_m_s` is the maximum speed of the run, `end_m` the vehicle's last position.
 std::string endingOf(const trials::Course& course, const trials::TrialResult& result,
                      double speed_m_s, const Eigen::Vector3d& end_m);
 

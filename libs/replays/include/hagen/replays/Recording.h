@@ -9,18 +9,18 @@
 
 namespace hagen::replays {
 
-/// A cell of the map, or a point of it, and from which step until before which it was there.
+/// A voxel or point of the world model, present from step `from_step` until before `until_step`.
 struct ModelCell {
-    Eigen::Vector3f middle_m;
+    Eigen::Vector3f centre_m;
     int from_step, until_step;
 };
 
 struct RecordedMotion {
-    std::vector<Eigen::Vector3f> way_m;
+    std::vector<Eigen::Vector3f> path_m;
     bool is_free;
 };
 
-/// A planning step, thinned out for a picture.
+/// A planning step, thinned for visualization.
 struct RecordedStep {
     double time_s, latency_ms;
     Eigen::Vector3d command_m_s, carrot_m;
@@ -30,7 +30,7 @@ struct RecordedStep {
     std::vector<RecordedMotion> motions;
 };
 
-/// The vehicle as it truly was.
+/// The vehicle's true state.
 struct RecordedMoment {
     Eigen::Vector3d at_m;
     double speed_m_s, clearance_m;
@@ -41,15 +41,15 @@ struct RecordedEvent {
     std::string what;
 };
 
-/// A whole run, small enough to be looked at in a page.
+/// A whole run, small enough for a web page.
 struct Recording {
     trials::Run run{};
     bool is_same = false;
     Eigen::Vector3d start_m{0, 0, 0}, goal_m{0, 0, 0};
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
-    std::vector<RecordedMoment> track;  ///< every kControlStep_s, to the very end of the flight
-    std::string ending;                 ///< how it ended, in words
+    std::vector<RecordedMoment> track;  ///< every kControlStep_s until the end of the flight
+    std::string ending;                 ///< text of endingOf()
     TrueScene scene;
     std::vector<ModelCell> model;
     float model_edge_m = 0;  ///< of its cells; 0: points
@@ -57,15 +57,15 @@ struct Recording {
 };
 
 struct RecordingLimits {
-    std::size_t full_steps = 150;  ///< runs of more keep less of each, so that pages stay small
-    std::size_t points = 2500;     ///< of each label, a step
-    std::size_t motions = 60;      ///< a step
+    std::size_t full_steps = 150;  ///< longer runs keep fewer points per step
+    std::size_t points = 2500;     ///< per label and step
+    std::size_t motions = 60;      ///< per step
     std::size_t cells = 150000;    ///< of the model
-    float point_grid_m = 0.1f;     ///< of models made of points: one in each such cube
-    float reach_m = 25;            ///< of points
+    float point_grid_m = 0.1f;     ///< models of points: one point per cube of this size
+    float reach_m = 25;            ///< of the returns that are kept
 };
 
-/// Flies the run again, and keeps what can be seen. Throws as flyAgain() does.
+/// Flies the run again and records it. Throws like flyAgain().
 Recording record(const trials::Run& run, const trials::LatencyProfile& profile,
                  const RecordingLimits& limits = {});
 

@@ -4,14 +4,14 @@
 
 namespace hagen::replays {
 
-/// A run of a table, flown once more.
+/// A run of a table, flown again.
 struct Reflown {
     trials::Course course;
     trials::TrialResult result;
-    bool is_same;  ///< every figure of the row came out again
+    bool is_same;  ///< every field of the row is the same
 };
 
-/// Flies the course of a run as it was flown. Throws as makeCourse() and runTrial() do.
+/// Flies a run again with its setup. Throws like makeCourse() and runTrial().
 Reflown flyAgain(const trials::Run& run, const trials::LatencyProfile& profile,
                  const trials::TrialListener& listener);
 

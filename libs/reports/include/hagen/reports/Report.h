@@ -10,20 +10,20 @@
 
 namespace hagen::reports {
 
-/// All that a report tells of.
+/// All data of a report.
 struct Report {
     trials::FlownRuns flown;
     Summary summary;
     std::optional<trials::LatencyProfile> profile;
     std::vector<trials::HeapCurve> memory;
     std::vector<replays::OverheadView> worst;
-    std::vector<std::string> worst_missing;  ///< which cannot be shown, and why
+    std::vector<std::string> worst_missing;  ///< runs that cannot be shown, and why
 };
 
-/// One page that needs nothing else: tables and words as HTML, charts by script.
+/// A self-contained HTML page: text, tables, and charts drawn by a script.
 std::string reportPage(const Report& report);
 
-/// The verdict and the main tables, for documents.
+/// The verdict and the main tables as Markdown.
 std::string reportMarkdown(const Report& report);
 
 }  // namespace hagen::reports

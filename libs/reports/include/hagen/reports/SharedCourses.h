@@ -6,25 +6,25 @@
 
 namespace hagen::reports {
 
-/// How contenders of one guidance flew the very same courses: medians of different courses
+/// Flights of contenders with one guidance on the same courses. Medians over different courses
 /// would compare courses, not contenders.
 struct SharedCourses {
     trials::Condition condition;
     std::string guidance;
-    int flown = 0;    ///< courses that all of them flew
-    int arrived = 0;  ///< of these, courses on which all arrived
-    int reacted = 0;  ///< of these, courses on which all reacted to something
-    /// A contender each, of the `arrived` courses alone; its first reaction of the `reacted` ones.
-    /// None where there is no such course.
+    int flown = 0;    ///< courses that all contenders flew
+    int arrived = 0;  ///< of these, courses on which all reached the goal
+    int reacted = 0;  ///< of these, courses on which all reacted to an obstacle
+    /// One per contender, over the `arrived` courses; first reactions over the `reacted` ones.
+    /// Empty if there is no such course.
     std::vector<Cell> cells;
-    /// Of all `flown` courses, whatever came out: least clearances by contender, in the order of
-    /// `contenders`. [m]
+    /// Minimum clearances [m] of all `flown` courses, whatever the outcome; one list per contender,
+    /// in the order of `contenders`.
     std::vector<std::vector<double>> min_clearances_m;
     std::vector<trials::Contender> contenders;
 };
 
-/// For each guidance that was flown under the condition: of the contenders that flew most courses;
-/// then, where others flew fewer by a tenth or more, of these as well, and so on.
+/// For each guidance under a condition: first of the contenders that flew the most courses, then
+/// including those that flew at least a tenth fewer, and so on.
 std::vector<SharedCourses> sharedCourses(const std::vector<trials::Run>& runs,
                                          const Summary& summary,
                                          const trials::Condition& condition);

@@ -8,7 +8,7 @@
 
 namespace hagen::reports {
 
-/// Of several values: NaN where there is none.
+/// Quantiles of several values; NaN without values.
 struct Spread {
     int count = 0;
     double p05 = NAN, median = NAN, p95 = NAN;
@@ -21,8 +21,8 @@ struct Cell {
     trials::Condition condition;
     trials::Contender contender;
     int runs = 0, successes = 0, collisions = 0, timeouts = 0;
-    Spread min_clearance_m{};  ///< of all runs; the others below of successful ones
-    Spread path_ratio{};       ///< way flown over the oracle's way to the goal's sphere
+    Spread min_clearance_m{};  ///< of all runs; the next four of successful ones only
+    Spread path_ratio{};       ///< path flown over the shortest path found in the true scene
     Spread time_s{}, first_reaction_m{}, rms_jerk_m_s3{};
     Spread latency_p50_ms{}, latency_p95_ms{};  ///< sensor to command, of all runs
     double latency_max_ms = NAN;
@@ -32,61 +32,63 @@ struct Cell {
 
 enum class Verdict { NotInferior, Inferior, Open };
 
-/// What is this thin a filter may lose: wires are told of apart.
+/// A filter may lose objects this thin, so wires are reported separately.
 constexpr const char* kWires = "wires";
 constexpr const char* kAllButWires = "all but wires";
 
-/// Two contenders that flew the same courses under the same condition.
+/// Two contenders on the courses that both flew, under one condition.
 struct Pairing {
-    std::string scenario;  ///< empty: all scenarios that both flew; kAllButWires
+    std::string scenario;  ///< empty: all scenarios that both flew; or kAllButWires
     trials::Condition condition;
     trials::Contender first, second;
     int both = 0, only_first = 0, only_second = 0, neither = 0;  ///< succeeded
     int only_first_collided = 0, only_second_collided = 0;
-    double p = 1, p_holm = 1;  ///< McNemar; Holm's correction over all pairings of the same kind
-    double difference = 0;     ///< of success, first - second
-    trials::Bounds interval{-1, 1};   ///< Newcombe, 95 %
-    Verdict verdict = Verdict::Open;  ///< with a margin of kMargin
+    double p = 1,
+           p_holm = 1;      ///< McNemar's test; with Holm's correction over all pairings of a list
+    double difference = 0;  ///< of success, first - second
+    trials::Bounds interval{-1, 1};   ///< Newcombe's, 95 %
+    Verdict verdict = Verdict::Open;  ///< with margin kMargin
 
     int pairs() const { return both + only_first + only_second + neither; }
 };
 
-/// Less success than this is not inferior: 3 points.
+/// Margin of non-inferiority: 3 percentage points of success.
 constexpr double kMargin = 0.03;
 
-/// The success of a contender at several speeds, all else being the same.
+/// The success of a contender at several speeds under otherwise equal conditions.
 struct SpeedLimit {
     std::string scenario;
-    trials::Condition lowest;  ///< of the conditions, by speed
+    trials::Condition lowest;  ///< the condition with the lowest speed
     trials::Contender contender;
-    double flown_m_s;    ///< highest there is
-    double highest_m_s;  ///< with success >= 95 %, and at all lower speeds; NaN: none
-    double sure_m_s;     ///< the same of the interval's lower bound
+    double flown_m_s;    ///< highest speed flown
+    double highest_m_s;  ///< highest with success >= 95 % there and at all lower speeds; NaN: none
+    double sure_m_s;     ///< the same for the lower bound of the interval
 };
 
 struct Summary {
-    std::vector<std::string> scenarios;         ///< as they come in the table
-    std::vector<trials::Condition> conditions;  ///< the one with most runs first
+    std::vector<std::string> scenarios;         ///< in the order of the table
+    std::vector<trials::Condition> conditions;  ///< the one with the most runs first
     std::vector<trials::Contender> contenders;  ///< A* first, W-RoI first among its models
     std::vector<Cell> cells;        ///< by condition, scenario (all scenarios last), contender
     std::vector<Pairing> overall;   ///< of all scenarios together
     std::vector<Pairing> pairings;  ///< of each scenario
-    /// W-RoI against W-Full in all scenarios but wires, under one guidance; none where wires were
-    /// not flown, for then `overall` tells it.
+    /// W-RoI against W-Full in all scenarios except wires. Empty if wires were not flown; `overall`
+    /// says the same then.
     std::vector<Pairing> without_wires;
     std::vector<SpeedLimit> speed_limits;
-    std::vector<std::string> settings, versions;  ///< of the runs; one of each if all is well
+    std::vector<std::string> settings, versions;  ///< of the runs; normally one of each
     int runs = 0;
 };
 
-/// Counts, spreads, paired tests. Under one condition W-RoI is compared with every other model of
-/// the same guidance; with itself under the other guidance; and, straight, with maps under A*.
+/// Counts, quantiles and paired tests. Under each condition, W-RoI is compared with every other
+/// model with the same guidance, with itself with the other guidance, and W-RoI with straight
+/// guidance with maps with A*.
 Summary summarize(const std::vector<trials::Run>& runs);
 
-/// Counts and spreads of one contender's runs, one at least, under one condition.
+/// Counts and quantiles of the runs, at least one, of one contender under one condition.
 Cell cellOf(const std::string& scenario, const std::vector<const trials::Run*>& runs);
 
-/// Nothing where there is no such cell.
+/// nullptr if there is no such cell.
 const Cell* find(const Summary& summary, const std::string& scenario,
                  const trials::Condition& condition, const trials::Contender& contender);
 

@@ -5,7 +5,7 @@
 
 namespace hagen::reports {
 
-/// summary.json: all of a summary, and how much of its campaign is flown; what is NaN is null.
+/// summary.json: the whole summary and how much of the campaign is done. NaN is written as null.
 std::string summaryJson(const Summary& summary, const trials::FlownRuns& flown);
 
 /// summary.csv: one row per cell.

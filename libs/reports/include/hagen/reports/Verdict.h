@@ -6,17 +6,17 @@
 
 namespace hagen::reports {
 
-/// The verdict in plain words, a sentence or two each.
+/// The verdict as text: entries of one or two sentences each.
 std::vector<std::string> verdictOf(const Summary& summary);
 
-/// W-RoI against W-Full where wires were flown: first where no wires are, then among them. Nothing
-/// for any other pairing, and where only wires were flown, or none.
-std::vector<Pairing> wiresApart(const Summary& summary, const Pairing& overall);
+/// W-RoI against W-Full, first without wires, then on wires only. Empty for any other pairing, and
+/// if only wires or no wires were flown.
+std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall);
 
-/// Pairings in single scenarios in which the first has less success, largest loss first.
+/// Pairings in single scenarios in which the first contender has less success; largest loss first.
 std::vector<Pairing> lossesOf(const Summary& summary);
 
-/// By how much the first has more success, with interval and p, and what is open.
+/// The difference in success with interval and p, and whether it is decided.
 std::string differenceText(const Pairing& pairing);
 
 }  // namespace hagen::reports

@@ -5,7 +5,7 @@
 
 namespace hagen::trials {
 
-/// What runs have in common that are compared with one another: all but scenario, model, guidance.
+/// What compared runs have in common: everything except scenario, model and guidance.
 struct Condition {
     double speed_m_s;
     std::string planner;
@@ -20,7 +20,7 @@ struct Condition {
     bool operator==(const Condition& other) const { return key() == other.key(); }
 };
 
-/// A world model and what guides over it.
+/// A world model with a guidance.
 struct Contender {
     std::string model, guidance;
 
@@ -32,14 +32,15 @@ struct Contender {
     }
 };
 
-/// The condition that a run was flown under, and who flew it.
+/// The condition and the contender of a run.
 Condition conditionOf(const Run& run);
 Contender contenderOf(const Run& run);
 
-std::string nameOf(const Contender& contender);  ///< "W-RoI, A*"
-/// "4 m/s", and whatever is not as in the reference: planner 3dvfh, pose noise, latency x4, ...
+/// For people: "RoI window, A*".
+std::string nameOf(const Contender& contender);
+/// The speed and every deviation from the defaults: "4 m/s, planner 3dvfh, latency x4".
 std::string nameOf(const Condition& condition);
-/// That alone: ", planner 3dvfh"; empty for the reference.
+/// Only the deviations: ", planner 3dvfh"; empty if there are none.
 std::string deviationOf(const Condition& condition);
 
 }  // namespace hagen::trials

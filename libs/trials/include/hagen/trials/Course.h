@@ -10,7 +10,7 @@
 
 namespace hagen::trials {
 
-/// What is flown: from a start to a goal through a scene.
+/// A start, a goal and the scene between them.
 struct Course {
     std::string scenario;
     std::uint64_t seed;
@@ -25,17 +25,18 @@ struct Course {
 /// Names of all courses. Each leads 40 m along x:
 ///
 ///     forest-0.02  random trees, 0.02 per square metre; also forest-0.05, forest-0.10
-///     orchard      rows 4 x 3 m at 10 to 30 degrees to the way, some trees missing; flown at 2.5 m
-///     gap          a wall 6 m high across the way, with a gap of 1.6 to 2.4 m anywhere in it
+///     orchard      rows 4 x 3 m at 10 to 30 degrees to the path, some trees missing; flown at 2.5
+///     m gap          a wall 6 m high across the path, with a gap of 1.6 to 2.4 m anywhere in it
 ///     u-trap       walls 6 m high as a U, 9 to 11 m wide and 8 to 10 m deep, open to the start
 ///     terrain      slopes up to 15 degrees with trees and rocks
-///     wires        wires 24 mm thick across the way, one of each line at flight altitude
-///     movers       people, cars and drones that circle across the way at 1 to 3 m/s; flown at 1.5
-///     m street       parked cars, also in the middle, lamps, trees and walls; flown at 1.5 m
+///     wires        wires 24 mm thick across the path, one of each line at flight altitude
+///     movers       people, cars and drones that circle across the path at 1 to 3 m/s; flown at
+///                  1.5 m
+///     street       parked cars, also in the middle, lamps, trees and walls; flown at 1.5 m
 const std::vector<std::string>& courseNames();
 
 /// The course of a scenario. A seed makes the same course on every machine. Scenes without a path
-/// for the vehicle are rejected; the next is made from the same seed's next stream.
+/// for the vehicle are rejected, and the next one is made from the seed's next stream.
 /// Throws std::invalid_argument, naming the known ones, for an unknown name.
 Course makeCourse(const std::string& scenario, std::uint64_t seed);
 

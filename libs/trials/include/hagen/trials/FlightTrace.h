@@ -21,7 +21,7 @@ class FlightTrace {
     /// The sensor's true pose, clamped to the first and last sample.
     simulation::SensorPose at(double time_s) const;
     /// Distance flown until then.
-    double way_m(double time_s) const;
+    double distance_m(double time_s) const;
 
     double end_s() const {
         return avoidance::kControlStep_s * static_cast<double>(samples_.size() - 1);
@@ -33,7 +33,7 @@ class FlightTrace {
     struct Sample {
         simulation::SensorPose pose;
         Eigen::Vector3d smooth_m_s2;  ///< acceleration
-        double way_m;
+        double distance_m;
     };
     struct Place {
         const Sample &before, &after;

@@ -6,24 +6,24 @@
 
 namespace hagen::trials {
 
-/// Planned runs of a contender under a condition that are not all there.
+/// A contender under a condition with planned runs that are not done yet.
 struct Shortfall {
     Condition condition;
     Contender contender;
     int flown, planned;
 };
 
-/// What a folder of `closedloop` holds of its campaign.
+/// The runs of a campaign folder, finished or not.
 struct FlownRuns {
-    std::vector<Run> runs;     ///< finished ones, sorted; those still in journals, too
-    MeasuredByModel measured;  ///< what they cost; empty where nobody measured
-    int planned = 0;           ///< by campaign.json; 0 where there is none
-    int missing = 0;           ///< of the planned ones
+    std::vector<Run> runs;     ///< finished runs, sorted, including those in journals
+    MeasuredByModel measured;  ///< cost of the runs; empty if not measured
+    int planned = 0;           ///< according to campaign.json; 0 without it
+    int missing = 0;           ///< planned runs that are not done
     std::vector<Shortfall> shortfalls;
 };
 
-/// Reads a folder, also while it is being flown into. Throws std::runtime_error, naming file and
-/// line, for what cannot be read, and where the folder holds no campaign.
+/// Reads a folder, also while its campaign is running. Throws std::runtime_error, naming file and
+/// line, if one cannot be read or the folder contains no campaign.
 FlownRuns readFlownRuns(const std::filesystem::path& folder);
 
 }  // namespace hagen::trials

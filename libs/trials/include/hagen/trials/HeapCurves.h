@@ -7,7 +7,7 @@
 
 namespace hagen::trials {
 
-/// What a world model held along a flight: distance flown [m], heap [bytes].
+/// Heap of a world model along a flight: distance flown [m], heap [bytes].
 struct HeapCurve {
     std::string model;
     std::vector<std::pair<double, double>> bytes_by_path_m;
@@ -15,7 +15,7 @@ struct HeapCurve {
 
 /// Flies `path_m` with each model and writes its heap as CSV: model,path_m,bytes. `begin` is called
 /// before each model, and may throw to end it. The file is written at `place`, such as an
-/// OutputPath's temporary name; throws std::runtime_error, naming `file`, where that fails.
+/// OutputPath's temporary name; throws std::runtime_error, naming `file`, if that fails.
 void writeHeapCurves(const std::vector<std::string>& models, double path_m,
                      const std::function<void(const std::string& model)>& begin,
                      const std::filesystem::path& place, const std::filesystem::path& file);

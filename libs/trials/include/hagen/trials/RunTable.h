@@ -40,7 +40,7 @@ Run runOfKey(const std::string& key);
 /// Throws std::runtime_error, naming file, line and column.
 std::vector<Run> readRuns(const std::filesystem::path& file);
 
-/// By scenario, speed, planner, guidance, model, ..., seed: one order, whatever order they flew in.
+/// Orders runs by scenario, speed, planner, guidance, model, ..., seed.
 void sortRuns(std::vector<Run>& runs);
 
 }  // namespace hagen::trials

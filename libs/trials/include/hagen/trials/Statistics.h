@@ -8,7 +8,7 @@ struct Bounds {
     double low, high;
 };
 
-/// Wilson's score interval of a share (Wilson 1927), 95 % unless told. No trials: 0 to 1.
+/// Wilson's score interval of a share (Wilson 1927), default: 95 %. No trials: 0 to 1.
 Bounds wilsonInterval(int successes, int trials, double level = 0.95);
 
 /// McNemar's exact test of paired outcomes: the two-sided p of `only_first` against `only_second`

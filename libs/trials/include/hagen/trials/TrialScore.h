@@ -35,9 +35,9 @@ class TrialJudge {
 };
 
 /// How far a vehicle can fly straight towards the goal until the true clearance first falls below
-/// `room_m`. NaN if the whole line is free. [m]
-double freeWay_m(const Course& course, const Eigen::Vector3d& position_m, double room_m,
-                 double time_s);
+/// `clearance_radius_m`. NaN if the whole line is free. [m]
+double freeDistance_m(const Course& course, const Eigen::Vector3d& position_m,
+                      double clearance_radius_m, double time_s);
 
 /// Whether a command leaves the straight line to the goal: it points more than 15 degrees away from
 /// the goal, or is slower than 0.7 of `speed_m_s`.
