@@ -18,7 +18,7 @@ struct FreeCompressor {
     }
 };
 
-/// One a thread: a compressor's memory is larger than most of what it packs.
+/// One per thread: a compressor is larger than most members.
 libdeflate_compressor* compressor() {
     thread_local std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor;
     if (!compressor) compressor.reset(libdeflate_alloc_compressor(kLevel));
@@ -46,7 +46,7 @@ GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
     errno = 0;
     file_.reset(std::fopen(file.c_str(), "wb"));
     if (!file_) refuse(path_);
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is a buffer of its own
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is already a buffer
 }
 
 void GzipOutput::write(const Bytes& member) {

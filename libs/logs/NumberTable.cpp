@@ -31,7 +31,7 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
             char* end = nullptr;
             const double number = std::strtod(word.c_str(), &end);
             if (*end != '\0' || !std::isfinite(number)) {
-                refuse(file, line, "'" + word + "' is no number");
+                refuse(file, line, "'" + word + "' is not a finite number");
             }
             entry.numbers.push_back(number);
         }
@@ -44,7 +44,7 @@ void checkColumns(const std::filesystem::path& file, const NumberLine& line, std
                   const std::string& what) {
     if (line.numbers.size() == columns) return;
     refuse(file, line.line,
-           std::to_string(columns) + " numbers are expected (" + what + "), not " +
+           "expected " + std::to_string(columns) + " numbers (" + what + "), found " +
                std::to_string(line.numbers.size()));
 }
 

@@ -17,32 +17,32 @@ inline std::size_t coresOfThisMachine() {
     return static_cast<std::size_t>(tbb::info::default_concurrency());
 }
 
-/// What is done to each of a stream of pieces. Steps "in order" see one piece at a time, in the
-/// order in which they were read, and need no locks of their own; the others may work on several.
-template <class Piece>
+/// The steps applied to each item of a stream. Steps marked "in order" see one item at a time, in
+/// the order of reading, and need no locks; the others may process several items concurrently.
+template <class Item>
 struct PipelineSteps {
-    std::function<bool(Piece&)> read;  ///< in order; no: there are no more
-    std::function<void(Piece&)> work;
-    std::function<void(Piece&)> account;  ///< in order
-    std::function<void(Piece&)> pack;
-    std::function<void(Piece&)> write;  ///< in order
+    std::function<bool(Item&)> read;  ///< in order; false: no more items
+    std::function<void(Item&)> work;
+    std::function<void(Item&)> account;  ///< in order
+    std::function<void(Item&)> pack;
+    std::function<void(Item&)> write;  ///< in order
 };
 
-/// A piece's place in a pipeline. TBB alone sees to it that one thread has it at a time, and nobody
-/// ever waits for its lock; that is for ThreadSanitizer, which does not see into TBB (and still
-/// frets about how a pipeline begins and ends).
-template <class Piece>
+/// Storage of an item in a pipeline. TBB ensures that only one thread has it at a time, so its lock
+/// is never contended. It is for ThreadSanitizer, which cannot see TBB's synchronisation (and
+/// still reports the start and end of a pipeline).
+template <class Item>
 struct PipelinePlace {
-    Piece piece;
+    Item item;
     std::mutex lock;
     ~PipelinePlace() { const std::lock_guard last(lock); }
 };
 
-/// Places that are used again and again.
-template <class Piece>
+/// A pool of reusable places.
+template <class Item>
 class PipelinePlaces {
  public:
-    using Place = PipelinePlace<Piece>;
+    using Place = PipelinePlace<Item>;
 
     explicit PipelinePlaces(std::size_t size) {
         for (std::size_t i = 0; i < size; ++i) {
@@ -67,54 +67,54 @@ class PipelinePlaces {
     std::mutex is_used_;
 };
 
-/// Takes all pieces through the steps, on up to `threads` threads; on one, piece by piece, and by
-/// the caller's own. A step that throws ends it, with what it threw: pieces before it may then be
-/// written or not. Memory is that of two pieces a thread.
-template <class Piece>
-void runPipeline(const PipelineSteps<Piece>& steps, std::size_t threads) {
+/// Runs all items through the steps on up to `threads` threads; with one thread, item by item on
+/// the caller's. An exception in a step ends the pipeline and is rethrown; items before it may or
+/// may not be written then. Holds two items per thread in memory.
+template <class Item>
+void runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
     if (threads == 1) {
-        for (Piece piece; steps.read(piece);) {
-            steps.work(piece);
-            steps.account(piece);
-            steps.pack(piece);
-            steps.write(piece);
+        for (Item item; steps.read(item);) {
+            steps.work(item);
+            steps.account(item);
+            steps.pack(item);
+            steps.write(item);
         }
         return;
     }
-    const std::size_t most = 2 * threads;  // one to work on, one to wait for its turn
-    PipelinePlaces<Piece> places(most);
-    using Place = PipelinePlace<Piece>;
+    const std::size_t most = 2 * threads;  // one in work, one waiting for its turn
+    PipelinePlaces<Item> places(most);
+    using Place = PipelinePlace<Item>;
 
-    std::mutex reads, accounts, writes;  // never waited for, either
+    std::mutex reads, accounts, writes;  // never contended either
     const auto read = [&](tbb::flow_control& flow) -> Place* {
         Place* const place = places.take();
         const std::scoped_lock lock(place->lock, reads);
-        if (steps.read(place->piece)) return place;
+        if (steps.read(place->item)) return place;
         flow.stop();
         return nullptr;
     };
     const auto side_by_side = [](const auto& step) {
         return tbb::make_filter<Place*, Place*>(tbb::filter_mode::parallel, [&](Place* place) {
             const std::lock_guard lock(place->lock);
-            step(place->piece);
+            step(place->item);
             return place;
         });
     };
     const auto account = [&](Place* place) {
         const std::scoped_lock lock(place->lock, accounts);
-        steps.account(place->piece);
+        steps.account(place->item);
         return place;
     };
     const auto write = [&](Place* place) {
         {
             const std::scoped_lock lock(place->lock, writes);
-            steps.write(place->piece);
+            steps.write(place->item);
         }
         places.giveBack(place);
     };
     constexpr auto in_order = tbb::filter_mode::serial_in_order;
 
-    // More threads than cores have to be allowed, or TBB grumbles.
+    // TBB prints a warning if a pipeline has more threads than cores, unless this allows them.
     std::optional<tbb::global_control> more;
     if (threads > coresOfThisMachine()) {
         more.emplace(tbb::global_control::max_allowed_parallelism, threads);

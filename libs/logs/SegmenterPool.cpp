@@ -7,7 +7,7 @@ using observations::ObservationSegmenter;
 SegmenterPool::SegmenterPool(const observations::Settings& settings,
                              observations::CloudClass cloud_class)
     : settings_(settings), cloud_class_(cloud_class) {
-    lease();  // reports settings that do not fit before anything is read
+    lease();  // reports inconsistent settings before anything is read
 }
 
 SegmenterPool::Lease SegmenterPool::lease() {

@@ -14,7 +14,7 @@ class SegmenterPool {
     /// Throws SettingsError if settings and sensor are inconsistent.
     SegmenterPool(const observations::Settings& settings, observations::CloudClass cloud_class);
 
-    /// Returned to the pool at its end. A segmenter's output is valid as long as the lease.
+    /// Returns the segmenter to the pool at its end, and with it the segmenter's output.
     using Lease = std::unique_ptr<observations::ObservationSegmenter,
                                   std::function<void(observations::ObservationSegmenter*)>>;
     Lease lease();  ///< on any thread

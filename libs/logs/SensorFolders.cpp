@@ -28,12 +28,12 @@ const fs::path& SensorFolders::folderOf(const std::string& sensor_label) {
     fs::path& folder = folders_[sensor_label];
     if (folder.empty()) {
         folder = path_.temporary() / fileName(sensor_label);
-        while (!fs::create_directory(folder)) folder += "_";  // another label has that name
+        while (!fs::create_directory(folder)) folder += "_";  // name already taken
     }
     return folder;
 }
 
-/// Of one sensor alone, its part becomes the whole.
+/// With only one sensor, its folder becomes the whole output.
 void SensorFolders::liftOnlyOne() {
     if (folders_.size() != 1) return;
     fs::path lifted = path_.temporary();

@@ -118,7 +118,8 @@ TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
                   "has no pose near any of the 6 scans");
     EXPECT_FALSE(fs::exists(path("no")));
     folder_.write("empty.tum", "# nothing\n");
-    expectFailure(with(log, {"--poses", path("empty.tum"), "-o", path("no")}), 1, "holds no pose");
+    expectFailure(with(log, {"--poses", path("empty.tum"), "-o", path("no")}), 1,
+                  "contains no poses");
 }
 
 TEST_F(OpenLoopCommand, RefusesWrongUsage) {

@@ -443,8 +443,10 @@ TEST_F(RawlogSegment, FailsWhereTheOutputsFolderIsMissing) {
 TEST_F(RawlogSegment, FailsToReplaceItsInputOrAnythingThatHoldsIt) {
     const auto copy = folder_.write("logs/in.rawlog", test::readFile(kRecording));
     expectFailure({"-i", copy, "-o", copy, "--overwrite"}, 1, "is or contains the input");
-    expectFailure({"-i", copy, "--kitti", path("logs"), "--overwrite"}, 1, "is or contains the input");
-    expectFailure({"-i", copy, "--kitti", path("logs/"), "--overwrite"}, 1, "is or contains the input");
+    expectFailure({"-i", copy, "--kitti", path("logs"), "--overwrite"}, 1,
+                  "is or contains the input");
+    expectFailure({"-i", copy, "--kitti", path("logs/"), "--overwrite"}, 1,
+                  "is or contains the input");
     ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
     expectFailure({"-i", path("scans"), "--kitti", path("scans"), "--overwrite"}, 1,
                   "is or contains the input");
@@ -464,8 +466,10 @@ TEST_F(RawlogSegment, FailsToReplaceWhatIsNotItsOwn) {
 }
 
 TEST_F(RawlogSegment, FailsWhereOneOutputLiesInTheOther) {
-    expectFailure({"-i", kRecording, "-o", path("same"), "--kitti", path("same")}, 1, "use separate paths");
-    expectFailure({"-i", kRecording, "-o", path("same/x"), "--kitti", path("same")}, 1, "use separate paths");
+    expectFailure({"-i", kRecording, "-o", path("same"), "--kitti", path("same")}, 1,
+                  "use separate paths");
+    expectFailure({"-i", kRecording, "-o", path("same/x"), "--kitti", path("same")}, 1,
+                  "use separate paths");
 }
 
 TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
@@ -484,12 +488,12 @@ TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
 
 TEST_F(RawlogSegment, FailsOnASensorLabelThatIsNotThere) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--sensor-label", "lidra"}, 1,
-                  "no LiDAR scan of 'lidra' in what was converted; there are 'lidar'");
+                  "no converted entry has a LiDAR scan of 'lidra'; there are 'lidar'");
 }
 
 TEST_F(RawlogSegment, FailsWhereThereIsNoEntryToConvert) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--from", "21"}, 1,
-                  "has 21 entries, none from 21 on");
+                  "has 21 entries, none at or after 21");
 }
 
 TEST_F(RawlogSegment, FailsOnPosesThatAreNone) {

@@ -297,7 +297,7 @@ TEST_F(SegmentationEvaluate, FailsWithoutScansOrLabels) {
     expectFailure({"-i", (folder_ / "none").string()}, 1, "not a scan folder");
     expectFailure({"-i", folder_.path()}, 1, "velodyne");
     fs::create_directories(folder_ / "empty/velodyne");
-    expectFailure({"-i", (folder_ / "empty").string()}, 1, "holds no .bin files");
+    expectFailure({"-i", (folder_ / "empty").string()}, 1, "contains no .bin files");
     const std::string pole = labelledPole();
     fs::remove_all(folder_ / "pole/labels");
     expectFailure({"-i", pole}, 1, "000000.label");

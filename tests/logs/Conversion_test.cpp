@@ -364,7 +364,7 @@ TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
         FAIL();
     } catch (const std::runtime_error& e) {
         EXPECT_THAT(e.what(),
-                    HasSubstr("no LiDAR scan of 'rear' in what was converted; there are 'front'"));
+                    HasSubstr("no converted entry has a LiDAR scan of 'rear'; there are 'front'"));
     }
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
 }

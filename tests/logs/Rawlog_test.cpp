@@ -202,7 +202,7 @@ TEST(Rawlog, WhatComesAfterAMemberAndIsNoneIsTold) {
         damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // of the next member's header
         const auto [read, broken] = readAll(folder.write("damaged.rawlog", damaged));
         EXPECT_EQ(read, at < ends[1] ? 1u : 2u);
-        EXPECT_THAT(broken, HasSubstr("packed bytes are damaged")) << at << broken;
+        EXPECT_THAT(broken, HasSubstr("compressed data is corrupt")) << at << broken;
     }
     const auto [read, broken] = readAll(folder.write("longer.rawlog", bytes + "garbage"));
     EXPECT_EQ(read, 3u);

@@ -229,7 +229,7 @@ TEST_F(ScanSourceTest, AKittiFileIsForTheSelectedLidar) {
     }
     EXPECT_THAT(
         test::messageOf([&] { openRecording(rawlogOf(mixed()))->usePoses(folder_ / "poses.txt"); }),
-        HasSubstr("counts the scans of one LiDAR, and the log has 2"));
+        HasSubstr("the log has 2 LiDARs"));
 }
 
 TEST_F(ScanSourceTest, ScanTimesOfAllLidars) {
