@@ -176,10 +176,10 @@ TEST(ObservationSegmenter, AWindowTellsWhereItCannotMoveEachReturnByItself) {
     Trajectory vehicle;  // known at the scan's start alone
     vehicle.add(mrpt::Clock::fromDouble(100.0), {});
     segmenter.process(*scanFrom(0), out, vehicle);
-    EXPECT_THAT(out.remark, HasSubstr("poses do not reach to its end"));
+    EXPECT_THAT(out.remark, HasSubstr("poses do not cover the scan"));
     const auto cloud = observationOf(Scan(*out.scan), "cloud", mrpt::Clock::fromDouble(100.0));
     segmenter.process(*cloud, out, vehicle);
-    EXPECT_THAT(out.remark, HasSubstr("carry no times"));
+    EXPECT_THAT(out.remark, HasSubstr("have no times"));
 }
 
 TEST(ObservationSegmenter, CloudsKeepIntensitiesWhereWanted) {
