@@ -6,8 +6,8 @@
 namespace hagen {
 
 /// Reports the progress of a long command on standard error. On a terminal, updates one line;
-/// otherwise, as in a cluster job's log, prints a line at the start and then at most one per minute
-/// and per tenth of the work.
+/// otherwise, as in a cluster job's log, prints a line at the start, after every tenth of the work
+/// and at least every minute.
 class ProgressLine {
  public:
     /// `thing`: the unit that is counted, such as "run".

@@ -108,7 +108,7 @@ TEST_F(PoseFile, AKittiFileIsOfTheSensorScanByScan) {
     const auto vehicle = poses.vehicle.at(mrpt::Clock::fromDouble(100.1));
     ASSERT_TRUE(vehicle);
     EXPECT_NEAR(vehicle->x(), 4.0, 1e-9);
-    EXPECT_NEAR(vehicle->z(), -0.5, 1e-9);  // the sensor sits above it
+    EXPECT_NEAR(vehicle->z(), -0.5, 1e-9);  // the sensor is mounted above the origin
     EXPECT_EQ(poses.source, file.string());
 }
 
