@@ -112,7 +112,6 @@ class Program : public Command {
     Command subcommand(const std::string& name, const std::string& help);
     /// Parses the command line and runs `work`, or by default that of the subcommand; either
     /// returns the exit code. Prints errors, and returns the program's exit code.
-    /// of the subcommand. Prints errors, and returns the program's exit code.
     int run(int argc, char** argv, const std::function<int()>& work = nullptr);
     /// Prints a message after the program's name; returns the exit code.
     int fail(int exit_code, const std::string& message) const;

@@ -77,7 +77,7 @@ SourceOptions Converter::sourceOptions() {
     options.last_entry = conversion_.to;
     if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
     options.keep_going = [this] {
-        const std::lock_guard lock(listens_);
+        const std::lock_guard lock(listener_mutex_);
         return listener_.keep_going();
     };
     return options;
@@ -166,7 +166,7 @@ void Converter::segment(EntryInConversion& entry) {
 
 void Converter::reportRemarks(const ScanInConversion& scan) {
     const std::string title = titleOf(scan.recorded);
-    const std::lock_guard lock(listens_);
+    const std::lock_guard lock(listener_mutex_);
     if (!scan.is_segmented) {
         if (!scan.unreadable_because.empty()) listener_.unreadable(title, scan.unreadable_because);
         return;
@@ -187,7 +187,7 @@ void Converter::insertIntoMap(const ScanInConversion& scan) {
         ++report_.scans_in_map;
         return;
     }
-    const std::lock_guard lock(listens_);
+    const std::lock_guard lock(listener_mutex_);
     listener_.remark(titleOf(scan.recorded), "no pose near its time: it is not in the map");
 }
 
@@ -220,7 +220,7 @@ void Converter::account(EntryInConversion& entry) {
 
     ++report_.entries;
     report_.fraction = entry.fraction_read;
-    const std::lock_guard lock(listens_);
+    const std::lock_guard lock(listener_mutex_);
     listener_.progress(report_);
 }
 
@@ -254,8 +254,8 @@ ConversionReport Converter::run() {
     };
     // Pictures take a second each and are drawn sequentially. More threads would only read ahead,
     // and delay an interruption.
-    const std::size_t most = conversion_.jobs == 0 ? coresOfThisMachine() : conversion_.jobs;
-    runPipeline(steps, conversion_.pictures.empty() ? most : 1);
+    const std::size_t max_threads = conversion_.jobs == 0 ? coreCount() : conversion_.jobs;
+    runPipeline(steps, conversion_.pictures.empty() ? max_threads : 1);
     report_.left_out_before = source_->entriesSkipped();
     if (!end_) return finish();
     try {
@@ -290,8 +290,8 @@ ConversionReport Converter::finish() {
 template <class Error>
 void Converter::endEarly(const Error& why) {
     if (report_.entries == 0) throw why;
-    const std::string what = fs::is_directory(conversion_.input) ? "scans" : "entries";
-    throw Error(std::string(why.what()) + "; the " + std::to_string(report_.entries) + " " + what +
+    const std::string unit = fs::is_directory(conversion_.input) ? "scans" : "entries";
+    throw Error(std::string(why.what()) + "; the " + std::to_string(report_.entries) + " " + unit +
                 " before it are in" + outputs_.keepPartial(report_));
 }
 

@@ -13,7 +13,7 @@
 
 namespace hagen::logs {
 
-inline std::size_t coresOfThisMachine() {
+inline std::size_t coreCount() {
     return static_cast<std::size_t>(tbb::info::default_concurrency());
 }
 
@@ -32,39 +32,39 @@ struct PipelineSteps {
 /// is never contended. It is for ThreadSanitizer, which cannot see TBB's synchronisation (and
 /// still reports the start and end of a pipeline).
 template <class Item>
-struct PipelinePlace {
+struct PipelineSlot {
     Item item;
     std::mutex lock;
-    ~PipelinePlace() { const std::lock_guard last(lock); }
+    ~PipelineSlot() { const std::lock_guard last(lock); }
 };
 
-/// A pool of reusable places.
+/// A pool of reusable slots.
 template <class Item>
-class PipelinePlaces {
+class PipelineSlots {
  public:
-    using Place = PipelinePlace<Item>;
+    using Slot = PipelineSlot<Item>;
 
-    explicit PipelinePlaces(std::size_t size) {
+    explicit PipelineSlots(std::size_t size) {
         for (std::size_t i = 0; i < size; ++i) {
-            giveBack(places_.emplace_back(std::make_unique<Place>()).get());
+            giveBack(slots_.emplace_back(std::make_unique<Slot>()).get());
         }
     }
-    ~PipelinePlaces() { const std::lock_guard last(is_used_); }
-    Place* take() {
-        const std::lock_guard lock(is_used_);
-        Place* const place = idle_.back();
+    ~PipelineSlots() { const std::lock_guard last(mutex_); }
+    Slot* take() {
+        const std::lock_guard lock(mutex_);
+        Slot* const slot = idle_.back();
         idle_.pop_back();
-        return place;
+        return slot;
     }
-    void giveBack(Place* place) {
-        const std::lock_guard lock(is_used_);
-        idle_.push_back(place);
+    void giveBack(Slot* slot) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(slot);
     }
 
  private:
-    std::vector<std::unique_ptr<Place>> places_;
-    std::vector<Place*> idle_;
-    std::mutex is_used_;
+    std::vector<std::unique_ptr<Slot>> slots_;
+    std::vector<Slot*> idle_;
+    std::mutex mutex_;
 };
 
 /// Runs all items through the steps on up to `threads` threads; with one thread, item by item on
@@ -81,49 +81,49 @@ void runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
         }
         return;
     }
-    const std::size_t most = 2 * threads;  // one in work, one waiting for its turn
-    PipelinePlaces<Item> places(most);
-    using Place = PipelinePlace<Item>;
+    const std::size_t max_items = 2 * threads;  // one in work, one waiting for its turn
+    PipelineSlots<Item> slots(max_items);
+    using Slot = PipelineSlot<Item>;
 
     std::mutex reads, accounts, writes;  // never contended either
-    const auto read = [&](tbb::flow_control& flow) -> Place* {
-        Place* const place = places.take();
-        const std::scoped_lock lock(place->lock, reads);
-        if (steps.read(place->item)) return place;
+    const auto read = [&](tbb::flow_control& flow) -> Slot* {
+        Slot* const slot = slots.take();
+        const std::scoped_lock lock(slot->lock, reads);
+        if (steps.read(slot->item)) return slot;
         flow.stop();
         return nullptr;
     };
-    const auto side_by_side = [](const auto& step) {
-        return tbb::make_filter<Place*, Place*>(tbb::filter_mode::parallel, [&](Place* place) {
-            const std::lock_guard lock(place->lock);
-            step(place->item);
-            return place;
+    const auto parallel = [](const auto& step) {
+        return tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel, [&](Slot* slot) {
+            const std::lock_guard lock(slot->lock);
+            step(slot->item);
+            return slot;
         });
     };
-    const auto account = [&](Place* place) {
-        const std::scoped_lock lock(place->lock, accounts);
-        steps.account(place->item);
-        return place;
+    const auto account = [&](Slot* slot) {
+        const std::scoped_lock lock(slot->lock, accounts);
+        steps.account(slot->item);
+        return slot;
     };
-    const auto write = [&](Place* place) {
+    const auto write = [&](Slot* slot) {
         {
-            const std::scoped_lock lock(place->lock, writes);
-            steps.write(place->item);
+            const std::scoped_lock lock(slot->lock, writes);
+            steps.write(slot->item);
         }
-        places.giveBack(place);
+        slots.giveBack(slot);
     };
     constexpr auto in_order = tbb::filter_mode::serial_in_order;
 
     // TBB prints a warning if a pipeline has more threads than cores, unless this allows them.
     std::optional<tbb::global_control> more;
-    if (threads > coresOfThisMachine()) {
+    if (threads > coreCount()) {
         more.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }
     tbb::task_arena(static_cast<int>(threads)).execute([&] {
         tbb::parallel_pipeline(
-            most, tbb::make_filter<void, Place*>(in_order, read) & side_by_side(steps.work) &
-                      tbb::make_filter<Place*, Place*>(in_order, account) &
-                      side_by_side(steps.pack) & tbb::make_filter<Place*, void>(in_order, write));
+            max_items, tbb::make_filter<void, Slot*>(in_order, read) & parallel(steps.work) &
+                           tbb::make_filter<Slot*, Slot*>(in_order, account) &
+                           parallel(steps.pack) & tbb::make_filter<Slot*, void>(in_order, write));
     });
 }
 

@@ -20,7 +20,7 @@ constexpr const char* kTumColumns = "time x y z qx qy qz qw";
 constexpr const char* kKittiColumns = "a 3x4 matrix, row by row";
 constexpr double kRotationTolerance = 1e-3;  // files have six digits or more
 
-[[noreturn]] void refuse(const fs::path& file, const NumberLine& line, const std::string& why) {
+[[noreturn]] void fail(const fs::path& file, const NumberLine& line, const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line.line) + ": " + why);
 }
 
@@ -31,7 +31,7 @@ CPose3D poseOfMatrix(const fs::path& file, const NumberLine& line) {
     const auto rotation = matrix.asEigen().topLeftCorner<3, 3>();
     const double skew = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
     if (skew > kRotationTolerance || rotation.determinant() < 0) {
-        refuse(file, line, "the matrix is not a rigid transformation");
+        fail(file, line, "the matrix is not a rigid transformation");
     }
     return CPose3D(matrix);
 }
@@ -60,7 +60,7 @@ std::vector<TimedPose> readTumPoses(const fs::path& file) {
         const auto& n = line.numbers;
         const double norm = std::sqrt(n[4] * n[4] + n[5] * n[5] + n[6] * n[6] + n[7] * n[7]);
         if (std::abs(norm - 1.0) > kRotationTolerance) {
-            refuse(file, line, "the quaternion is not normalized");
+            fail(file, line, "the quaternion is not normalized");
         }
         const mrpt::math::CQuaternionDouble rotation(n[7] / norm, n[4] / norm, n[5] / norm,
                                                      n[6] / norm);

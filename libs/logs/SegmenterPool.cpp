@@ -12,11 +12,11 @@ SegmenterPool::SegmenterPool(const observations::Settings& settings,
 
 SegmenterPool::Lease SegmenterPool::lease() {
     const auto giveBack = [this](ObservationSegmenter* segmenter) {
-        const std::lock_guard lock(is_used_);
+        const std::lock_guard lock(mutex_);
         idle_.emplace_back(segmenter);
     };
     {
-        const std::lock_guard lock(is_used_);
+        const std::lock_guard lock(mutex_);
         if (!idle_.empty()) {
             Lease lease(idle_.back().release(), giveBack);
             idle_.pop_back();

@@ -22,7 +22,7 @@ class SegmenterPool {
  private:
     const observations::Settings settings_;
     const observations::CloudClass cloud_class_;
-    std::mutex is_used_;
+    std::mutex mutex_;
     std::vector<std::unique_ptr<observations::ObservationSegmenter>> idle_;
 };
 

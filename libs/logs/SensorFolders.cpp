@@ -34,7 +34,7 @@ const fs::path& SensorFolders::folderOf(const std::string& sensor_label) {
 }
 
 /// With only one sensor, its folder becomes the whole output.
-void SensorFolders::liftOnlyOne() {
+void SensorFolders::unwrapOnlyFolder() {
     if (folders_.size() != 1) return;
     fs::path lifted = path_.temporary();
     lifted += ".one";
@@ -44,12 +44,12 @@ void SensorFolders::liftOnlyOne() {
 }
 
 void SensorFolders::commit() {
-    liftOnlyOne();
+    unwrapOnlyFolder();
     path_.commit();
 }
 
 fs::path SensorFolders::keepPartial() {
-    liftOnlyOne();
+    unwrapOnlyFolder();
     return path_.keepPartial();
 }
 

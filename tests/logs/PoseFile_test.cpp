@@ -119,7 +119,7 @@ TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {
                 HasSubstr("1 poses for 2 scans"));
     survey.scans["rear"] = {};
     EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
-                HasSubstr("scans of one LiDAR"));
+                HasSubstr("scan of a single LiDAR"));
 }
 
 TEST_F(PoseFile, OfAScanFolderTheMapWinsOverTheFirstScan) {

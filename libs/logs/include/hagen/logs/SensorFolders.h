@@ -22,7 +22,7 @@ class SensorFolders {
     std::filesystem::path keepPartial();
 
  private:
-    void liftOnlyOne();
+    void unwrapOnlyFolder();
 
     base::OutputPath path_;
     std::map<std::string, std::filesystem::path> folders_;  ///< by sensor label
