@@ -81,7 +81,7 @@ TEST_F(PoseFile, PosesComeBack) {
 TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
     expectRefused("", "contains no poses");
     expectRefused("1 2 3\n", ":1: expected 8 numbers");
-    expectRefused("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n", ":2: 8 numbers");
+    expectRefused("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n", ":2: expected 8 numbers");
     expectRefused("0 0 0 0 0 0 0 2\n", ":1: the quaternion is not normalized");
     expectRefused("0 0 nan 0 0 0 0 1\n", ":1: 'nan' is not a finite number");
     expectRefused("0 0 1e999 0 0 0 0 1\n", "is not a finite number");
