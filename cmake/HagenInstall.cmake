@@ -1,4 +1,4 @@
-# The package that find_package(hagen) finds, and the presets beside it.
+# The package for find_package(hagen), and the settings presets.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hagen)
 install(EXPORT hagenTargets NAMESPACE hagen:: DESTINATION ${package_dir})

@@ -1,9 +1,9 @@
-# Headers that most sources include are parsed once per build, not once per source: that is more than
-# half of what a build costs. The sets are in cmake/precompiled.
+# Precompiles headers that most sources include, which halves the build time. The sets are in
+# cmake/precompiled.
 option(HAGEN_PRECOMPILED_HEADERS "Parse common headers once; off: each source includes what it names" ON)
 
-# hagen_precompile(TARGET SET): the target's sources see the headers of cmake/precompiled/SET.h.
-# All targets of one set share what is compiled, and so all are position-independent.
+# hagen_precompile(TARGET SET): the target uses the precompiled headers of cmake/precompiled/SET.h.
+# All targets of a set share the compiled result, so all are position-independent.
 function(hagen_precompile target set)
   if(NOT HAGEN_PRECOMPILED_HEADERS)
     return()

@@ -1,4 +1,4 @@
-# hagen_target(TARGET): what every target of this project shares.
+# hagen_target(TARGET): settings shared by all targets of this project.
 function(hagen_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(
@@ -6,9 +6,9 @@ function(hagen_target target)
                       $<$<BOOL:${HAGEN_WARNINGS_AS_ERRORS}>:-Werror>
                       # One result on every machine: no fused multiply-add unless it is written.
                       -ffp-contract=off)
-  # SIMD (Highway): one binary for every machine, with these instruction sets to choose from at run
-  # time; the ones between them gain nothing here, and each costs a compilation. (ARM's SVE, whose
-  # vectors have no size when compiled, cannot be held in arrays.)
+  # SIMD (Highway): one binary for every machine, which selects among these instruction sets at run
+  # time. Those in between gain nothing here, and each costs a compilation. (ARM's SVE vectors have
+  # no compile-time size and cannot be stored in arrays.)
   set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128)
   list(JOIN left_out "|" left_out)
   target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(${left_out})")
@@ -18,8 +18,8 @@ function(hagen_target target)
   endif()
 endfunction()
 
-# hagen_not_hot(TARGET NAME | SOURCES SOURCE...): code in which no time is spent. -O1 compiles it in half the
-# time, to the same results.
+# hagen_not_hot(TARGET NAME | SOURCES SOURCE...): for code without influence on run time. -O1 compiles it
+# in half the time, with the same results.
 set(HAGEN_NOT_HOT $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
 function(hagen_not_hot what)
   if(what STREQUAL TARGET)
@@ -29,7 +29,7 @@ function(hagen_not_hot what)
   endif()
 endfunction()
 
-# hagen_library(NAME SOURCE...): the library hagen::NAME of this folder, with its headers in
+# hagen_library(NAME SOURCE...): creates the library hagen::NAME of this folder, with its headers in
 # include/hagen/NAME, exported and installed.
 function(hagen_library name)
   add_library(hagen_${name} ${ARGN})

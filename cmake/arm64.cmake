@@ -1,4 +1,4 @@
-# Builds for 64-bit ARM on another machine, and runs what it built by QEMU. See scripts/check-arm64.
+# Cross-compiles for 64-bit ARM and runs the result with QEMU. See scripts/check-arm64.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

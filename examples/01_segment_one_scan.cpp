@@ -6,7 +6,7 @@
 #include <cstdio>
 
 int main() {
-    // A scan is x, y, z in the sensor's frame. Here: flat ground 1.5 m below, and a narrow pillar.
+    // A scan is x, y, z in the sensor frame. Here: flat ground 1.5 m below, and a narrow pillar.
     const hagen::SensorModel sensor = hagen::sensorModel("VLP-16");
     hagen::Scan scan;
     for (int firing = 0; firing < 900; ++firing) {
@@ -22,10 +22,10 @@ int main() {
             scan.intensity.push_back(0.0f);
         }
     }
-    // Ranges, azimuths and rows, where the sensor did not tell them.
+    // Compute ranges, azimuths and rows if the sensor does not provide them.
     hagen::locateBeams(sensor, scan);
 
-    // Keep the filter: its memory is used again for every scan.
+    // Keep the filter: it reuses its memory for every scan.
     hagen::HagenFilter filter(sensor);
     const hagen::SegmentationResult& result = filter.segment(scan);
     std::printf("%zu returns: %zu RoI, %zu ROU\n", scan.size(), result.returns.roi.size(),

@@ -1,5 +1,5 @@
 // The filter as an MRPT observation processor: prints the nearest obstacle of each scan of a
-// rawlog, observation by observation or by sensory frames.
+// rawlog that consists of observations or sensory frames.
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -12,7 +12,7 @@ namespace {
 void printNearest(const mrpt::obs::CObservation& observation,
                   hagen::observations::ObservationSegmenter& segmenter) {
     hagen::observations::ObservationSegmenter::Output out;
-    if (!segmenter.process(observation, out)) return;  // no LiDAR scan
+    if (!segmenter.process(observation, out)) return;  // not a LiDAR scan
     std::printf("%s: %zu RoI points", observation.sensorLabel.c_str(), out.roi->pointcloud->size());
     float nearest_m = -1.0f;
     for (const auto i : out.result->returns.roi) {

@@ -1,5 +1,5 @@
-// An OctoMap of the obstacles of a log, in which the rays of all returns clear: for each scan, the
-// filter, the pose, the map. `rawlog-segment --octomap` does the same, with more care.
+// Builds an OctoMap of a log's obstacles, with free space from the rays of all returns: filter,
+// pose and map update per scan. `rawlog-segment --octomap` does the same, with more error checks.
 #include <hagen/logs/LogPoses.h>
 #include <hagen/logs/MapOutput.h>
 #include <hagen/logs/RawlogReader.h>
@@ -13,7 +13,7 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "usage: 03_roi_to_octomap LOG.rawlog MAP.bt [POSES.tum]\n");
         return 2;
     }
-    // A pose may come after the scan that it is needed for: they are read first.
+    // A pose may come after the scan that needs it, so poses are read first.
     const hagen::observations::Trajectory vehicle =
         hagen::logs::posesOfRawlog(hagen::logs::surveyRawlog(argv[1]), argc > 3 ? argv[3] : "")
             .vehicle;
@@ -26,7 +26,7 @@ int main(int argc, char** argv) try {
         const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry);
         hagen::observations::ObservationSegmenter::Output out;
         if (!observation || !segmenter.process(*observation, out, vehicle)) continue;
-        // Each return by the pose at its own time; none where the vehicle was is not known.
+        // Places each return with the pose at its own time; none without a pose.
         const auto mapped = hagen::logs::placeInMap(out, *observation, vehicle);
         if (!mapped) continue;
         map.insert(*mapped);

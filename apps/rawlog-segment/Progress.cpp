@@ -9,7 +9,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMostRemarks = 10;  // one per scan would bury everything else
+constexpr std::size_t kMostRemarks = 10;  // one per scan would hide everything else
 constexpr Seconds kBetweenLines{0.1}, kBeforeRate{1.0};
 
 std::string clockOf(double seconds) {

@@ -23,7 +23,7 @@ class Progress {
 
     std::string input_;
     bool is_quiet_, is_on_terminal_;
-    std::map<std::string, std::size_t> remarks_;  ///< and number of occurrences
+    std::map<std::string, std::size_t> remarks_;  ///< number of occurrences
     std::size_t untold_ = 0;
     std::chrono::steady_clock::time_point start_, shown_;
 };

@@ -1,4 +1,4 @@
-// Segments a log: regions of interest (near obstacles) and the rest of each LiDAR scan.
+// Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/ScanFolder.h>
 
@@ -43,7 +43,7 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
     return report;
 }
 
-/// The settings in force, with a scan folder's own.
+/// Prints the current settings, including those of a scan folder.
 void printSettings(const logs::Conversion& conversion) {
     observations::Settings settings = conversion.settings;
     if (std::filesystem::is_directory(conversion.input)) {
@@ -168,7 +168,7 @@ void declare(Program& app, Flags& flags) {
     app.version(HAGEN_VERSION);
 }
 
-/// What one flag alone cannot tell.
+/// Checks flags in combination.
 void check(const Flags& flags) {
     const logs::Conversion& conversion = flags.conversion;
     if (flags.dumps_settings) return;
@@ -177,8 +177,8 @@ void check(const Flags& flags) {
         conversion.octomaps.empty() && conversion.stats.empty()) {
         throw UsageError("an output (-o, --kitti, --pictures, --octomap or --stats) is required");
     }
-    if (!(conversion.octomap.resolution_m > 0)) {  // not a number is in any range
-        throw UsageError("--octomap-resolution", "must be more than 0");
+    if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes any range check
+        throw UsageError("--octomap-resolution", "must be positive");
     }
     if (conversion.from > conversion.to) {
         throw UsageError("--from", "must not be greater than --to");

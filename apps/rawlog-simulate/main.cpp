@@ -1,4 +1,4 @@
-// Simulates a flight with a LiDAR over a scene, and writes what it measures with the truth.
+// Simulates a flight with a LiDAR over a scene, and writes the scans with ground truth.
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 
@@ -79,7 +79,7 @@ void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
     app.version(HAGEN_VERSION);
 }
 
-/// What one flag alone cannot tell.
+/// Checks flags in combination.
 void check(const simulated_logs::SimulatedLog& log) {
     if (log.rawlog.empty() && log.folder.empty() && log.poses.empty()) {
         throw UsageError("an output (-o, --kitti or --poses) is required");

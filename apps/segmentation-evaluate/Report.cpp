@@ -27,7 +27,7 @@ std::string right(const std::string& text, std::size_t width) {
     return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
-/// Returns a line without trailing blanks.
+/// Removes trailing blanks from a line.
 std::string trimmed(std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";

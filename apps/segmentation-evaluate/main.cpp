@@ -1,4 +1,4 @@
-// Scores the filter on labelled scan folders, with one setting or a sweep of them.
+// Scores the filter on labelled scan folders, with one set of settings or a sweep.
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>
 #include <filesystem>
@@ -58,7 +58,7 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing outputs");
 }
 
-/// A file that a flag names and that cannot be taken as it is is wrong usage.
+/// Reads a file named by a flag. A file that cannot be used is wrong usage.
 template <class Read>
 auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read(file))> {
     if (file.empty()) return std::nullopt;
@@ -69,7 +69,7 @@ auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read
     }
 }
 
-/// The places to write to, each where it was asked for. Nothing appears before all is written.
+/// The outputs. None appears before all are complete.
 struct Outputs {
     explicit Outputs(const Flags& flags) {
         base::checkApart({flags.json, flags.charts, flags.overlay},

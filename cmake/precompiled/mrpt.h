@@ -1,4 +1,4 @@
-// The same with what most sources that use MRPT include.
+// Like plain.h, plus what most sources that use MRPT include.
 #pragma once
 #include "plain.h"
 //

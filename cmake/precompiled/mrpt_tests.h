@@ -1,4 +1,4 @@
-// The same for tests of what needs MRPT.
+// Like tests.h, for tests that use MRPT.
 #pragma once
 #include "mrpt.h"
 //

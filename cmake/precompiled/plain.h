@@ -1,5 +1,5 @@
-// What most sources include; parsed once (cmake/HagenPrecompile.cmake). Sources name what they need
-// all the same.
+// Headers that most sources include; parsed once (cmake/HagenPrecompile.cmake). Sources still
+// include what they use.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// The same for tests of what needs no MRPT.
+// Like plain.h, for tests that do not use MRPT.
 #pragma once
 #include "plain.h"
 //

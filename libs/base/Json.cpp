@@ -6,7 +6,7 @@
 
 namespace hagen::base {
 
-/// To nlohmann's values and back.
+/// Converts to nlohmann's values and back.
 struct Json::Text {
     using Value = nlohmann::ordered_json;
 
@@ -99,7 +99,7 @@ Json Json::parse(const std::string& text) {
 Json& Json::operator[](const std::string& key) {
     if (std::holds_alternative<std::nullptr_t>(value_)) value_ = Object();
     auto* members = std::get_if<Object>(&value_);
-    if (members == nullptr) throw std::logic_error("only a JSON object has keys: " + key);
+    if (members == nullptr) throw std::logic_error("not a JSON object, so it has no key " + key);
     for (auto& [known, member] : *members) {
         if (known == key) return member;
     }
@@ -109,7 +109,7 @@ Json& Json::operator[](const std::string& key) {
 void Json::push_back(Json item) {
     if (std::holds_alternative<std::nullptr_t>(value_)) value_ = Array();
     auto* items = std::get_if<Array>(&value_);
-    if (items == nullptr) throw std::logic_error("only a JSON array takes items");
+    if (items == nullptr) throw std::logic_error("not a JSON array");
     items->push_back(std::move(item));
 }
 

@@ -4,7 +4,7 @@
 namespace hagen::base {
 namespace {
 
-constexpr std::size_t kLongest = 400;  // 1e308 has 309 digits before its decimals
+constexpr std::size_t kLongest = 400;  // 1e308 has 309 digits before the decimal point
 
 template <class... Format>
 std::string textOf(double value, Format... format) {

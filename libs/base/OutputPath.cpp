@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the first entry in a folder that does not belong to such an output, searched `depth`
+/// Returns the first file in a folder that does not belong to such an output, searching `depth`
 /// folders deep; empty if there is none.
 fs::path foreignPart(const fs::path& folder, const fs::path& output, const OutputKind& kind,
                      int depth) {

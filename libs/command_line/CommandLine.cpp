@@ -137,18 +137,18 @@ void Command::does(std::function<int()> work) {
 
 namespace {
 
-/// What to say where no subcommand was understood.
+/// The error message if no valid subcommand was given.
 std::string subcommandsOf(const CLI::App& app, const std::string& program) {
     const std::vector<std::string> unknown = app.remaining();
     std::string text =
-        unknown.empty() ? "no command is given" : "'" + unknown[0] + "' is no command";
+        unknown.empty() ? "no command given" : "'" + unknown[0] + "' is not a command";
     const char* before = "; there are ";
     const auto is_shown = [](const CLI::App* command) { return !command->get_group().empty(); };
     for (const CLI::App* command : app.get_subcommands(is_shown)) {
         text += before + command->get_name();
         before = ", ";
     }
-    return text + " (" + program + " --help tells more)";
+    return text + " (" + program + " --help shows details)";
 }
 
 }  // namespace
@@ -175,7 +175,7 @@ int Program::fail(int exit_code, const std::string& message) const {
     return exit_code;
 }
 
-/// What was printed must have arrived.
+/// Checks that standard output was written completely.
 int Program::printed(int exit_code, const std::string& what) const {
     if (std::fflush(stdout) == 0 && std::cout.flush()) return exit_code;
     return fail(kFailed, "the " + what + " cannot be printed");

@@ -8,13 +8,13 @@
 namespace hagen::command_line {
 namespace {
 
-// Signals may come to any thread, and any may ask.
+// Signals may arrive on any thread, and any thread may ask.
 std::atomic<bool> is_interrupted{false};
 std::atomic<std::time_t> interrupted_at{0};
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::time_t>::is_always_lock_free);
 
-/// Shells and timeout(1) may send the same signal twice: only a later one ends the program at once.
+/// Shells and timeout(1) may send a signal twice: only a later one ends the program at once.
 void interrupt(int signal) {
     const std::time_t now = std::time(nullptr);
     std::time_t before = 0;
@@ -33,7 +33,7 @@ void catchSignals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);
-        if (action.sa_handler == SIG_IGN) continue;  // as nohup wants it
+        if (action.sa_handler == SIG_IGN) continue;  // set by nohup
         action = {};
         action.sa_handler = interrupt;
         action.sa_flags = SA_RESTART;

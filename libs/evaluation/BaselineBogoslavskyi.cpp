@@ -141,7 +141,7 @@ std::vector<std::int32_t> bogoslavskyiClusters(const Scan& scan, const SensorMod
         throw std::invalid_argument("clusters: " + std::to_string(scan.size()) + " returns, but " +
                                     std::to_string(labels.size()) + " labels");
     }
-    Scan roi = scan;  // the ground is removed from the image
+    Scan roi = scan;  // ground is removed from the image
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (labels[i] != Label::Roi) roi.range_m[i] = kNoValue;
     }

@@ -95,7 +95,7 @@ Indices initialSeeds(const Scan& scan, const Indices& points, const ZermasOption
     return seeds;
 }
 
-/// Clusters that were merged. Each is linked to the smaller number, as in algorithm 2.
+/// Merged clusters. Each is linked to the smaller number, as in algorithm 2.
 class UnionFind {
  public:
     explicit UnionFind(std::size_t size) : parent_(size) {

@@ -97,7 +97,7 @@ class Chart {
         };
         const std::size_t lines = panel.lines.size();
         for (std::size_t l = 0; l < lines; ++l) {
-            // Shifted sideways so that intervals do not cover each other.
+            // Shifted sideways so that intervals do not overlap.
             const double shift =
                 panel.has_labels
                     ? 0.08 * (static_cast<double>(l) - static_cast<double>(lines - 1) / 2)

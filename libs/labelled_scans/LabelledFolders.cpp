@@ -44,9 +44,9 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     std::unique_ptr<logs::ScanSource> scans_;
     MethodSet methods_;
     observations::Settings settings_;
-    evaluation::LabelMap kinds_;  ///< of the --label-map or the folder; empty: unknown
-    bool has_label_map_;          ///< ground-truth labels come through `kinds_`
-    bool has_kind_files_;         ///< there is a folder semantic/
+    evaluation::LabelMap kinds_;  ///< from --label-map or the folder; empty: unknown
+    bool has_label_map_;          ///< ground-truth labels are derived with `kinds_`
+    bool has_kind_files_;         ///< folder semantic/ exists
     std::vector<double> altitudes_m_;
     observations::ObservedScan observed_;
 };
@@ -114,7 +114,7 @@ std::string ending(const fs::path& path, std::size_t parts) {
     return name.string();
 }
 
-/// Names as short as still tells the folders apart: "00", or "beams16/00" and "beams64/00".
+/// The shortest distinct names of the folders: "00", or "beams16/00" and "beams64/00".
 std::vector<std::string> namesOf(const std::vector<std::string>& folders) {
     std::vector<fs::path> paths;
     for (const std::string& folder : folders) {

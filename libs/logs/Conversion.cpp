@@ -19,14 +19,14 @@ fs::path externalsOf(const fs::path& rawlog) {
     return folder;
 }
 
-/// Lets MRPT find the input's external files, and says where the output will look for them.
+/// Tells MRPT where the input's external files are, and the user where the output expects them.
 void useExternals(const Conversion& conversion, const ConversionListener& listener) {
     const fs::path folder = externalsOf(conversion.input);
     if (fs::is_directory(conversion.input) || !fs::is_directory(folder)) return;
     mrpt::io::setLazyLoadPathBase(folder.string() + "/");
     mrpt::img::CImage::setImagesPathBase(folder.string() + "/");
     if (conversion.rawlog.empty() || externalsOf(conversion.rawlog) == folder) return;
-    listener.remark("the log", "keeps data in files of " + folder.string() +
+    listener.remark("the log", "stores data in files in " + folder.string() +
                                    "; link or copy that folder as " +
                                    externalsOf(conversion.rawlog).string());
 }

@@ -11,10 +11,10 @@
 
 namespace hagen::logs {
 
-/// The outputs of a conversion that were asked for.
+/// The requested outputs of a conversion.
 class ConversionOutputs {
  public:
-    /// Throws std::runtime_error, naming an output that cannot be written.
+    /// Throws std::runtime_error naming an output that cannot be written.
     explicit ConversionOutputs(const Conversion& conversion);
 
     bool wantsRawlog() const { return rawlog_.has_value(); }
@@ -25,18 +25,18 @@ class ConversionOutputs {
     }
     void writeMember(const Bytes& packed) { rawlog_->writeMember(packed); }
 
-    /// Adds a segmented scan of this sensor to folders and pictures; an empty name: the next
-    /// number. Returns the name it has there.
+    /// Adds a segmented scan to the sensor's scan folder and pictures. An empty name stands for the
+    /// next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const std::string& sensor_label, const std::string& name,
                           const Options& options);
 
-    /// Adds a scan to the map, where one is made.
+    /// Adds a scan to the map, if there is one.
     bool wantsMap() const { return map_.has_value(); }
     void insertIntoMap(const mapping::MappedScan& scan) { map_->insert(scan); }
 
     void commit(const ConversionReport& report);
-    /// Keeps what is there under names that say it is a part, and says which.
+    /// Keeps the incomplete outputs under partial names, and returns these names.
     std::string keepPartial(const ConversionReport& report);
 
  private:

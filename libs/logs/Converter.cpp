@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
 
-/// The report of one scan, but for what only the converter knows of it.
+/// The report of one scan, without the fields that only the converter knows.
 ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     ScanReport report{};
     report.time_s = mrpt::Clock::toDouble(out.roi->timestamp);
@@ -33,7 +33,7 @@ ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     float nearest_m = std::numeric_limits<float>::infinity();
     std::int32_t obstacles = 0;
     for (const std::uint32_t i : out.result->returns.roi) {
-        if (i >= out.scan->size()) break;  // ascending; the rest are older scans' of the window
+        if (i >= out.scan->size()) break;  // ascending; the rest are from older scans
         nearest_m = std::min(nearest_m, out.scan->range_m[i]);
         obstacles = std::max(obstacles, out.result->returns.component[i]);
     }
@@ -43,12 +43,12 @@ ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     return report;
 }
 
-/// Poses with times cost nothing to read.
+/// TUM poses are cheap to read: they do not depend on the log.
 bool hasTumFile(const Conversion& conversion) {
     return !conversion.poses.empty() && kindOfPoseFile(conversion.poses) == PoseFileKind::Tum;
 }
 
-/// Poses of a rawlog are used only if an output needs them, as they may cost another pass.
+/// Poses of a rawlog are read only if an output needs them, as they may cost another pass.
 bool needsPoses(const Conversion& conversion) {
     const Options& options = conversion.settings.options;
     const bool can_level = options.level_by_attitude && hasTumFile(conversion);
@@ -77,7 +77,7 @@ SourceOptions Converter::sourceOptions() {
     options.last_entry = conversion_.to;
     if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
     options.keep_going = [this] {
-        const std::lock_guard lock(listens_);
+        const std::lock_guard lock(listener_mutex_);
         return listener_.keep_going();
     };
     return options;
@@ -88,8 +88,8 @@ void Converter::usePoses() {
     report_.poses = source_->poses().source;
     if (outputs_.wantsMap() && report_.poses.empty()) {
         throw std::runtime_error(conversion_.input.string() +
-                                 ": tells no poses, and a map needs them; give them (--poses "
-                                 "FILE.tum, lines of 'time x y z qx qy qz qw')");
+                                 ": has no poses, but a map needs them; add --poses "
+                                 "FILE.tum (lines 'time x y z qx qy qz qw')");
     }
 }
 
@@ -107,12 +107,12 @@ bool Converter::read(EntryInConversion& entry) {
         }
         return true;
     } catch (...) {
-        end_ = std::current_exception();  // thrown after what was read before it is converted
+        end_ = std::current_exception();  // rethrown once the entries before are converted
         return false;
     }
 }
 
-// Segmenting, on any thread.
+// Segmentation, on any thread.
 
 void Converter::segment(ScanInConversion& scan) {
     const CObservation& observation = *scan.recorded.observation;
@@ -125,8 +125,8 @@ void Converter::segment(ScanInConversion& scan) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& e) {
-        scan.why_not = observations::messageOf(e);
-        if (scan.why_not.empty()) scan.why_not = "MRPT does not say why";
+        scan.unreadable_because = observations::messageOf(e);
+        if (scan.unreadable_because.empty()) scan.unreadable_because = "MRPT gives no reason";
     }
     if (scan.is_segmented && conversion_.preview && outputs_.wantsRawlog()) {
         scan.preview =
@@ -153,7 +153,7 @@ void Converter::serialiseAll(EntryInConversion& entry) const {
 }
 
 void Converter::segment(EntryInConversion& entry) {
-    if (has_window_) return;  // in account(), in the log's order
+    if (has_window_) return;  // segmented in account(), in the log's order
     try {
         for (ScanInConversion& scan : entry.scans) segment(scan);
         serialiseAll(entry);
@@ -162,19 +162,19 @@ void Converter::segment(EntryInConversion& entry) {
     }
 }
 
-// What a user sees of it, in the recording's order.
+// Results, in the recording's order.
 
-void Converter::tellRemarks(const ScanInConversion& scan) {
+void Converter::reportRemarks(const ScanInConversion& scan) {
     const std::string title = titleOf(scan.recorded);
-    const std::lock_guard lock(listens_);
+    const std::lock_guard lock(listener_mutex_);
     if (!scan.is_segmented) {
-        if (!scan.why_not.empty()) listener_.unreadable(title, scan.why_not);
+        if (!scan.unreadable_because.empty()) listener_.unreadable(title, scan.unreadable_because);
         return;
     }
     if (!scan.segmented.remark.empty()) listener_.remark(title, scan.segmented.remark);
     if (!conversion_.folder.empty() && !report_.poses.empty() && !scan.recorded.pose.sensor_pose) {
         listener_.remark(title,
-                         "no pose is near its time: poses.tum leaves it out, and "
+                         "no pose near its time: it is missing from poses.tum, and "
                          "poses.txt is not written");
     }
 }
@@ -187,13 +187,13 @@ void Converter::insertIntoMap(const ScanInConversion& scan) {
         ++report_.scans_in_map;
         return;
     }
-    const std::lock_guard lock(listens_);
-    listener_.remark(titleOf(scan.recorded), "no pose is near its time: the map leaves it out");
+    const std::lock_guard lock(listener_mutex_);
+    listener_.remark(titleOf(scan.recorded), "no pose near its time: it is not in the map");
 }
 
 void Converter::account(ScanInConversion& scan) {
-    if (!scan.is_segmented && !scan.why_not.empty()) ++report_.unreadable_scans;
-    tellRemarks(scan);
+    if (!scan.is_segmented && !scan.unreadable_because.empty()) ++report_.unreadable_scans;
+    reportRemarks(scan);
     if (scan.is_segmented) {
         if (outputs_.wantsMap()) insertIntoMap(scan);
         ScanReport report = reportOf(scan.segmented);
@@ -214,13 +214,13 @@ void Converter::account(EntryInConversion& entry) {
     }
     if (has_window_) serialiseAll(entry);
     outputs_.gather(entry.bytes, entry.member);
-    // MRPT's objects are not needed any longer.
+    // The MRPT objects are no longer needed.
     entry.scans.clear();
     entry.object.reset();
 
     ++report_.entries;
     report_.fraction = entry.fraction_read;
-    const std::lock_guard lock(listens_);
+    const std::lock_guard lock(listener_mutex_);
     listener_.progress(report_);
 }
 
@@ -235,11 +235,11 @@ void Converter::count(const observations::ObservationSegmenter::Output& out,
     report_.scans_with_attitude += out.pose.attitude.has_value();
     report_.sensors[scan.sensor_label] =
         out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams" +
-        (out.is_sensor_assumed ? " (assumed; sensor.model in the settings names another)" : "");
+        (out.is_sensor_assumed ? " (assumed; set sensor.model to change it)" : "");
     report_.scan_reports.push_back(scan);
 }
 
-// The whole, and its end.
+// The whole conversion.
 
 ConversionReport Converter::run() {
     PipelineSteps<EntryInConversion> steps;
@@ -252,10 +252,10 @@ ConversionReport Converter::run() {
     steps.write = [this](EntryInConversion& entry) {
         if (!entry.member.empty()) outputs_.writeMember(entry.packed);
     };
-    // Pictures take a second each, one after the other. More threads would gain nothing, but read
-    // ahead, and an interruption would have to wait for that.
-    const std::size_t most = conversion_.jobs == 0 ? coresOfThisMachine() : conversion_.jobs;
-    runPipeline(steps, conversion_.pictures.empty() ? most : 1);
+    // Pictures take a second each and are drawn sequentially. More threads would only read ahead,
+    // and delay an interruption.
+    const std::size_t max_threads = conversion_.jobs == 0 ? coreCount() : conversion_.jobs;
+    runPipeline(steps, conversion_.pictures.empty() ? max_threads : 1);
     report_.left_out_before = source_->entriesSkipped();
     if (!end_) return finish();
     try {
@@ -272,40 +272,40 @@ ConversionReport Converter::run() {
 ConversionReport Converter::finish() {
     if (report_.entries == 0) {
         throw std::runtime_error(conversion_.input.string() + ": has " +
-                                 std::to_string(source_->entriesKnown()) + " entries, none from " +
-                                 std::to_string(conversion_.from) + " on");
+                                 std::to_string(source_->entriesKnown()) +
+                                 " entries, none at or after " + std::to_string(conversion_.from));
     }
     checkLabels();
     if (outputs_.wantsMap() && report_.scans > 0 && report_.scans_in_map == 0) {
         throw std::runtime_error(report_.poses + ": has no pose near any of the " +
                                  std::to_string(report_.scans) + " scans of " +
                                  conversion_.input.string() +
-                                 "; are its times of another clock? There is no map");
+                                 "; are its times from another clock? No map is written");
     }
     outputs_.commit(report_);
     return std::move(report_);
 }
 
-/// Says why it ends early, and where what was done before is kept.
+/// Keeps what was converted so far, and adds its location to the error.
 template <class Error>
 void Converter::endEarly(const Error& why) {
     if (report_.entries == 0) throw why;
-    const std::string what = fs::is_directory(conversion_.input) ? "scans" : "entries";
-    throw Error(std::string(why.what()) + "; the " + std::to_string(report_.entries) + " " + what +
+    const std::string unit = fs::is_directory(conversion_.input) ? "scans" : "entries";
+    throw Error(std::string(why.what()) + "; the " + std::to_string(report_.entries) + " " + unit +
                 " before it are in" + outputs_.keepPartial(report_));
 }
 
-/// A label of which there is no scan may be a slip of the pen. It fails the conversion where
-/// nothing else was segmented.
+/// A requested label without scans may be a typo. It is an error only if nothing was segmented.
 void Converter::checkLabels() const {
     for (const std::string& label : conversion_.sensor_labels) {
-        const bool is_there = report_.sensors.count(label) > 0;
-        if (is_there || report_.unreadable_scans > 0) continue;
+        const bool is_found = report_.sensors.count(label) > 0;
+        if (is_found || report_.unreadable_scans > 0) continue;
         std::string others;
         for (const auto& [other, sensor] : report_.sensors) others += " '" + other + "'";
         for (const std::string& other : source_->otherLabels()) others += " '" + other + "'";
-        const std::string what = "has no LiDAR scan of '" + label + "' in what was converted; " +
-                                 (others.empty() ? "there is none" : "there are" + others);
+        const std::string what =
+            "no converted entry has a LiDAR scan of '" + label + "'; " +
+            (others.empty() ? "there are no LiDAR scans" : "there are" + others);
         if (report_.scans == 0) {
             throw std::runtime_error(conversion_.input.string() + ": " + what);
         }

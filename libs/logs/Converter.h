@@ -19,30 +19,30 @@ struct ScanInConversion {
     RecordedScan recorded;
     SegmenterPool::Lease segmenter;  ///< holds what `segmented` points to
     bool is_segmented = false;       ///< `segmented` is valid
-    std::string why_not;             ///< reason why it could not be read
+    std::string unreadable_because;  ///< why the scan could not be read
     observations::ObservationSegmenter::Output segmented;
     mrpt::obs::CObservation::Ptr preview;
 };
 
-/// An entry during its conversion: read, segmented, accounted for, packed and written.
+/// An entry during its conversion: read, segmented, accounted for, compressed and written.
 struct EntryInConversion {
     std::size_t number = 0;
     double fraction_read = 0;
     mrpt::serialization::CSerializable::Ptr object;  ///< none: only scans are written
     std::vector<ScanInConversion> scans;
     std::exception_ptr failure;   ///< ends the conversion once all entries before it are done
-    Bytes bytes, member, packed;  ///< of the output
+    Bytes bytes, member, packed;  ///< buffers of the output
 };
 
-/// A conversion in progress. Entries are segmented on several threads; everything that a user sees
-/// of it is in the order of the recording.
+/// A conversion in progress. Entries are segmented on several threads; all outputs and callbacks
+/// follow the order of the recording.
 class Converter {
  public:
     Converter(const Conversion& conversion, const ConversionListener& listener);
     ConversionReport run();
 
  private:
-    // The steps of the pipeline (OrderedPipeline.h), and what they consist of.
+    // The steps of the pipeline (OrderedPipeline.h), and their parts.
     bool read(EntryInConversion& entry);
     void segment(EntryInConversion& entry);
     void account(EntryInConversion& entry);
@@ -52,7 +52,7 @@ class Converter {
     void segment(ScanInConversion& scan);
     void serialiseAll(EntryInConversion& entry) const;
     void account(ScanInConversion& scan);
-    void tellRemarks(const ScanInConversion& scan);
+    void reportRemarks(const ScanInConversion& scan);
     void insertIntoMap(const ScanInConversion& scan);
     void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan);
     ConversionReport finish();
@@ -62,10 +62,10 @@ class Converter {
 
     const Conversion& conversion_;
     const ConversionListener& listener_;
-    std::mutex listens_;  ///< reading calls the listener, too, on another thread
+    std::mutex listener_mutex_;  ///< the listener is also called by reading, on another thread
     std::unique_ptr<ScanSource> source_;
     const observations::Settings settings_;  ///< with those of the recording's own sensor
-    const bool has_window_;                  ///< a scan is segmented after those before it
+    const bool has_window_;                  ///< a scan's result depends on the scans before it
     ConversionOutputs outputs_;
     SegmenterPool segmenters_;
     ConversionReport report_;

@@ -18,8 +18,8 @@ struct CloseFile {
 
 }  // namespace
 
-/// The file, and its bytes on their way. zlib's own gzread() takes whatever comes after a member
-/// and does not look like another one for the end: a log of many members would lose its rest.
+/// The file and its buffers. zlib's gzread() silently ends at anything after a member that does not
+/// look like another member, which would lose the rest of a damaged log.
 struct GzipInput::Stream {
     std::unique_ptr<std::FILE, CloseFile> file;
     std::vector<unsigned char> packed = std::vector<unsigned char>(kPackedBytes);
@@ -31,32 +31,32 @@ struct GzipInput::Stream {
     z_stream inflater{};
 
     explicit Stream(std::FILE* opened) : file(opened) {
-        constexpr int kGzipAlone = 31;
-        if (inflateInit2(&inflater, kGzipAlone) != Z_OK) throw std::bad_alloc();
-        take();
+        constexpr int kGzipOnly = 31;
+        if (inflateInit2(&inflater, kGzipOnly) != Z_OK) throw std::bad_alloc();
+        fill();
         is_gzipped = inflater.avail_in >= 2 && packed[0] == 0x1f && packed[1] == 0x8b;
     }
     ~Stream() { inflateEnd(&inflater); }
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
 
-    /// Takes more of the file; no where there is no more.
-    bool take() {
+    /// Reads the next block of the file; false at its end.
+    bool fill() {
         const std::size_t bytes = std::fread(packed.data(), 1, packed.size(), file.get());
-        if (std::ferror(file.get()) != 0) fault = "the file cannot be read any further";
+        if (std::ferror(file.get()) != 0) fault = "the file cannot be read further";
         inflater.next_in = packed.data();
         inflater.avail_in = static_cast<unsigned>(bytes);
         taken += bytes;
         return bytes > 0;
     }
 
-    /// Unpacks more; no at the end, and where there is a fault.
+    /// Decompresses the next block; false at the end and on a fault.
     bool unpack() {
         inflater.next_out = unpacked.data();
         inflater.avail_out = static_cast<unsigned>(unpacked.size());
         while (inflater.avail_out > 0 && fault.empty()) {
-            if (inflater.avail_in == 0 && !take()) {
-                if (is_in_member && fault.empty()) fault = "the file is cut off";
+            if (inflater.avail_in == 0 && !fill()) {
+                if (is_in_member && fault.empty()) fault = "the file is truncated";
                 break;
             }
             if (is_gzipped) {
@@ -75,10 +75,10 @@ struct GzipInput::Stream {
         is_in_member = true;
         const int code = inflate(&inflater, Z_NO_FLUSH);
         if (code == Z_STREAM_END) {
-            is_in_member = false;  // another may follow, and nothing else
+            is_in_member = false;  // only another member may follow
             inflateReset(&inflater);
         } else if (code != Z_OK) {
-            fault = "the file's packed bytes are damaged";
+            fault = "the compressed data is corrupt";
         }
     }
     void copy() {
@@ -118,18 +118,18 @@ std::uint64_t GzipInput::packedPosition() const {
 }
 
 std::string GzipInput::fault() const {
-    // What was unpacked before it is given first.
+    // Data decompressed before the fault is delivered first.
     return stream_->unpacked_at == stream_->unpacked_end ? stream_->fault : "";
 }
 
 std::size_t GzipInput::Write(const void*, std::size_t) {
-    throw std::logic_error("an input is not written");
+    throw std::logic_error("an input cannot be written");
 }
 std::uint64_t GzipInput::Seek(std::int64_t, TSeekOrigin) {
-    throw std::logic_error("a packed input is read from its start to its end");
+    throw std::logic_error("a compressed input cannot seek");
 }
 std::uint64_t GzipInput::getTotalBytesCount() const {
-    throw std::logic_error("the unpacked size of a packed input is not known");
+    throw std::logic_error("the uncompressed size is unknown");
 }
 
 }  // namespace hagen::logs

@@ -18,7 +18,7 @@ struct FreeCompressor {
     }
 };
 
-/// One a thread: a compressor's memory is larger than most of what it packs.
+/// One per thread: a compressor is larger than most members.
 libdeflate_compressor* compressor() {
     thread_local std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor;
     if (!compressor) compressor.reset(libdeflate_alloc_compressor(kLevel));
@@ -26,7 +26,7 @@ libdeflate_compressor* compressor() {
     return compressor.get();
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file) {
+[[noreturn]] void fail(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": cannot be written" +
                              (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
 }
@@ -45,18 +45,18 @@ void packGzipMember(const Bytes& plain, Bytes& packed) {
 GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
     errno = 0;
     file_.reset(std::fopen(file.c_str(), "wb"));
-    if (!file_) refuse(path_);
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is a buffer of its own
+    if (!file_) fail(path_);
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is already a buffer
 }
 
 void GzipOutput::write(const Bytes& member) {
     errno = 0;
-    if (std::fwrite(member.data(), 1, member.size(), file_.get()) != member.size()) refuse(path_);
+    if (std::fwrite(member.data(), 1, member.size(), file_.get()) != member.size()) fail(path_);
 }
 
 void GzipOutput::close() {
     errno = 0;
-    if (std::fclose(file_.release()) != 0) refuse(path_);
+    if (std::fclose(file_.release()) != 0) fail(path_);
 }
 
 }  // namespace hagen::logs

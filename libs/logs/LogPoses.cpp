@@ -28,7 +28,7 @@ observations::Trajectory trajectoryOfKitti(const fs::path& file,
                                  " poses for " + std::to_string(scans.size()) + " scans");
     }
     observations::Trajectory trajectory;
-    trajectory.has_horizon = false;  // seen from where the first scan was taken, tilted or not
+    trajectory.has_horizon = false;  // relative to the first scan, which may be tilted
     for (std::size_t i = 0; i < scans.size(); ++i) {
         trajectory.add(scans[i].time, sensor_poses[i] + (-scans[i].sensor_on_vehicle));
     }
@@ -43,7 +43,7 @@ observations::Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& sc
                : trajectoryOfKitti(file, readKittiPoses(file), scans, are_all_scans);
 }
 
-/// poses.txt of a scan folder; beside a calib.txt they are the camera's, as KITTI has it.
+/// poses.txt of a scan folder. With a calib.txt they are camera poses, as in KITTI.
 std::vector<CPose3D> ownKittiPoses(const ScanFolder& folder) {
     std::vector<CPose3D> poses = readKittiPoses(folder.kittiPosesFile());
     if (!fs::exists(folder.calibrationFile())) return poses;
@@ -58,8 +58,9 @@ LogPoses posesOfRawlog(const RawlogSurvey& survey, const fs::path& file) {
     if (file.empty()) return {survey.trajectory, survey.source};
     if (kindOfPoseFile(file) == PoseFileKind::Kitti && survey.scans.size() != 1) {
         throw std::runtime_error(
-            file.string() + ": a KITTI file counts the scans of one LiDAR, and the log has " +
-            std::to_string(survey.scans.size()) + "; give poses with times (TUM)");
+            file.string() +
+            ": a KITTI file has one pose per scan of a single LiDAR, but the log has " +
+            std::to_string(survey.scans.size()) + " LiDARs; use poses with times (TUM)");
     }
     const ScanPlaces none;
     return {trajectoryOf(file, survey.scans.empty() ? none : survey.scans.begin()->second,

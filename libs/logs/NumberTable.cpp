@@ -8,8 +8,8 @@
 namespace hagen::logs {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line,
-                         const std::string& why) {
+[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line,
+                       const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
 }
 
@@ -31,7 +31,7 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
             char* end = nullptr;
             const double number = std::strtod(word.c_str(), &end);
             if (*end != '\0' || !std::isfinite(number)) {
-                refuse(file, line, "'" + word + "' is no number");
+                fail(file, line, "'" + word + "' is not a finite number");
             }
             entry.numbers.push_back(number);
         }
@@ -43,9 +43,9 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
 void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,
                   const std::string& what) {
     if (line.numbers.size() == columns) return;
-    refuse(file, line.line,
-           std::to_string(columns) + " numbers are expected (" + what + "), not " +
-               std::to_string(line.numbers.size()));
+    fail(file, line.line,
+         "expected " + std::to_string(columns) + " numbers (" + what + "), found " +
+             std::to_string(line.numbers.size()));
 }
 
 }  // namespace hagen::logs

@@ -13,117 +13,117 @@
 
 namespace hagen::logs {
 
-inline std::size_t coresOfThisMachine() {
+inline std::size_t coreCount() {
     return static_cast<std::size_t>(tbb::info::default_concurrency());
 }
 
-/// What is done to each of a stream of pieces. Steps "in order" see one piece at a time, in the
-/// order in which they were read, and need no locks of their own; the others may work on several.
-template <class Piece>
+/// The steps applied to each item of a stream. Steps marked "in order" see one item at a time, in
+/// the order of reading, and need no locks; the others may process several items concurrently.
+template <class Item>
 struct PipelineSteps {
-    std::function<bool(Piece&)> read;  ///< in order; no: there are no more
-    std::function<void(Piece&)> work;
-    std::function<void(Piece&)> account;  ///< in order
-    std::function<void(Piece&)> pack;
-    std::function<void(Piece&)> write;  ///< in order
+    std::function<bool(Item&)> read;  ///< in order; false: no more items
+    std::function<void(Item&)> work;
+    std::function<void(Item&)> account;  ///< in order
+    std::function<void(Item&)> pack;
+    std::function<void(Item&)> write;  ///< in order
 };
 
-/// A piece's place in a pipeline. TBB alone sees to it that one thread has it at a time, and nobody
-/// ever waits for its lock; that is for ThreadSanitizer, which does not see into TBB (and still
-/// frets about how a pipeline begins and ends).
-template <class Piece>
-struct PipelinePlace {
-    Piece piece;
+/// Storage of an item in a pipeline. TBB ensures that only one thread has it at a time, so its lock
+/// is never contended. It is for ThreadSanitizer, which cannot see TBB's synchronisation (and
+/// still reports the start and end of a pipeline).
+template <class Item>
+struct PipelineSlot {
+    Item item;
     std::mutex lock;
-    ~PipelinePlace() { const std::lock_guard last(lock); }
+    ~PipelineSlot() { const std::lock_guard last(lock); }
 };
 
-/// Places that are used again and again.
-template <class Piece>
-class PipelinePlaces {
+/// A pool of reusable slots.
+template <class Item>
+class PipelineSlots {
  public:
-    using Place = PipelinePlace<Piece>;
+    using Slot = PipelineSlot<Item>;
 
-    explicit PipelinePlaces(std::size_t size) {
+    explicit PipelineSlots(std::size_t size) {
         for (std::size_t i = 0; i < size; ++i) {
-            giveBack(places_.emplace_back(std::make_unique<Place>()).get());
+            giveBack(slots_.emplace_back(std::make_unique<Slot>()).get());
         }
     }
-    ~PipelinePlaces() { const std::lock_guard last(is_used_); }
-    Place* take() {
-        const std::lock_guard lock(is_used_);
-        Place* const place = idle_.back();
+    ~PipelineSlots() { const std::lock_guard last(mutex_); }
+    Slot* take() {
+        const std::lock_guard lock(mutex_);
+        Slot* const slot = idle_.back();
         idle_.pop_back();
-        return place;
+        return slot;
     }
-    void giveBack(Place* place) {
-        const std::lock_guard lock(is_used_);
-        idle_.push_back(place);
+    void giveBack(Slot* slot) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(slot);
     }
 
  private:
-    std::vector<std::unique_ptr<Place>> places_;
-    std::vector<Place*> idle_;
-    std::mutex is_used_;
+    std::vector<std::unique_ptr<Slot>> slots_;
+    std::vector<Slot*> idle_;
+    std::mutex mutex_;
 };
 
-/// Takes all pieces through the steps, on up to `threads` threads; on one, piece by piece, and by
-/// the caller's own. A step that throws ends it, with what it threw: pieces before it may then be
-/// written or not. Memory is that of two pieces a thread.
-template <class Piece>
-void runPipeline(const PipelineSteps<Piece>& steps, std::size_t threads) {
+/// Runs all items through the steps on up to `threads` threads; with one thread, item by item on
+/// the caller's. An exception in a step ends the pipeline and is rethrown; items before it may or
+/// may not be written then. Holds two items per thread in memory.
+template <class Item>
+void runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
     if (threads == 1) {
-        for (Piece piece; steps.read(piece);) {
-            steps.work(piece);
-            steps.account(piece);
-            steps.pack(piece);
-            steps.write(piece);
+        for (Item item; steps.read(item);) {
+            steps.work(item);
+            steps.account(item);
+            steps.pack(item);
+            steps.write(item);
         }
         return;
     }
-    const std::size_t most = 2 * threads;  // one to work on, one to wait for its turn
-    PipelinePlaces<Piece> places(most);
-    using Place = PipelinePlace<Piece>;
+    const std::size_t max_items = 2 * threads;  // one in work, one waiting for its turn
+    PipelineSlots<Item> slots(max_items);
+    using Slot = PipelineSlot<Item>;
 
-    std::mutex reads, accounts, writes;  // never waited for, either
-    const auto read = [&](tbb::flow_control& flow) -> Place* {
-        Place* const place = places.take();
-        const std::scoped_lock lock(place->lock, reads);
-        if (steps.read(place->piece)) return place;
+    std::mutex reads, accounts, writes;  // never contended either
+    const auto read = [&](tbb::flow_control& flow) -> Slot* {
+        Slot* const slot = slots.take();
+        const std::scoped_lock lock(slot->lock, reads);
+        if (steps.read(slot->item)) return slot;
         flow.stop();
         return nullptr;
     };
-    const auto side_by_side = [](const auto& step) {
-        return tbb::make_filter<Place*, Place*>(tbb::filter_mode::parallel, [&](Place* place) {
-            const std::lock_guard lock(place->lock);
-            step(place->piece);
-            return place;
+    const auto parallel = [](const auto& step) {
+        return tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel, [&](Slot* slot) {
+            const std::lock_guard lock(slot->lock);
+            step(slot->item);
+            return slot;
         });
     };
-    const auto account = [&](Place* place) {
-        const std::scoped_lock lock(place->lock, accounts);
-        steps.account(place->piece);
-        return place;
+    const auto account = [&](Slot* slot) {
+        const std::scoped_lock lock(slot->lock, accounts);
+        steps.account(slot->item);
+        return slot;
     };
-    const auto write = [&](Place* place) {
+    const auto write = [&](Slot* slot) {
         {
-            const std::scoped_lock lock(place->lock, writes);
-            steps.write(place->piece);
+            const std::scoped_lock lock(slot->lock, writes);
+            steps.write(slot->item);
         }
-        places.giveBack(place);
+        slots.giveBack(slot);
     };
     constexpr auto in_order = tbb::filter_mode::serial_in_order;
 
-    // More threads than cores have to be allowed, or TBB grumbles.
+    // TBB prints a warning if a pipeline has more threads than cores, unless this allows them.
     std::optional<tbb::global_control> more;
-    if (threads > coresOfThisMachine()) {
+    if (threads > coreCount()) {
         more.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }
     tbb::task_arena(static_cast<int>(threads)).execute([&] {
         tbb::parallel_pipeline(
-            most, tbb::make_filter<void, Place*>(in_order, read) & side_by_side(steps.work) &
-                      tbb::make_filter<Place*, Place*>(in_order, account) &
-                      side_by_side(steps.pack) & tbb::make_filter<Place*, void>(in_order, write));
+            max_items, tbb::make_filter<void, Slot*>(in_order, read) & parallel(steps.work) &
+                           tbb::make_filter<Slot*, Slot*>(in_order, account) &
+                           parallel(steps.pack) & tbb::make_filter<Slot*, void>(in_order, write));
     });
 }
 

@@ -18,9 +18,9 @@ using mrpt::poses::CPose3D;
 
 constexpr const char* kTumColumns = "time x y z qx qy qz qw";
 constexpr const char* kKittiColumns = "a 3x4 matrix, row by row";
-constexpr double kRotationTolerance = 1e-3;  // files hold six digits or more
+constexpr double kRotationTolerance = 1e-3;  // files have six digits or more
 
-[[noreturn]] void refuse(const fs::path& file, const NumberLine& line, const std::string& why) {
+[[noreturn]] void fail(const fs::path& file, const NumberLine& line, const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line.line) + ": " + why);
 }
 
@@ -31,7 +31,7 @@ CPose3D poseOfMatrix(const fs::path& file, const NumberLine& line) {
     const auto rotation = matrix.asEigen().topLeftCorner<3, 3>();
     const double skew = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
     if (skew > kRotationTolerance || rotation.determinant() < 0) {
-        refuse(file, line, "the matrix is no rotation and shift");
+        fail(file, line, "the matrix is not a rigid transformation");
     }
     return CPose3D(matrix);
 }
@@ -46,7 +46,7 @@ std::ofstream openForWriting(const fs::path& file, int digits) {
 
 PoseFileKind kindOfPoseFile(const fs::path& file) {
     const std::vector<NumberLine> table = readNumberTable(file);
-    if (table.empty()) throw std::runtime_error(file.string() + ": holds no pose");
+    if (table.empty()) throw std::runtime_error(file.string() + ": contains no poses");
     if (table.front().numbers.size() == 12) return PoseFileKind::Kitti;
     checkColumns(file, table.front(), 8,
                  std::string("TUM: ") + kTumColumns + "; or 12, KITTI: " + kKittiColumns);
@@ -60,7 +60,7 @@ std::vector<TimedPose> readTumPoses(const fs::path& file) {
         const auto& n = line.numbers;
         const double norm = std::sqrt(n[4] * n[4] + n[5] * n[5] + n[6] * n[6] + n[7] * n[7]);
         if (std::abs(norm - 1.0) > kRotationTolerance) {
-            refuse(file, line, "the quaternion is not of length 1");
+            fail(file, line, "the quaternion is not normalized");
         }
         const mrpt::math::CQuaternionDouble rotation(n[7] / norm, n[4] / norm, n[5] / norm,
                                                      n[6] / norm);
@@ -113,7 +113,7 @@ CPose3D readKittiCalibration(const fs::path& file) {
         return poseOfMatrix(file, line);
     }
     throw std::runtime_error(file.string() +
-                             ": has no line 'Tr:' (the LiDAR seen from the camera)");
+                             ": has no line 'Tr:' (LiDAR pose in the camera frame)");
 }
 
 }  // namespace hagen::logs

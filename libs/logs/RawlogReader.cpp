@@ -8,15 +8,15 @@
 namespace hagen::logs {
 namespace {
 
-/// Why an entry cannot be read, out of what MRPT says.
+/// Derives from MRPT's message why an entry cannot be read.
 std::string reasonOf(const std::exception& exception) {
     const std::string text = observations::messageOf(exception);
-    if (text.find("(EOF?)") != std::string::npos) return "the file ends in the middle of it";
+    if (text.find("(EOF?)") != std::string::npos) return "the file ends within it";
     if (text.find("is not registered") != std::string::npos) {
-        return text + " (this program knows the classes of mrpt-obs and mrpt-maps)";
+        return text + " (this program supports the classes of mrpt-obs and mrpt-maps)";
     }
-    if (text.find("ersion") != std::string::npos) return text + " (is it of a newer MRPT?)";
-    return "it is no MRPT object";
+    if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
+    return "it is not an MRPT object";
 }
 
 void checkReadable(const std::filesystem::path& file) {
@@ -50,7 +50,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     const std::uint64_t byte = stream_.getPosition();
     const auto broken = [&](const std::string& why) {
         return BrokenRawlog(file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
-                            std::to_string(byte) + " (unpacked) cannot be read: " +
+                            std::to_string(byte) + " (uncompressed) cannot be read: " +
                             (stream_.fault().empty() ? why : stream_.fault()));
     };
     mrpt::serialization::CSerializable::Ptr object;
@@ -58,8 +58,8 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
         object = archive_->ReadObject();
     } catch (const mrpt::serialization::CExceptionEOF&) {
         if (!stream_.fault().empty()) throw broken("");
-        if (stream_.getPosition() != byte) throw broken("the file ends in the middle of it");
-        if (entries_ == 0) throw BrokenRawlog(file_.string() + ": holds no entry of a rawlog");
+        if (stream_.getPosition() != byte) throw broken("the file ends within it");
+        if (entries_ == 0) throw BrokenRawlog(file_.string() + ": contains no rawlog entries");
         return nullptr;
     } catch (const std::exception& e) {
         throw broken(reasonOf(e));

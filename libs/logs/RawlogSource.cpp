@@ -8,7 +8,7 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-/// The observations of an entry, which is one itself or a sensory frame of several.
+/// The observations of an entry, which is an observation or a sensory frame.
 std::vector<CObservation::ConstPtr> observationsOf(
     const mrpt::serialization::CSerializable::Ptr& entry) {
     if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
@@ -32,7 +32,7 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
         const bool is_selected = beginEntry(entry.number);
         entry.object = reader_.next();
         if (!entry.object) return std::nullopt;
-        // Entries that are skipped may provide the attitude of the first scan.
+        // Skipped entries may provide the attitude of the first scan.
         const auto all = observationsOf(entry.object);
         for (const auto& observation : all) see(*observation);
         if (!is_selected) continue;
@@ -49,7 +49,7 @@ const RawlogSurvey& RawlogSource::survey() {
 }
 
 LogPoses RawlogSource::readPoses(const std::filesystem::path& file) {
-    // Poses with times need nothing of the log: it is not read beforehand.
+    // Poses with times do not depend on the log, which need not be read in advance.
     if (!file.empty() && kindOfPoseFile(file) == PoseFileKind::Tum) {
         return posesOfRawlog(RawlogSurvey(), file);
     }

@@ -23,7 +23,7 @@ class RawlogSource : public ScanSource {
 
     std::filesystem::path rawlog_;
     RawlogReader reader_;
-    std::optional<RawlogSurvey> survey_;  ///< once it is needed
+    std::optional<RawlogSurvey> survey_;  ///< made on demand
 };
 
 }  // namespace hagen::logs

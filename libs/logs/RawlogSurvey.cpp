@@ -20,7 +20,7 @@ using mrpt::obs::CActionRobotMovement3D;
 using mrpt::obs::CObservation;
 using mrpt::poses::CPose3D;
 
-/// A trajectory out of what actions say of the way from one frame to the next.
+/// A trajectory that sums the pose increments of actions.
 class SummedMovement {
  public:
     void move(mrpt::Clock::time_point time, const CPose3D& increment) {
@@ -29,12 +29,12 @@ class SummedMovement {
         has_moved_ = true;
         if (is_placed_) trajectory_.add(time, pose_);
     }
-    /// A sensory frame of this time: where the actions before it led to.
+    /// A sensory frame with this time: where the actions before it have led.
     void arrive(mrpt::Clock::time_point time) {
         if (!is_placed_) trajectory_.add(time, pose_);
         is_placed_ = true;
     }
-    /// What was summed; nothing where nothing moved.
+    /// The summed trajectory; empty without movement.
     observations::Trajectory trajectory() const {
         return has_moved_ ? trajectory_ : observations::Trajectory();
     }
@@ -46,7 +46,7 @@ class SummedMovement {
     observations::Trajectory trajectory_;
 };
 
-/// Gathers every source of poses.
+/// Collects poses from all sources.
 class Surveyor {
  public:
     void see(const CActionCollection& actions) {
@@ -71,7 +71,7 @@ class Surveyor {
         const std::string& label = observation.sensorLabel;
         if (const auto* pose =
                 dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
-            // What tells the pose may sit aside of the vehicle's own frame.
+            // The pose sensor may be mounted away from the vehicle's origin.
             robot_poses_[label].add(pose->timestamp, pose->pose.mean + (-pose->sensorPose));
         } else if (const auto* odometry =
                        dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
@@ -131,7 +131,7 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
             }
         }
     } catch (const BrokenRawlog&) {
-        // Whoever converts the log tells of the break; what came before it is good.
+        // The conversion reports the break; the entries before it are valid.
         is_whole = false;
     }
     RawlogSurvey survey = std::move(surveyor).survey();

@@ -7,10 +7,10 @@
 namespace hagen::logs {
 namespace {
 
-/// A member this large packs as well as a whole file; a scan with its clouds fills one.
+/// Members of this size compress as well as a whole file; one scan with its clouds fills one.
 constexpr std::size_t kMemberBytes = 1 << 18;
 
-/// What is written goes to the end of a buffer.
+/// A stream that appends to a buffer.
 class AppendingStream : public mrpt::io::CStream {
  public:
     explicit AppendingStream(Bytes& bytes) : bytes_(bytes) {}
@@ -24,10 +24,10 @@ class AppendingStream : public mrpt::io::CStream {
     std::uint64_t getTotalBytesCount() const override { return bytes_.size(); }
 
     std::size_t Read(void*, std::size_t) override {
-        throw std::logic_error("an output is not read");
+        throw std::logic_error("an output cannot be read");
     }
     std::uint64_t Seek(std::int64_t, TSeekOrigin) override {
-        throw std::logic_error("an output is written from its start to its end");
+        throw std::logic_error("an output cannot seek");
     }
 
  private:
@@ -69,7 +69,7 @@ void RawlogWriter::writeMember(const Bytes& packed) {
 }
 
 void RawlogWriter::finish() {
-    if (!gathered_.empty() || is_empty_) {  // without any member it would be no gzip file
+    if (!gathered_.empty() || is_empty_) {  // a gzip file needs at least one member
         packGzipMember(gathered_, packed_);
         writeMember(packed_);
     }

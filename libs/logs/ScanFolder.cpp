@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files are little-endian, and so is every machine that MRPT is packaged for but s390x.
+// The formats are little-endian, like every machine MRPT is packaged for except s390x.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files need byte swapping");
 
 template <class Record>
@@ -23,13 +23,13 @@ std::vector<Record> readRecords(const fs::path& file) {
     const auto bytes = static_cast<std::size_t>(in.tellg());
     if (bytes % sizeof(Record) != 0) {
         throw BrokenScan(file.string() + ": " + std::to_string(bytes) +
-                         " bytes are no whole number of " + std::to_string(sizeof(Record)) +
-                         "-byte points; is it cut off?");
+                         " bytes are not a multiple of " + std::to_string(sizeof(Record)) +
+                         "-byte points; is it truncated?");
     }
     std::vector<Record> records(bytes / sizeof(Record));
     in.seekg(0);
     in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(bytes));
-    if (!in) throw BrokenScan(file.string() + ": cannot be read to its end");
+    if (!in) throw BrokenScan(file.string() + ": cannot be read completely");
     return records;
 }
 
@@ -41,8 +41,9 @@ void writeRecords(const fs::path& file, const std::vector<Record>& records) {
     base::closeWritten(out, file);
 }
 
-/// The numbers of a file with a line a scan; empty where there is no such file.
-std::vector<double> aNumberAScan(const fs::path& file, const std::string& unit, std::size_t scans) {
+/// Reads a file with one number per scan; empty if the file does not exist.
+std::vector<double> readNumberPerScan(const fs::path& file, const std::string& unit,
+                                      std::size_t scans) {
     std::vector<double> numbers;
     if (!fs::exists(file)) return numbers;
     for (const NumberLine& line : readNumberTable(file)) {
@@ -71,13 +72,13 @@ const base::OutputKind kScanFolders{
 ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
     const fs::path scans = folder_ / "velodyne";
     if (!fs::is_directory(scans)) {
-        throw std::runtime_error(
-            folder_.string() + ": not a scan folder: it has no folder 'velodyne' with .bin files");
+        throw std::runtime_error(folder_.string() +
+                                 ": not a scan folder (no subfolder 'velodyne' with .bin files)");
     }
     for (const auto& entry : fs::directory_iterator(scans)) {
         if (entry.path().extension() == ".bin") names_.push_back(entry.path().stem().string());
     }
-    if (names_.empty()) throw std::runtime_error(scans.string() + ": holds no .bin files");
+    if (names_.empty()) throw std::runtime_error(scans.string() + ": contains no .bin files");
     std::sort(names_.begin(), names_.end());
 }
 
@@ -94,11 +95,11 @@ fs::path ScanFolder::kindFile(std::size_t scan) const {
 }
 
 std::vector<double> ScanFolder::times() const {
-    return aNumberAScan(folder_ / "times.txt", "seconds", size());
+    return readNumberPerScan(folder_ / "times.txt", "seconds", size());
 }
 
 std::vector<double> ScanFolder::altitudes() const {
-    return aNumberAScan(folder_ / "altitudes.txt", "metres", size());
+    return readNumberPerScan(folder_ / "altitudes.txt", "metres", size());
 }
 
 void readScan(const fs::path& file, Scan& scan) {

@@ -4,7 +4,7 @@
 
 namespace hagen::logs {
 
-constexpr double kDefaultScanPeriod_s = 0.1;  // of a folder without times
+constexpr double kDefaultScanPeriod_s = 0.1;  // for folders without times.txt
 
 ScanFolderSource::ScanFolderSource(const std::filesystem::path& folder,
                                    const SourceOptions& options)

@@ -7,16 +7,16 @@ using observations::ObservationSegmenter;
 SegmenterPool::SegmenterPool(const observations::Settings& settings,
                              observations::CloudClass cloud_class)
     : settings_(settings), cloud_class_(cloud_class) {
-    lease();  // reports settings that do not fit before anything is read
+    lease();  // reports inconsistent settings before anything is read
 }
 
 SegmenterPool::Lease SegmenterPool::lease() {
     const auto giveBack = [this](ObservationSegmenter* segmenter) {
-        const std::lock_guard lock(is_used_);
+        const std::lock_guard lock(mutex_);
         idle_.emplace_back(segmenter);
     };
     {
-        const std::lock_guard lock(is_used_);
+        const std::lock_guard lock(mutex_);
         if (!idle_.empty()) {
             Lease lease(idle_.back().release(), giveBack);
             idle_.pop_back();

@@ -14,7 +14,7 @@ class SegmenterPool {
     /// Throws SettingsError if settings and sensor are inconsistent.
     SegmenterPool(const observations::Settings& settings, observations::CloudClass cloud_class);
 
-    /// Returned to the pool at its end. A segmenter's output is valid as long as the lease.
+    /// Returns the segmenter to the pool at its end, and with it the segmenter's output.
     using Lease = std::unique_ptr<observations::ObservationSegmenter,
                                   std::function<void(observations::ObservationSegmenter*)>>;
     Lease lease();  ///< on any thread
@@ -22,7 +22,7 @@ class SegmenterPool {
  private:
     const observations::Settings settings_;
     const observations::CloudClass cloud_class_;
-    std::mutex is_used_;
+    std::mutex mutex_;
     std::vector<std::unique_ptr<observations::ObservationSegmenter>> idle_;
 };
 

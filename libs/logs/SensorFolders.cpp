@@ -28,13 +28,13 @@ const fs::path& SensorFolders::folderOf(const std::string& sensor_label) {
     fs::path& folder = folders_[sensor_label];
     if (folder.empty()) {
         folder = path_.temporary() / fileName(sensor_label);
-        while (!fs::create_directory(folder)) folder += "_";  // another label has that name
+        while (!fs::create_directory(folder)) folder += "_";  // name already taken
     }
     return folder;
 }
 
-/// Of one sensor alone, its part becomes the whole.
-void SensorFolders::liftOnlyOne() {
+/// With only one sensor, its folder becomes the whole output.
+void SensorFolders::unwrapOnlyFolder() {
     if (folders_.size() != 1) return;
     fs::path lifted = path_.temporary();
     lifted += ".one";
@@ -44,12 +44,12 @@ void SensorFolders::liftOnlyOne() {
 }
 
 void SensorFolders::commit() {
-    liftOnlyOne();
+    unwrapOnlyFolder();
     path_.commit();
 }
 
 fs::path SensorFolders::keepPartial() {
-    liftOnlyOne();
+    unwrapOnlyFolder();
     return path_.keepPartial();
 }
 

@@ -38,13 +38,13 @@ Json latencyOf(const std::vector<ScanReport>& scans) {
             {"max", latencies_ms.back()}};
 }
 
-/// File names need not be UTF-8; what is not becomes U+FFFD.
+/// File names need not be valid UTF-8; invalid bytes become U+FFFD.
 std::string dumped(const Json& json, int indent) {
     return json.dump(indent, Json::NotUtf8::Replace);
 }
 
 double inMillimetres(float metres) {
-    return std::round(static_cast<double>(metres) * 1e3) / 1e3;  // what a sensor resolves
+    return std::round(static_cast<double>(metres) * 1e3) / 1e3;  // sensor resolution
 }
 
 Json lineOf(const ScanReport& scan) {
@@ -87,8 +87,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
                        {"unclassified", report.unclassified}};
     json["latency_ms"] = latencyOf(report.scan_reports);
 
-    // Scan by scan, a line each, for a long log has many: together they would take a thousand bytes
-    // each in memory.
+    // Scans are written one by one. A single JSON value would take about 1 kB of memory per scan.
     std::ofstream out(file);
     const std::string head = dumped(json, 1);
     out << head.substr(0, head.rfind("\n}")) << ",\n \"scans\": [";

@@ -6,8 +6,8 @@
 
 namespace hagen::mapping {
 
-/// A set of OctoMap keys within a box, one bit per key. Replaces OctoMap's own key set; many times
-/// as fast for keys that are close together.
+/// A set of OctoMap keys within a box, one bit per key. Much faster than OctoMap's own key set for
+/// keys that are close together.
 class KeyBitset {
  public:
     struct Corners {

@@ -83,7 +83,7 @@ void checkMapFile(const fs::path& file) {
     if (isMapFile(file)) return;
     throw std::runtime_error(file.string() +
                              ": a map is written as .bt (occupied or free), .ot (probabilities) or "
-                             ".3Dscene (for SceneViewer3D); give it one of these endings");
+                             ".3Dscene (for SceneViewer3D); use one of these endings");
 }
 
 void saveMap(const octomap::OcTree& tree, const fs::path& file) { saveMap(tree, file, file); }

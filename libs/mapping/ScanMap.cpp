@@ -20,7 +20,7 @@ struct ScanVoxels {
 void check(const char* what, double value) {
     if (value > 0 && std::isfinite(value)) return;
     throw std::invalid_argument(std::string("the ") + what + " of an OctoMap is " +
-                                std::to_string(value) + " m; it must be more than 0");
+                                std::to_string(value) + " m; it must be positive");
 }
 
 }  // namespace
@@ -42,9 +42,9 @@ class ScanMap::RayTraversal {
             throw std::runtime_error("a scan at " + std::to_string(std::lround(origin_m.x())) +
                                      ", " + std::to_string(std::lround(origin_m.y())) + ", " +
                                      std::to_string(std::lround(origin_m.z())) +
-                                     " m lies beyond the reach of an OctoMap of " +
+                                     " m lies outside an OctoMap with voxels of " +
                                      std::to_string(tree.getResolution()) +
-                                     " m; give poses that are nearer to their origin");
+                                     " m; use poses closer to their origin");
         }
         passed_.reset(box);
         hit_.reset(box);

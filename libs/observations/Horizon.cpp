@@ -15,7 +15,7 @@ using mrpt::poses::CPose3D;
 
 constexpr double kLongest_s = 0.2;
 
-/// The IMU's own rotation against the horizon.
+/// The rotation of the IMU against the horizon.
 std::optional<CPose3D> rotationOf(const CObservationIMU& imu) {
     using namespace mrpt::obs;
     const auto hasAll = [&](std::initializer_list<TIMUDataIndex> what) {
@@ -28,7 +28,7 @@ std::optional<CPose3D> rotationOf(const CObservationIMU& imu) {
         const double w = imu.get(IMU_ORI_QUAT_W), x = imu.get(IMU_ORI_QUAT_X);
         const double y = imu.get(IMU_ORI_QUAT_Y), z = imu.get(IMU_ORI_QUAT_Z);
         const double norm = std::sqrt(w * w + x * x + y * y + z * z);
-        if (norm > 0.5) {  // an IMU that does not know gives zeros
+        if (norm > 0.5) {  // an IMU without orientation reports zeros
             return CPose3D(mrpt::math::CQuaternionDouble(w / norm, x / norm, y / norm, z / norm), 0,
                            0, 0);
         }

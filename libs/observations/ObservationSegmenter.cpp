@@ -12,7 +12,7 @@ MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses()
 
 void registerHagenClasses() {
     mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
-    // The name that it had before libraries had namespaces.
+    // The class name from before libraries had namespaces.
     mrpt::rtti::registerClassCustomName(
         "hagen::ObservationSegmenter",
         CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
@@ -56,7 +56,7 @@ ObservationSegmenter::Lidar& ObservationSegmenter::lidarOf(const std::string& la
     const auto known = lidars_.find(label);
     if (known != lidars_.end()) {
         if (isSameSensor(known->second.filter.sensor(), sensor)) return known->second;
-        lidars_.erase(known);  // another sensor under the same label
+        lidars_.erase(known);  // another sensor with the same label
     }
     Lidar lidar{filterFor(sensor, settings_.options),
                 SlidingWindow(settings_.options.window_scans)};
@@ -71,18 +71,17 @@ const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observ
     if (settings_.options.window_scans == 1) return scan;
     if (!sensor_pose) {
         lidar.window.clear();
-        append("window_scans is above 1, but there is no pose: the scan is segmented alone",
-               remark);
+        append("window_scans is above 1, but the scan has no pose: it is segmented alone", remark);
         return scan;
     }
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.window");
     const mrpt::poses::CPose3D sensor_on_vehicle(observation.sensorPose());
     deskewed_ = scan;
     if (scan.time_s.empty()) {
-        append("its returns carry no times: the window moves it as a whole", remark);
+        append("its returns have no times: it is not deskewed", remark);
     } else if (!deskew(vehicle, observation.timestamp, sensor_on_vehicle, observed_.sensor,
                        deskewed_)) {
-        append("poses do not reach to its end: the window moves it as a whole", remark);
+        append("the poses do not cover the scan: it is not deskewed", remark);
     }
     return lidar.window.add(deskewed_, *sensor_pose, observed_.sensor);
 }
@@ -121,7 +120,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     const auto labelled = std::chrono::steady_clock::now();
 
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
-    // Indices beyond the scan are those of older ones in its window.
+    // Indices past the scan belong to older scans of the window.
     out.roi = partOf(observation, "_roi", cloudOf(scan, result.returns.roi, cloud_class));
     out.non_roi = partOf(observation, "_non_roi", cloudOf(scan, result.returns.rou, cloud_class));
     out.scan = &scan;

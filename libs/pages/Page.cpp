@@ -19,7 +19,7 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
 }
 
 std::string scriptText(std::string json) {
-    // "</script>" within a string would end the element.
+    // "</script>" in a string would end the element.
     for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3) {
         json.replace(at, 2, "<\\/");
     }

@@ -29,7 +29,8 @@ std::string htmlText(const std::string& text) {
 
 namespace {
 
-/// A figure's interval, in brackets at its end, goes below it: tables get half as wide.
+/// Puts the interval that follows a figure in brackets on a line of its own, which halves the table
+/// width.
 std::string htmlField(const std::string& field) {
     const std::size_t bracket = field.find(" (");
     if (bracket == std::string::npos || field.back() != ')') return htmlText(field);

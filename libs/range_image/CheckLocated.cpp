@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kSameBeam_rad = static_cast<float>(radians(1));
 
-/// Whether both can be the same sensor, whose calibration may have moved its beams a little.
+/// Whether both may be the same sensor, allowing for small differences in calibration.
 bool areAlike(const BeamSpan& a, const BeamSpan& b) {
     return a.rows == b.rows && std::abs(a.lowest_rad - b.lowest_rad) <= kSameBeam_rad &&
            std::abs(a.highest_rad - b.highest_rad) <= kSameBeam_rad;

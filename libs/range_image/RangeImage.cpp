@@ -38,16 +38,16 @@ struct Returns {
 };
 
 /// A return as one number: the bits of its range above those of its index, read as a double. Such
-/// numbers compare as their bits do: the least is the closest return, the earliest of equally close
-/// ones. (A minimum of doubles takes no branch, and which return is the closest is unpredictable.)
+/// numbers order like their bits: the minimum is the closest return, the first of equally close
+/// ones. (A minimum of doubles needs no branch, and which return is the closest is unpredictable.)
 using RangeAndIndex = double;
 
-/// No return, in both halves: as a double it is a number, and above those of all returns.
+/// No return, in both halves: as a double it is a number greater than those of all returns.
 constexpr std::int32_t kNoValueBits = 0x7fc00000;
 
 /// Returns that were projected together, for keepClosest().
 struct Projected {
-    std::int32_t pixel[kTogether];  ///< within the image, even for returns that are left out
+    std::int32_t pixel[kTogether];  ///< within the image, even for dropped returns
     RangeAndIndex found[kTogether];
 };
 
@@ -72,7 +72,7 @@ auto nearestColumns(V azimuth_rad, int columns) {
     auto column = hn::ConvertTo(d_int, columns_before);
     column = hn::Add(column, hn::IfThenElseZero(hn::Lt(column, zero), turn_columns));
     column = hn::Sub(column, hn::IfThenElseZero(hn::Gt(column, last), turn_columns));
-    return hn::Min(hn::Max(column, zero), last);  // in the image, whatever the azimuth
+    return hn::Min(hn::Max(column, zero), last);  // in the image for any azimuth
 }
 
 void projectTogether(Projection to, Returns returns, std::int32_t first_index,

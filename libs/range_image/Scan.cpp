@@ -19,9 +19,9 @@ namespace hagen {
 namespace {
 
 /// Finds the row of the closest beam from the sine of the elevation, z / range, which saves the arc
-/// sine: sines grow with their angles, so the row is the number of midpoints between neighbouring
-/// beams that lie below. A table over the sine gives all of these except those within the same bin:
-/// usually none, at most one even for the narrow beams of a 64-beam sensor.
+/// sine. Sines increase with their angles, so the row is the number of midpoints between
+/// neighbouring beams that lie below. A table over the sine has all of these except those within
+/// the same bin: usually none, at most one even for the narrow beams of a 64-beam sensor.
 struct RowTable {
     static constexpr int kBins = 1024;
     static constexpr float kBinsPerSine = kBins / 2;
@@ -125,7 +125,7 @@ HWY_INLINE void locateVector(D d, const RowTable& table, const Beams& at) {
     const auto range = hn::Sqrt(square);
     const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity());
     const auto is_somewhere =
-        hn::And(hn::Gt(range, hn::Zero(d)), hn::Lt(range, infinite));  // not where NaN
+        hn::And(hn::Gt(range, hn::Zero(d)), hn::Lt(range, infinite));  // false for NaN
     const auto sine = hn::IfThenElseZero(is_somewhere, hn::Div(z, range));
     const auto row = hn::IfThenElseZero(hn::RebindMask(hn::RebindToSigned<D>(), is_somewhere),
                                         rowOf(sine, table));
@@ -185,8 +185,8 @@ void Scan::reserve(std::size_t returns) {
     row.reserve(returns);
 }
 
-// Fast because all of it is done for a vector of points at a time: the row needs no angle
-// (RowTable), the azimuth is a polynomial.
+// Fast because it processes a vector of points at a time: the row needs no angle (RowTable), the
+// azimuth is a polynomial.
 void locateBeams(const SensorModel& sensor, Scan& scan) {
     scan.range_m.resize(scan.size());
     scan.azimuth_rad.resize(scan.size());

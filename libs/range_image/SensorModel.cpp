@@ -83,14 +83,14 @@ SensorModel customSensorModel(const std::vector<double>& elevations_deg) {
     sensor.name = "custom";
     for (const double elevation_deg : elevations_deg) {
         if (!(std::abs(elevation_deg) <= 90.0)) {
-            throw std::invalid_argument("a beam's elevation lies within +-90 degrees, not at " +
+            throw std::invalid_argument("a beam's elevation must be within +-90 degrees, not " +
                                         std::to_string(elevation_deg));
         }
         const float elevation_rad = static_cast<float>(radians(elevation_deg));
         if (!sensor.elevations_rad.empty() && elevation_rad <= sensor.elevations_rad.back()) {
-            throw std::invalid_argument("elevations go from the lowest beam to the highest; " +
+            throw std::invalid_argument("elevations must go from the lowest beam to the highest; " +
                                         std::to_string(elevation_deg) +
-                                        " degrees is not above the one before it");
+                                        " degrees is not above the previous one");
         }
         sensor.elevations_rad.push_back(elevation_rad);
     }

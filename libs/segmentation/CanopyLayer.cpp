@@ -11,21 +11,21 @@ namespace {
 constexpr int kCells = GroundSurface::kCells;
 constexpr int kBlockCells = 4;
 constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
-constexpr int kReach = 6;                      // blocks to each side
+constexpr int kReach = 6;                      // blocks in each direction
 
 constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
-constexpr float kLeastShare = 0.35f;                  // of the cells seen around
-constexpr float kLeastCells = 30;                     // seen around; with fewer, no canopy
+constexpr float kLeastShare = 0.35f;                  // of the cells seen nearby
+constexpr float kLeastCells = 30;                     // seen nearby; with fewer, no canopy
 constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
 
-/// The plants in the cells of one block or of several. Sums are double, so that subtracting blocks
-/// again leaves hardly any rounding error.
+/// The plants in the cells of one or more blocks. Sums are double, so that subtracting a block
+/// leaves hardly any rounding error.
 struct Stand {
     float seen = 0;     ///< cells with returns
-    float plants = 0;   ///< of those, cells whose highest return is that of a low plant
-    double sum_m = 0;   ///< of the plants' heights
-    double sum_m2 = 0;  ///< of their squares
+    float plants = 0;   ///< cells whose highest return is that of a low plant
+    double sum_m = 0;   ///< sum of the plants' heights
+    double sum_m2 = 0;  ///< sum of their squares
 
     void addCell(float top_m) {
         seen += 1;
@@ -46,7 +46,7 @@ struct Stand {
         sum_m -= other.sum_m;
         sum_m2 -= other.sum_m2;
     }
-    /// The height that plants do not exceed; 0 where there is no canopy.
+    /// The height that plants do not exceed; 0 without a canopy.
     float canopy_m() const {
         if (seen < kLeastCells || plants < kLeastShare * static_cast<float>(seen)) return 0;
         const double mean_m = sum_m / plants;
@@ -64,7 +64,7 @@ void findStands(const CellTops& tops, Stands& stands) {
         const float* const column_m = tops.top_m.col(j + 1).data() + 1;  // without the border
         for (int block = 0; block < kBlocks; ++block) {
             const float* const top_m = column_m + block * kBlockCells;
-            if (std::memcmp(top_m, kNothing_m, sizeof(kNothing_m)) == 0) continue;  // as most are
+            if (std::memcmp(top_m, kNothing_m, sizeof(kNothing_m)) == 0) continue;  // most blocks
             Stand& stand = stands[j / kBlockCells * kBlocks + block];
             for (int k = 0; k < kBlockCells; ++k) {
                 if (top_m[k] != CellTops::kNone_m) stand.addCell(top_m[k]);
@@ -73,8 +73,8 @@ void findStands(const CellTops& tops, Stands& stands) {
     }
 }
 
-/// Sums over kReach blocks to each side along a line of blocks that are `stride` apart: from one to
-/// the next, one block is added and one removed.
+/// Sums over kReach blocks in each direction along a line of blocks that are `stride` apart. Each
+/// step adds one block and removes one.
 void sumAlong(const Stand* stands, int stride, Stand* sums) {
     Stand around;
     for (int k = 0; k < kReach; ++k) around.add(stands[k * stride]);
@@ -98,7 +98,7 @@ void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<fl
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         canopy_m[block] = stands[block].canopy_m();
     }
-    if (*std::max_element(canopy_m.begin(), canopy_m.end()) == 0) return;  // as nearly everywhere
+    if (*std::max_element(canopy_m.begin(), canopy_m.end()) == 0) return;  // nearly always
 
     Eigen::ArrayXXf& of_cells_m = work.canopy_m;
     of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
@@ -109,7 +109,7 @@ void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<fl
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         float& tolerated_m = tolerance_m.data()[pixel];
         const float of_cell_m = of_cells_m.data()[tops.cell.data()[pixel]];
-        tolerated_m = of_cell_m > tolerated_m ? of_cell_m : tolerated_m;  // not where it is NaN
+        tolerated_m = of_cell_m > tolerated_m ? of_cell_m : tolerated_m;  // NaN stays NaN
     }
 }
 

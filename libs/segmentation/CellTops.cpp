@@ -39,7 +39,7 @@ void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellT
     const std::int32_t* const cell = tops.cell.data();
     const auto raise = [=](std::size_t pixel) __attribute__((always_inline)) {
         float& highest_m = top_m[cell[pixel]];
-        highest_m = h_m[pixel] > highest_m ? h_m[pixel] : highest_m;  // not where it is NaN
+        highest_m = h_m[pixel] > highest_m ? h_m[pixel] : highest_m;  // ignores NaN
     };
     visitByTurns(static_cast<std::size_t>(height_m.size()), raise);
 }

@@ -14,10 +14,10 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// For adjacent columns that all have their left (and right) neighbours earlier, or all later, in
-/// the image. Positive floats order as their bits do, and the earlier of two equal ones is older:
-/// so a neighbour is older if its bits, plus 1 if it is earlier, are more. There is no branch per
-/// pixel: the findings in 64 of them are one word of bits.
+/// For adjacent columns whose left (and right) neighbours all come earlier, or all later, in the
+/// image. Positive floats order like their bits, and the earlier of two equal ones is older. So a
+/// neighbour is older if its bits, plus 1 if it is earlier, are greater. There is no branch per
+/// pixel: the results of 64 pixels are one word.
 void FindCriticalIn(int begin, int end, int stride, bool left_is_earlier, bool right_is_earlier,
                     const float* HWY_RESTRICT level, CriticalPixels& critical) {
     const hn::ScalableTag<std::int32_t> d;
@@ -65,7 +65,8 @@ void FindCriticalIn(int begin, int end, int stride, bool left_is_earlier, bool r
                                        hn::Or(bit(left, 6), bit(above_left, 7)));
             hn::StoreU(hn::Or(right_bits, left_bits), d, older_neighbours + i);
 
-            // Going around, a stretch of older neighbours begins after an edge that is not older.
+            // Around the pixel, a stretch of older neighbours begins after an edge that is not
+            // older.
             const auto begins = [&](V side, V corner, V next)
                                     HWY_ATTR { return hn::AndNot(side, hn::Or(corner, next)); };
             const V minus_stretches = hn::Add(
@@ -102,7 +103,7 @@ namespace {
 HWY_EXPORT(FindCriticalIn);
 
 constexpr int kSlack =
-    2 * 64;  ///< what words of 64 pixels and wide vectors read and write past an end
+    2 * 64;  ///< elements that 64-pixel words and wide vectors access past an end
 
 }  // namespace
 
@@ -125,7 +126,7 @@ void frameLevels(const Image<float>& image, FramedLevels& framed) {
     if (framed.columns > 1) {
         frameColumn(framed.columns - 1, -1);
         frameColumn(0, framed.columns);
-    } else {  // no pixel is its own neighbour
+    } else {  // a pixel is not its own neighbour
         std::fill_n(level + framed.indexOf(0, -1), stride, 0.0f);
         std::fill_n(level + framed.indexOf(0, framed.columns), stride, 0.0f);
     }

@@ -1,4 +1,4 @@
-// Eigenvectors of several small symmetric matrices at once, one matrix per lane; compiled once per
+// Eigenvectors of several small symmetric matrices at once, one matrix per lane. Compiled once per
 // instruction set.
 
 #ifndef HAGEN_EIGEN_BATCH_H
@@ -7,12 +7,12 @@
 
 namespace hagen {
 
-/// Off-diagonal elements count as 0 where they are this small a share of the matrix; for doubles,
-/// that is far below what the squares of floats resolve.
+/// Off-diagonal elements below this fraction of the matrix count as 0. For doubles, this is far
+/// below the resolution of squared floats.
 template <class Real>
 constexpr double kNegligible = sizeof(Real) == sizeof(float) ? 0x1p-23 : 0x1p-44;
 
-/// The least divisor. Its square root can still be squared.
+/// The smallest divisor; its square root can still be squared.
 template <class Real>
 constexpr double kTiny = sizeof(Real) == sizeof(float) ? 1e-30 : 1e-280;
 
@@ -35,7 +35,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Arithmetic on Lanes, written as for single numbers.
+/// Arithmetic on Lanes, with the syntax of single numbers.
 template <class Real>
 using D = hn::CappedTag<Real, kLanes<Real>>;
 template <class Real>
@@ -45,7 +45,7 @@ constexpr int kVectors = kLanes<Real> / kVectorLanes<Real>;
 
 template <class Real>
 struct Pack {
-    HWY_INLINE Pack() {}  // the compiler's own is not for this instruction set
+    HWY_INLINE Pack() {}  // the implicit one is not compiled for this instruction set
     hn::Vec<D<Real>> part[kVectors<Real>];
 };
 template <class Real>
@@ -129,9 +129,9 @@ HWY_INLINE bool allOf(const PackMask<Real>& mask) {
 }
 #undef HAGEN_EACH_PART
 
-/// Householder's reduction Q^T A Q = T to a tridiagonal matrix, from the last row upwards: that
+/// Householder reduction Q^T A Q = T to a tridiagonal matrix, from the last row upwards, which
 /// leaves the large eigenvalues at the lower end of T, where QL needs them. Row k of the matrix
-/// keeps the reflection's vector v, `scale` its 2 / v^T v (0: no reflection).
+/// stores the vector v of its reflection, `scale` its 2 / v^T v (0: no reflection).
 template <class Real>
 void tridiagonalise(int m, EigenBatch<Real>& batch) {
     const auto row = [&](int i) { return &batch.matrix[i * m]; };
@@ -150,7 +150,7 @@ void tridiagonalise(int m, EigenBatch<Real>& batch) {
         store(last + norm, v[k - 1]);
         store(scale, batch.scale[k]);
 
-        // p = A v, of whose A only the lower triangle counts
+        // p = A v, using only the lower triangle of A
         for (int i = 0; i < k; ++i) {
             Pack<Real> sum = zero;
             for (int j = 0; j <= i; ++j) sum = sum + load(row(i)[j]) * load(v[j]);
@@ -180,9 +180,9 @@ struct Sweep {
     Pack<Real> shift;
 };
 
-/// Sets negligible off-diagonal entries to 0, and leaves out those that are 0 in all lanes.
-/// Wilkinson's shift for each lane: the eigenvalue of its first unfinished 2 x 2 block that is
-/// nearer to the block's first entry.
+/// Sets negligible off-diagonal entries to 0, and skips those that are 0 in all lanes. Wilkinson's
+/// shift per lane: the eigenvalue of its first unfinished 2 x 2 block that is closer to the block's
+/// first entry.
 template <class Real>
 HWY_INLINE void planSweep(const Pack<Real>& negligible, EigenBatch<Real>& batch,
                           Sweep<Real>& sweep) {
@@ -208,8 +208,8 @@ HWY_INLINE void planSweep(const Pack<Real>& negligible, EigenBatch<Real>& batch,
     sweep = {first, end, upper - zeroIf(below == zero, square / below)};
 }
 
-/// One implicit QL sweep. Where a lane's off-diagonal entry is 0, its rotation is exactly the
-/// identity, and the chase starts anew above: so no lane is affected by the progress of others.
+/// One implicit QL sweep. If a lane's off-diagonal entry is 0, its rotation is exactly the identity
+/// and the chase restarts above, so lanes do not affect each other.
 template <class Real>
 HWY_INLINE GivensRotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Real>& batch,
                                          GivensRotation<Real>* to) {
@@ -234,7 +234,7 @@ HWY_INLINE GivensRotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Re
         const Pack<Real> t = (d - below) * s + c * (b + b);
         p = s * t;
         store(below + p, diagonal[i + 1]);
-        // An idle lane goes on with c = s = 1 and the next diagonal entry, as at the beginning.
+        // An idle lane continues with c = s = 1 and the next diagonal entry, as at the start.
         g = c * t - select(idles, sweep.shift - d, b);
         s = select(idles, one, s);
         begins = idles;
@@ -244,8 +244,8 @@ HWY_INLINE GivensRotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Re
     return to;
 }
 
-/// Diagonalises T by rotations, which are kept; returns their number. If rounding prevents it, a
-/// lane may keep off-diagonal entries; its vectors are orthonormal all the same.
+/// Diagonalises T by rotations, which are stored; returns their number. If rounding prevents
+/// convergence, a lane may keep off-diagonal entries, but its vectors are still orthonormal.
 template <class Real>
 std::size_t diagonaliseTridiagonal(int m, EigenBatch<Real>& batch) {
     Pack<Real> largest = all<Real>(0.0);
@@ -293,7 +293,7 @@ void pickEigenvectors(int m, int count, bool smallest, EigenBatch<Real>& batch) 
     }
 }
 
-/// Undoes the rotations that diagonalised T on the vectors, from the last to the first.
+/// Applies the inverse rotations to the vectors, from the last to the first.
 template <class Real>
 void undoRotations(int m, int count, std::size_t rotations, EigenBatch<Real>& batch) {
     const GivensRotation<Real>* const first = batch.rotations.data();
@@ -309,7 +309,7 @@ void undoRotations(int m, int count, std::size_t rotations, EigenBatch<Real>& ba
     }
 }
 
-/// Undoes the reflections that made the matrix tridiagonal.
+/// Applies the inverse reflections to the vectors.
 template <class Real>
 void undoReflections(int m, int count, EigenBatch<Real>& batch) {
     for (int k = 2; k < m; ++k) {
@@ -325,8 +325,8 @@ void undoReflections(int m, int count, EigenBatch<Real>& batch) {
 }
 
 /// Writes the orthonormal eigenvectors of the `count` smallest (or largest) eigenvalues of
-/// batch.matrix, which is overwritten, to batch.vectors: by Householder's reduction and the
-/// implicit QL method, whose rotations are applied to the wanted vectors only.
+/// batch.matrix, which is overwritten, to batch.vectors. Uses Householder reduction and the
+/// implicit QL method; rotations are applied to the requested vectors only.
 template <class Real>
 void eigenvectors(int m, int count, bool smallest, EigenBatch<Real>& batch) {
     batch.scale.resize(m);

@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Appends `first` + n for each bit n that is set. A table gives eight entries per byte; those
-/// beyond the byte's set bits are overwritten, or lie behind the end.
+/// Appends `first` + n for each set bit n. A table has eight entries per byte; those beyond the
+/// byte's set bits are overwritten, or lie past the end.
 HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
                                      std::uint32_t* HWY_RESTRICT list) {
     const hn::CappedTag<std::uint32_t, 8> d;
@@ -34,8 +34,8 @@ HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
     return list;
 }
 
-/// Labels whole words of returns, of which return `first` is the first. Labels are unpredictable,
-/// so nothing branches on one.
+/// Labels whole words of returns, starting at return `first`. Labels are unpredictable, so there
+/// is no branch on them.
 template <bool kHasOwnLabel>
 HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput& in,
                              std::uint32_t first, std::size_t words, std::uint64_t last_word_mask,
@@ -120,8 +120,8 @@ namespace {
 
 HWY_EXPORT(LabelWords);
 
-/// 2 * component + 1 if ROU, for each pixel, so that a return needs one look-up. Returns without a
-/// pixel are ROU.
+/// 2 * component + 1 if ROU, per pixel, so that a return needs one look-up. Returns without a pixel
+/// are ROU.
 void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& components,
                   std::vector<std::int32_t>& verdict) {
     verdict.resize(static_cast<std::size_t>(labels.size()) + 1);
@@ -133,8 +133,8 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
     }
 }
 
-/// Numbers components 1, 2, ... in their order, without those that have no return because all their
-/// pixels were repaired. Only RoI returns have any.
+/// Renumbers components 1, 2, ... in order, skipping those without returns because all their pixels
+/// were repaired. Only RoI returns belong to components.
 void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
     number.assign(static_cast<std::size_t>(most) + 1, 0);
@@ -145,7 +145,7 @@ void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int3
     for (const std::uint32_t i : returns.roi) component[i] = number[component[i]];
 }
 
-/// The last returns, less than a word of them, on copies as long as a word.
+/// Labels the last returns, fewer than a word, in copies as long as a word.
 void labelRest(const ExtractionRules& rules, ExtractionInput in, std::size_t first,
                std::size_t rest, ExtractionOutput& out) {
     std::array<float, kReturnsPerWord> range_m{};

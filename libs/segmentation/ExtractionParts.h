@@ -4,21 +4,21 @@
 
 namespace hagen {
 
-/// The parts of Extraction.cpp that all instruction sets share. Labels are their numbers.
+/// The parts of Extraction.cpp shared by all instruction sets. Labels are stored as numbers.
 constexpr std::size_t kReturnsPerWord = 64;
 
 struct ExtractionInput {
     const float* range_m;
     const std::int32_t* pixel;
     const std::uint8_t* own_label;         ///< or null
-    const std::int32_t* verdict_of_pixel;  ///< 2 * component + 1 if ROU; at -1 for no pixel
+    const std::int32_t* verdict_of_pixel;  ///< 2 * component + 1 if ROU; index -1: no pixel
     const float* depth_of_pixel_m;
 };
 
 struct ExtractionOutput {
     std::uint8_t* label;
     std::int32_t* component;
-    std::uint32_t *roi, *rou, *unclassified;  ///< the lists' ends; up to a word more is written
+    std::uint32_t *roi, *rou, *unclassified;  ///< ends of the lists; up to one word more is written
     std::int32_t most_components;             ///< the greatest number so far
 };
 

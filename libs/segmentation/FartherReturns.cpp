@@ -11,8 +11,8 @@ void reserve(std::size_t size, FartherReturnsWorkspace& work) {
     for (auto* values : {&work.x_m, &work.y_m, &work.z_m, &work.height_m}) values->resize(size);
 }
 
-/// Lists the returns behind their pixel's closest one; gives their number. They are few and
-/// scattered, so they are listed without a branch.
+/// Lists the returns behind the closest one of their pixel; returns their number. They are few and
+/// scattered, so there is no branch.
 std::size_t listFarther(const Scan& scan, const RangeImage& image, std::int32_t* list) {
     static_assert(RangeImage::kNoPixel == -1);
     const std::int32_t* const pixels = image.depth_mapper.data();

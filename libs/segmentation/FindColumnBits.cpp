@@ -34,7 +34,7 @@ void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max
             std::uint64_t is_present = 0, is_above = 0, is_right = 0;
             for (int n = 0; n < inside; n += lanes) {
                 const auto own = hn::LoadU(d, first + n);
-                const auto isLinked = [&](int offset) HWY_ATTR {  // false where either is NaN
+                const auto isLinked = [&](int offset) HWY_ATTR {  // false if either is NaN
                     const auto other = hn::LoadU(d, first + n + offset);
                     return BitsOf(d, hn::Lt(hn::Abs(hn::Sub(other, own)), step)) << n;
                 };
@@ -96,8 +96,8 @@ HWY_EXPORT(FindLinks);
 HWY_EXPORT(FindPresent);
 HWY_EXPORT(FindLabelled);
 
-/// Calls find(first pixel, columns, first word) for parts of an image. Vectors read past a column,
-/// into the next ones; so the last columns are copied to `seam`, followed by the first one.
+/// Calls find(first pixel, columns, first word) for parts of an image. Vectors read past the end of
+/// a column, so the last columns are copied to `seam`, followed by the first one.
 template <class T, class Find>
 void findInParts(const T* image, int rows, int columns, std::vector<T>& seam, Find find) {
     constexpr int kPast = kWordRows;  // no vector has more lanes

@@ -9,14 +9,14 @@
 
 namespace hagen {
 
-/// `seam` is a buffer for the image's last columns, with the first one behind them.
+/// `seam` is a buffer for the image's last columns, followed by the first one.
 void findLinks(const Image<float>& image, float max_step, ColumnLinks& links,
                std::vector<float>& seam);
 void findPresent(const Image<float>& image, ColumnBits& present, std::vector<float>& seam);
 void findLabelled(const Image<Label>& labels, Label label, ColumnBits& labelled,
                   std::vector<std::uint8_t>& seam);
 
-/// Calls visit(n) for each bit n that is set, from the lowest up.
+/// Calls visit(n) for each set bit n, lowest first.
 template <class Visit>
 void forEachBit(std::uint64_t bits, Visit visit) {
     for (; bits != 0; bits &= bits - 1) {
@@ -24,7 +24,8 @@ void forEachBit(std::uint64_t bits, Visit visit) {
     }
 }
 
-/// Calls visit(words) with the number of words per column, as a constant where it is the usual one.
+/// Calls visit(words) with the number of words per column, as a compile-time constant if it is the
+/// usual one.
 template <class Visit>
 void withWordsOf(int rows, Visit visit) {
     if (rows <= kWordRows) {

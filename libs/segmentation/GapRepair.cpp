@@ -3,9 +3,9 @@
 
 namespace hagen {
 
-// Columns are stored one after the other, so all pixels are computed as one array, each from the
-// two beside it, empty or not, without a branch. At the ends of columns, where that mixes two of
-// them, the pixel is then restored.
+// Columns are contiguous, so all pixels are computed as one array, each from the two beside it,
+// empty or not, without a branch. Pixels at the ends of columns, which would mix two columns, are
+// restored afterwards.
 void repairGaps(const Image<float>& depth_m, float max_step_m, Image<float>& repaired_m) {
     const Eigen::Index rows = depth_m.rows(), pixels = depth_m.size();
     if (!(max_step_m > 0)) {

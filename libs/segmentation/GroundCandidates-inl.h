@@ -1,5 +1,5 @@
-// Before the ground's surface is fitted: lists the pixels that can be ground, by compressing
-// stores. For files that Highway compiles once per instruction set.
+// Before the ground surface fit: lists the pixels that may be ground, with compressing stores. For
+// files that Highway compiles once per instruction set.
 #ifndef HAGEN_GROUND_CANDIDATES
 #define HAGEN_GROUND_CANDIDATES
 #include <hagen/segmentation/GroundFit.h>
@@ -50,8 +50,8 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, GroundFit<kSide>& fit,
         const auto cells = gridCells<kSide>(d, x, y);
         const auto is_candidate =
             hn::And(cells.is_on_grid, isCandidate(d, pixel, x, y, cells.cell));
-        // Writes whole vectors, whose surplus the next one overwrites: masked stores are slow on
-        // some machines.
+        // Writes whole vectors; the next one overwrites the surplus. Masked stores are slow on some
+        // machines.
         auto heights_m = hn::LoadU(d, pixels.z_m + pixel);
         auto place = cells.cell;
         const std::size_t listed = compress(d, is_candidate, heights_m, place);
@@ -62,7 +62,7 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, GroundFit<kSide>& fit,
     fit.candidates = n;
 }
 
-// The two below are not inlined: only a function that returns clears the upper halves of vectors,
+// The next two are not inlined: only returning from a function clears the upper halves of vectors,
 // which would slow down the scalar loops of the fit.
 
 /// Lists the pixels marked `wanted` in every `step`-th column of an image.
@@ -83,8 +83,8 @@ HWY_NOINLINE void listMarked(const PixelSpan& image, std::size_t rows, std::size
     }
 }
 
-/// Lists the pixels close to a coarse surface, which is given as one height per cell; the tolerance
-/// grows with distance. That gathers one height per pixel, where interpolation takes four.
+/// Lists the pixels close to a coarse surface with one height per cell; the tolerance grows with
+/// distance. This gathers one height per pixel; interpolation would take four.
 template <int kSide>
 HWY_NOINLINE void listClose(const PixelSpan& pixels, const float* HWY_RESTRICT coarse_m,
                             GroundFit<kSide>& fit) {

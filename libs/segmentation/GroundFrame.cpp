@@ -21,7 +21,7 @@ constexpr float kCell_m = 0.75f;
 constexpr float kReach_m = 40.0f;
 constexpr int kCells = 107;  // 2 kReach_m / kCell_m, rounded up
 
-constexpr Eigen::Index kColumns = 200;  // of an image: as many or more are enough
+constexpr Eigen::Index kColumns = 200;  // of an image: this many are enough
 
 constexpr int kRounds = 6;
 constexpr double kFirstScale_m = 1.0;  // of residuals, in the first round
@@ -31,23 +31,23 @@ constexpr double kAbove = 2.0, kBelow = 1.0;  // weights fall faster above the g
 constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
 
 // Conditions for ground.
-constexpr float kLeastHeight_m = 0.1f;   // of the sensor above it
-constexpr float kLeastCosine = 0.7071f;  // of its tilt, 45 degrees
+constexpr float kLeastHeight_m = 0.1f;   // of the sensor above ground
+constexpr float kLeastCosine = 0.7071f;  // of the sensor's tilt, 45 degrees
 constexpr Eigen::Index kLeastPixels = 50;
 
 using Points = GroundFrameWorkspace::Points;
 
-/// Sums over points are taken in so many parts, the same on every machine; so points are padded.
+/// Sums over points are split into this many parts, on every machine; so points are padded.
 constexpr std::size_t kParts = 4;
 std::size_t paddedSize(std::size_t points) { return (points + kParts - 1) / kParts * kParts; }
 
-/// How weights fall with the residual from the plane z = a x + b y + c.
+/// Weight as a function of the residual from the plane z = a x + b y + c.
 struct RobustWeight {
     double a = 0, b = 0, c = 0;
     double above_per_m2 = 0, below_per_m2 = 0;
 };
 
-/// The partial sums over w, w x, w y, w x x, w x y, w y y, w z, w x z, w y z.
+/// The partial sums of w, w x, w y, w x x, w x y, w y y, w z, w x z, w y z.
 constexpr int kSums = 9;
 using PartialSums = double[kSums][kParts];
 
@@ -60,8 +60,8 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The cell of each pixel and its height, both in a level frame, as integers; heights order as
-/// their floats do. The cell is kCells * kCells for pixels out of reach.
+/// Cell and height of each pixel in a level frame, as integers; heights order like their floats.
+/// Pixels out of reach get the cell kCells * kCells.
 void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                    const float* HWY_RESTRICT z_m, const Eigen::Matrix3f& level,
                    std::int32_t* HWY_RESTRICT cell, std::int32_t* HWY_RESTRICT height) {
@@ -158,7 +158,7 @@ void weighByDistance(Points& points) {
     }
 }
 
-/// The lowest point of each cell that has one, in work.points.
+/// The lowest point of each cell that has points, in work.points.
 void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
                        GroundFrameWorkspace& work) {
     const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
@@ -175,7 +175,7 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
          pixels.z_m.data() + first, level, cell + n_level, height + n_level);
     }
 
-    // A height with the pixel's index after it: the least of these is the first of the lowest.
+    // The height followed by the pixel index: the minimum is the first of the lowest pixels.
     constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
     work.lowest.assign(kCells * kCells + 1, kNone);
     work.occupied.resize(kCells * kCells + 1);
@@ -212,7 +212,7 @@ Eigen::Vector3d planeThrough(const Points& points, const RobustWeight& weight) {
     for (int k = 0; k < kSums; ++k)
         sum[k] = (parts[k][0] + parts[k][1]) + (parts[k][2] + parts[k][3]);
     const auto& [w, wx, wy, wxx, wxy, wyy, wz, wxz, wyz] = sum;
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // allows points on a line
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // allows collinear points
     normal += (Eigen::Matrix3d() << wxx, wxy, wx, wxy, wyy, wy, wx, wy, w).finished();
     return normal.ldlt().solve(Eigen::Vector3d(wxz, wyz, wz));
 }
@@ -229,9 +229,8 @@ Eigen::Vector3d fitPlane(const Points& points) {
     return plane;
 }
 
-/// The shortest rotation that turns a vector upwards which does not point straight down. The same
-/// as Eigen's FromTwoVectors, which for opposite vectors takes a decomposition that is slow to
-/// compile.
+/// The shortest rotation that turns a vector upwards, unless it points straight down. Equals
+/// Eigen's FromTwoVectors, whose decomposition for opposite vectors is slow to compile.
 Eigen::Quaterniond turnUpwards(const Eigen::Vector3d& vector) {
     const Eigen::Vector3d from = vector.normalized(), up = Eigen::Vector3d::UnitZ();
     const double s = std::sqrt((1 + up.dot(from)) * 2);

@@ -1,5 +1,5 @@
-// The grid of the ground's surface and of the tops of its cells, for many pixels at a time.
-// For files that Highway compiles once per instruction set.
+// The grid of the ground surface and of CellTops, for many pixels at a time. For files that Highway
+// compiles once per instruction set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
 #include <hagen/range_image/SetBits.h>
@@ -10,30 +10,30 @@
 
 namespace hagen {
 
-/// The height of a cell that has none.
+/// The height of a cell without one.
 constexpr float kNoHeight = std::numeric_limits<float>::infinity();
 
-/// The grid has a border of one cell all around, so that every cell has eight neighbours; cells lie
-/// column by column.
+/// The grid has a border of one cell on all sides, so that every cell has eight neighbours. Cells
+/// are stored column by column.
 template <int kSide>
 constexpr int kStride = kSide + 2;
 constexpr int kGridStride = kStride<GroundSurface::kCells>;
 constexpr int kGridSize = kGridStride * kGridStride;
 
-/// The logarithm of a side's number of cells, a power of 2.
+/// The logarithm of the number of cells per side, which is a power of 2.
 template <int kSide>
 constexpr int kLog2 = kLog2<kSide / 2> + 1;
 template <>
 constexpr int kLog2<1> = 0;
 
-/// The index of cell (0, j). Columns -1 and kSide are the border's.
+/// The index of cell (0, j). Columns -1 and kSide are the border.
 template <int kSide = GroundSurface::kCells>
 constexpr int gridColumn(int j) {
     return (j + 1) * kStride<kSide> + 1;
 }
 
-/// Calls visit(k) for each k below `size`, at four places in turn: neighbours in an image are often
-/// in the same cell, and would have to wait for one another.
+/// Calls visit(k) for each k below `size`, alternating between four places: neighbours in an image
+/// are often in the same cell and would stall each other.
 template <class Visit>
 __attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit visit) {
     const std::size_t quarter = size / 4;
@@ -69,8 +69,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 #undef HAGEN_INLINE
 #define HAGEN_INLINE HWY_ATTR __attribute__((always_inline))
 
-/// Calls visit(d, i) for `size` floats: i is the first of a vector, d its tag. The last few come
-/// one by one, as vectors of one lane. `visit` is HAGEN_INLINE.
+/// Calls visit(d, i) for `size` floats: i is the first of a vector, d its tag. The last few are
+/// visited one by one, as vectors of one lane. `visit` is HAGEN_INLINE.
 template <class Visit>
 HWY_INLINE void forEachVector(std::size_t size, Visit visit) {
     const hn::ScalableTag<float> d;
@@ -79,8 +79,8 @@ HWY_INLINE void forEachVector(std::size_t size, Visit visit) {
     for (; i < size; ++i) visit(hn::CappedTag<float, 1>(), i);
 }
 
-/// Moves the chosen lanes of two vectors to the front of each; returns their number. Highway's own
-/// Compress() would copy its table of 1 KB on every call when GCC compiles it for AVX2.
+/// Moves the selected lanes of two vectors to the front of each; returns their number. Highway's
+/// Compress() copies its 1 KB table on every call when GCC compiles it for AVX2.
 template <class D, class VF, class VI>
 HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& integers) {
     const hn::RebindToSigned<D> di;
@@ -101,7 +101,7 @@ HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& inte
 /// The cells of points.
 template <class D>
 struct GridCells {
-    hn::Vec<hn::RebindToSigned<D>> cell;  ///< of the border where a point is not on the grid
+    hn::Vec<hn::RebindToSigned<D>> cell;  ///< a border cell if a point is not on the grid
     hn::Mask<D> is_on_grid;
 };
 

@@ -13,9 +13,9 @@
 #include "ObstacleRemoval-inl.h"
 #include "PullPush-inl.h"
 
-// Why it is fast: the first fit, which only tells what is close, is coarse. In the second a pixel
-// is touched by two short loops, the lowest of its cell and the mean; all else is whole vectors of
-// cells.
+// Why it is fast: the first fit, which only finds out what is close, is coarse. The second touches
+// a pixel in two short loops, for the minimum of its cell and for the mean; everything else works
+// on whole vectors of cells.
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kCells = GroundSurface::kCells, kCoarseCells = kCells / 2;
 
-/// All steps for the candidates listed; kCleans: steps 1 and 2 as well.
+/// All steps for the listed candidates; kCleans: including steps 1 and 2.
 template <int kSide, bool kCleans>
 HWY_INLINE void fitSurface(GroundFit<kSide>& fit, float* HWY_RESTRICT surface_m, int stride) {
     findLowest(fit);
@@ -38,14 +38,15 @@ HWY_INLINE void fitSurface(GroundFit<kSide>& fit, float* HWY_RESTRICT surface_m,
     fillHeights(fit.pyramid, surface_m, stride);
 }
 
-/// To the pixels marked `true`.
+/// Fit to the pixels marked `true`.
 void FitMarkedIn(const PixelSpan& image, const std::uint8_t* mark, GroundFit<kCells>& fit,
                  float* HWY_RESTRICT surface_m) {
     listMarked(image, image.size, 1, mark, true, fit);
     fitSurface<kCells, true>(fit, surface_m, kCells);
 }
 
-/// To the ROU of every `step`-th column. The heights go to the centres of the fine grid's cells.
+/// Fit to the ROU of every `step`-th column. Writes heights at the centres of the fine grid's
+/// cells.
 void FitCoarseIn(const PixelSpan& image, std::size_t rows, std::size_t step,
                  const std::uint8_t* labels, GroundFit<kCoarseCells>& fit,
                  float* HWY_RESTRICT fine_m) {
@@ -59,7 +60,7 @@ void FitCoarseIn(const PixelSpan& image, std::size_t rows, std::size_t step,
     }
 }
 
-/// To the pixels close to a coarse surface.
+/// Fit to the pixels close to a coarse surface.
 void FitCloseIn(const PixelSpan& image, const float* HWY_RESTRICT coarse_m, GroundFit<kCells>& fit,
                 float* HWY_RESTRICT surface_m) {
     listClose(image, coarse_m, fit);
@@ -80,10 +81,10 @@ HWY_EXPORT(FitCoarseIn);
 HWY_EXPORT(FitCloseIn);
 
 constexpr int kCells = GroundSurface::kCells;
-constexpr Eigen::Index kCoarseColumns = 200;  // of an image: as many or more are enough
+constexpr Eigen::Index kCoarseColumns = 200;  // of an image: this many are enough
 
-/// Begins a list of candidates among so many pixels, with room for whole vectors. Allocates the
-/// grids for the first fit.
+/// Starts a list of candidates for this many pixels, with room for whole vectors. Allocates the
+/// grids on the first fit.
 template <int kSide>
 void beginFit(std::size_t pixels, GroundFit<kSide>& fit) {
     constexpr std::size_t kWidest = 64;
@@ -108,7 +109,7 @@ PixelSpan spanOf(const PixelPoints& pixels) {
             static_cast<std::size_t>(pixels.x_m.size())};
 }
 
-/// A rough surface under the ROU, from as few columns as it takes, in work.coarse_m.
+/// A rough surface under the ROU, from as few columns as necessary, in work.coarse_m.
 void fitCoarse(const PixelSpan& image, const Image<Label>& labels, GroundSurfaceWorkspace& work) {
     const Eigen::Index step = std::max<Eigen::Index>(1, labels.cols() / kCoarseColumns);
     beginFit(image.size, work.coarse);

@@ -28,24 +28,24 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     const Image<float>& depth_m = r.repaired_m;
     const std::optional<Attitude> horizon = o.level_by_attitude ? attitude : std::nullopt;
 
-    // III-A, the depth image
+    // III-A: depth image
     projectScan(scan, sensor_, o.columns, std::max(o.context_m, o.zone_m), r.range_image,
                 w.projection);
     repairGaps(r.range_image.depth_m, o.repair_max_step_m, r.repaired_m);
 
-    // III-B, local maxima, sharpened
+    // III-B: local maxima, sharpened
     proximityOf(depth_m, o.zone_m, r.proximity_m);
     findPersistentMaxima(r.proximity_m, o.persistence_m, r.maxima, w.maxima);
     sharpenMaxima(r.proximity_m, r.maxima, o.sharpening_sigma_px, o.sharpening_sigma_m,
                   r.sharpened_m);
     mergeMaxima(depth_m, r.proximity_m, r.sharpened_m, r.maxima, sensor_.min_range_m, r.merged_m);
 
-    // III-C and III-D, the range-angle image, smoothed
+    // III-C and III-D: range-angle image, smoothed
     rangeAngles(r.merged_m, directions_, horizon, r.range_angle_rad);
     smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad, w.ssa);
     carryAngles(r.smoothed_rad, r.pixel_angle_rad);
 
-    // III-E, labels
+    // III-E: labels
     labelRegions(depth_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,
                  radiansf(o.seed_gate_deg), r.labels, w.labelling);
     if (o.ground_surface || o.ground_is_roi_below_m > 0) judgeByGround(scan, horizon);
@@ -57,12 +57,12 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     return r;
 }
 
-/// Beyond the paper: by the ground that is found, what else is ground, and what comes too close.
+/// Beyond the paper: uses the detected ground to find what else is ground, and what is too close.
 void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon) {
     SegmentationResult& r = result_;
     Ground& g = r.ground;
 
-    // the ground's plane, if it is in sight
+    // ground plane, if visible
     locatePixels(scan, directions_, r.range_image, r.repaired_m, g.pixels);
     g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}), work_.ground_frame);
     movePixels(g.from_sensor, g.pixels);
@@ -70,13 +70,13 @@ void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>&
     g.has_surface = g.is_seen && options_.ground_surface;
     if (g.has_surface) judgeByHeight();
 
-    // ground that comes too close; returns behind their pixel's closest
+    // ground that is too close; returns behind the closest one of their pixel
     const Clearance clearance{upwards(g, horizon), options_.ground_is_roi_below_m};
     alarmLowGround(g, clearance, r.labels);
     judgeFartherReturns(scan, r.range_image, g, clearance, r.own_labels, work_.farther_returns);
 }
 
-/// Beyond the paper: every pixel against the surface under the ROU.
+/// Beyond the paper: labels every pixel by its height above the surface under the ROU.
 void HagenFilter::judgeByHeight() {
     const Options& o = options_;
     Image<Label>& labels = result_.labels;
@@ -93,7 +93,7 @@ void HagenFilter::judgeByHeight() {
     if (o.canopy_layer) tolerateCanopy(g.tops, g.height_m, g.tolerance_m, w.canopy);
     labelByHeight(g.height_m, g.tolerance_m, labels);
 
-    // obstacles down to their feet, without specks
+    // extend obstacles down to their feet, remove specks
     if (o.grow_feet) growFeet(g.pixels, g.height_m, labels, w.feet);
     if (o.remove_specks) removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels, w.specks);
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kCells = GroundSurface::kCells;
 constexpr float kLeastTolerance_m = 0.04f;
-constexpr float kTallest_m = 1.1f;  // anything taller reduces the tolerance no further
+constexpr float kTallest_m = 1.1f;  // taller objects do not reduce the tolerance further
 
 }  // namespace
 }  // namespace hagen
@@ -24,7 +24,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
-/// The tallest of each cell and its eight neighbours, limited to 0...kTallest_m. The border gets
+/// The maximum of each cell and its eight neighbours, limited to 0...kTallest_m. The border gets
 /// the values of the adjacent cells.
 void TallestAroundIn(const float* HWY_RESTRICT top_m, float* HWY_RESTRICT tallest_m) {
     const hn::ScalableTag<float> d;
@@ -64,7 +64,7 @@ void ToleratedHeightsIn(std::size_t pixels, const float* HWY_RESTRICT x_m,
             hn::Add(hn::Set(d, tolerance.near_m), hn::Mul(hn::Set(d, tolerance.per_m), distance_m)),
             hn::Mul(hn::Set(d, tolerance.beside_tall), tall_m));
         const auto least_m = hn::Set(d, kLeastTolerance_m);
-        const auto is_less = hn::Lt(tolerated_m, least_m);  // not where it is NaN
+        const auto is_less = hn::Lt(tolerated_m, least_m);  // false for NaN
         hn::StoreU(hn::IfThenElse(is_less, least_m, tolerated_m), d, tolerance_m + pixel);
     });
 }

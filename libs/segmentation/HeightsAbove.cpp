@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kCells = GroundSurface::kCells;
 
-/// Points relative to the cells' centres, and the heights at the four centres around each.
+/// Points relative to the centres of cells, and the heights at the four centres around each.
 struct Corners {
     static constexpr std::size_t kPoints = 256;
     HWY_ALIGN std::int32_t cell[kPoints];
@@ -24,9 +24,9 @@ struct Corners {
     HWY_ALIGN float next_m[2 * kPoints];  ///< of cells (i, j + 1) and (i + 1, j + 1)
 };
 
-/// Bilinear. Heights are copied pair by pair, because gather instructions are slower; and for some
-/// hundred points before any is used, because reading a vector right after its parts were written
-/// stalls.
+/// Bilinear interpolation. Heights are copied in pairs, because gather instructions are slower; and
+/// for a few hundred points before they are used, because reading a vector right after its parts
+/// were written stalls.
 void HeightsAboveIn(std::size_t points, const float* HWY_RESTRICT x_m,
                     const float* HWY_RESTRICT y_m, const float* HWY_RESTRICT z_m,
                     const float* HWY_RESTRICT surface_m, float* HWY_RESTRICT height_m) {

@@ -18,7 +18,7 @@ void setPixel(int column, int row, int rows, ColumnBits& bits) {
     bits[column * wordsOf(rows) + row / kWordRows] |= std::uint64_t{1} << row % kWordRows;
 }
 
-/// The lowest pixel of each column, where it carries an angle.
+/// The lowest pixel of each column, if it has an angle.
 void lowestPixels(const ColumnBits& present, const ColumnBits& has_angle, int words,
                   ColumnBits& lowest) {
     lowest.resize(present.size());
@@ -32,7 +32,7 @@ void lowestPixels(const ColumnBits& present, const ColumnBits& has_angle, int wo
     }
 }
 
-/// Those of the lowest pixels that can be ground.
+/// The lowest pixels that may be ground.
 void gateLowest(const Image<float>& depth_m, const Image<float>& angle_rad, float gate_rad,
                 std::vector<int>& seeds, ColumnBits& lowest) {
     const int rows = static_cast<int>(depth_m.rows()), words = wordsOf(rows);
@@ -46,7 +46,7 @@ void gateLowest(const Image<float>& depth_m, const Image<float>& angle_rad, floa
     for (const int seed : seeds) setPixel(seed / rows, seed % rows, rows, lowest);
 }
 
-/// The highest and the nearest pixel of each column, of those that carry an angle.
+/// The highest and the nearest pixel of each column, among those with an angle.
 void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_rad,
                          ColumnBits& seeds) {
     const int rows = static_cast<int>(angle_rad.rows());
@@ -64,7 +64,7 @@ void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_
     }
 }
 
-/// Extends what is reached in a column, up and down along its links.
+/// Extends the reached pixels of a column up and down along its links.
 template <class Words>
 void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reached) {
     // Upwards: the carry of an addition runs along consecutive links.
@@ -75,12 +75,12 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
         reached[word] = from | (sum ^ links);
         from_below = leaving < links || sum < leaving;
     }
-    // Downwards there is no carry: the length of the steps doubles in each turn instead.
+    // Downwards there is no carry; instead the step length doubles each time.
     std::uint64_t from_above = 0;
     for (int word = words - 1; word >= 0; --word) {
         std::uint64_t links = above[word], down = reached[word];
         const std::uint64_t next = links & (down >> 1 | from_above) & ~down;
-        if (next != 0) {  // seldom, for the seeds of ground are lowest
+        if (next != 0) {  // rare, because ground seeds are the lowest pixels
             down |= next;
             for (int way = 1; way < kWordRows; way *= 2) {
                 down |= links & down >> way;
@@ -93,8 +93,7 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
 }
 
 /// Grows the regions from the pixels reached so far. The order does not change the result, so whole
-/// columns spread to the columns beside them; a column that gains pixels by this waits for its turn
-/// to spread.
+/// columns spread to their neighbours; a column that gains pixels is queued to spread itself.
 template <class Words>
 void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWorkspace* w) {
     w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // each once, and a scratch entry
@@ -119,7 +118,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWo
         is_waiting[to] |= more != 0;
     };
     for (int column = 0; column < columns; ++column) spread(column);
-    for (int column = 0; column < columns; ++column) {  // most have nothing left to give
+    for (int column = 0; column < columns; ++column) {  // most have nothing left to spread
         const int on_right = column + 1 < columns ? column + 1 : 0;
         std::uint64_t differ = 0;
         for (int word = 0; word < words; ++word) {
@@ -141,7 +140,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWo
     }
 }
 
-/// For each byte its eight bits as bytes, 0 or 1.
+/// For each byte value, its eight bits as bytes, 0 or 1.
 using Bytes = std::array<std::uint8_t, 8>;
 constexpr std::array<Bytes, 256> makeBytesOfBits() {
     std::array<Bytes, 256> table{};
@@ -172,8 +171,8 @@ void writeLabels(std::uint64_t present, std::uint64_t rou, int pixels, Label* la
     }
 }
 
-/// ROU is what was reached from the ground, or not reached from the RoI; pixels without an angle
-/// are RoI.
+/// ROU: pixels reached from the ground, or not reached from the RoI. Pixels without an angle are
+/// RoI.
 void writeLabels(const LabellingWorkspace& w, bool from_ground, Image<Label>* labels) {
     const int rows = static_cast<int>(labels->rows()), columns = static_cast<int>(labels->cols());
     const std::uint64_t turned = from_ground ? 0 : ~std::uint64_t{0};

@@ -1,6 +1,6 @@
-// Step 1 of the ground's surface: the lowest candidate of each cell, without strays (mirror images
-// and stray returns lie below the ground).
-// For files that Highway compiles once per instruction set.
+// Step 1 of the ground surface fit: the lowest candidate of each cell, without outliers (mirror
+// images and stray returns lie below the ground). For files that Highway compiles once per
+// instruction set.
 #ifndef HAGEN_LOWEST_CANDIDATES
 #define HAGEN_LOWEST_CANDIDATES
 #include <hagen/segmentation/GroundFit.h>
@@ -14,7 +14,7 @@
 namespace hagen {
 namespace {
 
-constexpr float kStray_m = 0.4f;  // so far below its neighbours nothing is ground
+constexpr float kStray_m = 0.4f;  // ground is never this far below its neighbours
 constexpr float kStrayNeighbours = 3;
 
 /// The lowest candidate of each cell.
@@ -48,7 +48,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Raises cells that lie far below several neighbours to the lowest of all neighbours.
+/// Raises cells far below several neighbours to the lowest of all neighbours.
 template <int kSide>
 void removeStrays(const std::vector<float>& lowest_m, std::vector<float>& cleaned_m) {
     const hn::ScalableTag<float> d;

@@ -1,5 +1,4 @@
-// For files that Highway compiles once per instruction set: to be included after highway.h, each
-// time.
+// For files that Highway compiles once per instruction set; include it after highway.h.
 #if defined(HAGEN_MASK_BITS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HAGEN_MASK_BITS_H
 #undef HAGEN_MASK_BITS_H
@@ -14,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
-/// One bit per lane of at most 64 lanes, the first lane's the lowest.
+/// One bit per lane, lane 0 lowest, for up to 64 lanes.
 template <class D, class Mask>
 HWY_INLINE std::uint64_t BitsOf(D d, Mask mask) {
     std::uint8_t bytes[8] = {};
@@ -24,7 +23,7 @@ HWY_INLINE std::uint64_t BitsOf(D d, Mask mask) {
     return bits;
 }
 
-/// Appends `first` + n for each bit n that is set; returns the new end.
+/// Appends `first` + n for each set bit n; returns the new end.
 template <class Index>
 HWY_INLINE Index* AppendBits(std::uint64_t bits, Index first, Index* list) {
     for (; bits != 0; bits &= bits - 1) {

@@ -13,8 +13,8 @@
 namespace hagen {
 namespace {
 
-constexpr float kFootHeight_m = 0.015f;  // least height of a foot
-constexpr int kFootRows = 4;             // rows from a foot up to the obstacle, at most
+constexpr float kFootHeight_m = 0.015f;  // minimum height of a foot
+constexpr int kFootRows = 4;             // maximum rows from a foot up to the obstacle
 
 }  // namespace
 }  // namespace hagen
@@ -25,7 +25,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 
 /// Lists, in order, the pixels that may be a foot: ROU above kFootHeight_m with a RoI pixel among
-/// the next kFootRows, even in the next column; and the image's last few pixels.
+/// the next kFootRows, even in the next column; and the last few pixels of the image.
 std::size_t ListFeetIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
                        const std::uint8_t* HWY_RESTRICT label, std::int32_t* HWY_RESTRICT list) {
     std::int32_t* end = list;
@@ -76,7 +76,7 @@ bool isFoot(const PixelPoints& pixels, const Image<float>& height_m, Eigen::Inde
     return is_steep && above - pixel <= kFootRows && height_m.data()[pixel] > kFootHeight_m;
 }
 
-/// From `pixel`, if it is a foot, down its column as far as feet continue.
+/// Marks `pixel`, if it is a foot, and the feet below it in its column.
 void growDown(const PixelPoints& pixels, const Image<float>& height_m, Eigen::Index pixel,
               Image<Label>& labels) {
     const Eigen::Index rows = labels.rows(), first = pixel / rows * rows, end = first + rows;
@@ -102,7 +102,7 @@ void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Lab
     work.candidates.resize(std::max(work.candidates.size(), size));
     std::int32_t* const list = work.candidates.data();
     std::size_t n = HWY_DYNAMIC_DISPATCH(ListFeetIn)(size, height_m.data(), bytesOf(labels), list);
-    while (n > 0) growDown(pixels, height_m, list[--n], labels);  // from above
+    while (n > 0) growDown(pixels, height_m, list[--n], labels);  // from the top
 }
 
 }  // namespace hagen

@@ -1,6 +1,6 @@
-// Step 2 of the ground's surface: cells whose lowest candidate stands higher than slopes allow from
-// the lower ones are not ground. The slopes' envelope is a chamfer transform, a vector of a
-// column's cells at a time. For files that Highway compiles once per instruction set.
+// Step 2 of the ground surface fit: a cell is not ground if its lowest candidate is higher than
+// slopes from lower cells allow. The envelope of these slopes is a chamfer transform, computed one
+// vector of a column's cells at a time. For files that Highway compiles once per instruction set.
 #ifndef HAGEN_OBSTACLE_REMOVAL
 #define HAGEN_OBSTACLE_REMOVAL
 #include <hagen/segmentation/GroundFit.h>
@@ -10,9 +10,9 @@
 namespace hagen {
 namespace {
 
-constexpr float kSteepest = 0.3f;         // slope of the ground against its plane, where it is seen
-constexpr float kSteepestUnseen = 0.17f;  // and where it is not: tall things hide it, not hills
-constexpr float kEnvelope_m = 0.15f;      // how far a cell may stand out of the steepest slopes
+constexpr float kSteepest = 0.3f;         // maximum slope of visible ground against its plane
+constexpr float kSteepestUnseen = 0.17f;  // and of hidden ground: tall objects hide it, not hills
+constexpr float kEnvelope_m = 0.15f;      // maximum height of a cell above the steepest slopes
 
 /// The width of a cell on a grid of kSide x kSide cells.
 template <int kSide>
@@ -36,11 +36,12 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Vectors along a column, of consecutive cells.
+/// Vectors of consecutive cells along a column.
 using Along = hn::CappedTag<float, 8>;
 using VA = hn::Vec<Along>;
 
-/// The prefix scan of a vector: each cell combined with all before it. `neutral` changes nothing.
+/// Prefix scan of a vector: each cell combined with all before it. `neutral` is the neutral
+/// element.
 template <bool kForward, class Combine>
 HWY_INLINE VA combinedSoFar(VA cells, VA neutral, Combine combine) {
 #if HWY_TARGET == HWY_SCALAR
@@ -65,7 +66,7 @@ HWY_INLINE VA combinedSoFar(VA cells, VA neutral, Combine combine) {
 #endif
 }
 
-/// The last cell, in every lane.
+/// Broadcasts the last cell.
 template <bool kForward>
 HWY_INLINE VA lastOf(VA cells) {
 #if HWY_TARGET == HWY_SCALAR
@@ -82,8 +83,8 @@ HWY_INLINE VA lastOf(VA cells) {
 #endif
 }
 
-/// How high the ground may climb along a column, from before its first cell up to each: so many
-/// steps over cells with a height, so many over others, whatever their order.
+/// How high the ground may climb along a column, from before its first cell up to each cell: one
+/// step per cell with a height, a smaller one per cell without, in any order.
 template <int kSide>
 HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRICT ramp_m) {
     const Along d;
@@ -102,9 +103,9 @@ HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRIC
     }
 }
 
-/// One column in a pass of the chamfer transform (Borgefors 1986). Along the column a cell is
-/// reached from all before it; relative to the ramp, that is their minimum, which is the same in
-/// any order.
+/// One column in a pass of the chamfer transform (Borgefors 1986). Along the column, a cell is
+/// reached from all cells before it. Relative to the ramp this is a minimum, which does not depend
+/// on the order.
 template <int kSide, bool kForward>
 HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* HWY_RESTRICT ramp_m,
                               const float* HWY_RESTRICT before_m, float* HWY_RESTRICT envelope_m) {
@@ -114,7 +115,7 @@ HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* 
     const VA seen_m = hn::Set(d, kWidth_m<kSide> * kSteepest);
     const VA unseen_m = hn::Set(d, kWidth_m<kSide> * kSteepestUnseen);
     const auto lower = [](VA a, VA b) HAGEN_INLINE { return hn::Min(a, b); };
-    VA lowest_m = none;  // of the vectors before, relative to the ramp
+    VA lowest_m = none;  // of the previous vectors, relative to the ramp
     for (int step = 0; step < kSide; step += lanes) {
         const int i = kForward ? step : kSide - lanes - step;
         const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), none);
@@ -134,8 +135,8 @@ HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* 
     }
 }
 
-/// The envelope is the greatest surface below `cleaned_m` that is nowhere too steep: kSteepest in
-/// cells with a height, kSteepestUnseen in others. Cells that stand out of it lose their height.
+/// The envelope is the highest surface below `cleaned_m` that is nowhere too steep: kSteepest in
+/// cells with a height, kSteepestUnseen in others. Cells above it lose their height.
 template <int kSide>
 void removeObstacles(GroundFit<kSide>& fit) {
     std::copy(fit.cleaned_m.begin(), fit.cleaned_m.end(), fit.envelope_m.begin());

@@ -7,7 +7,7 @@
 namespace hagen {
 namespace {
 
-/// One neighbour of a saddle from each stretch of adjacent older neighbours.
+/// One saddle neighbour from each stretch of adjacent older neighbours.
 struct Arms {
     int count = 0;
     std::array<std::uint8_t, 4> neighbour{};
@@ -27,8 +27,8 @@ constexpr std::array<Arms, 256> makeArmsByOlderNeighbours() {
 }
 constexpr std::array<Arms, 256> kArmsByOlderNeighbours = makeArmsByOlderNeighbours();
 
-/// The number of the maximum at the end of the way up from a pixel, where maxima hold ~number.
-/// Halves the way for the next search (path halving).
+/// The number of the maximum at the end of a pixel's ascent; maxima store ~number. Halves the path
+/// for later searches (path halving).
 std::int32_t maximumAbove(std::int32_t pixel, std::vector<std::int32_t>& ascent) {
     while (true) {
         const std::int32_t next = ascent[pixel];
@@ -40,7 +40,7 @@ std::int32_t maximumAbove(std::int32_t pixel, std::vector<std::int32_t>& ascent)
     }
 }
 
-/// Where maxima meet, in pixel order.
+/// The meetings of maxima, in pixel order.
 void findMeetings(MaximaWorkspace& w) {
     CriticalPixels& critical = w.critical;
     for (std::size_t n = 0; n < critical.maxima; ++n) {
@@ -106,9 +106,9 @@ void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proxim
     }
 }
 
-// Fast because few pixels matter: a component is born where no neighbour is older, and two can only
-// meet where the older neighbours of a pixel are not adjacent. These are found for many pixels at
-// once, and only the meetings are sorted, not the pixels.
+// Fast because few pixels matter: components are born where no neighbour is older, and can only
+// meet where the older neighbours of a pixel are not adjacent. These pixels are found many at a
+// time, and only the meetings are sorted.
 void findPersistentMaxima(const Image<float>& proximity_m, float min_persistence_m,
                           std::vector<Maximum>& maxima, MaximaWorkspace& w) {
     frameLevels(proximity_m, w.proximity_m);

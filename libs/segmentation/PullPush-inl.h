@@ -1,5 +1,5 @@
-// Step 4 of the ground's surface: one smoothing by a weighted 3 x 3 binomial, then cells without
-// candidates are filled from coarser and coarser grids (pull-push: Gortler et al., The Lumigraph,
+// Step 4 of the ground surface fit: weighted 3 x 3 binomial smoothing, then cells without
+// candidates are filled from increasingly coarse grids (pull-push: Gortler et al., The Lumigraph,
 // 1996).
 // For files that Highway compiles once per instruction set.
 #ifndef HAGEN_PULL_PUSH
@@ -54,7 +54,7 @@ HWY_INLINE hn::Vec<hn::ScalableTag<float>> binomial(const float* HWY_RESTRICT ce
         hn::Mul(hn::Set(d, 0.0625f), corners));
 }
 
-/// Smooths weighted heights and weights alike.
+/// Smooths weighted heights and weights.
 template <int kSide>
 void smoothHeights(const std::vector<float>& weighted_m, const std::vector<float>& weights,
                    HeightGrid& smooth) {
@@ -65,15 +65,15 @@ void smoothHeights(const std::vector<float>& weighted_m, const std::vector<float
             const int cell = gridColumn<kSide>(j) + i;
             const V weight = binomial<kSide>(weights.data() + cell);
             hn::StoreU(weight, d, smooth.weight.data() + cell);
-            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // as many are
+            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // most vectors
             const V smooth_m = is_empty ? hn::Zero(d) : binomial<kSide>(weighted_m.data() + cell);
             hn::StoreU(smooth_m, d, smooth.weighted_m.data() + cell);
         }
     }
 }
 
-/// Pull: each coarse cell is the weighted mean of the four it covers. `d` has at most as many lanes
-/// as a column has coarse cells.
+/// Pull: each coarse cell is the weighted mean of the four cells it covers. `d` has at most as many
+/// lanes as a column has coarse cells.
 template <class D>
 HWY_INLINE void pull(D d, const HeightGrid& fine, HeightGrid& coarse) {
     using VD = hn::Vec<D>;
@@ -108,8 +108,8 @@ HWY_INLINE void pull(D d, const HeightGrid& fine, HeightGrid& coarse) {
     }
 }
 
-/// Column j of a grid twice as fine, by bilinear interpolation between the centres of coarse cells:
-/// along each axis, 3/4 of a fine cell's own coarse cell and 1/4 of the next.
+/// Column j of a grid twice as fine, by bilinear interpolation between coarse cell centres: along
+/// each axis, 3/4 of the coarse cell around a fine cell and 1/4 of the next one.
 template <class D>
 HWY_INLINE void refineColumn(D d, const HeightGrid& coarse, int j, float* HWY_RESTRICT fine_m) {
     using VD = hn::Vec<D>;
@@ -130,8 +130,8 @@ HWY_INLINE void refineColumn(D d, const HeightGrid& coarse, int j, float* HWY_RE
     }
 }
 
-/// Push: what a fine cell lacks in weight it takes from the coarse grid. Column j of the result
-/// goes to filled_m + j * stride.
+/// Push: a fine cell takes its missing weight from the coarse grid. Column j of the result goes to
+/// filled_m + j * stride.
 template <class D>
 HWY_INLINE void push(D d, const HeightGrid& coarse, const HeightGrid& fine,
                      float* HWY_RESTRICT filled_m, int stride) {
@@ -151,7 +151,7 @@ HWY_INLINE void push(D d, const HeightGrid& coarse, const HeightGrid& fine,
     }
 }
 
-/// Calls visit(d) with the widest vectors that fit into a column of so many cells.
+/// Calls visit(d) with the widest vectors that fit into a column of this many cells.
 template <class Visit>
 HWY_INLINE void withVectorsFor(int cells, Visit visit) {
     if (cells >= 16) return visit(hn::CappedTag<float, 16>());
@@ -160,8 +160,7 @@ HWY_INLINE void withVectorsFor(int cells, Visit visit) {
 }
 
 /// Pulls weighted heights up to a single cell and pushes them down again, so that every cell gets a
-/// height; those of the finest grid go to `surface_m`, `surface_stride` apart from column to
-/// column.
+/// height. Those of the finest grid go to `surface_m`, with columns `surface_stride` apart.
 void fillHeights(std::vector<HeightGrid>& levels, float* HWY_RESTRICT surface_m,
                  int surface_stride) {
     for (std::size_t k = 1; k < levels.size(); ++k) {

@@ -7,16 +7,16 @@
 
 namespace hagen {
 
-/// A key of a number, which is at least 0, and its item; sorts by the number, the greatest first.
+/// A sort key of a number >= 0 and its item; keys ascend as numbers descend.
 inline std::uint64_t sinkingKey(float number, std::size_t item) {
-    std::uint32_t bits;  // order as the numbers do
+    std::uint32_t bits;  // order like the numbers
     std::memcpy(&bits, &number, sizeof bits);
     return std::uint64_t{~bits} << 32 | item;
 }
 
 inline std::size_t itemOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-/// Stable sort by the numbers, one digit of 8 bits at a time, in linear time. `swap` is a buffer.
+/// Stable radix sort by the numbers, 8 bits at a time, in linear time. `swap` is a buffer.
 inline void radixSort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& swap) {
     constexpr int kDigits = 4, kValues = 256;
     const auto digitOf = [](std::uint64_t key, int digit) { return key >> (32 + 8 * digit) & 255; };

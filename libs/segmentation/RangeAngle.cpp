@@ -1,10 +1,10 @@
-// Vectors run along a column, over empty pixels as well: a branch per pixel would cost more than
-// the arithmetic.
+// Vectors run along columns, including empty pixels: a branch per pixel would cost more than the
+// arithmetic.
 #include <hagen/segmentation/RangeAngle.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "RangeAngle.cpp"
-#include <hwy/foreach_target.h>  // once more for each instruction set
+#include <hwy/foreach_target.h>  // once per instruction set
 #include <hwy/highway.h>
 
 #include "SlopeAngle-inl.h"

@@ -4,7 +4,7 @@
 namespace hagen {
 namespace {
 
-/// The analysis of one series after another, in the same memory.
+/// Analyses one series after another in the same memory.
 class Ssa {
  public:
     explicit Ssa(int window_size) : window_size_(window_size) {}
@@ -19,7 +19,7 @@ class Ssa {
         solver_.compute(covariance_);  // eigenvalues ascending, eigenvectors in columns
     }
 
-    /// The series of `count` components, `first` (from the leading one, 0) and those behind it.
+    /// The series of `count` components from `first` on (0: the leading one).
     template <class Series>
     void reconstruct(int first, int count, Series series) {
         const auto kept = solver_.eigenvectors().middleCols(window_size_ - first - count, count);
@@ -31,7 +31,7 @@ class Ssa {
     auto eigenvalues() const { return solver_.eigenvalues().reverse(); }
 
  private:
-    /// Value n becomes the mean of the n-th antidiagonal, the entries (w, n - w).
+    /// Value n is the mean of the n-th antidiagonal, the entries (w, n - w).
     template <class Series>
     void hankelize(Series& series) const {
         for (Eigen::Index n = 0; n < series.size(); ++n) {

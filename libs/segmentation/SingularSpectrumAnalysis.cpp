@@ -1,7 +1,7 @@
 // Many runs are smoothed at once, one per lane. A trajectory matrix and its transpose have the same
-// components, so the shorter side is the window; of the components, only the smaller set is
-// computed: those to keep or those to remove. Projection and hankelization are one linear filter.
-// All of this is done with floats, and again with doubles for the few runs that need them.
+// components, so the shorter side is the window. Only the smaller set of components is computed,
+// those to keep or those to remove. Projection and hankelization are one linear filter. All of this
+// is done with floats, and again with doubles for the few runs that need them.
 #include <hagen/segmentation/SingularSpectrumAnalysis.h>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "SingularSpectrumAnalysis.cpp"
-#include <hwy/foreach_target.h>  // once more for each instruction set
+#include <hwy/foreach_target.h>  // once per instruction set
 #include <hwy/highway.h>
 
 #include "EigenBatch-inl.h"
@@ -21,14 +21,14 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The m x m products of the trajectory matrix's rows, each from the one before it along the
-/// diagonal, divided by their trace.
+/// The m x m products of the trajectory matrix's rows, divided by their trace. Each is computed
+/// from the previous one along the diagonal.
 template <class Real>
 void rowProducts(RunBatch<Real>& batch) {
     const int m = batch.m, columns = batch.values - m + 1;
     const Pack<Real> zero = all<Real>(0);
     const Lanes<Real>* const series = batch.series.data();
-    const Lanes<Real>* const tail = batch.tail.data() + m - 1;  // the values not in the first row
+    const Lanes<Real>* const tail = batch.tail.data() + m - 1;  // values outside the first row
     batch.head.resize(columns);                                 // the first row
     for (int k = 0; k < columns; ++k) {
         const auto is_within = all<Real>(k) < load(batch.columns);
@@ -79,8 +79,8 @@ HWY_INLINE Pack<Real> weightedSum(const Lanes<Real>* weights, const Lanes<Real>*
 
 /// The means along the antidiagonals of the trajectory matrix's projection. They are a filter of
 /// the series: the sum along each diagonal of the m x m projection is the weight of the value at
-/// that distance. For each of the first m - 1 values the filter gains a row of the projection, for
-/// each of the last it loses one.
+/// that distance. Each of the first m - 1 values adds a row of the projection to the filter, each
+/// of the last removes one.
 template <class Real>
 void antidiagonalMeans(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -107,7 +107,7 @@ void antidiagonalMeans(RunBatch<Real>& batch) {
     }
 }
 
-/// The series less what was computed, where that is the components to remove.
+/// The series minus the computed components, if these are to be removed.
 template <class Real>
 void subtractSmooth(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -120,8 +120,8 @@ void subtractSmooth(RunBatch<Real>& batch) {
 }
 
 /// Rounding rotates the kept components by a rounding error of the matrix, divided by the gap
-/// between the eigenvalues PC and PC + 1. That share of the last kept component may be lost; none
-/// of its entries exceeds its singular value.
+/// between the eigenvalues PC and PC + 1. At most that fraction of the last kept component is lost,
+/// and none of its entries exceeds its singular value.
 void boundRoundingError(RunBatch<float>& batch) {
     constexpr double rounding = 0x1p-24, of_eigenvalue = 16 * rounding;
     const Pack<float> last = load(batch.eigen.last), next = load(batch.eigen.next);
@@ -146,7 +146,7 @@ void smoothBatch(int principal_components, RunBatch<Real>& batch) {
 
 }  // namespace
 
-/// One bit per pixel, set where it has a value.
+/// One bit per pixel, set if it has a value.
 void findValues(const float* pixels, std::size_t count, std::uint64_t* words) {
     const hn::CappedTag<float, 64> d;
     for (std::size_t first = 0; first < count; first += 64) {
@@ -182,7 +182,8 @@ HWY_EXPORT(findValues);
 HWY_EXPORT(smoothWithFloats);
 HWY_EXPORT(smoothWithDoubles);
 
-/// How much rounding may change a value, in its unit. On real scans it was less than a fifth of it.
+/// Maximum effect of rounding on a value, in its unit. On real scans it was less than a fifth of
+/// it.
 constexpr float kTolerance = 2e-4f;
 
 using Run = SsaWorkspace::Run;
@@ -200,7 +201,7 @@ std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t e
     return end;
 }
 
-/// Fills work.runs with the runs of at least `fewest` values, in order of length.
+/// Fills work.runs with the runs of at least `fewest` values, sorted by length.
 void findRuns(Image<float>& image, int fewest, SsaWorkspace& work) {
     std::vector<std::uint64_t>& words = work.has_value;
     std::vector<Run>&found = work.found, &runs = work.runs;
@@ -236,7 +237,7 @@ void smooth(int principal_components, RunBatch<double>& batch) {
     HWY_DYNAMIC_DISPATCH(smoothWithDoubles)(principal_components, batch);
 }
 
-/// Reserves memory for any runs, so that no later scan allocates.
+/// Reserves memory for any runs, so that later scans do not allocate.
 template <class Real>
 void reserve(int window_size, int rows, RunBatch<Real>& batch) {
     const int m = std::min(window_size, (rows + 1) / 2);
@@ -251,7 +252,7 @@ void reserve(int window_size, int rows, RunBatch<Real>& batch) {
     eigen.rotations.reserve(4 * m * m);  // usually two sweeps per eigenvalue
 }
 
-/// Lanes without a run of their own repeat the last run.
+/// Lanes without a run repeat the last run.
 template <class Real>
 void fillLanes(const Run* runs, int count, RunBatch<Real>& batch) {
     const int tail_values = 2 * (batch.m - 1);
@@ -279,8 +280,8 @@ void takeLane(const RunBatch<Real>& batch, int lane, const Run& run) {
     }
 }
 
-/// Smooths runs, which are in order of length. Those that rounding may have moved too far stay as
-/// they are, and in `runs`.
+/// Smooths runs, which are sorted by length. Those that rounding may have changed too much stay
+/// unchanged, and in `runs`.
 template <class Real>
 void smoothRuns(int window_size, int principal_components, RunBatch<Real>& batch,
                 std::vector<Run>& runs) {

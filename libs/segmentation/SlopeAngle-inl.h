@@ -17,9 +17,9 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// atan2(rise, run) of non-negative numbers, without branches; 0 where both are 0, NaN where both
-/// are NaN. The polynomial is the minimax one of its degree (Remez) for the arctangent in [0, 1],
-/// with an error of at most 2.5e-7 rad.
+/// atan2(rise, run) of non-negative numbers, without branches; 0 if both are 0, NaN if both are
+/// NaN. The polynomial is the minimax polynomial of its degree (Remez) for the arctangent in [0,
+/// 1], with an error of at most 2.5e-7 rad.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V slopeAngle(D d, V rise, V run) {
     const V tiny = hn::Set(d, std::numeric_limits<float>::min());
@@ -35,7 +35,8 @@ HWY_INLINE V slopeAngle(D d, V rise, V run) {
     return hn::IfThenElse(is_steep, hn::Sub(hn::Set(d, 1.57079632679f), angle), angle);
 }
 
-/// The step from a return to that of the beam above it: outwards and upwards from the sensor.
+/// The vector from a return to the return of the beam above it: outwards and upwards from the
+/// sensor.
 template <class V>
 struct Step {
     V out_m, up_m;
@@ -49,8 +50,8 @@ HWY_INLINE Step<V> stepToBeamAbove(D d, const float* depth_m, const float* sine,
             hn::Sub(hn::Mul(above, hn::LoadU(d, sine + 1)), hn::Mul(below, hn::LoadU(d, sine)))};
 }
 
-/// Calls visit(d, row) with a vector tag so that the vectors of d beginning at these rows cover [0,
-/// rows). The last may overlap the one before: a row's result must depend only on its inputs.
+/// Calls visit(d, row) so that vectors with tag d starting at these rows cover [0, rows). The last
+/// may overlap the previous one: a row's result must depend only on its inputs.
 template <class Visit>
 HWY_INLINE void coverRows(int rows, const Visit& visit) {
     const hn::CappedTag<float, 8> d;

@@ -12,12 +12,12 @@
 namespace hagen {
 namespace {
 
-constexpr float kDoubt_m = 0.2f;        // a height this close to its tolerance is put to the vote
-constexpr float kVoteSteps_per_m = 64;  // integers of 16 bits: twice as many per vector
-constexpr float kFarthest_m = 511.0f;   // in these
+constexpr float kDoubt_m = 0.2f;        // heights this close to the tolerance are voted on
+constexpr float kVoteSteps_per_m = 64;  // 16-bit integers: twice as many per vector
+constexpr float kFarthest_m = 511.0f;   // maximum of these integers
 constexpr int kVoteReach = 64;          // 1 m, in distance from the sensor
 constexpr int kLeastVotes = 3;
-constexpr int kVote = 1, kVoteForRoi = 17;  // sums of 9 hold both counts, the latter in 16s
+constexpr int kVote = 1, kVoteForRoi = 17;  // sums of 9 have both counts, RoI votes in units of 16
 
 }  // namespace
 }  // namespace hagen
@@ -27,7 +27,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
-/// One column of the images in SpeckWorkspace.
+/// Fills one column of the images in SpeckWorkspace.
 void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                    const float* HWY_RESTRICT height_m, const float* HWY_RESTRICT tolerance_m,
                    const std::uint8_t* HWY_RESTRICT label, std::int16_t* HWY_RESTRICT distance,
@@ -59,8 +59,7 @@ void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float*
     });
 }
 
-/// The outcome for each pixel: a label, or 0 where it stays as it is. Writes whole vectors, which
-/// may go beyond `end`.
+/// The outcome per pixel: a label, or 0 to keep it. Writes whole vectors, possibly past `end`.
 void CountVotesIn(std::size_t first, std::size_t end, std::size_t stride,
                   const std::int16_t* HWY_RESTRICT distance, const std::int16_t* HWY_RESTRICT doubt,
                   const std::int16_t* HWY_RESTRICT vote, std::uint8_t* HWY_RESTRICT elected) {

@@ -26,7 +26,7 @@ void writeKinds(const fs::path& file) {
     base::closeWritten(out, file);
 }
 
-/// Classes are written like labels: the low 16 bits are a number of any meaning.
+/// Class numbers are written like labels, as low 16 bits.
 std::vector<Label> asLabels(const std::vector<simulation::ObjectClass>& kinds) {
     std::vector<Label> numbers;
     for (const simulation::ObjectClass kind : kinds) numbers.push_back(static_cast<Label>(kind));

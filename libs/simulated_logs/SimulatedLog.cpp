@@ -155,7 +155,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
             simulation::simulateScan(scene, sensor, flight, time_s, random, faults);
         writePose(time_s, made.pose, outputs);
         const Measured measured = writeScanEntry(made, sensor, time_s, outputs);
-        // Poses until after the last firing, or until the next scan brings one.
+        // Poses until after the last firing, or until the next scan provides one.
         const bool is_last = scan + 1 == log.scans;
         for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {
             const double pose_s = time_s + step * kPoseStep_s;

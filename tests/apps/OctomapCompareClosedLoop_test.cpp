@@ -27,7 +27,7 @@ Outcome octomapCompare(const std::vector<std::string>& arguments) {
     return test::run(HAGEN_OCTOMAP_COMPARE, arguments);
 }
 
-/// A profile that does not depend on the machine that the program was made on.
+/// A profile that does not depend on the build machine.
 fs::path someProfile(const TemporaryFolder& folder) {
     std::string text = R"({"quantiles_ms": {"filter": [0.5, 1])";
     for (const char* model : {"W-RoI", "W-Full", "G-Full", "O-Full-0.4", "oracle"}) {
@@ -39,7 +39,7 @@ fs::path someProfile(const TemporaryFolder& folder) {
     return folder.write("profile.json", text + "}}");
 }
 
-/// A few short flights, with whatever else is said.
+/// A few short flights with these additional arguments.
 std::vector<std::string> flying(const TemporaryFolder& folder, const std::string& into,
                                 const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"closedloop",
@@ -66,7 +66,7 @@ void expectFailure(const Outcome& outcome, int exit_code, const std::string& par
     EXPECT_THAT(outcome.err, HasSubstr(part));
 }
 
-/// Starts the program in the background; its stderr goes to a file.
+/// Starts the program in the background with stderr in a file.
 pid_t start(std::vector<std::string> words, const fs::path& errors) {
     words.insert(words.begin(), "octomap-compare");
     std::vector<char*> arguments;
@@ -186,14 +186,14 @@ TEST(ClosedLoopFlights, KilledInFlightItGoesOnWhereItWas) {
     EXPECT_EQ(readFile(journal), kept);  // its worker ended with it
     ASSERT_FALSE(fs::exists(folder / "killed/runs.csv"));
     ASSERT_NE(kept, "");
-    std::ofstream(journal, std::ios::app) << "forest-0.02,10";  // what a torn write leaves
+    std::ofstream(journal, std::ios::app) << "forest-0.02,10";  // an incomplete write
     const Outcome told = octomapCompare({"report", (folder / "killed").string(), "--worst", "0"});
     ASSERT_EQ(told.exit_code, 0) << told.err;
     EXPECT_EQ(told.out.find("Unfinished: "), 0u) << told.out;
     const Outcome resumed = octomapCompare(flying(folder, "killed"));
     ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
     EXPECT_EQ(readFile(folder / "killed/runs.csv"), readFile(folder / "whole/runs.csv"));
-    // What was flown before is what was kept: its costs are those of then.
+    // Flights of the first run are kept, including their costs.
     const std::size_t tab = kept.find('\t');
     EXPECT_THAT(readFile(folder / "killed/measured.csv"),
                 HasSubstr(kept.substr(tab + 1, kept.find(';') - tab - 1)));
@@ -203,7 +203,7 @@ TEST(ClosedLoopFlights, InterruptedItKeepsWhatItFinished) {
     const TemporaryFolder folder;
     const pid_t pid = start(flying(folder, "stopped", {"--jobs", "1"}), folder / "err");
     waitForALine(folder / "stopped/journal/1.csv");
-    kill(pid, SIGTERM);  // it alone: workers are told by it
+    kill(pid, SIGTERM);  // only the main process, which stops its workers
     EXPECT_EQ(exitCodeOf(pid), 1);
     EXPECT_THAT(readFile(folder / "err"),
                 AllOf(HasSubstr("octomap-compare: interrupted; "),
@@ -237,7 +237,7 @@ TEST(ClosedLoopFlights, AFullDiskIsNamedAndWhatWasFinishedIsKept) {
     for (const std::string& word : arguments) command += " '" + word + "'";
     expectFailure(test::run("/bin/bash", {"-c", command}), 1, "full/");
     EXPECT_EQ(readFile(folder / "full/runs.csv"), finished);
-    ASSERT_EQ(octomapCompare(arguments).exit_code, 0);  // once there is room
+    ASSERT_EQ(octomapCompare(arguments).exit_code, 0);  // without the limit
     EXPECT_EQ(readFile(folder / "full/runs.csv").rfind(finished.substr(0, 400), 0), 0u);
 }
 

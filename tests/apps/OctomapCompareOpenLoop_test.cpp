@@ -24,7 +24,7 @@ class OpenLoopCommand : public test::ProgramTest {
     test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_OCTOMAP_COMPARE, with({"openloop"}, arguments));
     }
-    /// A log of a few scans in a scene that is light to make, and its poses.
+    /// A log of a few scans in a simple scene, and its poses.
     void simulate(int scans, const std::vector<std::string>& more = {}) const {
         const auto outcome = test::run(
             HAGEN_RAWLOG_SIMULATE, with({"--scenario", "gap", "--scans", std::to_string(scans),
@@ -118,7 +118,8 @@ TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
                   "has no pose near any of the 6 scans");
     EXPECT_FALSE(fs::exists(path("no")));
     folder_.write("empty.tum", "# nothing\n");
-    expectFailure(with(log, {"--poses", path("empty.tum"), "-o", path("no")}), 1, "holds no pose");
+    expectFailure(with(log, {"--poses", path("empty.tum"), "-o", path("no")}), 1,
+                  "contains no poses");
 }
 
 TEST_F(OpenLoopCommand, RefusesWrongUsage) {
@@ -187,7 +188,7 @@ TEST_F(OpenLoopCommand, SaysInPlainLinesHowFarItIsWhereThereIsNoTerminal) {
 }
 
 TEST_F(OpenLoopCommand, SaysWhenTheDiskIsFull) {
-    // No file may grow beyond a kilobyte.
+    // Limits files to one kilobyte.
     const std::string command = std::string("ulimit -f 1; exec ") + HAGEN_OCTOMAP_COMPARE +
                                 " openloop -i " + kOrchard + " --models W-RoI,W-Full -o " +
                                 path("full");

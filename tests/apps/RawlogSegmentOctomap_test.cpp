@@ -24,7 +24,7 @@ class RawlogSegmentOctomap : public test::ProgramTest {
         return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
     }
 
-    /// A map of the recording, made with these flags.
+    /// A map of the recording, created with these flags.
     octomap::OcTree mapOf(const std::vector<std::string>& flags) {
         std::vector<std::string> arguments = {"-i", kRecording, "--octomap", path("map.bt"),
                                               "--overwrite"};
@@ -49,7 +49,7 @@ std::vector<octomap::point3d> occupiedOf(const octomap::OcTree& tree) {
     return middles;
 }
 
-/// From the axis of the nearest pole of the recording (tests/support/PolesAndWall.cpp).
+/// Distance to the axis of the nearest pole of the recording (tests/support/PolesAndWall.cpp).
 double distanceToPole(const octomap::point3d& p) {
     double least = 1e9;
     for (int i = -3; i <= 4; ++i) {
@@ -69,7 +69,7 @@ TEST_F(RawlogSegmentOctomap, ObstaclesAreWhereTheyAreKnownToBe) {
     std::set<int> poles;
     std::set<int> wall;  // by y
     for (const octomap::point3d& p : occupiedOf(tree)) {
-        // Some of the ground about a pole's foot is RoI.
+        // Some ground around a pole's foot is RoI.
         const double reach_m = p.z() < 0.2f ? 0.8 : 0.35;
         EXPECT_TRUE(distanceToPole(p) < reach_m || isAtWall(p))
             << p.x() << " " << p.y() << " " << p.z();
@@ -80,7 +80,7 @@ TEST_F(RawlogSegmentOctomap, ObstaclesAreWhereTheyAreKnownToBe) {
             poles.insert(static_cast<int>(std::lround(p.x() / 2.5f)));
         }
     }
-    EXPECT_NEAR(static_cast<double>(wall.size()), 26, 1);  // 5 m of it, by 0.2 m
+    EXPECT_NEAR(static_cast<double>(wall.size()), 26, 1);  // 5 m in voxels of 0.2 m
     EXPECT_EQ(poles.size(), 9u);                           // on both sides, within 12 m
     for (double x = 0.1; x < 9; x += 0.2) {
         const auto* ahead = tree.search(x, 0.1, 1.1);
@@ -94,8 +94,7 @@ TEST_F(RawlogSegmentOctomap, ContentSaysWhatGoesIn) {
     const octomap::OcTree roi = mapOf({"--octomap-content", "roi"});
     const octomap::OcTree rays = mapOf({"--octomap-content", "roi+rays"});
     const octomap::OcTree full = mapOf({"--octomap-content", "full"});
-    // The way to the ground at (5, 0) is seen by ground returns alone; the ground is an obstacle
-    // where all returns are.
+    // Ground is occupied only if all returns are hits.
     const auto groundOf = [](const octomap::OcTree& tree) {
         int count = 0;
         for (const octomap::point3d& p : occupiedOf(tree))
@@ -131,7 +130,7 @@ TEST_F(RawlogSegmentOctomap, AScanFolderWithPosesGivesTheSameObstacles) {
     ASSERT_EQ(run({"-i", path("scans"), "--octomap", path("of_folder.bt")}).exit_code, 0);
     octomap::OcTree of_folder(0.1);
     ASSERT_TRUE(of_folder.readBinary(path("of_folder.bt")));
-    // Its returns have no times, so they are placed by one pose a scan: 0.3 m off at most.
+    // Its returns have no times, so each scan is placed with one pose: errors of up to 0.3 m.
     for (const octomap::point3d& p : occupiedOf(of_folder)) {
         EXPECT_TRUE(distanceToPole(p) < 0.65 || p.x() > 15.4) << p.x() << " " << p.y();
     }
@@ -141,7 +140,7 @@ TEST_F(RawlogSegmentOctomap, AScanFolderWithPosesGivesTheSameObstacles) {
 }
 
 TEST_F(RawlogSegmentOctomap, ScansWithoutAPoseAreLeftOutAndNamed) {
-    // Poses for the first half second alone.
+    // Poses for the first half second only.
     std::string tum;
     for (int i = 0; i <= 5; ++i) {
         tum += std::to_string(1767225600 + 0.1 * i) + " " + std::to_string(0.3 * i) +
@@ -151,7 +150,7 @@ TEST_F(RawlogSegmentOctomap, ScansWithoutAPoseAreLeftOutAndNamed) {
         {"-i", kRecording, "--octomap", path("map.bt"), "--poses", folder_.write("half.tum", tum)});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 6 of 10 scans"));
-    EXPECT_THAT(outcome.err, HasSubstr("the map leaves it out"));
+    EXPECT_THAT(outcome.err, HasSubstr("it is not in the map"));
 }
 
 TEST_F(RawlogSegmentOctomap, FailsWithoutPoses) {
@@ -163,7 +162,7 @@ TEST_F(RawlogSegmentOctomap, FailsWithoutPoses) {
 TEST_F(RawlogSegmentOctomap, FailsWherePosesAreOfAnotherClock) {
     const std::string tum = folder_.write("old.tum", "1000 0 0 1 0 0 0 1\n1000.1 0 0 1 0 0 0 1\n");
     expectFailure({"-q", "-i", kRecording, "--octomap", path("map.bt"), "--poses", tum}, 1,
-                  "of another clock");
+                  "from another clock");
 }
 
 TEST_F(RawlogSegmentOctomap, RefusesWrongUsage) {

@@ -181,8 +181,8 @@ TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
     EXPECT_EQ(out.next(), nullptr);
 }
 
-// What the published filter makes of the recording, entry by entry: RoI and ROU of each scan. (A
-// last bit of a sine may differ between machines, and so may a few returns.)
+// The published filter's RoI and ROU of each scan of the recording. (The last bit of a sine may
+// differ between machines, and therefore a few returns.)
 constexpr int kGolden[10][2] = {{1730, 13883}, {1857, 13775}, {1864, 13767}, {1894, 13753},
                                 {1897, 13754}, {1967, 13751}, {2057, 13724}, {2066, 13735},
                                 {2070, 13736}, {2127, 13707}};
@@ -226,7 +226,7 @@ TEST_F(RawlogSegment, WritesStatisticsThatAddUp) {
         EXPECT_NEAR(scan["roi"].get<double>(), kGolden[i][0], 5);
         returns +=
             scan["roi"].get<int>() + scan["rou"].get<int>() + scan["unclassified"].get<int>();
-        EXPECT_GT(scan["nearest_roi_m"], 5.0);  // no pole stands nearer
+        EXPECT_GT(scan["nearest_roi_m"], 5.0);  // all poles are farther away
     }
     EXPECT_EQ(returns, 157114);
     EXPECT_EQ(json["latency_ms"]["scans"], 10);
@@ -246,7 +246,7 @@ TEST_F(RawlogSegment, ConvertsAPartOfALog) {
 
 TEST_F(RawlogSegment, PosesTravelWithTheScansAndDriveAWindow) {
     const auto window = folder_.write("window.yaml", "include: " + kPaper + "\nwindow_scans: 3\n");
-    // The same poses: from the log, and from a file made of it.
+    // The same poses, from the log and from a file written with them.
     ASSERT_EQ(run({"-i", kRecording, "--kitti", path("a"), "-c", window}).exit_code, 0);
     std::string poses;
     for (int i = 0; i <= 10; ++i) {
@@ -267,7 +267,7 @@ TEST_F(RawlogSegment, PosesTravelWithTheScansAndDriveAWindow) {
     std::size_t differing = 0;
     for (std::size_t i = 0; i < a.size(); ++i) differing += a[i] != b[i];
     EXPECT_LT(differing, a.size() / 200);
-    // Of a vehicle that is said to stand still the window is a blur, and other returns are RoI.
+    // With poses of a standing vehicle the window is blurred, and other returns are RoI.
     poses.clear();
     for (int i = 0; i <= 10; ++i) {
         poses += std::to_string(1767225600 + 0.1 * i) + " 0 0 1.2 0 0 0 1\n";
@@ -488,12 +488,12 @@ TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
 
 TEST_F(RawlogSegment, FailsOnASensorLabelThatIsNotThere) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--sensor-label", "lidra"}, 1,
-                  "no LiDAR scan of 'lidra' in what was converted; there are 'lidar'");
+                  "no converted entry has a LiDAR scan of 'lidra'; there are 'lidar'");
 }
 
 TEST_F(RawlogSegment, FailsWhereThereIsNoEntryToConvert) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--from", "21"}, 1,
-                  "has 21 entries, none from 21 on");
+                  "has 21 entries, none at or after 21");
 }
 
 TEST_F(RawlogSegment, FailsOnPosesThatAreNone) {
@@ -512,7 +512,7 @@ TEST_F(RawlogSegment, FailsWhereTheFolderCannotBeWrittenTo) {
 }
 
 TEST_F(RawlogSegment, FailsWithoutATraceWhereTheDiskIsFull) {
-    // A limit of 64 kB to a file stands for the disk: the system refuses to write on.
+    // A file size limit of 64 kB simulates a full disk.
     const auto limited = [&](const std::string& outputs) {
         return test::run("/bin/bash", {"-c", "trap \"\" XFSZ; ulimit -f 64; exec " +
                                                  std::string(HAGEN_RAWLOG_SEGMENT) + " -i " +
@@ -530,7 +530,7 @@ TEST_F(RawlogSegment, FailsWithoutATraceWhereTheDiskIsFull) {
 }
 
 TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
-    // Packed files one after the other are one log; it takes many times as long as the wait.
+    // Concatenated gzip files are one log; converting it takes many times as long as the wait.
     const std::string bytes = test::readFile(kRecording);
     std::string many;
     for (int i = 0; i < 200; ++i) many += bytes;
@@ -553,8 +553,8 @@ TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
 
 // The recording itself.
 
-// The published filter's answer for it: a change of it is meant, or a fault. (A last bit of a sine
-// may differ between machines, and so may a few returns.)
+// The published filter's reference result: a change must be intended, or is a bug. (The last bit of
+// a sine may differ between machines, and therefore a few returns.)
 TEST_F(RawlogSegment, ThePublishedFilterLabelsTheRecordingAsBefore) {
     const auto outcome = run({"-i", kRecording, "--kitti", path("scans"), "-c", kPaper});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -581,7 +581,7 @@ TEST(PolesAndWall, TheRecordingIsWhatItsGeneratorMakes) {
         for (std::size_t p = 0; p < made->scan_packets.size(); ++p) {
             for (int b = 0; b < 12; ++b) {
                 for (int i = 0; i < 32; ++i) {
-                    // A last bit of a sine may differ between machines, and so a range by a unit.
+                    // The last bit of a sine may differ between machines, and a range by one unit.
                     ASSERT_NEAR(recorded->scan_packets[p].blocks[b].laser_returns[i].distance(),
                                 made->scan_packets[p].blocks[b].laser_returns[i].distance(), 1);
                 }

@@ -1,4 +1,4 @@
-// Runs the built program, as a user would; and what it encodes, against what was simulated.
+// Runs the built program, as a user would; compares its packets with the simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/PoseFile.h>
@@ -30,7 +30,7 @@ using mrpt::obs::CObservationRobotPose;
 using mrpt::obs::CObservationVelodyneScan;
 
 const fs::path kOrchard = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/orchard.rawlog";
-constexpr double kRoi = 443232, kRou = 185797;  // its true labels
+constexpr double kRoi = 443232, kRou = 185797;  // ground-truth labels
 
 struct LogContent {
     std::vector<CObservationVelodyneScan::Ptr> scans;
@@ -116,7 +116,7 @@ TEST_F(RawlogSimulate, PosesReachOverTheWholeOfEachScan) {
     const LogContent log = readLog(path("a.rawlog"));
     observations::Trajectory trajectory;
     for (const auto& pose : log.poses) trajectory.add(pose->timestamp, pose->pose.mean);
-    EXPECT_EQ(trajectory.size(), log.poses.size());  // none twice
+    EXPECT_EQ(trajectory.size(), log.poses.size());  // no duplicates
     for (const auto& scan : log.scans) {
         for (const double since_s : {0.0, 0.03, 0.1001}) {
             const auto time =
@@ -160,8 +160,8 @@ TEST_F(RawlogSimulate, OverwritesWhereItIsToldTo) {
         0);
 }
 
-/// The exact command is in rawlogs/README.md. Where a machine's sines differ in their last bit, a
-/// return may differ, and random numbers after it; so returns are held to a share.
+/// The exact command is in rawlogs/README.md. If sines differ in the last bit between machines, a
+/// return may differ, and random numbers after it; so the comparison of returns has a tolerance.
 TEST_F(RawlogSimulate, TheCommandOfTheDemoRecordingStillMakesIt) {
     const std::string command =
         "rawlog-simulate --scenario orchard --scans 30 --every-s 0.2 "

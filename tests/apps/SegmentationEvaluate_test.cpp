@@ -43,7 +43,7 @@ class SegmentationEvaluate : public test::ProgramTest {
     test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_SEGMENTATION_EVALUATE, arguments);
     }
-    /// A folder with a scan of a pole on flat ground and its true labels.
+    /// A folder with a scan of a pole on flat ground and its ground-truth labels.
     std::string labelledPole(const std::string& name = "pole") const {
         test::SimpleScene scene;
         scene.poles.push_back({12, 2, 0.15, 8});
@@ -58,7 +58,7 @@ class SegmentationEvaluate : public test::ProgramTest {
         writer.finish();
         return (folder_ / name).string();
     }
-    /// The same with the kinds 1 terrain and 4 pole, and the altitude.
+    /// The same with the classes 1 terrain and 4 pole, and the altitude.
     std::string poleWithKinds() const {
         const std::string pole = labelledPole();
         fs::create_directories(folder_ / "pole/semantic");
@@ -79,7 +79,7 @@ class SegmentationEvaluate : public test::ProgramTest {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return nlohmann::json::parse(test::readFile(file));
     }
-    /// All labelled sixteen-beam scans as inputs; none where there are none.
+    /// All labelled 16-beam scans as inputs; empty if there are none.
     static std::vector<std::string> sixteenBeamScans() {
         const fs::path data = test::dataFolder("HAGEN_LABELLED_DATA");
         std::vector<std::string> arguments;
@@ -112,7 +112,7 @@ TEST_F(SegmentationEvaluate, BaselinesStandBesideTheFilter) {
     std::vector<std::string> names;
     for (const auto& method : report["methods"]) {
         names.push_back(method["name"]);
-        // On flat ground with one pole nobody fails.
+        // On flat ground with one pole, no method fails.
         EXPECT_GT(method["returns"]["all"]["rou"]["f1"], 0.9) << method["name"];
         EXPECT_EQ(method["latency_ms"]["runs"], 1);
     }
@@ -136,7 +136,7 @@ TEST_F(SegmentationEvaluate, BaselinesComeAfterASweepWithTheZoneOfTheSettings) {
     }
 }
 
-// The published filter on labelled recordings; the figures asked of it.
+// The published filter on labelled recordings, with the required scores.
 TEST_F(SegmentationEvaluate, PaperReachesItsScoresOnLabelledSixteenBeamScans) {
     std::vector<std::string> arguments = sixteenBeamScans();
     if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of labelled scans";
@@ -147,7 +147,7 @@ TEST_F(SegmentationEvaluate, PaperReachesItsScoresOnLabelledSixteenBeamScans) {
     EXPECT_GE(row(outcome.out, "hagen").at(5), 0.92) << outcome.out;
 }
 
-// semantic/ says more than labels/, and by the shipped map the same.
+// semantic/ is more detailed than labels/, and equivalent with the shipped map.
 TEST_F(SegmentationEvaluate, ShippedLabelMapGivesTheLabelsOfTheData) {
     std::vector<std::string> arguments = sixteenBeamScans();
     if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of labelled scans";
@@ -194,7 +194,7 @@ TEST_F(SegmentationEvaluate, JsonHoldsCountsThatAddUp) {
         for (const auto& group : returns[part]) hits += group["roi"]["hits"].get<std::int64_t>();
         EXPECT_EQ(returns["all"]["roi"]["hits"], hits) << part;
     }
-    // Kinds and altitude are known of one of the two folders, which are alike.
+    // Classes and altitude are known for one of two otherwise identical folders.
     ASSERT_EQ(returns["by_kind"].size(), 2u);
     EXPECT_EQ(returns["by_kind"][0]["name"], "pole");
     EXPECT_EQ(returns["by_kind"][0]["returns"].get<std::int64_t>() * 2,
@@ -297,7 +297,7 @@ TEST_F(SegmentationEvaluate, FailsWithoutScansOrLabels) {
     expectFailure({"-i", (folder_ / "none").string()}, 1, "not a scan folder");
     expectFailure({"-i", folder_.path()}, 1, "velodyne");
     fs::create_directories(folder_ / "empty/velodyne");
-    expectFailure({"-i", (folder_ / "empty").string()}, 1, "holds no .bin files");
+    expectFailure({"-i", (folder_ / "empty").string()}, 1, "contains no .bin files");
     const std::string pole = labelledPole();
     fs::remove_all(folder_ / "pole/labels");
     expectFailure({"-i", pole}, 1, "000000.label");

@@ -209,8 +209,8 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
 TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
     const std::string there_are =
         "there are closedloop, merge, calibrate, openloop, report, replay";
-    expectFailure({"fly"}, 2, "'fly' is no command; " + there_are);
-    expectFailure({}, 2, "no command is given; " + there_are);
+    expectFailure({"fly"}, 2, "'fly' is not a command; " + there_are);
+    expectFailure({}, 2, "no command given; " + there_are);
 }
 
 TEST_F(ReportCommand, ALineOfTheListChoosesItsRun) {

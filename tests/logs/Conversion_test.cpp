@@ -32,7 +32,7 @@ CObservation::Ptr scanFrom(double x_m, const std::string& label = "lidar") {
     return test::poleScanFrom(x_m, label);
 }
 
-/// Something that is no LiDAR scan.
+/// An observation that is not a LiDAR scan.
 CObservation::Ptr pose() {
     auto observation = mrpt::obs::CObservationRobotPose::Create();
     observation->sensorLabel = "pose";
@@ -40,7 +40,7 @@ CObservation::Ptr pose() {
     return observation;
 }
 
-/// The argument: threads.
+/// Parameter: number of threads.
 class ConversionTest : public testing::TestWithParam<std::size_t> {
  protected:
     fs::path writeLog(const std::vector<mrpt::serialization::CSerializable::Ptr>& entries) {
@@ -50,7 +50,7 @@ class ConversionTest : public testing::TestWithParam<std::size_t> {
         return folder_ / "in.rawlog";
     }
 
-    /// Class or label of each entry, those of a sensory frame in brackets.
+    /// Class or label of each entry; those of a sensory frame in brackets.
     static std::vector<std::string> entriesOf(const fs::path& file) {
         std::vector<std::string> names;
         RawlogReader reader(file);
@@ -89,7 +89,7 @@ class ConversionTest : public testing::TestWithParam<std::size_t> {
         return listener;
     }
 
-    /// The log as a scan folder.
+    /// Writes the log as a scan folder.
     void convertToFolder(const std::string& name) {
         Conversion to_folder = conversion();
         to_folder.rawlog.clear();
@@ -205,9 +205,9 @@ TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
 }
 
 TEST_P(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
-    // The first scan sees a pole straight ahead, the second flat ground alone. Put together, ground
-    // that shares a pixel with the pole is RoI: ahead, or aside where poses.txt says that the
-    // sensor has moved.
+    // The first scan sees a pole straight ahead, the second only flat ground. Combined, ground that
+    // shares a pixel with the pole is RoI: ahead, or to the side if poses.txt says that the sensor
+    // has moved.
     const SensorModel sensor = sensorModel("VLP-16");
     test::SimpleScene scene;
     scene.poles.push_back({10, 0, 0.5, 6});
@@ -221,10 +221,10 @@ TEST_P(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     windowed.folder = folder_ / "labels";
     windowed.overwrite = true;
     windowed.settings.options.window_scans = 2;
-    windowed.settings.options.ground_surface = false;  // it would tell ground behind the pole apart
+    windowed.settings.options.ground_surface = false;  // it would separate ground behind the pole
     std::vector<std::string> remarks;
     const ConversionListener listener = remarksInto(remarks);
-    // Bearing of the ground returns that share their pixels with the pole, as labelled.
+    // Bearings of the ground returns that share pixels with the pole, as labelled.
     const auto roiBearings = [&](const std::string& second_pose) {
         folder_.write("scans/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n" + second_pose);
         convert(windowed, listener);
@@ -245,7 +245,7 @@ TEST_P(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
     ASSERT_FALSE(aside.empty());
     for (const double bearing_deg : aside) EXPECT_NEAR(bearing_deg, 26.57, 5.0);
     for (const std::string& remark : remarks) {
-        EXPECT_THAT(remark, HasSubstr("carry no times"));
+        EXPECT_THAT(remark, HasSubstr("have no times"));
     }
     EXPECT_EQ(readKittiPoses(folder_ / "labels/poses.txt").size(), 2u);
 }
@@ -258,8 +258,7 @@ TEST_P(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
         observation->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0, 0, 0);
         return observation;
     };
-    // The pose of the second scan's time lies between two others, the later one behind it in the
-    // log.
+    // The second scan's time lies between two poses; the later one comes after the scan in the log.
     writeLog({poseAt(0), scanFrom(0), poseAt(0.05), scanFrom(0.1), poseAt(0.15), poseAt(0.25),
               scanFrom(3)});
     Conversion windowed = conversion();
@@ -267,7 +266,7 @@ TEST_P(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
     std::vector<std::string> remarks;
     const ConversionListener listener = remarksInto(remarks);
     EXPECT_EQ(convert(windowed, listener).scans, 3u);
-    ASSERT_EQ(remarks.size(), 1u);  // of the scan that no pose is near
+    ASSERT_EQ(remarks.size(), 1u);  // for the scan without a pose near its time
     EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
 }
 
@@ -364,7 +363,7 @@ TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
         FAIL();
     } catch (const std::runtime_error& e) {
         EXPECT_THAT(e.what(),
-                    HasSubstr("no LiDAR scan of 'rear' in what was converted; there are 'front'"));
+                    HasSubstr("no converted entry has a LiDAR scan of 'rear'; there are 'front'"));
     }
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
 }
@@ -466,7 +465,7 @@ TEST_P(ConversionTest, OutputsThatExistAreRefused) {
 }
 
 TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) {
-    // A cloud takes the settings' sensor; packets are of 16 beams, too few for this window.
+    // A cloud uses the settings' sensor; packets have 16 beams, too few for this window.
     Scan scan;
     scan.x_m = {5, 6};
     scan.y_m = scan.z_m = {0, 1};
@@ -513,7 +512,7 @@ TEST_P(ConversionTest, ProgressCountsEntries) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, ConversionTest, testing::Values(1, 4));
 
-/// All that a user sees of a conversion with so many threads: what was told, and the files.
+/// Everything a user sees of a conversion with this many threads: callbacks and files.
 std::string storyOf(Conversion conversion, const test::TemporaryFolder& folder, std::size_t jobs) {
     conversion.jobs = jobs;
     conversion.overwrite = true;

@@ -79,14 +79,14 @@ TEST_F(PoseFile, PosesComeBack) {
 }
 
 TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
-    expectRefused("", "holds no pose");
-    expectRefused("1 2 3\n", ":1: 8 numbers are expected");
-    expectRefused("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n", ":2: 8 numbers");
-    expectRefused("0 0 0 0 0 0 0 2\n", ":1: the quaternion is not of length 1");
-    expectRefused("0 0 nan 0 0 0 0 1\n", ":1: 'nan' is no number");
-    expectRefused("0 0 1e999 0 0 0 0 1\n", "is no number");
-    expectRefused("1 0 0 0 0 2 0 0 0 0 1 0\n", ":1: the matrix is no rotation");
-    expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is no rotation");
+    expectRefused("", "contains no poses");
+    expectRefused("1 2 3\n", ":1: expected 8 numbers");
+    expectRefused("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n", ":2: expected 8 numbers");
+    expectRefused("0 0 0 0 0 0 0 2\n", ":1: the quaternion is not normalized");
+    expectRefused("0 0 nan 0 0 0 0 1\n", ":1: 'nan' is not a finite number");
+    expectRefused("0 0 1e999 0 0 0 0 1\n", "is not a finite number");
+    expectRefused("1 0 0 0 0 2 0 0 0 0 1 0\n", ":1: the matrix is not a rigid");
+    expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is not a rigid");
     EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_ / "none"); }), HasSubstr("none"));
     EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_.path()); }),
                 HasSubstr("cannot be read"));
@@ -108,7 +108,7 @@ TEST_F(PoseFile, AKittiFileIsOfTheSensorScanByScan) {
     const auto vehicle = poses.vehicle.at(mrpt::Clock::fromDouble(100.1));
     ASSERT_TRUE(vehicle);
     EXPECT_NEAR(vehicle->x(), 4.0, 1e-9);
-    EXPECT_NEAR(vehicle->z(), -0.5, 1e-9);  // the sensor sits above it
+    EXPECT_NEAR(vehicle->z(), -0.5, 1e-9);  // the sensor is mounted above the origin
     EXPECT_EQ(poses.source, file.string());
 }
 
@@ -119,7 +119,7 @@ TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {
                 HasSubstr("1 poses for 2 scans"));
     survey.scans["rear"] = {};
     EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
-                HasSubstr("scans of one LiDAR"));
+                HasSubstr("scan of a single LiDAR"));
 }
 
 TEST_F(PoseFile, OfAScanFolderTheMapWinsOverTheFirstScan) {

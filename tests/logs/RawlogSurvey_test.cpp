@@ -37,7 +37,7 @@ mrpt::obs::CObservationOdometry::Ptr odometry(double seconds, double x_m) {
     return observation;
 }
 
-/// A step forward, and then a quarter turn to the left.
+/// A step forward, then a quarter turn to the left.
 mrpt::obs::CActionCollection::Ptr stepAndTurn(mrpt::Clock::time_point time) {
     mrpt::obs::CActionRobotMovement3D movement;
     movement.timestamp = time;

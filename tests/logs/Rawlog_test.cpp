@@ -1,4 +1,4 @@
-// RawlogReader and RawlogWriter, each the other's check, and MRPT's own CRawlog theirs.
+// Tests RawlogReader and RawlogWriter against each other and against MRPT's CRawlog.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/logs/RawlogReader.h>
@@ -70,7 +70,7 @@ TEST(Rawlog, TheSameEntriesGiveTheSameBytes) {
     EXPECT_EQ(test::readFile(folder / "a.rawlog"), test::readFile(folder / "b.rawlog"));
 }
 
-/// Reads a file to its end, or to its break. Entries read, and what was said of a break.
+/// Reads a file to its end or to an error. Number of entries read, and the error message.
 std::pair<std::size_t, std::string> readAll(const fs::path& file) {
     RawlogReader reader(file);
     try {
@@ -109,7 +109,7 @@ TEST(Rawlog, AnUnpackedLogCutOffAnywhereSaysSo) {
     }
     bytes = test::readFile(folder / "plain.rawlog");
     EXPECT_EQ(readAll(folder / "plain.rawlog").first, 3u);
-    const std::size_t entry = bytes.size() / 3;  // all are of one size
+    const std::size_t entry = bytes.size() / 3;  // all entries have the same size
     for (std::size_t length = 1; length < bytes.size(); ++length) {
         const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
         ASSERT_EQ(read, length / entry);
@@ -132,7 +132,7 @@ TEST(Rawlog, GzipMembersOneAfterTheOtherAreOneLog) {
     EXPECT_EQ(readAll(folder.write("twice.rawlog", bytes + bytes)).first, 6u);
 }
 
-/// A log of which each entry fills a member, and how long the file is after each.
+/// A log in which each entry fills a member, and the file size after each.
 std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
     RawlogWriter writer(file, true);
     std::vector<std::size_t> ends;
@@ -160,7 +160,7 @@ TEST(Rawlog, MembersEndWithTheEntryThatFillsThem) {
         writer.gather(entries, member);
         ASSERT_TRUE(member.empty()) << i;
     }
-    Bytes entries(5000, 2);  // which begins before the quarter of a megabyte, and ends after it
+    Bytes entries(5000, 2);  // starts below 256 KiB and ends above
     writer.gather(entries, member);
     ASSERT_EQ(member.size(), 267000u);
     EXPECT_EQ(member.front(), 1);
@@ -185,10 +185,10 @@ TEST(Rawlog, ALogCutOffWithinALaterMemberSaysSo) {
     const test::TemporaryFolder folder;
     const auto ends = writeLargeEntries(folder / "whole.rawlog", 3);
     const std::string bytes = test::readFile(folder / "whole.rawlog");
-    // Between two members nothing tells that there were more.
+    // A file cut between two members looks complete.
     for (std::size_t length = ends[0] + 1; length < ends[1]; ++length) {
         const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
-        ASSERT_GE(read, 1u);  // the second, too, where only its check sum is missing
+        ASSERT_GE(read, 1u);  // the second one, too, if only its checksum is missing
         ASSERT_NE(broken, "") << length;
     }
 }
@@ -199,10 +199,10 @@ TEST(Rawlog, WhatComesAfterAMemberAndIsNoneIsTold) {
     const std::string bytes = test::readFile(folder / "whole.rawlog");
     for (const std::size_t at : {ends[0], ends[0] + 1, ends[0] + 2, ends[1]}) {
         std::string damaged = bytes;
-        damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // of the next member's header
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // in the next member's header
         const auto [read, broken] = readAll(folder.write("damaged.rawlog", damaged));
         EXPECT_EQ(read, at < ends[1] ? 1u : 2u);
-        EXPECT_THAT(broken, HasSubstr("packed bytes are damaged")) << at << broken;
+        EXPECT_THAT(broken, HasSubstr("compressed data is corrupt")) << at << broken;
     }
     const auto [read, broken] = readAll(folder.write("longer.rawlog", bytes + "garbage"));
     EXPECT_EQ(read, 3u);

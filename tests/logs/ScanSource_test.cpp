@@ -27,7 +27,7 @@ using Entries = std::vector<mrpt::serialization::CSerializable::Ptr>;
 
 mrpt::Clock::time_point at(double seconds) { return mrpt::Clock::fromDouble(1000.0 + seconds); }
 
-/// One return, at x.
+/// A cloud with one return, at x.
 Scan returnAt(float x_m) {
     Scan scan;
     scan.x_m = {x_m};
@@ -57,7 +57,7 @@ mrpt::obs::CSensoryFrame::Ptr frameOf(const std::vector<mrpt::obs::CObservation:
     return frame;
 }
 
-/// "entry:label:seconds" of every scan that is pulled.
+/// "entry:label:seconds" of every scan of the source.
 std::vector<std::string> pulledFrom(ScanSource& source) {
     std::vector<std::string> pulled;
     while (const auto scan = source.nextScan()) {
@@ -86,7 +86,7 @@ class ScanSourceTest : public testing::Test {
         if (!times.empty()) std::ofstream(path / "times.txt") << times;
         return path;
     }
-    /// Two LiDARs, a comment, and a frame with a scan of each.
+    /// Two LiDARs, a comment, and a frame with one scan of each.
     Entries mixed() const {
         auto comment = mrpt::obs::CObservationComment::Create();
         return {cloud(1, "front"), comment, frameOf({cloud(3, "front"), cloud(4, "rear")}),
@@ -188,7 +188,7 @@ TEST_F(ScanSourceTest, PosesOfTheRawlogItselfMayComeAfterTheScan) {
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan && scan->pose.sensor_pose);
     EXPECT_NEAR(scan->pose.sensor_pose->x(), 6.0, 1e-6);
-    EXPECT_NEAR(scan->pose.sensor_pose->z(), 1.25, 1e-6);  // on its mount
+    EXPECT_NEAR(scan->pose.sensor_pose->z(), 1.25, 1e-6);  // mounting height included
     EXPECT_TRUE(scan->pose.pose_has_horizon);
 }
 
@@ -229,7 +229,7 @@ TEST_F(ScanSourceTest, AKittiFileIsForTheSelectedLidar) {
     }
     EXPECT_THAT(
         test::messageOf([&] { openRecording(rawlogOf(mixed()))->usePoses(folder_ / "poses.txt"); }),
-        HasSubstr("counts the scans of one LiDAR, and the log has 2"));
+        HasSubstr("the log has 2 LiDARs"));
 }
 
 TEST_F(ScanSourceTest, ScanTimesOfAllLidars) {
@@ -260,7 +260,7 @@ TEST_F(ScanSourceTest, StopsWhenToldTo) {
 
 TEST_F(ScanSourceTest, ABrokenRawlogGivesWhatIsBeforeTheBreak) {
     const fs::path whole = rawlogOf(mixed());
-    // Uncompressed, so that it can be cut at any byte.
+    // Uncompressed, so that it can be truncated at any byte.
     GzipInput stream(whole);
     std::string bytes(1 << 16, '\0');
     bytes.resize(stream.Read(bytes.data(), bytes.size()));

@@ -12,7 +12,7 @@ namespace {
 using mrpt::poses::CPose3D;
 const auto kStart = mrpt::Clock::fromDouble(1000.0);
 
-/// A vehicle that flies at this velocity for a second, 2 m up.
+/// A vehicle that flies at this velocity for one second, 2 m up.
 Trajectory flight(double vx_m_s, double vz_m_s) {
     Trajectory vehicle;
     for (int i = 0; i <= 10; ++i) {
@@ -23,7 +23,7 @@ Trajectory flight(double vx_m_s, double vz_m_s) {
     return vehicle;
 }
 
-/// A full turn taken on that flight, of flat ground and a wall 10 m ahead of its start.
+/// A full revolution on that flight, of flat ground and a wall 10 m ahead of its start.
 Scan scanOnTheWay(double vx_m_s, double vz_m_s) {
     test::SimpleScene scene;
     scene.boxes.push_back({{10, -30, 0}, {11, 30, 10}});
@@ -34,7 +34,7 @@ Scan scanOnTheWay(double vx_m_s, double vz_m_s) {
     return scan;
 }
 
-/// The farthest that a return lies from the ground 2 m below and the wall 10 m ahead.
+/// The maximum distance of a return from the ground 2 m below or the wall 10 m ahead.
 double worstDistance_m(const Scan& scan) {
     double worst = 0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -53,7 +53,7 @@ TEST(Deskew, PutsReturnsOfAMovingSensorWhereTheThingsAre) {
 }
 
 TEST(Deskew, KnowsWhereOnTheVehicleTheSensorSits) {
-    // The same flight of the sensor, which sits aside and turned on its vehicle.
+    // The same flight of the sensor, which is mounted off-centre and rotated on its vehicle.
     const CPose3D sensor_on_vehicle(0.5, -0.2, 0.3, 1.2, 0.1, -0.2);
     Trajectory vehicle;
     for (int i = 0; i <= 10; ++i) {
@@ -67,7 +67,7 @@ TEST(Deskew, KnowsWhereOnTheVehicleTheSensorSits) {
 }
 
 TEST(Deskew, FollowsTurnsToo) {
-    // A point at (10, 0, 0) of the map, seen all the time from a sensor that turns on the spot.
+    // The point (10, 0, 0) of the map, always seen from a sensor that turns on the spot.
     Trajectory vehicle;
     for (int i = 0; i <= 10; ++i) {
         vehicle.add(mrpt::Clock::fromDouble(1000.0 + 0.01 * i), CPose3D(0, 0, 0, 0.05 * i, 0, 0));

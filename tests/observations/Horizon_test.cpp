@@ -59,7 +59,7 @@ TEST(Horizon, TheLastOneSeenCounts) {
     Horizon horizon;
     horizon.see(poseOf({0, 0, 0, 0, 0.1, 0}));
     horizon.see(poseOf({0, 0, 0, 0, 0.3, 0}));
-    horizon.see(mrpt::obs::CObservationOdometry());  // says nothing of tilts
+    horizon.see(mrpt::obs::CObservationOdometry());  // has no attitude
     EXPECT_NEAR(horizon.at(kTime)->pitch(), 0.3, 1e-9);
 }
 
@@ -69,7 +69,7 @@ TEST(Horizon, AnImuTurnedOnTheVehicleIsTurnedBack) {
     CObservationIMU imu;
     imu.timestamp = kTime;
     imu.sensorPose = imu_on_vehicle;
-    imu.set(mrpt::obs::IMU_YAW, 2.0);  // a compass that is off does no harm
+    imu.set(mrpt::obs::IMU_YAW, 2.0);  // a compass error does not matter
     imu.set(mrpt::obs::IMU_PITCH, turned.pitch());
     imu.set(mrpt::obs::IMU_ROLL, turned.roll());
     Horizon horizon;
@@ -92,7 +92,7 @@ TEST(Horizon, AnImusQuaternionComesBeforeItsAngles) {
     EXPECT_NEAR(horizon.at(kTime)->roll(), 0.2, 1e-9);
     EXPECT_NEAR(horizon.at(kTime)->pitch(), 0.0, 1e-9);
 
-    imu.set(mrpt::obs::IMU_ORI_QUAT_W, 0);  // all zeros: an IMU that does not know
+    imu.set(mrpt::obs::IMU_ORI_QUAT_W, 0);  // all zeros: an IMU without orientation
     imu.set(mrpt::obs::IMU_ORI_QUAT_X, 0);
     horizon.see(imu);
     EXPECT_NEAR(horizon.at(kTime)->roll(), 0.7, 1e-9);
@@ -103,7 +103,7 @@ TEST(Horizon, AnImuWithoutOrientationSaysNothing) {
     CObservationIMU imu;
     imu.timestamp = kTime;
     imu.set(mrpt::obs::IMU_X_ACC, 9.81);
-    imu.set(mrpt::obs::IMU_PITCH, 0.1);  // half of it is none
+    imu.set(mrpt::obs::IMU_PITCH, 0.1);  // no attitude without roll
     horizon.see(imu);
     EXPECT_FALSE(horizon.at(kTime));
     imu.set(mrpt::obs::IMU_ROLL, NAN);
@@ -111,7 +111,7 @@ TEST(Horizon, AnImuWithoutOrientationSaysNothing) {
     EXPECT_FALSE(horizon.at(kTime));
 }
 
-/// A cloud of level ground, seen by a sensor that sits pitched on its vehicle.
+/// A cloud of level ground, seen by a sensor that is mounted with a pitch.
 mrpt::obs::CObservationPointCloud::Ptr cloudAt(const CPose3D& sensor_on_vehicle) {
     Settings settings;
     const auto scan = test::scanScene({}, settings.sensorModel(), 400, {0, 0, 2}).scan;
@@ -134,7 +134,7 @@ TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
     EXPECT_NEAR(out.pose.attitude->pitch_rad, expected.pitch(), 1e-5);
     EXPECT_NEAR(out.pose.attitude->roll_rad, expected.roll(), 1e-5);
 
-    segmenter.initialize({});  // forgets it
+    segmenter.initialize({});  // forgets the attitude
     ASSERT_TRUE(segmenter.process(*cloud, out));
     EXPECT_FALSE(out.pose.attitude);
 }

@@ -25,7 +25,7 @@ CObservationVelodyneScan::Ptr scanFrom(double x_m, const char* label = "front") 
     return scan;
 }
 
-/// A vehicle that stands still, from one second past the scans' time to another.
+/// A vehicle that stands still, between two times in seconds after the scans' time.
 Trajectory standingAt(const mrpt::poses::CPose3D& pose, double from_s, double to_s) {
     Trajectory vehicle;
     for (double s = from_s; s <= to_s; s += 0.1) {
@@ -109,7 +109,7 @@ TEST(ObservationSegmenter, EachSensorLabelHasItsOwnFilterAndWindow) {
     const Trajectory vehicle = standingAt({}, 0, 1);
     segmenter.process(*scanFrom(0, "front"), out, vehicle);
     segmenter.process(*scanFrom(0, "rear"), out, vehicle);
-    EXPECT_EQ(out.window->size(), out.scan->size());  // nothing of the front one
+    EXPECT_EQ(out.window->size(), out.scan->size());  // nothing from the front sensor
     segmenter.process(*scanFrom(0, "rear"), out, vehicle);
     EXPECT_EQ(out.window->size(), 2 * out.scan->size());
 }
@@ -128,7 +128,7 @@ TEST(ObservationSegmenter, AWindowNeedsPosesAndSaysSo) {
     EXPECT_FALSE(out.pose.sensor_pose);
     EXPECT_THAT(out.remark, HasSubstr("no pose"));
     EXPECT_EQ(out.window->size(), out.scan->size());
-    // Poses are back: the window starts anew, for what came before may lie anywhere.
+    // Poses are back: the window starts anew, because the older scans may be anywhere.
     segmenter.process(*scanFrom(2), out, standingAt({}, 2, 3));
     EXPECT_EQ(out.window->size(), out.scan->size());
 }
@@ -140,17 +140,17 @@ TEST(ObservationSegmenter, AWindowPutsTheScansOfAMovingSensorTogether) {
     segmenter.initialize(settings);
     ObservationSegmenter::Output out;
     for (const double x : {0.0, 1.0, 2.0}) {
-        // The sensor sits turned and aside on its vehicle, and sees the same.
+        // The sensor is mounted rotated and off-centre, and sees the same.
         auto scan = scanFrom(x);
         scan->sensorPose = mrpt::poses::CPose3D(0.2, -0.1, 0.5, 1.0, 0, 0);
         const mrpt::poses::CPose3D sensor_in_map(x, 0, 2, 0, 0, 0);
         segmenter.process(*scan, out, standingAt(sensor_in_map + (-scan->sensorPose), x, x + 1));
     }
-    // Clouds are of the newest scan alone; the window's labels are there on request.
+    // Clouds contain only the newest scan; the window's labels are available on request.
     EXPECT_EQ(out.roi->pointcloud->size() + out.non_roi->pointcloud->size(), out.scan->size());
     EXPECT_EQ(out.result->returns.label.size(), out.window->size());
     EXPECT_GT(out.window->size(), 2 * out.scan->size());
-    // Seen from the newest place the pole stands at (10, 2), and the ground 2 m below.
+    // Seen from the newest pose, the pole is at (10, 2), and the ground 2 m below.
     int pole = 0, pole_roi = 0, ground = 0, ground_rou = 0;
     for (std::size_t i = 0; i < out.window->size(); ++i) {
         const float from_pole_m = std::hypot(out.window->x_m[i] - 10.0f, out.window->y_m[i] - 2.0f);
@@ -173,13 +173,13 @@ TEST(ObservationSegmenter, AWindowTellsWhereItCannotMoveEachReturnByItself) {
     segmenter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     segmenter.initialize(settings);
     ObservationSegmenter::Output out;
-    Trajectory vehicle;  // known at the scan's start alone
+    Trajectory vehicle;  // known only at the scan's start
     vehicle.add(mrpt::Clock::fromDouble(100.0), {});
     segmenter.process(*scanFrom(0), out, vehicle);
-    EXPECT_THAT(out.remark, HasSubstr("poses do not reach to its end"));
+    EXPECT_THAT(out.remark, HasSubstr("poses do not cover the scan"));
     const auto cloud = observationOf(Scan(*out.scan), "cloud", mrpt::Clock::fromDouble(100.0));
     segmenter.process(*cloud, out, vehicle);
-    EXPECT_THAT(out.remark, HasSubstr("carry no times"));
+    EXPECT_THAT(out.remark, HasSubstr("have no times"));
 }
 
 TEST(ObservationSegmenter, CloudsKeepIntensitiesWhereWanted) {
@@ -268,7 +268,7 @@ TEST(ObservationSegmenter, TakesTimesWhenAskedTo) {
     segmenter.process(*scanFrom(0), out);
     EXPECT_GT(segmenter.profiler.getMeanTime("process"), 0.0);
     EXPECT_GT(segmenter.profiler.getMeanTime("process.segment"), 0.0);
-    segmenter.profiler.clear(true);  // or it prints when it goes
+    segmenter.profiler.clear(true);  // otherwise it prints when destroyed
 }
 
 }  // namespace

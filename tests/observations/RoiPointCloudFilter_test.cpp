@@ -11,7 +11,7 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-/// A pole on flat ground, and what the filter itself says of it.
+/// A pole on flat ground, and the filter's own result.
 struct Example {
     Scan scan;
     LabelledReturns expected;

@@ -24,7 +24,7 @@ class SettingsTest : public testing::Test {
         mergeSettings(folder_.write("settings.yaml", text), settings);
         return settings;
     }
-    /// What is said of a file that is refused; the settings must be untouched.
+    /// The error message for a rejected file; the settings must be unchanged.
     std::string refusalOf(const std::string& text) {
         const fs::path file = folder_.write("refused.yaml", text);
         Settings settings;

@@ -73,7 +73,7 @@ TEST(SlidingWindow, TheNewestScanKeepsTheBeamsItsSensorTold) {
     const SensorModel sensor = sensorModel("VLP-16");
     window.add(pointAt(1, 0, 0), CPose3D(), sensor);
     Scan told = pointAt(5, 0, 0);
-    told.row = {3};  // another row than its coordinates say
+    told.row = {3};  // differs from the row of its coordinates
     EXPECT_EQ(window.add(told, CPose3D(), sensor).row[0], 3);
 }
 

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 using mrpt::obs::CObservationVelodyneScan;
 
-/// MRPT decodes the first 16 returns of each block; these are theirs among ours.
+/// MRPT decodes the first 16 returns of each block; these are the same returns among ours.
 std::vector<std::size_t> returnsInFirstHalfOfBlocks(const CObservationVelodyneScan& observation) {
     std::vector<std::size_t> indices;
     std::size_t index = 0;
@@ -90,7 +90,7 @@ TEST(VelodyneDecoder, MrptAgreesOnACalibrationWithCorrections) {
     expectMrptAgrees(*observation);
 }
 
-/// Firings of random ranges, some missing.
+/// Firings with random ranges, some missing.
 Firings randomFirings(unsigned seed, const VelodyneModel& model, int count, double missing) {
     test::Random random(seed);
     Firings firings;
@@ -148,7 +148,7 @@ TEST(VelodyneDecoder, DualModeGivesTheLastAndTheStrongestReturnOfEveryFiring) {
         EXPECT_EQ(decodePackets(*encodeScan(model, firings), scan), 0u);
         ASSERT_EQ(scan.size(), static_cast<std::size_t>(2 * firings.range_m.size()));
 
-        Scan strongest, last;  // block by block in turn
+        Scan strongest, last;  // alternating blocks
         for (std::size_t i = 0; i < scan.size(); ++i) {
             Scan& half = i / 32 % 2 == 0 ? last : strongest;
             half.x_m.push_back(scan.x_m[i]);
@@ -195,14 +195,14 @@ TEST(VelodyneDecoder, AzimuthCorrectionsAreTakenFromTheReading) {
     decodePackets(*observation, plain);
     for (auto& laser : observation->calibration.laser_corrections) laser.azimuthCorrection = 3.0;
     decodePackets(*observation, corrected);
-    // Readings go clockwise, azimuth_rad the other way round.
+    // Readings go clockwise, azimuth_rad counter-clockwise.
     for (std::size_t i = 0; i < plain.size(); ++i) {
         const float turned = corrected.azimuth_rad[i] - plain.azimuth_rad[i];
         ASSERT_NEAR(degrees(std::remainder(turned, static_cast<float>(2 * kPi))), 3.0, 1e-3);
     }
 }
 
-/// Changes a byte of a packet as it would come over the network.
+/// Changes a byte of a packet as transmitted.
 void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte,
              std::uint8_t value) {
     std::uint8_t bytes[CObservationVelodyneScan::PACKET_SIZE];
@@ -211,7 +211,7 @@ void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte
     std::memcpy(static_cast<void*>(&observation.scan_packets[packet]), bytes, sizeof bytes);
 }
 
-/// That a decoded scan is the one of the plain decoder, up to rounding.
+/// Expects a decoded scan to equal that of the reference decoder, up to rounding.
 void expectDecodedAsPlainly(const CObservationVelodyneScan& observation, Scan& scan) {
     Scan plain;
     const std::size_t unsound_blocks = test::decodePlainly(observation, plain);
@@ -243,8 +243,8 @@ TEST(VelodyneDecoder, RecordingsAreDecodedAsReturnByReturn) {
     }
 }
 
-/// A random scan: any part of the turn, any share of returns missing, in half of the cases dual
-/// returns, and in half a calibration with all corrections.
+/// A random scan: any part of a revolution, any fraction of missing returns, half of them with dual
+/// returns, half with a calibration with all corrections.
 CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
     const VelodyneModel& model = velodyneModel(random.chance(0.5) ? "VLP-16" : "HDL-32E");
     const double missing = random.chance(0.2) ? 1.0 : static_cast<double>(random.real(0.0f, 0.9f));
@@ -267,7 +267,7 @@ CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
 
 TEST(VelodyneDecoder, AnyScanIsDecodedAsReturnByReturn) {
     test::Random random(63);
-    Scan scan;  // used again, as from scan to scan
+    Scan scan;  // reused across scans
     for (int round = 0; round < 200; ++round) {
         SCOPED_TRACE(round);
         const auto observation = randomObservation(random);

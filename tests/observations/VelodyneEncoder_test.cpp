@@ -15,7 +15,7 @@ Firings firingsAt(float range_m, int lasers, int count) {
     return firings;
 }
 
-// That decoding gives back what was encoded is in VelodyneDecoder_test.cpp; here: the raw bytes.
+// VelodyneDecoder_test.cpp tests that decoding reverses encoding; this tests the raw bytes.
 TEST(VelodyneEncoder, WritesWhatTheManualSays) {
     Firings firings = firingsAt(10.0f, 16, 24);
     firings.first_azimuth_deg = 359.9;

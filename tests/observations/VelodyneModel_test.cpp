@@ -23,7 +23,7 @@ TEST(VelodyneModel, DefaultCalibrationsHaveTheBeamsOfTheDataSheets) {
 
 TEST(VelodyneModel, RowsFollowElevationNotLaserNumber) {
     const auto rows = rowsOfLasers(VelodyneCalibration::LoadDefaultCalibration("VLP16"));
-    // The VLP-16 fires -15, 1, -13, 3, ... degrees.
+    // The VLP-16 fires at -15, 1, -13, 3, ... degrees.
     EXPECT_EQ(rows,
               (std::vector<std::uint8_t>{0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15}));
 }
@@ -56,7 +56,7 @@ TEST(VelodyneModel, AzimuthReadingsGoClockwiseAroundTheTurn) {
 }
 
 TEST(VelodyneModel, OtherModelsAreNotKnown) {
-    EXPECT_EQ(findVelodyneModel(0x28), nullptr);  // VLP-32C: other packets
+    EXPECT_EQ(findVelodyneModel(0x28), nullptr);  // VLP-32C: different packets
     EXPECT_THROW(velodyneModel("HDL-64E"), std::invalid_argument);
 }
 

@@ -15,8 +15,8 @@ namespace {
 using test::cellFromSensor;
 using test::pixelsAt;
 
-constexpr float kBefore_m = 0.2f;  // tolerance before the canopy
-CanopyWorkspace work;              // one for all tests, as a filter has one for all scans
+constexpr float kBefore_m = 0.2f;  // tolerance without a canopy
+CanopyWorkspace work;              // shared by all tests, as by all scans in a filter
 
 /// The tolerances over the plane z = 0.
 Image<float> tolerated(const PixelPoints& pixels) {
@@ -28,8 +28,8 @@ Image<float> tolerated(const PixelPoints& pixels) {
     return tolerance_m;
 }
 
-/// A return in the middle of each of `cells` x `cells` cells around the sensor, as high as
-/// height(k) says, k counting cells.
+/// One return in the centre of each of `cells` x `cells` cells around the sensor, with height(k) in
+/// cell k.
 template <class Height>
 std::vector<Eigen::Vector3f> field(int cells, Height height) {
     std::vector<Eigen::Vector3f> points;
@@ -61,7 +61,7 @@ TEST(CanopyLayer, PlantsAllAroundAreGroundAndAPoleAmongThemIsNot) {
 TEST(CanopyLayer, ToleratesTheMeanAndTwoDeviationsAndTenCentimetres) {
     const auto even = field(20, [](int) { return 0.6f; });
     EXPECT_LT((tolerated(pixelsAt(even)) - 0.7f).abs().maxCoeff(), 2e-3f);
-    // mean 0.6, deviation 0.2
+    // mean 0.6, standard deviation 0.2
     const auto mixed = field(20, [](int k) { return k % 2 == 0 ? 0.4f : 0.8f; });
     EXPECT_LT((tolerated(pixelsAt(mixed)) - 1.1f).abs().maxCoeff(), 1e-3f);
 }
@@ -117,7 +117,7 @@ TEST(CanopyLayer, AgreesWithASearchThroughAllCells) {
     test::Random random(96);
     std::vector<Eigen::Vector3f> points;
     std::map<std::pair<int, int>, float> tops_m;
-    for (int i = 0; i < 6000; ++i) {  // plants ahead, bare ground behind, all up to the border
+    for (int i = 0; i < 6000; ++i) {  // plants ahead, bare ground behind, up to the border
         const float x_m = random.real(-47, 47), y_m = random.real(-47, 47);
         const bool is_plant = random.chance(x_m > 5 ? 0.5 : 0.05);
         points.emplace_back(x_m, y_m, is_plant ? random.real(0.2f, 1.2f) : 0.02f);

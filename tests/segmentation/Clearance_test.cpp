@@ -13,7 +13,7 @@ namespace {
 
 using test::pixelsAt;
 
-/// Pixels in the frame of level ground, `height_m` above which the sensor is.
+/// Pixels in the frame of level ground, with the sensor `height_m` above it.
 Ground groundAt(float height_m, const PixelPoints& pixels) {
     Ground ground;
     ground.is_seen = true;
@@ -51,15 +51,15 @@ TEST(Clearance, OnlyTheRouIsAlarmed) {
     EXPECT_EQ(labels(0, 1), Label::Unclassified);
 }
 
-// 3 m over ground that rises ahead by 15 degrees, level with the horizon: by gravity, the ground at
-// x ahead is 3 - x tan 15 below; by its normal it is as far below everywhere.
+// 3 m above ground that rises ahead by 15 degrees, with a level sensor: along gravity, the ground
+// at x ahead is 3 - x tan 15 below; along its normal the distance is constant.
 TEST(Clearance, OverASlopeItIsByGravityWhereTheAttitudeIsKnown) {
     const float rise = static_cast<float>(std::tan(radians(15)));
     const auto points =
         test::groundPoints(20, 0.5f, [&](float x_m, float) { return rise * x_m - 3; });
     GroundFrameWorkspace work;
     for (const Attitude& attitude :
-         {Attitude{}, Attitude{0.1f, -0.15f}}) {  // the airframe's, not the ground's
+         {Attitude{}, Attitude{0.1f, -0.15f}}) {  // of the airframe, not of the ground
         PixelPoints pixels = pixelsAt(points);
         Eigen::Isometry3f sensor_from_level = Eigen::Isometry3f::Identity();
         sensor_from_level.linear() = levelFromSensor(attitude).transpose();

@@ -13,9 +13,9 @@
 namespace hagen {
 namespace {
 
-FilterWorkspace work;  // one for all tests, as a filter has one for all scans
+FilterWorkspace work;  // shared by all tests, as by all scans in a filter
 
-/// Six returns in two pixels of a 2 x 8 image, and out of it.
+/// Six returns in two pixels of a 2 x 8 image, and others outside it.
 struct Example {
     SensorModel sensor = customSensorModel({-1, 1});
     Scan scan;
@@ -35,8 +35,8 @@ struct Example {
         add(15.0f, 0);
         add(25.0f, 0);
         add(6.0f, 1);
-        add(0.1f, 1);    // nearer than the sensor sees
-        add(500.0f, 1);  // farther
+        add(0.1f, 1);    // below the sensor's minimum range
+        add(500.0f, 1);  // above its maximum range
         add(kNoValue, 1);
         projectScan(scan, sensor, 8, 1000.0f, image, work.projection);
         labels.data()[image.depth_mapper[0]] = Label::Roi;
@@ -97,7 +97,7 @@ LabelledReturns plainReturns(const Scan& scan, const SensorModel& sensor, const 
 TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
     test::Random random(23);
     const SensorModel sensor = sensorModel("VLP-16");
-    LabelledReturns returns;  // one for all, as in the filter
+    LabelledReturns returns;  // reused, as in the filter
     for (int round = 0; round < 200; ++round) {
         const int size = random.chance(0.3) ? 64 * random.whole(0, 3) : random.whole(0, 500);
         const int columns = random.whole(3, 40);
@@ -148,7 +148,7 @@ TEST(Extraction, EveryReturnTakesItsPixelsLabelAndComponent) {
 TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
     Example example;
     example.labels.data()[example.image.depth_mapper[3]] = Label::Roi;
-    example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other, 7
+    example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other one, 7
     example.extract();
     EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
 }
@@ -156,7 +156,7 @@ TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
 TEST(Extraction, WhatTheImageDoesNotReachIsRou) {
     Example example;
     projectScan(example.scan, example.sensor, 8, 10.0f, example.image,
-                work.projection);  // cut before the zone
+                work.projection);  // context smaller than the zone
     example.extract();
     EXPECT_EQ(example.returns.label[0], Label::Roi);
     EXPECT_EQ(example.returns.label[1], Label::Rou);
@@ -176,14 +176,14 @@ TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
     EXPECT_EQ(example.returns.component[1], 0);
     own_label[3] = Label::Roi;
     EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 3}));
-    EXPECT_EQ(example.returns.component[3], 0);  // its pixel is of no component
-    own_label[2] = own_label[4] = Label::Roi;    // beyond the zone, nearer than the sensor sees
+    EXPECT_EQ(example.returns.component[3], 0);  // its pixel has no component
+    own_label[2] = own_label[4] = Label::Roi;    // beyond the zone, below the minimum range
     EXPECT_EQ(extracted(own_label).label[2], Label::Rou);
     EXPECT_EQ(example.returns.label[4], Label::Unclassified);
 }
 
 TEST(Extraction, WhatIsSeenPastAnObstacleIsOfNoComponent) {
-    Example example;  // its second return is 10 m behind the first, of component 7
+    Example example;  // its second return is 10 m behind the first, which is in component 7
     const std::vector<Label> own_label(7, Label::Roi);
     const auto component = [&](float component_gap_m) {
         example.extract({own_label}, component_gap_m);

@@ -9,7 +9,7 @@
 namespace hagen {
 namespace {
 
-/// Level ground 2 m below a VLP-16, and what becomes of returns over it.
+/// Level ground 2 m below a VLP-16, and the labels of returns above it.
 struct TwoMetresUp {
     SensorModel sensor = sensorModel("VLP-16");
     Ground ground;
@@ -25,11 +25,11 @@ struct TwoMetresUp {
 
     std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m,
                               float least_clearance_m = 0) const {
-        static FilterWorkspace work;  // one for all tests, as a filter has one for all scans
+        static FilterWorkspace work;  // shared by all tests, as by all scans in a filter
         const Scan scan = test::scanOf(sensor, points_m);
         RangeImage image;
         projectScan(scan, sensor, 870, 48.0f, image, work.projection);
-        OwnLabels own_labels{std::vector<Label>(99, Label::Roi)};  // of a scan before
+        OwnLabels own_labels{std::vector<Label>(99, Label::Roi)};  // of an earlier scan
         judgeFartherReturns(scan, image, ground, {Eigen::Vector3f::UnitZ(), least_clearance_m},
                             own_labels, work.farther_returns);
         return own_labels.label;
@@ -88,7 +88,7 @@ TEST(FartherReturns, WhatTheImageDoesNotReachIsNotJudged) {
               (std::vector<Label>{kAsItsPixel, kAsItsPixel}));
 }
 
-// 2 m above level ground: of what lies on it, all is 2 m below.
+// 2 m above level ground, everything on it is 2 m below.
 TEST(FartherReturns, GroundThatIsTooCloseIsRoi) {
     const TwoMetresUp example;
     const double to_ground_m = 2 / std::sin(radians(15));  // of the lowest beam

@@ -1,5 +1,5 @@
-// A filter's memory is its own: what other filters do in the same thread, and which thread runs it,
-// changes nothing.
+// A filter owns its memory: other filters in the same thread, and the thread it runs on, do not
+// affect its results.
 #include <gtest/gtest.h>
 #include <hagen/segmentation/HagenFilter.h>
 
@@ -14,7 +14,7 @@
 namespace hagen {
 namespace {
 
-/// Scans of a yard from places along a way, with returns behind others.
+/// Scans of a yard along a path, with returns behind others.
 std::vector<Scan> drive(const SensorModel& sensor, int columns) {
     test::SimpleScene yard;
     yard.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
@@ -26,7 +26,7 @@ std::vector<Scan> drive(const SensorModel& sensor, int columns) {
     return scans;
 }
 
-/// All that tells one result from another.
+/// All parts of a result that can differ.
 struct Outcome {
     Image<float> smoothed_rad, height_m;
     std::vector<Label> own_label, label;
@@ -48,7 +48,7 @@ void expectSame(const Outcome& a, const Outcome& b) {
     EXPECT_EQ(a.roi, b.roi);
 }
 
-/// A sensor, its settings, its scans, and what a filter makes of them alone.
+/// A sensor, its settings, its scans, and the results of a filter that runs alone.
 struct Drive {
     SensorModel sensor;
     Options options;

@@ -17,8 +17,8 @@ Attitude randomAttitude(test::Random& random) {
     return {random.real(-most_rad, most_rad), random.real(-most_rad, most_rad)};
 }
 
-/// Rings of points on a plane `below_m` under the sensor, in the frame of a sensor whose attitude
-/// against the plane is `attitude`: 16 rings of 2 to 36 m.
+/// Rings of points on a plane `below_m` under the sensor, in the frame of a sensor with `attitude`
+/// against the plane: 16 rings of 2 to 36 m.
 std::vector<Eigen::Vector3f> ringsOnPlane(const Attitude& attitude, float below_m) {
     std::vector<Eigen::Vector3f> points;
     const Eigen::Matrix3f sensor_from_plane = levelFromSensor(attitude).transpose();
@@ -43,7 +43,7 @@ float greatestHeight(const Eigen::Isometry3f& ground_from_sensor,
     return greatest_m;
 }
 
-GroundFrameWorkspace work;  // one for all tests, as a filter has one for all scans
+GroundFrameWorkspace work;  // shared by all tests, as by all scans in a filter
 
 TEST(GroundFrame, APlaneHasNoHeightWhateverTheTilt) {
     test::Random random(70);
@@ -69,7 +69,7 @@ TEST(GroundFrame, IsAFrame) {
 }
 
 TEST(GroundFrame, DoesNotTurnTheSensorsHeading) {
-    // The normal goes to z by the shortest turn: forward stays forward, as seen from above.
+    // The shortest rotation turns the normal to z: forward stays forward in top view.
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane({0, 0.2f}, 2)), Attitude{}, work);
     EXPECT_NEAR(frame.linear()(1, 0), 0, 1e-3);
@@ -83,8 +83,8 @@ TEST(GroundFrame, WallsAndCrownsAboveThePlaneDoNotTiltIt) {
         const Eigen::Vector3f normal = levelFromSensor(attitude).transpose().col(2);
         const auto ground = ringsOnPlane(attitude, 3);
         auto points = ground;
-        // A wall fills a sector of 100 degrees from 8 m on: 28 % of the returns, ground behind it
-        // is hidden.
+        // A wall fills a sector of 100 degrees from 8 m on: 28 % of the returns; the ground behind
+        // it is hidden.
         const int first = random.whole(0, 179);
         int raised = 0;
         for (std::size_t i = 8 * 180; i < points.size(); ++i) {
@@ -93,7 +93,7 @@ TEST(GroundFrame, WallsAndCrownsAboveThePlaneDoNotTiltIt) {
             points[i] += random.real(0, 6) * normal;
             ++raised;
         }
-        for (Eigen::Vector3f& p : points) {  // and crowns anywhere
+        for (Eigen::Vector3f& p : points) {  // and tree crowns anywhere
             if (!random.chance(0.2)) continue;
             p += random.real(0.5f, 6) * normal;
             ++raised;
@@ -118,10 +118,10 @@ TEST(GroundFrame, StrayReturnsBelowThePlaneDoNotLowerIt) {
 }
 
 TEST(GroundFrame, WhatIsAboveThePlaneMovesItLessThanWhatIsBelow) {
-    const auto movedBy = [](float off_m) {  // every fourth point, one a cell
+    const auto movedBy = [](float off_m) {  // every fourth point, one per cell
         auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });
         for (std::size_t i = 0; i < points.size(); i += 4) points[i].z() += off_m;
-        const PixelPoints pixels = pixelsAt(points, 49);  // of each side of the square
+        const PixelPoints pixels = pixelsAt(points, 49);  // per side of the square
         return std::abs(fitGroundFrame(pixels, Attitude{}, work).translation().z() - 2);
     };
     EXPECT_GT(movedBy(0.5f), 0.001f);
@@ -180,7 +180,7 @@ TEST(CanBeGround, IsSaidOfWhatLiesBelowAndIsNotTooSteep) {
     EXPECT_TRUE(canBeGround(frameAt(2, 44), {}, labels));
     EXPECT_TRUE(canBeGround(frameAt(2, -44), {}, labels));
     EXPECT_FALSE(canBeGround(frameAt(2, 46), {}, labels));
-    // A sensor mounted so, that knows it.
+    // A sensor mounted at this tilt that knows it.
     const Attitude mounted{static_cast<float>(radians(60)), 0};
     EXPECT_TRUE(canBeGround(frameAt(2, 60), mounted, labels));
     EXPECT_FALSE(canBeGround(frameAt(2, 0), mounted, labels));
@@ -205,7 +205,7 @@ TEST(Upwards, OverLevelGroundATiltedSensorThatKnowsItFindsTheNormal) {
 
 TEST(Upwards, OverASlopeIsAsFarOffTheNormalAsTheSlopeIsSteep) {
     // A level sensor over ground that rises ahead by 10 degrees is nose down against it, and up
-    // leans ahead of the ground's normal.
+    // leans forward from the ground normal.
     const Attitude against_slope{0, static_cast<float>(radians(10))};
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane(against_slope, 2)), Attitude{}, work);

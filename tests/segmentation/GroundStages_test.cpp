@@ -1,5 +1,5 @@
-// The stages of the ground, which work on whole vectors, against plain ones; and on every
-// instruction set.
+// Compares the vectorised ground stages with simple reference implementations, on every instruction
+// set.
 #include <gtest/gtest.h>
 #include <hagen/segmentation/FilterWorkspace.h>
 
@@ -13,8 +13,8 @@
 namespace hagen {
 namespace {
 
-/// What a rotating sensor sees of rolling ground with obstacles, low plants, stray returns below
-/// the ground, holes and returns beyond the grid; in the sensor's frame, 2 m up.
+/// The returns of a rotating sensor over rolling ground with obstacles, low plants, stray returns
+/// below the ground, gaps and returns outside the grid; in the sensor frame, 2 m up.
 struct Sight {
     PixelPoints pixels;
     Image<Label> labels;
@@ -56,7 +56,7 @@ Sight randomSight(test::Random& random, int rows, int columns, float step_m, dou
     return s;
 }
 
-/// Sizes that fit no vector, one column, many rows, values that are equal, images without a pixel.
+/// Sizes that are no multiple of a vector, one column, many rows, equal values, empty images.
 template <class Visit>
 void forManySights(Visit visit) {
     test::Random random(110);
@@ -84,9 +84,9 @@ void expectNear(const Image<float>& a, const Image<float>& b, float most) {
 }
 
 const HeightTolerance kTolerance;
-FilterWorkspace work;  // one for all tests, as a filter has one for all scans
+FilterWorkspace work;  // shared by all tests, as by all scans in a filter
 
-/// Everything from the pixels to the labels.
+/// All stages from the pixels to the labels.
 struct Judged {
     Eigen::Isometry3f frame;
     GroundSurface surface;
@@ -129,7 +129,8 @@ TEST(GroundStages, TheSurfaceIsThatOfAPlainFit) {
         GroundSurface fast, plain;
         fitGroundSurface(in_ground.pixels, in_ground.labels, fast, work.ground_surface);
         test::plain::fitGroundSurface(in_ground.pixels, in_ground.labels, plain);
-        expectNear(fast.height_m, plain.height_m, 1e-3f);  // a pixel may be just close, or just not
+        // A pixel may be on either side of a limit.
+        expectNear(fast.height_m, plain.height_m, 1e-3f);
 
         Image<float> fast_m, plain_m;
         heightsAbove(plain, in_ground.pixels, fast_m);
@@ -174,7 +175,7 @@ TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
         EXPECT_TRUE((fast == plain).all());
         specks += (labels != plain).any();
     });
-    EXPECT_GT(canopies, 10);  // or there was nothing to compare
+    EXPECT_GT(canopies, 10);  // otherwise nothing was compared
     EXPECT_GT(feet, 10);
     EXPECT_GT(specks, 10);
 }

@@ -19,9 +19,9 @@ constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 using Grid = Eigen::ArrayXXf;
-GroundSurfaceWorkspace work;  // one for all tests, as a filter has one for all scans
+GroundSurfaceWorkspace work;  // shared by all tests, as by all scans in a filter
 
-/// The surface under all points.
+/// The surface fitted to all points.
 GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
     GroundSurface surface;
     const PixelPoints pixels = pixelsAt(points_m);
@@ -33,7 +33,7 @@ GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
 float middleOf(int cell) { return (static_cast<float>(cell) + 0.5f) * kCell_m - 48.0f; }
 int cellOf(float coordinate_m) { return test::cellFromSensor(coordinate_m) + kCells / 2; }
 
-/// The greatest distance between the surface and a height, within a square around the sensor.
+/// The maximum deviation of the surface from a height, within a square around the sensor.
 template <class Height>
 float greatestError(const GroundSurface& surface, float reach_m, Height height) {
     float greatest_m = 0;
@@ -117,9 +117,9 @@ TEST(GroundSurface, LiesWithinTheHeightsOfItsCandidates) {
     EXPECT_LE(surface.height_m.maxCoeff(), 0.3001f);
 }
 
-/// What the header promises, over a square that is seen in every cell: an envelope by Dijkstra's
-/// way from the lowest, means and binomial by their definitions. NaN where neighbours lack ground
-/// and other grids come in.
+/// The definition in the header, over a square in which every cell is seen: the envelope by
+/// Dijkstra's algorithm from the lowest cells, means and binomial by definition. NaN where
+/// neighbours are not ground and coarser grids contribute.
 Grid slowSurface(const std::vector<Eigen::Vector3f>& points_m) {
     Grid lowest_m = Grid::Constant(kCells, kCells, kNone);
     for (const auto& p : points_m) {
@@ -182,7 +182,7 @@ Grid slowSurface(const std::vector<Eigen::Vector3f>& points_m) {
             Eigen::Array33f kernel, means = sum_m.block<3, 3>(i - 1, j - 1);
             kernel << 1, 2, 1, 2, 4, 2, 1, 2, 1;
             kernel *= (number.block<3, 3>(i - 1, j - 1) / 5).min(1.0f) / 16;
-            if (kernel.sum() < 0.9999f) continue;  // less than sure
+            if (kernel.sum() < 0.9999f) continue;  // less than full weight
             means /= number.block<3, 3>(i - 1, j - 1);
             expected_m(i, j) = (kernel * means).sum();
         }
@@ -213,19 +213,20 @@ TEST(GroundSurface, AgreesWithASlowerFitWhereAllIsSeen) {
     }
 }
 
-/// Whether a cell of returns at `height_m` counts as ground, `cells` away from one of level ground.
+/// Whether a cell of returns at `height_m` counts as ground, `cells` away from a cell of level
+/// ground.
 bool isGround(int cells, float height_m, bool diagonally, bool seen_between) {
     std::vector<Eigen::Vector3f> points{{middleOf(64), middleOf(64), 0}};
     const int y = diagonally ? 64 + cells : 64;
     points.emplace_back(middleOf(64 + cells), middleOf(y), height_m);
-    for (int k = 1; seen_between && k < cells; ++k) {  // too high themselves to be a step
+    for (int k = 1; seen_between && k < cells; ++k) {  // too high to be a step themselves
         points.emplace_back(middleOf(64 + k), middleOf(diagonally ? 64 + k : 64), 30.0f);
     }
     return !(surfaceUnder(points).height_m == 0).all();
 }
 
 TEST(GroundSurface, HowSteepGroundMayBeIsAsTheHeaderSays) {
-    // The last step is into a cell with a candidate, the others over cells without.
+    // The last step is into a cell with a candidate, the others are over cells without.
     const float cells = 10, step_m = 0.75f;
     const float unseen_m = (0.17f * (cells - 1) + 0.3f) * step_m + 0.15f;
     EXPECT_TRUE(isGround(10, unseen_m - 0.01f, false, false));
@@ -240,7 +241,8 @@ TEST(GroundSurface, HowSteepGroundMayBeIsAsTheHeaderSays) {
 
 TEST(GroundSurface, SlopesAreTheSameInEveryDirection) {
     // Level ground in 3 x 3 cells, a plateau in 3 x 3 others, walls everywhere else. To the far
-    // corner of the plateau it is 9 cells one way and 5 the other: 4 steps to the side, 5 across.
+    // corner of the plateau it is 9 cells in one axis and 5 in the other: 4 straight steps, 5
+    // diagonal ones.
     const float height_m = 0.3f * kCell_m * (4 + 5 * std::sqrt(2.0f)) + 0.15f;
     for (const auto& [dx, dy] :
          {std::pair{9, 5}, {9, -5}, {-9, 5}, {-9, -5}, {5, 9}, {5, -9}, {-5, 9}, {-5, -9}}) {
@@ -282,7 +284,7 @@ TEST(GroundSurface, StraysBelowTheGroundDoNotDragIt) {
 }
 
 TEST(GroundSurface, AWallThatHidesTheGroundDoesNotLiftIt) {
-    // Nothing is seen of the ground within 1 m of the wall, nor behind it for 6 m.
+    // The ground is not visible within 1 m of the wall, nor for 6 m behind it.
     std::vector<Eigen::Vector3f> points;
     for (const Eigen::Vector3f& p : groundPoints(25, 0.25f, kLevel)) {
         if (!(p.x() > 9 && p.x() < 16 && std::abs(p.y()) < 6)) points.push_back(p);
@@ -317,7 +319,7 @@ TEST(GroundSurface, OnlyCandidatesCount) {
 }
 
 TEST(GroundSurface, GroundThatTheLabelsCutOffComesBack) {
-    // A mound of 0.15 m that the labelling took for an obstacle, with a bush of 2 m upon it.
+    // A mound of 0.15 m that the labelling took for an obstacle, with a 2 m bush on it.
     const auto mound = [](float x_m, float y_m) {
         return 0.15f * std::exp(-((x_m - 8) * (x_m - 8) + y_m * y_m) / (2 * 2 * 2));
     };
@@ -340,8 +342,8 @@ TEST(GroundSurface, GroundThatTheLabelsCutOffComesBack) {
     EXPECT_LT(greatestError(surface, 18, mound), 0.03f);
 }
 
-// Blocks that hide the ground, 0.3 m high: the slopes allow that, the first fit does not. Mirror
-// images below the ground, likewise.
+// Blocks 0.3 m high that hide the ground: the slopes allow them, the first fit does not. The same
+// for mirror images below the ground.
 TEST(GroundSurface, WhatTheLabelsCutOffAndIsNotCloseStaysCutOff) {
     for (const float height_m : {0.3f, -0.5f}) {
         auto points = groundPoints(20, 0.25f, kLevel);

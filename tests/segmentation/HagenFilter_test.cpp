@@ -25,7 +25,7 @@ using test::SimpleScene;
 
 const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
 
-/// Returns in the zone whose label is not what geometry says.
+/// Returns in the zone whose label differs from the ground truth.
 int mistakes(const LabelledScan& labelled, const SegmentationResult& result, Label truth) {
     int wrong = 0;
     for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
@@ -35,7 +35,7 @@ int mistakes(const LabelledScan& labelled, const SegmentationResult& result, Lab
     return wrong;
 }
 
-/// Of obstacles, those that are higher than grass: two metres below the sensor is the ground.
+/// Those of obstacles higher than grass: the ground is two metres below the sensor.
 int missedAboveGrass(const LabelledScan& labelled, const SegmentationResult& result) {
     int missed = 0;
     for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
@@ -72,11 +72,11 @@ TEST(HagenFilter, AWallIsAnObstacleAndTheGroundBeforeItIsNot) {
     HagenFilter papers(sensorModel("VLP-16"), paperOptions());
     const auto& result = papers.segment(wall.scan);
     EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
-    // Where a beam meets the ground just before the wall, its slope to the beam above is the
-    // wall's.
+    // Where a beam hits the ground just in front of the wall, its slope to the beam above is that
+    // of the wall.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
-    // By its height it is ground again, and so are, at most, the lowest returns of the wall.
+    // The height makes it ground again, and at most the lowest returns of the wall.
     HagenFilter filter(sensorModel("VLP-16"));
     EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0);
     EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
@@ -107,7 +107,7 @@ TEST(HagenFilter, SomethingInMidAirIsAnObstacle) {
     }
 }
 
-// What the paper's seeds cannot do: whatever the lowest beam of a column meets is taken for ground.
+// Limitation of the paper's seeds: whatever the lowest beam of a column hits is labelled ground.
 TEST(HagenFilter, AWallNearerThanTheLowestGroundRingIsGroundToThePaperAndAnObstacleToUs) {
     SimpleScene scene;
     scene.boxes.push_back({{5, -2, 0}, {6, 2, 4}});
@@ -132,7 +132,7 @@ TEST(HagenFilter, ALongSmoothWallIsAnObstacle) {
     }
 }
 
-/// A scan as a sensor with this attitude sees it, at the same place.
+/// The scan of a sensor with this attitude at the same place.
 Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitude) {
     const Eigen::Matrix3f sensor_from_level = levelFromSensor(attitude).transpose();
     std::vector<Eigen::Vector3f> points;
@@ -144,7 +144,7 @@ Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitu
 }
 
 TEST(HagenFilter, WithoutGroundInSightWhatIsSeenDoesNotBecomeIt) {
-    // 30 m up beside two towers and a mast, and nothing else within reach.
+    // 30 m up next to two towers and a mast, with nothing else in range.
     SimpleScene scene;
     scene.has_ground = false;
     scene.boxes = {{{8, -6, 0}, {12, 6, 60}}, {{-20, 5, 0}, {-10, 9, 45}}};
@@ -162,8 +162,8 @@ TEST(HagenFilter, WithoutGroundInSightWhatIsSeenDoesNotBecomeIt) {
 
 TEST(HagenFilter, ALoneReturnIsAnObstacle) {
     HagenFilter filter(sensorModel("VLP-16"));
-    filter.segment(
-        test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan);  // ground, before
+    // An earlier scan had ground.
+    filter.segment(test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan);
     Scan scan;
     scan.x_m = {5.0f};
     scan.y_m = {0.0f};
@@ -302,7 +302,7 @@ TEST(HagenFilter, EveryReturnOfARandomScanEndsInExactlyOneList) {
                 for (const auto i : *indices) {
                     ++seen[i];
                     ASSERT_EQ(returns.label[i], label);
-                    // Of RoI, only what was judged apart from its pixel may be of no component.
+                    // RoI returns without a component must have their own label.
                     const bool is_behind = !result.own_labels.label.empty() &&
                                            result.own_labels.label[i] != Label::Unclassified;
                     ASSERT_TRUE(returns.component[i] == 0 || label == Label::Roi);
@@ -339,7 +339,7 @@ TEST(HagenFilter, TheOrderOfReturnsDoesNotMatter) {
     }
 }
 
-/// The share of returns whose label is another after the scan was turned by whole columns.
+/// The fraction of returns whose label changes when the scan is rotated by whole columns.
 double changedByTurning(const Scan& scan, const SensorModel& sensor, const Options& options,
                         int columns) {
     const double angle_rad = 2 * kPi * columns / 870;
@@ -367,7 +367,7 @@ TEST(HagenFilter, HeadingHardlyMatters) {
     const Scan scan = test::scanScene(scene, sensor, 870, kTwoMetresUp).scan;
     for (const int columns : {1, 37, 435, 700}) {
         EXPECT_EQ(changedByTurning(scan, sensor, paperOptions(), columns), 0) << columns;
-        // The surface's cells do not turn with the scan.
+        // The cells of the surface do not rotate with the scan.
         EXPECT_LT(changedByTurning(scan, sensor, Options(), columns), 0.01) << columns;
     }
 }
@@ -429,7 +429,7 @@ TEST(HagenFilter, EveryIntermediateImageIsThere) {
     EXPECT_FALSE(r.maxima.empty());
 }
 
-/// Every option off its default.
+/// All options changed from their defaults.
 Options otherOptions() {
     Options o;
     o.zone_m = 15.0f;
@@ -457,7 +457,7 @@ SensorModel otherSensor() {
     return sensor;
 }
 
-/// Gentle hills with plants and obstacles, no two returns at the same range.
+/// Gentle hills with plants and obstacles; no two returns have the same range.
 Scan hillyScan(unsigned seed, const SensorModel& sensor) {
     test::Random random(seed);
     std::vector<Eigen::Vector3f> points;
@@ -472,8 +472,8 @@ Scan hillyScan(unsigned seed, const SensorModel& sensor) {
     return test::scanOf(sensor, points);
 }
 
-// Each image is what its stage makes of the one before, with every option off its default: no stage
-// is left out, none gets another's option.
+// Each image is the output of its stage for the previous image, with all options changed from their
+// defaults: no stage is skipped or gets another's option.
 TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
     const SensorModel sensor = otherSensor();
     Options o = otherOptions();
@@ -530,7 +530,7 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
     }
 }
 
-// The same for the stages beyond the paper: with none of the switches, each alone, and together.
+// The same for the stages beyond the paper: no switch, each switch alone, and all together.
 TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
     const SensorModel sensor = otherSensor();
     const Scan scan = hillyScan(57, sensor);
@@ -588,7 +588,7 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         EXPECT_EQ(r.returns.component, returns.component);
         all_labels.push_back(returns.label);
     }
-    // Each switch makes a difference here, so that none passes for another.
+    // Each switch makes a difference here, so none can be confused with another.
     for (std::size_t a = 0; a < all_labels.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b)
             EXPECT_TRUE(all_labels[a] != all_labels[b]) << a << " " << b;

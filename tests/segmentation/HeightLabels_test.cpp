@@ -16,9 +16,9 @@ using test::cellFromSensor;
 using test::kEmptyPixel;
 using test::pixelsAt;
 
-/// Over the plane z = 0, where a pixel's height is its z.
+/// Over the plane z = 0, so a pixel's height is its z.
 Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {}) {
-    static ToleranceWorkspace work;  // one for all tests, as a filter has one for all scans
+    static ToleranceWorkspace work;  // shared by all tests, as by all scans in a filter
     Image<float> tolerance_m;
     CellTops tops;
     findCellTops(pixels, pixels.z_m, tops);
@@ -36,7 +36,7 @@ TEST(HeightTolerance, OfLevelGroundGrowsWithTheDistance) {
 }
 
 TEST(HeightTolerance, BesideWhatIsTallIsLess) {
-    // Cells are of 0.75 m: x = 3 is in cell 4, 3.8 in cell 5, 4.6 in cell 6.
+    // Cells are 0.75 m wide: x = 3 is in cell 4, 3.8 in cell 5, 4.6 in cell 6.
     const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3.8f, 4, 1}, {4.6f, 4, 0}, {5.3f, 4, 0}});
     const Image<float> tolerance_m = tolerated(pixels);
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f);
@@ -94,7 +94,7 @@ TEST(LabelByHeight, HigherThanTheToleranceIsRoi) {
     EXPECT_TRUE((labels == expected).all());
 }
 
-/// A column over the plane z = 0, given from the lowest row, after its feet were grown. The labels
+/// The labels of a column over the plane z = 0, lowest row first, after growing feet. The labels
 /// before are those of a tolerance of 0.2 m.
 std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
     const PixelPoints pixels = pixelsAt(column, static_cast<int>(column.size()));
@@ -144,8 +144,8 @@ TEST(GrowFeet, EmptyPixelsAreCrossedUpToThree) {
               (std::vector<Label>{kRou, kNone, kNone, kNone, kNone, kRoi}));
 }
 
-/// 3 x 5 pixels at the same place but for their heights (over the plane z = 0), tolerance 0.2 m,
-/// after specks were removed.
+/// Labels of 3 x 5 pixels that differ only in height (over the plane z = 0) after removing specks;
+/// tolerance 0.2 m.
 Image<Label> voted(const Image<float>& height_m, float distance_step_m = 0) {
     PixelPoints pixels{Image<float>(3, 5), Image<float>::Zero(3, 5), height_m};
     for (int column = 0; column < 5; ++column) {
@@ -181,10 +181,10 @@ TEST(RemoveSpecks, WhatIsClearlyHigherStays) {
 TEST(RemoveSpecks, ADrawChangesNothing) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 2) = 0.3f;  // doubtful, RoI
-    height_m(0, 1) = 2;     // for RoI
+    height_m(0, 1) = 2;     // votes for RoI
     height_m(2, 2) = height_m(2, 3) = 0;
     EXPECT_EQ(voted(height_m)(1, 2), kRoi);
-    height_m(1, 3) = 0;  // 2 against 3
+    height_m(1, 3) = 0;  // 2 to 3
     EXPECT_EQ(voted(height_m)(1, 2), kRou);
 }
 
@@ -213,8 +213,8 @@ TEST(RemoveSpecks, WhatIsClearlyLowerStays) {
 TEST(RemoveSpecks, VotesAreThoseBeforeAnyWasCounted) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m.col(0) = 0.0f;
-    height_m(1, 1) = 0.3f;  // 2 against 4: becomes ROU
-    height_m(1, 2) = 0.3f;  // 2 against 1, the one to the left still counted as RoI
+    height_m(1, 1) = 0.3f;  // 2 to 4: becomes ROU
+    height_m(1, 2) = 0.3f;  // 2 to 1, with the left one still counted as RoI
     height_m(0, 2) = 0.0f;
     const Image<Label> labels = voted(height_m);
     EXPECT_EQ(labels(1, 1), kRou);

@@ -1,4 +1,4 @@
-// One result on every machine: the whole filter on each instruction set there is, bit for bit.
+// Same result on every machine: the whole filter on each available instruction set, bit for bit.
 #include <gtest/gtest.h>
 #include <hagen/segmentation/HagenFilter.h>
 
@@ -14,7 +14,7 @@
 namespace hagen {
 namespace {
 
-/// A yard with poles and walls, with noise, lost returns and a tilted sensor.
+/// A yard with poles and walls, with noise, missing returns and a tilted sensor.
 Scan noisyScan(const SensorModel& sensor, int columns, unsigned seed) {
     test::SimpleScene scene;
     scene.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
@@ -34,7 +34,7 @@ Scan noisyScan(const SensorModel& sensor, int columns, unsigned seed) {
     return kept;
 }
 
-/// Every bit of what the filter made.
+/// All bits of the filter's result.
 class Bytes {
  public:
     template <class T>
@@ -50,7 +50,7 @@ class Bytes {
     void add(const std::string& name, const std::vector<T>& values) {
         add(name, values.data(), values.size());
     }
-    /// The first name under which the two differ; empty where they do not.
+    /// The first name whose values differ; empty if there is none.
     std::string differenceFrom(const Bytes& other) const {
         for (std::size_t i = 0; i < names_.size(); ++i) {
             if (bytes_[i] != other.bytes_[i]) return names_[i];

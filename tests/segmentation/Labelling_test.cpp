@@ -15,13 +15,13 @@ constexpr float kNoGate_rad = static_cast<float>(kPi / 2);
 
 Image<Label> labelled(const Image<float>& depth_m, const Image<float>& angle_rad, float beta_rad,
                       Seeds seeds = Seeds::Lowest, float seed_gate_rad = kNoGate_rad) {
-    static LabellingWorkspace work;  // one for all tests, as a filter has one for all scans
+    static LabellingWorkspace work;  // shared by all tests, as by all scans in a filter
     Image<Label> labels;
     labelRegions(depth_m, angle_rad, beta_rad, seeds, seed_gate_rad, labels, work);
     return labels;
 }
 
-/// The same by passing labels on until nothing changes, with no queue.
+/// Reference implementation without a queue: propagates labels until nothing changes.
 Image<Label> slowLabels(const Image<float>& depth_m, const Image<float>& angle_rad, float beta_rad,
                         Seeds seeds) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
@@ -93,7 +93,7 @@ TEST(Labelling, IsThatOfTheSlowerLabellerOnEveryInstructionSetAndWithManyBeams) 
         const int rows = random.chance(0.5) ? random.whole(1, 70) : random.whole(71, 256);
         const int columns = random.chance(0.3) ? random.whole(1, 3) : random.whole(4, 40);
         const Image<float> depth_m = random.image(rows, columns, 1.0f, 30.0f, 0.1);
-        // a few angles only, so that many differ by just beta
+        // only a few angles, so that many differ by exactly beta
         Image<float> angle_rad = random.image(rows, columns, 0.0f, 4.0f, 0.05).round() * 0.25f;
         angle_rad = depth_m.isNaN().select(kNoValue, angle_rad);
         const float beta_rad = 0.25f * static_cast<float>(random.whole(1, 4));
@@ -109,7 +109,7 @@ TEST(Labelling, IsThatOfTheSlowerLabellerOnEveryInstructionSetAndWithManyBeams) 
 }
 
 TEST(Labelling, FollowsAWindingWay) {
-    // Up one column, over the top, down the next, and so on: 0 is the way, 1 what lies between.
+    // Up one column, over the top, down the next, and so on: 0 is the path, 1 separates it.
     for (const int rows : {5, 64, 65, 130}) {
         const int columns = 40;
         Image<float> angle_rad = Image<float>::Constant(rows, columns, 1.0f);
@@ -153,7 +153,7 @@ TEST(Labelling, ADifferenceOfExactlyBetaDoesNotJoin) {
 }
 
 TEST(Labelling, GrowsAroundTheBackOfTheTurn) {
-    // Only column 0 has a seed with a way up; its upper pixel reaches the last column sideways.
+    // Only column 0 has a seed with a path up; its upper pixel reaches the last column sideways.
     Image<float> angle_rad = Image<float>::Constant(2, 5, 1.5f);
     angle_rad.row(0) << 0.0f, 1.0f, 1.0f, 1.0f, 1.0f;
     angle_rad(1, 0) = angle_rad(1, 4) = 0.0f;
@@ -182,7 +182,7 @@ TEST(Labelling, ALowestPixelWithoutAnAngleSeedsNothing) {
 }
 
 TEST(Labelling, ASeedThatTheGateStopsIsRoiUnlessGroundReachesIt) {
-    // Upright lowest pixels in columns 0 and 1, level ones in 2; from there to 1 by steps of 0.4.
+    // Steep lowest pixels in columns 0 and 1, level ones in 2; from there to 1 in steps of 0.4.
     Image<float> depth_m(3, 3), angle_rad(3, 3);
     depth_m.row(0) = 5.0f;
     depth_m.row(1) = 6.0f;

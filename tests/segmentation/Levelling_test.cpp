@@ -32,7 +32,7 @@ Image<float> levelAngles(const Image<float>& depth_m, const SensorModel& sensor,
     return angles_rad;
 }
 
-/// Depths of the plane normal . p = offset_m, in level coordinates, to a tilted sensor at the
+/// Depths of the plane normal . p = offset_m, given in the level frame, for a tilted sensor at the
 /// origin; NaN beyond `farthest_m`.
 Image<float> depthsOfPlane(const SensorModel& sensor, const Attitude& attitude,
                            const Eigen::Vector3d& normal, double offset_m, double farthest_m) {
@@ -52,7 +52,7 @@ Image<float> depthsOfPlane(const SensorModel& sensor, const Attitude& attitude,
     return depth_m;
 }
 
-// MRPT turns by yaw, pitch, roll: R = Rz(yaw) Ry(pitch) Rx(roll), here with yaw 0, multiplied out.
+// MRPT rotates by yaw, pitch, roll: R = Rz(yaw) Ry(pitch) Rx(roll), multiplied out for yaw 0.
 TEST(Levelling, TheRotationIsThatOfYawPitchRollWithoutYaw) {
     test::Random random(60);
     for (int round = 0; round < 20; ++round) {
@@ -105,8 +105,8 @@ TEST(Levelling, ATiltedSensorSeesAWallAsUpright) {
     const SensorModel sensor = sensorModel("VLP-16");
     for (int round = 0; round < 20; ++round) {
         const Attitude attitude = randomAttitude(random);
-        // Beams of one firing are in a plane that is not upright to a tilted sensor; the wall is
-        // met under 90 degrees only straight ahead of a sensor without roll.
+        // The beams of a firing lie in a plane that is not vertical for a tilted sensor; they hit
+        // the wall perpendicularly only straight ahead of a sensor without roll.
         const Attitude nodding{0, attitude.pitch_rad};
         const Image<float> depth_m =
             depthsOfPlane(sensor, nodding, Eigen::Vector3d::UnitX(), 10.0, 50.0);

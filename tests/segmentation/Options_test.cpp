@@ -21,7 +21,7 @@ TEST(Options, MoreComponentsThanTheWindowAreRefused) {
 
 TEST(Options, EveryOptionHasItsRange) {
     for (const OptionKey& key : optionKeys()) {
-        if (std::holds_alternative<bool Options::*>(key.field)) continue;  // has no other values
+        if (std::holds_alternative<bool Options::*>(key.field)) continue;  // no invalid values
         Options options;
         std::visit(
             [&](auto field) {

@@ -13,15 +13,15 @@ namespace hagen {
 namespace {
 
 std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persistence_m = 0.0f) {
-    static MaximaWorkspace work;  // one for all tests, as a filter has one for all scans
+    static MaximaWorkspace work;  // shared by all tests, as by all scans in a filter
     std::vector<Maximum> maxima;
     findPersistentMaxima(proximity_m, min_persistence_m, maxima, work);
     return maxima;
 }
 
-/// The definition, with no sweep and no union-find: a pixel dies at the highest level at which a
-/// path joins it to an older pixel, that is the greatest, over all paths to any older pixel, of the
-/// lowest proximity on the path. Found by widest paths between all pairs (Floyd and Warshall).
+/// The definition, without sweep or union-find: a pixel dies at the highest level at which a path
+/// connects it to an older pixel, which is the maximum over all paths to any older pixel of the
+/// lowest proximity on the path. Computed by widest paths between all pairs (Floyd and Warshall).
 std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min_persistence_m) {
     const int rows = static_cast<int>(proximity_m.rows());
     const int columns = static_cast<int>(proximity_m.cols());
@@ -63,8 +63,8 @@ std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min
     return maxima;
 }
 
-/// The definition as a sweep: every pixel from the oldest to the youngest joins the components that
-/// it touches. In the order that is promised.
+/// The definition as a sweep: every pixel, oldest first, joins the components that it touches. In
+/// the specified order.
 std::vector<Maximum> sweptMaxima(const Image<float>& proximity_m, float min_persistence_m) {
     const int rows = static_cast<int>(proximity_m.rows());
     const int columns = static_cast<int>(proximity_m.cols());
@@ -107,7 +107,7 @@ std::vector<Maximum> sweptMaxima(const Image<float>& proximity_m, float min_pers
     return maxima;
 }
 
-/// The same to the last bit, in the same order.
+/// Equal bit for bit, in the same order.
 void expectIdentical(const std::vector<Maximum>& found, const std::vector<Maximum>& expected) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -160,7 +160,7 @@ TEST(PersistentMaxima, AreThoseOfAPlainSweepOnEveryInstructionSet) {
         Image<float> proximity_m =
             random.image(rows, columns, -4.0f, 20.0f, random.chance(0.5) ? 0.02 : 0.6);
         if (random.chance(0.4)) proximity_m = proximity_m.round();  // ties, plateaus
-        if (random.chance(0.3)) {                                   // long ways up
+        if (random.chance(0.3)) {                                   // long ascents
             for (int column = 0; column < columns; ++column) {
                 proximity_m.col(column) += static_cast<float>(20 * column);
             }
@@ -176,7 +176,7 @@ TEST(PersistentMaxima, AreThoseOfAPlainSweepOnEveryInstructionSet) {
 }
 
 TEST(PersistentMaxima, AWindingWayUpHasOneMaximumAtItsEnd) {
-    // A serpentine over the whole image that rises by a step a pixel, its turns far apart.
+    // A serpentine over the whole image that rises by one step per pixel, with distant turns.
     constexpr int kRows = 31, kColumns = 200;
     Image<float> proximity_m = Image<float>::Constant(kRows, kColumns, kNoValue);
     float level = 0.0f;
@@ -226,7 +226,7 @@ TEST(PersistentMaxima, APlateauHasOneMaximumAtItsFirstPixel) {
 TEST(PersistentMaxima, TheAzimuthWrapsAroundAndRowsDoNot) {
     Image<float> proximity_m = Image<float>::Constant(5, 9, kNoValue);
     proximity_m(2, 0) = 3.0f;
-    proximity_m(2, 8) = 2.0f;  // beside the first, around the back: no maximum of its own
+    proximity_m(2, 8) = 2.0f;  // next to the first, around the back: not a maximum
     EXPECT_EQ(maximaOf(proximity_m).size(), 1u);
     proximity_m(2, 8) = kNoValue;
     proximity_m(0, 4) = 3.0f;

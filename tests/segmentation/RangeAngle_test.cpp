@@ -39,7 +39,7 @@ Image<float> plainCarried(const Image<float>& range_angle_rad) {
     return carried_rad;
 }
 
-/// A sensor of so many beams, from 25 degrees below to 15 above.
+/// A sensor with this many beams, from 25 degrees below to 15 above.
 PixelDirections directionsOf(int rows, int columns) {
     SensorModel sensor;
     for (int row = 0; row < rows; ++row) {

@@ -15,13 +15,13 @@ namespace {
 
 Image<std::int32_t> numbered(const Image<float>& depth_m, const Image<Label>& labels,
                              float max_gap_m = 1.0f) {
-    static ComponentsWorkspace work;  // one for all tests, as a filter has one for all scans
+    static ComponentsWorkspace work;  // shared by all tests, as by all scans in a filter
     Image<std::int32_t> components;
     numberRoiComponents(depth_m, labels, max_gap_m, components, work);
     return components;
 }
 
-/// The definition: from the closest pixel without a number on, all that can be reached.
+/// The definition: starting from the closest pixel without a number, all that can be reached.
 Image<std::int32_t> floodedNumbers(const Image<float>& depth_m, const Image<Label>& labels,
                                    float max_gap_m) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
@@ -58,7 +58,7 @@ TEST(RoiComponents, AreThoseOfAPlainFloodOnEveryInstructionSet) {
         const int rows = random.chance(0.5) ? random.whole(2, 16) : random.whole(17, 200);
         const int columns = random.chance(0.3) ? random.whole(1, 3) : random.whole(4, 90);
         Image<float> depth_m = random.image(rows, columns, 1.0f, 5.0f, 0.1);
-        if (random.chance(0.4)) depth_m = depth_m.round();  // equally near ones
+        if (random.chance(0.4)) depth_m = depth_m.round();  // equal depths
         const double share = random.real(0.0f, 1.0f);
         Image<Label> labels(rows, columns);
         for (int pixel = 0; pixel < depth_m.size(); ++pixel) {
@@ -104,7 +104,7 @@ TEST(RoiComponents, AreTheClassesOfTheNeighbourRelation) {
         for (Label& label : labels.reshaped()) label = random.chance(0.7) ? Label::Roi : Label::Rou;
         const auto components = numbered(depth_m, labels);
 
-        // The slow way: every pixel its own class, merged until nothing changes.
+        // Reference: every pixel is its own class, classes are merged until nothing changes.
         Image<int> classes(rows, columns);
         for (int pixel = 0; pixel < rows * columns; ++pixel) classes.data()[pixel] = pixel;
         for (bool changed = true; changed;) {

@@ -18,7 +18,7 @@ TEST(Sharpening, AMaximumOnAPlateauDoublesItsProximity) {
 TEST(Sharpening, FollowsTheEquationWithTwoNeighbours) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 2) = 6.0f;
-    proximity_m(1, 3) = 5.0f;  // beside
+    proximity_m(1, 3) = 5.0f;  // edge neighbour
     proximity_m(0, 1) = 4.0f;  // diagonal
     Image<float> sharpened_m;
     sharpenMaxima(proximity_m, {{1, 2, 6.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m);

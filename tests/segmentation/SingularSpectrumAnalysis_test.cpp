@@ -13,14 +13,14 @@ namespace hagen {
 namespace {
 
 Image<float> smoothed(const Image<float>& values, int window_size, int principal_components) {
-    static SsaWorkspace work;  // one for all tests, as a filter has one for all scans
+    static SsaWorkspace work;  // shared by all tests, as by all scans in a filter
     Image<float> result;
     smoothColumns(values, window_size, principal_components, result, work);
     return result;
 }
 
-/// Singular spectrum analysis by the book: singular value decomposition of the whole trajectory
-/// matrix, the sum of the leading elementary matrices, the mean of every antidiagonal.
+/// Textbook singular spectrum analysis: singular value decomposition of the whole trajectory
+/// matrix, sum of the leading elementary matrices, mean of every antidiagonal.
 Eigen::VectorXd oracle(const Eigen::VectorXd& series, int window_size, int principal_components) {
     const int n = static_cast<int>(series.size()), k = n - window_size + 1;
     Eigen::MatrixXd trajectory(window_size, k);
@@ -59,12 +59,12 @@ bool isDefined(const Eigen::VectorXd& series, int window_size, int principal_com
     return values(principal_components - 1) - values(principal_components) > 1e-3 * values(0);
 }
 
-/// How far a result may be off, and how far it is where the eigenvalues on both sides of the cut
-/// differ by 1e-3 of the greatest one or more.
+/// Maximum error of a result, and of results for which the eigenvalues on both sides of the cut
+/// differ by at least 1e-3 of the greatest one.
 constexpr double kTolerance = 2e-4, kAccuracy = 1e-4 / 3;
 
-/// One run at a time, by the eigenvectors of X X^T: the definition as the header has it. `gap` is
-/// how much the eigenvalues on both sides of the cut differ, over the greatest one.
+/// One run at a time, by the eigenvectors of X X^T: the definition in the header. `gap` is the
+/// difference of the eigenvalues on both sides of the cut, relative to the greatest one.
 Eigen::ArrayXd plainSmoothed(const Eigen::ArrayXd& series, int window_size,
                              int principal_components, double& gap) {
     const Eigen::Index columns = series.size() - window_size + 1;
@@ -89,8 +89,8 @@ Eigen::ArrayXd plainSmoothed(const Eigen::ArrayXd& series, int window_size,
     return smooth;
 }
 
-/// Columns as scans have them: noise, constants, ramps, steps, walls above ground, waves, few
-/// distinct values; some with gaps.
+/// Typical columns: noise, constants, ramps, steps, walls above ground, waves, few distinct values;
+/// some with gaps.
 Image<float> realLike(test::Random& random, int rows, int columns) {
     Image<float> image(rows, columns);
     for (int column = 0; column < columns; ++column) {
@@ -190,7 +190,7 @@ TEST(Ssa, IsFiniteWhateverTheValues) {
         ASSERT_TRUE((found.isNaN() == values.isNaN()).all());
         ASSERT_LE(found.isNaN().select(0.0f, found.abs()).maxCoeff(), 10 * scale);
     }
-    // Few values: eigenvalues coincide, matrices fall apart into blocks.
+    // Few values: eigenvalues coincide, matrices decompose into blocks.
     for (int round = 0; round < 50; ++round) {
         Image<float> values = random.image(random.whole(9, 40), 40, 0, 1, 0.02);
         const float least = 0.1f * static_cast<float>(round % 7);
@@ -243,7 +243,7 @@ TEST(Ssa, AsManyComponentsAsTheWindowIsTheIdentity) {
 }
 
 TEST(Ssa, WithoutTheShortCutAllComponentsAreTheIdentityToo) {
-    // A run of 9 values has a trajectory matrix of 8 x 2: two components hold all of it.
+    // A run of 9 values has an 8 x 2 trajectory matrix: two components contain all of it.
     test::Random random(15);
     const Image<float> values = random.image(9, 30, 0.0f, 1.6f, 0.0);
     EXPECT_LT((smoothed(values, 8, 2) - values).abs().maxCoeff(), 1e-6f);

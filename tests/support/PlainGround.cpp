@@ -6,12 +6,12 @@
 #include <limits>
 #include <vector>
 
-// Each stage in a namespace of its own, for they share names.
+// Each stage is in its own namespace, because they use the same names.
 namespace hagen::test::plain {
 namespace {
 
-/// The cell of a coordinate along one side, counted from the grid's first. Rounded as the fast
-/// stages round: what lies within some micrometres of a cell's border is in one cell or the other.
+/// The cell of a coordinate along one axis, counted from the grid's edge. Rounded like the fast
+/// stages: points within some micrometres of a cell border may be in either cell.
 float wholeCells(float coordinate_m, int cells = GroundSurface::kCells) {
     const float width_m =
         GroundSurface::kCell_m * GroundSurface::kCells / static_cast<float>(cells);
@@ -23,22 +23,22 @@ float wholeCells(float coordinate_m, int cells = GroundSurface::kCells) {
 namespace surface_stage {
 namespace {
 
-using Grid = Eigen::ArrayXXf;  // over the square, of any number of cells along each side
+using Grid = Eigen::ArrayXXf;  // over the square, with any number of cells per side
 
 constexpr float kReach_m = 0.5f * GroundSurface::kCells * GroundSurface::kCell_m;
 constexpr int kCoarseCells = 64;              // of the first fit to labels
-constexpr Eigen::Index kCoarseColumns = 200;  // of an image; of so many or more, its points do
+constexpr Eigen::Index kCoarseColumns = 200;  // of an image: this many are enough
 
 float widthOfCell_m(const Grid& grid) { return 2 * kReach_m / static_cast<float>(grid.rows()); }
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
-constexpr float kStray_m = 0.4f;  // so far below its neighbours nothing is ground
+constexpr float kStray_m = 0.4f;  // ground is never this far below its neighbours
 constexpr int kStrayNeighbours = 3;
-constexpr float kSteepest = 0.3f;         // slope of the ground against its plane, where it is seen
-constexpr float kSteepestUnseen = 0.17f;  // and where it is not: tall things hide it, not hills
-constexpr float kEnvelope_m = 0.15f;      // a cell may stand out of the steepest slopes by this
-constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // what a cell's mean is taken of
-constexpr float kSureReturns = 5;  // a mean of so many has its full weight
+constexpr float kSteepest = 0.3f;         // maximum slope of visible ground against its plane
+constexpr float kSteepestUnseen = 0.17f;  // and of hidden ground: tall objects hide it, not hills
+constexpr float kEnvelope_m = 0.15f;      // maximum height of a cell above the steepest slopes
+constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // candidates close to the lowest
+constexpr float kSureReturns = 5;  // a mean over this many has full weight
 
 int cellOf(float coordinate_m, int cells) {
     const float cell = wholeCells(coordinate_m, cells);
@@ -64,7 +64,7 @@ Grid lowestOfCells(const PixelPoints& pixels, const Image<bool>& is_candidate, i
     return lowest_m;
 }
 
-/// Step 1: returns below the ground do not count.
+/// Step 1: ignores returns below the ground.
 Grid withoutStrays(const Grid& lowest_m) {
     const int cells = static_cast<int>(lowest_m.rows());
     Grid cleaned_m = lowest_m;
@@ -88,12 +88,12 @@ Grid withoutStrays(const Grid& lowest_m) {
     return cleaned_m;
 }
 
-/// The greatest surface below `height_m` that is nowhere too steep: kSteepest in a cell that has a
-/// height, kSteepestUnseen in one that has none. Distances are those of a chamfer in two passes
+/// The highest surface below `height_m` that is nowhere too steep: kSteepest in cells with a
+/// height, kSteepestUnseen in others. Distances are those of a two-pass chamfer transform
 /// (Borgefors 1986).
 Grid lowerEnvelope(const Grid& height_m) {
     const int cells = static_cast<int>(height_m.rows());
-    Grid e = Grid::Constant(cells + 2, cells + 2, kNone);  // with a border all around
+    Grid e = Grid::Constant(cells + 2, cells + 2, kNone);  // with a border on all sides
     e.block(1, 1, cells, cells) = height_m;
     const Grid side_m =
         widthOfCell_m(height_m) * (e == kNone)
@@ -119,7 +119,7 @@ Grid lowerEnvelope(const Grid& height_m) {
     return e.block(1, 1, cells, cells);
 }
 
-/// Heights and how much each is to be trusted, 0 to 1.
+/// Heights and their weights, 0 to 1.
 struct WeightedGrid {
     Grid height_m, weight;
 };
@@ -145,7 +145,7 @@ WeightedGrid binomial(const WeightedGrid& grid) {
     return smooth;
 }
 
-/// Each coarse cell is the weighted mean of the four it covers.
+/// Each coarse cell is the weighted mean of the four cells it covers.
 WeightedGrid pull(const WeightedGrid& fine) {
     const Eigen::Index cells = fine.weight.rows() / 2;
     WeightedGrid coarse{Grid::Zero(cells, cells), Grid::Zero(cells, cells)};
@@ -173,7 +173,7 @@ float bilinear(const Grid& grid, float i, float j) {
            u * ((1 - v) * grid(i1, j0) + v * grid(i1, j1));
 }
 
-/// What a fine cell lacks in weight it takes from the coarse grid.
+/// A fine cell takes its missing weight from the coarse grid.
 void push(const Grid& coarse_m, WeightedGrid& fine) {
     for (Eigen::Index j = 0; j < fine.weight.cols(); ++j) {
         for (Eigen::Index i = 0; i < fine.weight.rows(); ++i) {
@@ -195,7 +195,7 @@ Grid filled(const WeightedGrid& grid) {
     return levels.front().height_m;
 }
 
-/// Whether a height above the first fit can be ground: the farther away, the less is known.
+/// Whether a height above the first fit may be ground; the tolerance grows with distance.
 bool isCloseToGround(float height_m, float distance_m) {
     return height_m > -0.2f - 0.01f * distance_m && height_m < 0.2f + 0.005f * distance_m;
 }
@@ -211,7 +211,7 @@ float middleOf(int cell) {
     return (static_cast<float>(cell) + 0.5f) * GroundSurface::kCell_m - kReach_m;
 }
 
-/// Steps 3 and 4; `lowest_m` of what is ground, kNone elsewhere.
+/// Steps 3 and 4; `lowest_m` in ground cells, kNone elsewhere.
 Grid surfaceAbout(const Grid& lowest_m, const PixelPoints& pixels,
                   const Image<bool>& is_candidate) {
     const int cells = static_cast<int>(lowest_m.rows());
@@ -274,10 +274,10 @@ namespace labels_stage {
 namespace {
 
 constexpr float kLeastTolerance_m = 0.04f;
-constexpr float kTallest_m = 1.1f;       // more than this is no reason to tolerate less
-constexpr float kFootHeight_m = 0.015f;  // a foot is no lower than this
-constexpr int kFootRows = 4;             // a pixel's angle is with the next of so many rows above
-constexpr float kDoubt_m = 0.2f;         // a height so close to its tolerance is put to the vote
+constexpr float kTallest_m = 1.1f;       // taller objects do not reduce the tolerance further
+constexpr float kFootHeight_m = 0.015f;  // minimum height of a foot
+constexpr int kFootRows = 4;             // maximum rows from a foot up to the obstacle
+constexpr float kDoubt_m = 0.2f;         // heights this close to the tolerance are voted on
 constexpr float kVoteReach_m = 1.0f;     // in distance from the sensor
 constexpr int kLeastVotes = 3;
 
@@ -375,11 +375,11 @@ namespace {
 constexpr int kCells = GroundSurface::kCells;
 constexpr int kBlockCells = 4;
 constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
-constexpr int kReach = 6;                      // blocks to each side
+constexpr int kReach = 6;                      // blocks in each direction
 
-constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of what may be a canopy
-constexpr float kLeastShare = 0.35f;                  // of the cells seen around
-constexpr float kLeastCells = 30;                     // seen around; fewer tell nothing
+constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
+constexpr float kLeastShare = 0.35f;                  // of the cells seen nearby
+constexpr float kLeastCells = 30;                     // seen nearby; with fewer, no canopy
 constexpr float kDeviations = 2.0f;
 constexpr float kMargin_m = 0.1f;
 
@@ -389,12 +389,12 @@ int cellOf(float coordinate_m) {
     return cell >= 0 && cell < kCells ? static_cast<int>(cell) : -1;
 }
 
-/// What stands in the cells of a block, or of many.
+/// The plants in the cells of one or more blocks.
 struct Stand {
     float seen = 0;    ///< cells with returns
-    float plants = 0;  ///< of those, cells whose highest return is that of a low plant
-    float sum_m = 0;   ///< of the plants' heights
-    float sum_m2 = 0;  ///< of their squares
+    float plants = 0;  ///< cells whose highest return is that of a low plant
+    float sum_m = 0;   ///< sum of the plants' heights
+    float sum_m2 = 0;  ///< sum of their squares
 
     void addCell(float top_m) {
         seen += 1;
@@ -409,7 +409,7 @@ struct Stand {
         sum_m += other.sum_m;
         sum_m2 += other.sum_m2;
     }
-    /// The height that no plant exceeds; 0 where there is no canopy.
+    /// The height that plants do not exceed; 0 without a canopy.
     float canopy_m() const {
         if (seen < kLeastCells || plants < kLeastShare * seen) return 0;
         const float mean_m = sum_m / plants;
@@ -419,7 +419,7 @@ struct Stand {
 };
 using Stands = Eigen::Array<Stand, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// The sums over kReach blocks to each side, along the first index.
+/// The sums over kReach blocks in each direction, along the first index.
 Stands sumsAlong(const Stands& stands) {
     Stands sums(kBlocks, kBlocks);
     for (int j = 0; j < kBlocks; ++j) {
@@ -468,15 +468,15 @@ constexpr float kCell_m = 0.75f;
 constexpr float kReach_m = 40.0f;
 constexpr int kCells = 107;  // 2 kReach_m / kCell_m, rounded up
 
-constexpr Eigen::Index kColumns = 200;  // of an image; of so many or more, its points do
+constexpr Eigen::Index kColumns = 200;  // of an image: this many are enough
 constexpr int kRounds = 6;
 constexpr double kFirstScale_m = 1.0;  // of residuals, in the first round
 constexpr double kScaleStep = 0.8;
 constexpr double kLeastScale_m = 0.3;
-constexpr double kAbove = 2.0, kBelow = 1.0;  // what is above the ground counts less, sooner
+constexpr double kAbove = 2.0, kBelow = 1.0;  // weights fall faster above the ground
 constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
 
-/// The lowest point of each cell that has one.
+/// The lowest point of each cell that has points.
 std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels,
                                            const Eigen::Matrix3f& rotation) {
     std::vector<Eigen::Vector3f> lowest(kCells * kCells, Eigen::Vector3f::Constant(kNoValue));
@@ -499,7 +499,7 @@ std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels,
 /// The plane z = a x + b y + c through the points, by weighted least squares.
 template <class Weight>
 Eigen::Vector3d planeThrough(const std::vector<Eigen::Vector3d>& points, Weight weight) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // points on a line are no error
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // allows collinear points
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& p : points) {
         const Eigen::Vector3d row(p.x(), p.y(), 1);

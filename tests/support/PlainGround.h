@@ -4,8 +4,8 @@
 #include <hagen/segmentation/HeightLabels.h>
 #include <hagen/segmentation/PixelPoints.h>
 
-/// The stages of the ground written plainly, pixel by pixel and cell by cell: what the fast ones
-/// are compared with.
+/// Simple reference implementations of the ground stages, pixel by pixel and cell by cell, to
+/// compare the fast ones with.
 namespace hagen::test::plain {
 
 void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,

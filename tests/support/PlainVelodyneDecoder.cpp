@@ -17,8 +17,8 @@ constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
 constexpr double kHourUs = 3600e6;
 
-/// A raw packet, read byte by byte: MRPT's struct is packed, and its accessors bind references to
-/// numbers that are not aligned. Little-endian, as it came over the network.
+/// A raw packet, read byte by byte (little-endian): MRPT's struct is packed, and its accessors bind
+/// references to unaligned numbers.
 class Packet {
  public:
     explicit Packet(const CObservationVelodyneScan::TVelodyneRawPacket& raw)
@@ -54,10 +54,10 @@ int wrapTurn(int reading) { return ((reading % kTurn) + kTurn) % kTurn; }
 /// A direction in the plane.
 struct Azimuth {
     float sine, cosine;  ///< of the angle clockwise from x
-    float azimuth_rad;   ///< counter-clockwise from x, as MRPT has it
+    float azimuth_rad;   ///< counter-clockwise from x, as in MRPT
 };
 
-/// The directions of all azimuths that a packet can name, and of those between them.
+/// Directions of all azimuth readings, and interpolation between them.
 class AzimuthTable {
  public:
     AzimuthTable() {
@@ -69,7 +69,7 @@ class AzimuthTable {
         }
     }
 
-    /// The nearest entry, turned by what is left: at most 0.005 degrees, where sin(d) = d and
+    /// The nearest entry, rotated by the remainder: at most 0.005 degrees, where sin(d) = d and
     /// cos(d) = 1 to 4e-9.
     Azimuth operator()(float reading) const {
         const float nearest = std::round(reading);
@@ -91,8 +91,8 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
                    : VelodyneCalibration::LoadDefaultCalibration(model.calibration);
 }
 
-/// How far the sensor turns from one firing's block to the next, in 0.01 degrees: the median over
-/// the scan, so that neither the rounding of azimuths nor a broken block shifts a return.
+/// Rotation of the sensor from one firing's block to the next, in 0.01 degrees: the median over the
+/// scan, so that neither rounded azimuths nor a broken block shift returns.
 int turnOfBlocks(const CObservationVelodyneScan& observation) {
     std::vector<int> turns;
     for (const auto& raw : observation.scan_packets) {
@@ -112,8 +112,8 @@ int turnOfBlocks(const CObservationVelodyneScan& observation) {
 /// A laser's calibration, as the decoder needs it.
 struct Laser {
     float sine, cosine;                  ///< of its elevation
-    float distance_m, up_m, sideways_m;  ///< added to what it measures
-    double azimuth_reading;              ///< taken from the azimuth, 0.01 degrees
+    float distance_m, up_m, sideways_m;  ///< added to the measurement
+    double azimuth_reading;              ///< subtracted from the azimuth, 0.01 degrees
     std::uint8_t row;
 };
 
@@ -132,7 +132,7 @@ std::vector<Laser> lasersOf(const VelodyneCalibration& calibration) {
     return lasers;
 }
 
-/// Appends where a return lies: its coordinates, range, azimuth and row.
+/// Appends the position of a return: coordinates, range, azimuth and row.
 void appendReturn(const Laser& laser, double reading, unsigned distance, Scan& scan) {
     static const AzimuthTable azimuths;
     const Azimuth azimuth = azimuths(static_cast<float>(reading - laser.azimuth_reading));
@@ -164,7 +164,7 @@ std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& sca
     for (std::size_t p = 0; p < observation.scan_packets.size(); ++p) {
         const Packet packet(observation.scan_packets[p]);
         double packet_us = static_cast<double>(packet.time_us()) - first_us;
-        if (packet_us < 0) packet_us += kHourUs;  // time stamps start anew every hour
+        if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
         for (int b = 0; b < kBlocks; ++b) {
             if (!packet.isSound(b)) {
                 ++unsound_blocks;
@@ -173,7 +173,7 @@ std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& sca
             const double block_us =
                 packet_us + b / packet.blocksPerFiring() * model.blockPeriodUs();
             for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
-                if (packet.distance(b, i) == 0) continue;  // nothing came back
+                if (packet.distance(b, i) == 0) continue;  // no return
                 const int laser = i % model.lasers;
                 const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
                 appendReturn(lasers[laser], packet.azimuth(b) + turn * turn_in_block,

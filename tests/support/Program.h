@@ -6,7 +6,7 @@
 
 namespace hagen::test {
 
-/// A folder of its own for a test, gone with it.
+/// A temporary folder for a test.
 class TemporaryFolder {
  public:
     TemporaryFolder();
@@ -23,7 +23,7 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// What a call says where it throws a std::runtime_error; empty where it does not.
+/// The message of the std::runtime_error that a call throws; empty if it does not throw.
 template <class Call>
 std::string messageOf(Call call) {
     try {
@@ -36,18 +36,18 @@ std::string messageOf(Call call) {
 
 std::string readFile(const std::filesystem::path& file);
 
-/// What a program did.
+/// The outcome of a program.
 struct Outcome {
     int exit_code;
     std::string out, err;
 };
-/// Runs a program with these arguments, with neither input nor terminal.
+/// Runs a program with these arguments, without input or terminal.
 Outcome run(const std::string& program, const std::vector<std::string>& arguments);
 
-/// A file of Debian's mrpt-common: one outdoor VLP-16 scan. Empty where it is not installed.
+/// A file of Debian's mrpt-common: an outdoor VLP-16 scan. Empty if it is not installed.
 std::filesystem::path realScan();
 
-/// The folder that this environment variable names, empty where it does not. Tests skip then.
+/// The folder named by this environment variable; empty if it is not set. Tests are then skipped.
 std::filesystem::path dataFolder(const char* variable);
 
 }  // namespace hagen::test

@@ -10,15 +10,15 @@
 
 namespace hagen::test {
 
-/// Tests that run a built program, which writes into a folder of their own.
+/// Tests that run a built program, which writes into a temporary folder.
 class ProgramTest : public testing::Test {
  protected:
-    /// Runs the program as all of these tests do, with these arguments.
+    /// Runs the program with the fixture's common arguments and these.
     virtual Outcome run(const std::vector<std::string>& arguments) const = 0;
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-    /// A failure says why on standard error, and nothing on standard output; no output appears.
+    /// Expects an error message on standard error, nothing on standard output, and no output files.
     void expectFailure(const std::vector<std::string>& arguments, int exit_code,
                        const std::string& words) const {
         const std::set<std::filesystem::path> before = files();
@@ -29,7 +29,7 @@ class ProgramTest : public testing::Test {
         EXPECT_EQ(files(), before);
     }
 
-    /// All that lies in the folder.
+    /// All files in the folder.
     std::set<std::filesystem::path> files() const {
         return {std::filesystem::recursive_directory_iterator(folder_.path()), {}};
     }

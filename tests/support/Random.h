@@ -5,7 +5,7 @@
 
 namespace hagen::test {
 
-/// Random test data; the seed is the test's, so that a failure comes again.
+/// Random test data with the test's seed, so that failures are reproducible.
 class Random {
  public:
     explicit Random(unsigned seed) : engine_(seed) {}
@@ -18,7 +18,7 @@ class Random {
     }
     bool chance(double probability) { return std::bernoulli_distribution(probability)(engine_); }
 
-    /// An image of values within [least, most], a share of them missing.
+    /// An image of values within [least, most], with a fraction of missing values.
     Image<float> image(int rows, int columns, float least, float most, double missing) {
         Image<float> image(rows, columns);
         for (float& pixel : image.reshaped()) {
@@ -33,7 +33,7 @@ class Random {
     std::mt19937 engine_;
 };
 
-/// Equal, empty pixels included.
+/// True if both images are equal, including empty pixels.
 inline bool same(const Image<float>& a, const Image<float>& b) {
     return a.rows() == b.rows() && a.cols() == b.cols() &&
            ((a == b) || (a.isNaN() && b.isNaN())).all();

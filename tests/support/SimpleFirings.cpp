@@ -13,7 +13,7 @@ observations::Firings fireAt(const SimpleScene& scene, const observations::Velod
     const std::vector<std::uint8_t> rows = observations::rowsOfLasers(
         mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration));
     observations::Firings firings;
-    firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 turns a second
+    firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 turns per second
     const int count = static_cast<int>(std::round(360.0 / firings.azimuth_step_deg));
     firings.range_m.setConstant(model.lasers, count, kNoValue);
     firings.intensity.setZero(model.lasers, count);

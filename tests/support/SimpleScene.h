@@ -8,8 +8,8 @@
 
 namespace hagen::test {
 
-/// A world of flat ground (z = 0), upright boxes and upright round poles, whose ranges and labels
-/// are known in closed form. Everything but the ground is RoI.
+/// A world of flat ground (z = 0), upright boxes and cylindrical poles, whose ranges and labels are
+/// known in closed form. Everything but the ground is RoI.
 struct SimpleScene {
     struct Box {
         Eigen::Vector3d low_m, high_m;
@@ -22,7 +22,7 @@ struct SimpleScene {
     bool has_ground = true;
 };
 
-/// What a ray meets first.
+/// The first hit of a ray.
 struct Hit {
     double range_m = std::numeric_limits<double>::infinity();  ///< infinite: nothing
     Label label = Label::Unclassified;
@@ -30,18 +30,18 @@ struct Hit {
 Hit castRay(const SimpleScene& scene, const Eigen::Vector3d& origin_m,
             const Eigen::Vector3d& direction);
 
-/// A scan and what geometry says of each return.
+/// A scan with the ground truth of each return.
 struct LabelledScan {
     Scan scan;
     std::vector<Label> truth;
 };
 
-/// A level scan from `position_m`, a ray through the middle of each pixel of an image with
+/// A level scan from `position_m`, with a ray through the centre of each pixel of an image with
 /// `columns`.
 LabelledScan scanScene(const SimpleScene& scene, const SensorModel& sensor, int columns,
                        const Eigen::Vector3d& position_m);
 
-/// The direction of a beam in the sensor's frame.
+/// The direction of a beam in the sensor frame.
 Eigen::Vector3d directionOf(double azimuth_rad, double elevation_rad);
 
 }  // namespace hagen::test

@@ -5,14 +5,14 @@
 
 namespace hagen::test {
 
-/// A world of simple solids whose distances are exact: what a model with perfect knowledge tells.
+/// A world of simple solids with exact distances: a model with perfect knowledge.
 class SolidWorld : public avoidance::WorldModel {
  public:
     SolidWorld& sphere(const Eigen::Vector3f& middle_m, float radius_m) {
         spheres_.push_back({middle_m, radius_m});
         return *this;
     }
-    /// Upright, without end.
+    /// Upright, infinitely high.
     SolidWorld& trunk(const Eigen::Vector2f& middle_m, float radius_m) {
         trunks_.push_back({{middle_m.x(), middle_m.y(), 0}, radius_m});
         return *this;
@@ -25,7 +25,7 @@ class SolidWorld : public avoidance::WorldModel {
         ground_m_ = height_m;
         return *this;
     }
-    /// What lies beyond was not seen.
+    /// Space beyond this is unknown.
     SolidWorld& knownWithin(const Eigen::AlignedBox3f& box_m) {
         known_m_ = box_m;
         return *this;
@@ -43,7 +43,7 @@ class SolidWorld : public avoidance::WorldModel {
     std::size_t bytes() const override { return 0; }
     Obstacles obstacles() const override { return {}; }
 
-    /// To the nearest surface, however far; 0 within.
+    /// Distance to the nearest surface, at any range; 0 inside.
     float distance_m(const Eigen::Vector3f& point_m) const {
         float least_m = point_m.z() - ground_m_;
         for (const Ball& ball : spheres_) {

@@ -1,4 +1,4 @@
-// Makes rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles
+// Creates rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles
 // towards a wall, over flat ground. Usage: make-poles-and-wall OUT.rawlog
 #include <hagen/logs/RawlogWriter.h>
 #include <mrpt/obs/CObservationRobotPose.h>

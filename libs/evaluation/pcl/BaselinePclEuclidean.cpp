@@ -25,14 +25,15 @@ void requireSensible(const PclEuclideanOptions& options) {
                              options.plane_iterations > 0 && options.plane_tilt_deg > 0.0f &&
                              options.cluster_tolerance_m > 0.0f && options.min_cluster_points > 0;
     if (!is_sensible) {
-        throw std::invalid_argument("pcl baseline: every length, angle and count is above zero");
+        throw std::invalid_argument(
+            "pcl baseline: every length, angle and count must be above zero");
     }
     // PCL numbers voxels with 32 bits and reports an overflow on the terminal only.
     const double edge = std::ceil(2.0 * static_cast<double>(options.zone_m / options.leaf_m)) + 1.0;
     if (edge * edge * edge > static_cast<double>(std::numeric_limits<std::int32_t>::max())) {
         throw std::invalid_argument("pcl baseline: voxels of " + std::to_string(options.leaf_m) +
                                     " m are too small for a zone of " +
-                                    std::to_string(options.zone_m) + " m; take a larger leaf_m");
+                                    std::to_string(options.zone_m) + " m; use a larger leaf_m");
     }
 }
 

@@ -11,7 +11,7 @@
 
 namespace hagen::base {
 
-/// A JSON value. Objects keep their keys in the order in which they were set.
+/// A JSON value. Objects keep their keys in insertion order.
 ///
 ///     Json report{{"runs", 12}, {"names", {"a", "b"}}};
 ///     report["mean"] = Json();  // null
@@ -24,7 +24,7 @@ class Json {
     Json(std::nullptr_t);
     Json(std::string text);  ///< should be UTF-8, see dump()
     Json(const char* text);
-    /// A truth value, an integer, or a floating-point number; not finite is written as null.
+    /// A boolean, integer or floating-point number; numbers that are not finite become null.
     template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
     Json(Number number) : Json(Scalar(widest(number))) {}
     /// An array of a container's items.
@@ -38,7 +38,7 @@ class Json {
     Json(const std::map<std::string, Item>& members) : Json(object()) {
         for (const auto& [key, member] : members) (*this)[key] = Json(member);
     }
-    /// An object, if all items are pairs that begin with a text, else an array.
+    /// An object if all items are pairs that begin with a string, otherwise an array.
     Json(std::initializer_list<Json> items);
 
     Json(const Json& other);
@@ -52,13 +52,13 @@ class Json {
     /// Parses a text. Throws std::runtime_error, saying where it is not JSON.
     static Json parse(const std::string& text);
 
-    /// The value of a key; null is set for a new one. A null becomes an object; of anything else
-    /// but objects it throws std::logic_error.
+    /// The value of a key; a new key gets null. Null becomes an object; any other type throws
+    /// std::logic_error.
     Json& operator[](const std::string& key);
-    /// Appends to an array. A null becomes one; anything else throws std::logic_error.
+    /// Appends to an array. Null becomes an array; any other type throws std::logic_error.
     void push_back(Json item);
 
-    // Reading. What is missing or of another type throws std::runtime_error, saying what is
+    // Reading. A missing value or one of another type throws std::runtime_error, saying what is
     // expected.
     bool isObject() const { return std::holds_alternative<Object>(value_); }
     bool isArray() const { return std::holds_alternative<Array>(value_); }
@@ -75,11 +75,11 @@ class Json {
     std::vector<double> numbers() const;
     std::vector<std::string> texts() const;
 
-    /// What to do about text that is not UTF-8, as file names may be.
+    /// How to handle text that is not valid UTF-8, such as file names.
     enum class NotUtf8 { Throw, Replace };
 
-    /// As text: on one line, or indented by so many spaces. Throws std::exception for text that is
-    /// not UTF-8, or replaces its bytes by U+FFFD.
+    /// Returns JSON text on one line, or indented by `indent` spaces. Text that is not UTF-8 throws
+    /// std::exception, or its invalid bytes become U+FFFD.
     std::string dump(int indent = -1, NotUtf8 not_utf8 = NotUtf8::Throw) const;
 
  private:

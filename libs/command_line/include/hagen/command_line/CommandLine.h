@@ -13,29 +13,29 @@ class App;
 class Option;
 }  // namespace CLI
 
-/// Command lines of the programs, read by CLI11. CommandLine.cpp alone includes that, which is slow
-/// to compile.
+/// Command lines of the programs, parsed by CLI11. Only CommandLine.cpp includes it, because it is
+/// slow to compile.
 namespace hagen::command_line {
 
 /// Exit codes of all programs.
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
-/// Wrong usage that shows only once all flags are read. Programs print its message and how to get
-/// help, and end with kWrongUsage.
+/// Wrong usage that is detected only after parsing all flags. Programs print the message and how to
+/// get help, and exit with kWrongUsage.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
     UsageError(const std::string& flag, const std::string& message)
         : std::runtime_error(flag + ": " + message) {}
 };
 
-/// A flag of a command. Each function narrows what the flag takes, or changes how --help shows it,
-/// and returns the flag.
+/// A flag of a command. Each function restricts its values, or changes how --help shows it, and
+/// returns the flag.
 class Flag {
  public:
     explicit Flag(CLI::Option& option) : option_(&option) {}
 
     Flag& required();
-    Flag& once();                ///< one value each time it is given; may be repeated
+    Flag& once();                ///< one value per occurrence; may be repeated
     Flag& delimiter(char mark);  ///< splits one argument into values
     Flag& needs(const Flag& other);
     Flag& between(int least, int most);
@@ -46,16 +46,16 @@ class Flag {
     Flag& existingFile();
     Flag& existingFolder();
     Flag& existingPath();
-    /// `errorOf` answers what is wrong with a value, or nothing; `type` is shown by --help.
+    /// `errorOf` returns what is wrong with a value, or ""; `type` is shown by --help.
     Flag& check(std::function<std::string(const std::string&)> errorOf, const std::string& type);
-    /// Takes values as another text, before they are checked.
+    /// Rewrites values before they are checked.
     Flag& transform(std::function<std::string(const std::string&)> rewrite);
 
-    Flag& group(const std::string& name);      ///< heading of --help
+    Flag& group(const std::string& name);      ///< heading in --help
     Flag& valueName(const std::string& name);  ///< instead of the type that --help shows
-    Flag& showDefault();                       ///< what the variable holds now
+    Flag& showDefault();                       ///< the variable's current value
 
-    bool isGiven() const;  ///< once the command line is read
+    bool isGiven() const;  ///< valid after parsing
 
  private:
     CLI::Option* option_;
@@ -64,13 +64,13 @@ class Flag {
 /// A program, or one of its subcommands: flags that set variables. The variables must outlive it.
 class Command {
  public:
-    /// `names` as "-o,--output", or "DIR" for an argument by its place. Value: std::string,
+    /// `names` as in "-o,--output", or "DIR" for a positional argument. Value: std::string,
     /// std::filesystem::path, int, std::size_t, float, double, std::optional<float>, or
     /// std::vector of std::string, std::filesystem::path or double.
     template <class Value>
     Flag option(const std::string& names, Value& value, const std::string& help);
     Flag flag(const std::string& names, bool& value, const std::string& help);
-    /// A word that stands for a value.
+    /// A choice of words, each for a value.
     template <class Value>
     Flag choice(const std::string& names, Value& value,
                 const std::vector<std::pair<std::string, Value>>& meanings,
@@ -80,11 +80,12 @@ class Command {
         return choice(names, words, help,
                       [&value, meanings](std::size_t i) { value = meanings[i].second; });
     }
-    /// A flag that prints something and ends the program.
+    /// A flag that prints something and exits.
     Flag printer(const std::string& names, std::function<void()> print, const std::string& help);
 
-    void hide();  ///< from --help
-    /// What a subcommand does, with signals caught (Interrupt.h); answers the exit code.
+    void hide();  ///< in --help
+    /// Sets the work of a subcommand, which returns the exit code. Signals are caught
+    /// (Interrupt.h).
     void does(std::function<int()> work);
 
  protected:
@@ -95,7 +96,7 @@ class Command {
     friend class Program;
     Flag choice(const std::string& names, const std::vector<std::string>& words,
                 const std::string& help, std::function<void(std::size_t)> choose);
-    std::function<int()>* chosen_;  ///< work of the subcommand that was given
+    std::function<int()>* chosen_;  ///< work of the selected subcommand
 };
 
 /// A program with --help.
@@ -106,14 +107,13 @@ class Program : public Command {
 
     void footer(const std::string& text);
     void version(const std::string& version);  ///< --version
-    /// What it prints, for the message that this failed (default: "summary", or "text" of --help).
+    /// Name of the program's output in error messages (default: "summary"; "text" for --help).
     void prints(const std::string& what);
     Command subcommand(const std::string& name, const std::string& help);
-
-    /// Reads the command line and does the work, which answers the exit code; without `work` that
-    /// of the subcommand. Prints errors, and returns the program's exit code.
+    /// Parses the command line and runs `work`, or by default that of the subcommand; either
+    /// returns the exit code. Prints errors, and returns the program's exit code.
     int run(int argc, char** argv, const std::function<int()>& work = nullptr);
-    /// Prints a message behind the program's name; answers the exit code.
+    /// Prints a message after the program's name; returns the exit code.
     int fail(int exit_code, const std::string& message) const;
 
  private:

@@ -2,9 +2,9 @@
 
 namespace hagen::command_line {
 
-/// Lets a program end in an orderly way: after SIGINT, SIGTERM or SIGHUP (unless ignored)
-/// isInterrupted() is true; another such signal, later, ends it at once. SIGPIPE and SIGXFSZ are
-/// ignored, so that they show in the write that failed.
+/// Shuts a program down cleanly: after SIGINT, SIGTERM or SIGHUP (unless ignored) isInterrupted()
+/// returns true; a later signal ends the program at once. SIGPIPE and SIGXFSZ are ignored, so that
+/// the failed write reports the error.
 void catchSignals();
 
 bool isInterrupted();

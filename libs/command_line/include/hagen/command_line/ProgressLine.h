@@ -5,11 +5,12 @@
 
 namespace hagen::command_line {
 
-/// Says on stderr how far a long command is. On a terminal that is one line, over and over; where
-/// it is none, such as a log of a cluster's job, a line at first, and then every tenth and minute.
+/// Reports the progress of a long command on standard error. On a terminal, updates one line;
+/// otherwise, as in a cluster job's log, prints a line at the start, after every tenth of the work
+/// and at least every minute.
 class ProgressLine {
  public:
-    /// `thing` is what is counted: "run".
+    /// `thing`: the unit that is counted, such as "run".
     explicit ProgressLine(std::string thing);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;

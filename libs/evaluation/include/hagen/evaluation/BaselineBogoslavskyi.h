@@ -10,8 +10,8 @@ namespace hagen::evaluation {
 
 /// Bogoslavskyi, Stachniss: "Efficient online segmentation for sparse 3D laser scans", PFG 85
 /// (2017) 41-52; the clusters are those of "Fast range image-based segmentation of sparse 3D laser
-/// scans for online operation", IROS 2016. Defaults are the published parameters if the papers
-/// state them; docs/baselines.md lists those that are not theirs.
+/// scans for online operation", IROS 2016. Defaults are the published parameters where the papers
+/// state them; docs/baselines.md lists the others.
 struct BogoslavskyiOptions {
     int columns = 870;  ///< width of the range image
     float repair_step_m =

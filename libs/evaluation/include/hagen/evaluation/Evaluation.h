@@ -9,7 +9,7 @@
 
 namespace hagen::evaluation {
 
-/// Labelled scans of one sensor, pulled one after the other.
+/// Labelled scans of one sensor, pulled one by one.
 class LabelledScanSource {
  public:
     virtual ~LabelledScanSource() = default;
@@ -28,7 +28,7 @@ using LabelledScanSources = std::vector<std::unique_ptr<LabelledScanSource>>;
 
 struct EvaluationOptions {
     RangeBands range;
-    std::optional<PinholeCamera> camera;  ///< scores over its pixels too
+    std::optional<PinholeCamera> camera;  ///< also score its pixels
 };
 
 /// The results of one method, scan by scan.

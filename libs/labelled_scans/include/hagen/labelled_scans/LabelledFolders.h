@@ -9,10 +9,10 @@
 
 namespace hagen::labelled_scans {
 
-/// True labels are those of labels/, or with a map those that it gives to the classes in semantic/,
-/// else labels/. Kinds are those of the map, else those of the folder's own kinds.yaml.
-/// Throws std::runtime_error, naming the folder, where one holds no scans, and SettingsError where
-/// one is given twice.
+/// Opens labelled scan folders. Ground-truth labels are those of labels/. With a label map they are
+/// derived from the classes in semantic/, or in labels/ if there is no semantic/. Class names come
+/// from the map, otherwise from the folder's kinds.yaml. Throws std::runtime_error naming a folder
+/// without scans, and SettingsError if a folder is given twice.
 evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folders,
                                           const MethodSet& rows,
                                           const std::optional<evaluation::LabelMap>& label_map);

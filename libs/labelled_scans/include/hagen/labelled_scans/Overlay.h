@@ -1,4 +1,4 @@
-// Labels drawn in a camera's view.
+// Labels drawn into a camera view.
 #pragma once
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>

@@ -6,26 +6,26 @@
 
 namespace hagen::logs {
 
-/// Reads a file that is gzipped, in one member or several, or not at all, and knows whether it
-/// ended whole. MRPT's own stream takes a gzip file that is cut off for one that ends there.
+/// Reads a file that is uncompressed or consists of one or more gzip members, and detects
+/// truncation. MRPT's own stream takes a truncated gzip file for a complete one.
 class GzipInput : public mrpt::io::CStream {
  public:
-    /// Throws std::runtime_error, naming the file, where it cannot be opened.
+    /// Throws std::runtime_error naming the file if it cannot be opened.
     explicit GzipInput(const std::filesystem::path& file);
     ~GzipInput() override;
 
-    /// Gives what there is, up to `count` bytes.
+    /// Reads up to `count` bytes; fewer at the end of the file or at a fault. Returns their number.
     std::size_t Read(void* buffer, std::size_t count) override;
-    /// Unpacked bytes read so far.
+    /// Uncompressed bytes read so far.
     std::uint64_t getPosition() const override { return position_; }
-    /// Bytes of the file taken so far.
+    /// Bytes of the file consumed so far.
     std::uint64_t packedPosition() const;
 
-    /// What is wrong with the file where no more can be read: it is cut off, or its bytes are
-    /// damaged. Empty where it ended as it should.
+    /// Why reading stopped: the file is truncated or corrupt. Empty while there is data left, and
+    /// after a regular end.
     std::string fault() const;
 
-    // Not of an input that is read once, from its start to its end.
+    // Not supported: the input is read once, from start to end.
     std::size_t Write(const void* buffer, std::size_t count) override;
     std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
     std::uint64_t getTotalBytesCount() const override;

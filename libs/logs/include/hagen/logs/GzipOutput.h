@@ -9,21 +9,20 @@ namespace hagen::logs {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Packs bytes as a gzip member of their own (level 1, what MRPT's tools write). Members one after
-/// the other are one gzip file, whose readers see no seam. May be called on several threads at
-/// once.
+/// Compresses bytes into one gzip member (level 1, like MRPT's tools). Concatenated members form
+/// one gzip file. Thread-safe.
 void packGzipMember(const Bytes& plain, Bytes& packed);
 
-/// Writes a gzip file member by member, and knows whether all of it arrived. MRPT's own stream does
-/// not say when the disk is full.
+/// Writes a gzip file member by member and checks every write. MRPT's own stream does not report a
+/// full disk.
 class GzipOutput {
  public:
-    /// Throws std::runtime_error, naming the file, where it cannot be opened.
+    /// Throws std::runtime_error naming the file if it cannot be opened.
     explicit GzipOutput(const std::filesystem::path& file);
 
-    /// Appends a packed member. Throws std::runtime_error, saying why, where the system refuses.
+    /// Appends a compressed member. Throws std::runtime_error with the system's error message.
     void write(const Bytes& member);
-    /// Ends the file. Throws as write() does.
+    /// Closes the file. Throws like write().
     void close();
 
  private:

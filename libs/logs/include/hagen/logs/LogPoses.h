@@ -9,18 +9,18 @@
 
 namespace hagen::logs {
 
-/// Where the vehicle of a log was, and how a user should read where that is known from.
+/// The vehicle's trajectory in a log, and its source as shown to the user.
 struct LogPoses {
     observations::Trajectory vehicle;
-    std::string source;  ///< such as "flight.tum"; empty: not known
+    std::string source;  ///< such as "flight.tum"; empty: no poses
 };
 
-/// The poses of a rawlog: those of `file` where it is given, else the log's own. A KITTI file needs
-/// a line for each scan of the log's one LiDAR. Throws std::runtime_error, naming the file.
+/// The poses of a rawlog: from `file` if given, otherwise from the log. A KITTI file must have one
+/// line per scan of the log's only LiDAR. Throws std::runtime_error naming the file.
 LogPoses posesOfRawlog(const RawlogSurvey& survey, const std::filesystem::path& file);
 
-/// The poses of a scan folder, whose scans were taken at `times_s`: those of `file` where it is
-/// given, else of its poses.tum, else of its poses.txt. What moves in a scan folder is the sensor.
+/// The poses of a scan folder whose scans were taken at `times_s`: from `file` if given, otherwise
+/// from its poses.tum or its poses.txt. They are sensor poses.
 LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& times_s,
                            const std::filesystem::path& file);
 

@@ -12,8 +12,8 @@
 
 namespace hagen::logs {
 
-/// A segmented scan in the map: each return by the pose at its own time where `vehicle` and the
-/// scan tell it, else all by the pose at the scan's time; none where that is not known either.
+/// The classified returns of a scan in the map frame. Each is placed with the pose at its own time
+/// if `vehicle` and the scan provide it, otherwise with the pose of the scan. None without a pose.
 std::optional<mapping::MappedScan> placeInMap(
     const observations::ObservationSegmenter::Output& segmented,
     const mrpt::obs::CObservation& observation, const observations::Trajectory& vehicle);
@@ -21,8 +21,8 @@ std::optional<mapping::MappedScan> placeInMap(
 /// An OctoMap of the scans of a log, written to one or several files.
 class MapOutput {
  public:
-    /// Throws std::runtime_error, naming a file that is no map's or cannot be written;
-    /// std::invalid_argument for options that are out of range.
+    /// Throws std::runtime_error naming a file that has no map format or cannot be written,
+    /// std::invalid_argument for options out of range.
     MapOutput(const std::vector<std::filesystem::path>& files,
               const mapping::ScanMapOptions& options, bool overwrite);
 
@@ -30,7 +30,7 @@ class MapOutput {
 
     void write() const;  ///< to temporary names
     void commit();
-    std::string keepPartial();  ///< the names that it has then, a blank before each
+    std::string keepPartial();  ///< returns the names of the partial files, each after a space
 
  private:
     mapping::ScanMap map_;

@@ -5,18 +5,18 @@
 
 namespace hagen::logs {
 
-/// A line of a text file and its numbers.
+/// The numbers in a line of a text file.
 struct NumberLine {
-    std::size_t line;  ///< counted from 1
+    std::size_t line;  ///< 1-based
     std::vector<double> numbers;
 };
 
-/// Reads a text file of numbers. Empty lines, and those that start with '#', are passed over.
-/// Throws std::runtime_error, naming file and line, where it cannot be read, or a line holds
-/// anything but finite numbers.
+/// Reads a text file of numbers. Skips empty lines and lines that start with '#'. Throws
+/// std::runtime_error naming file and line if the file cannot be read or a line has anything but
+/// finite numbers.
 std::vector<NumberLine> readNumberTable(const std::filesystem::path& file);
 
-/// Throws std::runtime_error, naming file and line, where the line has not `columns` numbers.
+/// Throws std::runtime_error naming file and line if the line does not have `columns` numbers.
 void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,
                   const std::string& what);
 

@@ -6,14 +6,14 @@
 
 namespace hagen::logs {
 
-/// Files of poses, as text, a line a pose; functions throw std::runtime_error, naming file and
-/// line. Empty lines, and those that start with '#', are passed over.
+/// Text files with one pose per line. Empty lines and lines that start with '#' are skipped.
+/// Functions throw std::runtime_error naming file and line.
 enum class PoseFileKind {
-    Tum,   ///< time [s], x y z [m], quaternion x y z w: the vehicle in the map at that time
-    Kitti  ///< 3x4 matrix, row by row: the sensor at scan n, seen from where scan 0 was taken
+    Tum,   ///< time [s], x y z [m], quaternion x y z w: vehicle pose in the map at that time
+    Kitti  ///< 3x4 matrix, row-major: sensor pose at scan n in the sensor frame of scan 0
 };
 
-/// The kind, by how many numbers the first line has: 8 or 12.
+/// Detects the kind by the number of columns in the first line: 8 or 12.
 PoseFileKind kindOfPoseFile(const std::filesystem::path& file);
 
 struct TimedPose {
@@ -24,12 +24,12 @@ std::vector<TimedPose> readTumPoses(const std::filesystem::path& file);
 void writeTumPoses(const std::filesystem::path& file, const std::vector<TimedPose>& poses);
 
 std::vector<mrpt::poses::CPose3D> readKittiPoses(const std::filesystem::path& file);
-/// Writes sensor poses of any map, seen from the first.
+/// Writes sensor poses given in any map frame, relative to the first one.
 void writeKittiPoses(const std::filesystem::path& file,
                      const std::vector<mrpt::poses::CPose3D>& sensor_poses);
 
-/// Reads the matrix behind `Tr:` of a calib.txt as KITTI's odometry benchmark has it: the LiDAR
-/// seen from the camera. Its poses.txt are the camera's.
+/// Reads the `Tr:` matrix of a KITTI odometry calib.txt: the LiDAR pose in the camera frame. With
+/// such a file, the poses of poses.txt are those of the camera.
 mrpt::poses::CPose3D readKittiCalibration(const std::filesystem::path& file);
 
 }  // namespace hagen::logs

@@ -10,17 +10,17 @@
 
 namespace hagen::logs {
 
-/// A rawlog that ends in the middle of an entry, or holds one that cannot be read. The message
-/// names the file, the entry and its byte.
+/// A rawlog that is truncated or has an entry that cannot be read. The message names the file, the
+/// entry and its byte offset.
 struct BrokenRawlog : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Reads a rawlog entry by entry, in memory for one entry. An entry is an object of the file: an
-/// observation, an action collection, a sensory frame, or whatever else the log holds.
+/// Reads a rawlog entry by entry and holds one in memory. An entry is an object of the file: an
+/// observation, an action collection, a sensory frame, or any other.
 class RawlogReader {
  public:
-    /// Throws std::runtime_error, naming the file, where it cannot be opened or is empty.
+    /// Throws std::runtime_error naming the file if it cannot be opened or is empty.
     explicit RawlogReader(const std::filesystem::path& file);
 
     /// The next entry, or nullptr at the end. Throws BrokenRawlog.
@@ -28,7 +28,7 @@ class RawlogReader {
 
     /// Entries read so far.
     std::size_t entries() const { return entries_; }
-    /// How much of the file is read, 0 ... 1.
+    /// Fraction of the file read so far, 0 ... 1.
     double fractionRead() const;
 
  private:

@@ -11,17 +11,17 @@
 
 namespace hagen::logs {
 
-/// What has to be known of a rawlog before its first scan is segmented: a pose may come after the
-/// scan that it is needed for.
+/// What must be known about a rawlog before its first scan is segmented. A pose may come after the
+/// scan that needs it.
 struct RawlogSurvey {
-    /// The vehicle's poses, by the best of the log's sources: CObservationRobotPose, else summed
-    /// CActionRobotMovement3D, else CObservationOdometry, else summed CActionRobotMovement2D.
-    /// Sources are not mixed, for each has a map of its own; of two alike (sensor labels) the one
-    /// with more poses is taken.
+    /// Vehicle poses from the best available source: CObservationRobotPose, then summed
+    /// CActionRobotMovement3D, then CObservationOdometry, then summed CActionRobotMovement2D.
+    /// Sources are not mixed, as each has its own map frame. Among several sensor labels, the one
+    /// with the most poses wins.
     observations::Trajectory trajectory;
-    std::string source;  ///< such as "CObservationRobotPose 'gps'"; empty where there are no poses
+    std::string source;  ///< such as "CObservationRobotPose 'gps'"; empty: no poses
 
-    /// When and from where on the vehicle each LiDAR scan was taken, by sensor label.
+    /// Time and sensor pose on the vehicle of each LiDAR scan, by sensor label.
     struct ScanPlace {
         mrpt::Clock::time_point time;
         mrpt::poses::CPose3D sensor_on_vehicle;
@@ -30,10 +30,11 @@ struct RawlogSurvey {
     bool is_whole = true;  ///< the log was read to its end
 };
 
-/// Reads a rawlog to its end or its first break (whoever converts it tells of that), or until
-/// `keep_going` says no. Throws std::runtime_error, naming the file, where it cannot be opened.
+/// Reads a rawlog to its end or until `keep_going` returns false. Stops silently where the log
+/// breaks off; the conversion reports that. Throws std::runtime_error naming the file if it cannot
+/// be opened.
 ///
-/// An action without a time counts from the sensory frame that follows it.
+/// An action without a time gets the time of the next sensory frame.
 RawlogSurvey surveyRawlog(
     const std::filesystem::path& rawlog,
     const std::function<bool()>& keep_going = [] { return true; });

@@ -6,34 +6,35 @@
 
 namespace hagen::logs {
 
-/// Appends an entry's bytes, as a rawlog holds them.
+/// Appends an entry, serialised as in a rawlog.
 void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes);
 
-/// Writes a rawlog that appears under its name when whole.
+/// Writes a rawlog, which gets its name when it is complete.
 ///
-/// Its entries are packed in gzip members of a quarter of a megabyte or more, cut between entries.
-/// Where they are cut depends on the entries alone, so that the same entries give the same bytes.
+/// Entries are compressed in gzip members of at least 256 KiB uncompressed. Members end between
+/// entries. Boundaries depend on the entries only, so the same entries give the same bytes.
 class RawlogWriter {
  public:
-    /// Throws std::runtime_error, naming the file; see OutputPath.
+    /// Throws std::runtime_error naming the file; see OutputPath.
     RawlogWriter(const std::filesystem::path& file, bool overwrite);
 
-    /// Throws std::runtime_error, naming the file, where the entry cannot be written; a full disk
-    /// may show some entries late, or with commit() alone.
+    /// Throws std::runtime_error naming the file if the entry cannot be written. A full disk may be
+    /// reported some entries late, or only by commit().
     void write(const mrpt::serialization::CSerializable& entry);
 
-    /// write() in steps, for who works on several threads: serialise() and packGzipMember() may be
-    /// called on any, these two in the log's order; one may be called while the other is.
+    /// The steps of write(), for several threads. serialise() and packGzipMember() may run on any
+    /// thread. gather() and writeMember() must be called in the log's order; they may run
+    /// concurrently with each other.
     ///
-    /// Adds entries that stay together. Where they fill a member, it goes into `member`; which is
-    /// empty otherwise. `entries` is left with no particular content.
+    /// Adds entries that must stay in one member. If they complete a member, it is moved to
+    /// `member`, which is empty otherwise. `entries` is left in an unspecified state.
     void gather(Bytes& entries, Bytes& member);
-    /// Writes what packGzipMember() made of a member.
+    /// Writes a member compressed by packGzipMember().
     void writeMember(const Bytes& packed);
 
-    /// Ends the file and gives it its name.
+    /// Completes the file and gives it its name.
     void commit();
-    /// Ends the file as OUT.partial.rawlog and returns that name.
+    /// Completes the file as OUT.partial.rawlog and returns that name.
     std::filesystem::path keepPartial();
 
  private:
@@ -41,9 +42,9 @@ class RawlogWriter {
 
     base::OutputPath path_;
     GzipOutput file_;
-    Bytes gathered_;  ///< entries of a member that is not full
+    Bytes gathered_;  ///< entries of an incomplete member
     bool is_empty_ = true;
-    Bytes entry_, member_, packed_;  // of write(); kept so that it does not allocate
+    Bytes entry_, member_, packed_;  // buffers of write(), reused
 };
 
 }  // namespace hagen::logs

@@ -10,37 +10,36 @@
 
 namespace hagen::logs {
 
-/// A scan folder as an output, or a folder of such.
+/// A scan folder, or a folder of scan folders, as an output.
 extern const base::OutputKind kScanFolders;
 
 /// A folder of scans in the KITTI layout:
 ///
-///     velodyne/NNNNNN.bin    float32 x, y, z [m], intensity [0..1], a point after the other
-///     labels/NNNNNN.label    uint32 a point, same order: low 16 bits the label (0 unclassified,
+///     velodyne/NNNNNN.bin    float32 x, y, z [m], intensity [0..1] per point
+///     labels/NNNNNN.label    uint32 per point, same order: low 16 bits the label (0 unclassified,
 ///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
-///     semantic/NNNNNN.label  optional: uint32 a point, low 16 bits the kind of object it is of
-///     kinds.yaml             optional: what those kinds are called; see evaluation/LabelMap.h
-///     altitudes.txt          optional: the sensor's height above the ground [m], a line a scan
-///     times.txt              optional: seconds, a line a scan
-///     poses.tum              optional: the sensor in the map, by the clock of times.txt
-///     poses.txt              optional: the sensor at each scan, seen from where the first was
-///     taken
-///                            (with a calib.txt, as KITTI's odometry benchmark has it: the camera)
-///     sensor.yaml            optional: the beams of this recording
+///     semantic/NNNNNN.label  optional: uint32 per point, low 16 bits the object class
+///     kinds.yaml             optional: names of these classes; see evaluation/LabelMap.h
+///     altitudes.txt          optional: sensor height above ground [m], one line per scan
+///     times.txt              optional: time [s], one line per scan
+///     poses.tum              optional: sensor poses in the map, with the clock of times.txt
+///     poses.txt              optional: sensor pose per scan, relative to the first scan; if there
+///                            is a calib.txt, camera poses as in the KITTI odometry benchmark
+///     sensor.yaml            optional: beams of this recording
 ///
-/// All numbers are little-endian. Functions throw std::runtime_error, naming the file.
+/// All numbers are little-endian. Functions throw std::runtime_error naming the file.
 class ScanFolder {
  public:
-    /// Lists velodyne/*.bin in the order of their names. Throws where there are none.
+    /// Lists velodyne/*.bin in the order of their names. Throws if there are none.
     explicit ScanFolder(std::filesystem::path folder);
 
     const std::filesystem::path& path() const { return folder_; }
     std::size_t size() const { return names_.size(); }
-    /// Name of a scan without its ending, "000042".
+    /// File name of a scan without extension, "000042".
     const std::string& name(std::size_t scan) const { return names_[scan]; }
     std::filesystem::path scanFile(std::size_t scan) const;
     std::filesystem::path labelFile(std::size_t scan) const;
-    /// Files of this folder that need not exist.
+    /// Optional files of this folder.
     std::filesystem::path kindFile(std::size_t scan) const;
     std::filesystem::path kindNamesFile() const { return folder_ / "kinds.yaml"; }
     std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
@@ -48,10 +47,10 @@ class ScanFolder {
     std::filesystem::path kittiPosesFile() const { return folder_ / "poses.txt"; }
     std::filesystem::path calibrationFile() const { return folder_ / "calib.txt"; }
 
-    /// times.txt, an entry a scan; empty where there is no such file. Throws where lines and scans
-    /// differ.
+    /// times.txt, one element per scan; empty if the file does not exist. Throws if the number of
+    /// lines differs from the number of scans.
     std::vector<double> times() const;
-    /// altitudes.txt, in the same way.
+    /// altitudes.txt, likewise.
     std::vector<double> altitudes() const;
 
  private:
@@ -59,17 +58,17 @@ class ScanFolder {
     std::vector<std::string> names_;
 };
 
-/// A scan that cannot be read; the message names its file.
+/// A scan cannot be read; the message names its file.
 struct BrokenScan : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Reads x, y, z and intensity; the beams remain to be located. Points that are not finite stay in.
-/// Throws BrokenScan.
+/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Throws
+/// BrokenScan.
 void readScan(const std::filesystem::path& file, Scan& scan);
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 
-/// The highest component number that a label file can hold; higher ones are written as this.
+/// The highest component number that a label file can store; higher ones are stored as this one.
 constexpr std::int32_t kMaxFileComponent = 65535;
 
 /// Reads a .label file: the low 16 bits of each entry.

@@ -12,27 +12,26 @@
 
 namespace hagen::logs {
 
-/// The name of scan n in a scan folder: "000042".
+/// File name of scan n in a scan folder, without extension: "000042".
 std::string scanName(std::size_t scan);
 
-/// Writes segmented scans as a scan folder; see ScanFolder.h. Functions throw std::runtime_error,
+/// Writes segmented scans as a scan folder; see ScanFolder.h. Functions throw std::runtime_error
 /// naming the file that cannot be written.
 class ScanFolderWriter {
  public:
-    /// Makes velodyne/ and labels/ in a folder that exists.
+    /// Creates velodyne/ and labels/ in an existing folder.
     explicit ScanFolderWriter(std::filesystem::path folder);
 
-    /// Adds a scan. Labels are those of the first scan.size() returns. `sensor_pose`: the sensor in
-    /// the map at the scan's time, where it is known; `pose_has_horizon`: that map's z axis points
+    /// Adds a scan with the labels of the first scan.size() returns. `sensor_pose`: sensor pose in
+    /// the map at the scan's time, if known. `pose_has_horizon`: the z axis of that map points
     /// against gravity.
     void write(const std::string& name, const Scan& scan, const LabelledReturns& returns,
                const SensorModel& sensor, double time_s,
                const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,
                bool pose_has_horizon = true);
 
-    /// Ends it: times.txt (seconds since the first scan), poses.tum of the scans whose pose is
-    /// known, if all those have a horizon, for its readers level by them; and poses.txt where the
-    /// poses of all are known.
+    /// Writes times.txt (seconds since the first scan); poses.tum with the known poses, if all of
+    /// them have a horizon, because readers level with them; and poses.txt if all poses are known.
     void finish() const;
 
  private:

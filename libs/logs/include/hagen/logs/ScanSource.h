@@ -26,25 +26,24 @@ struct RecordedScan {
     mrpt::obs::CObservation::ConstPtr observation;  ///< with sensor label, time and mounting pose
     observations::ScanPose pose;
     std::size_t entry = 0;  ///< index of its entry in the recording
-    std::string name;       ///< its file's name in a scan folder; empty: from a rawlog
+    std::string name;       ///< file name in a scan folder; empty for a rawlog
 };
 
 /// An entry of a recording: an object of a rawlog, or a scan of a scan folder.
 struct RecordedEntry {
     std::size_t number = 0;  ///< index in the recording
-    /// The rawlog's object. For a scan folder, the scan as a rawlog would hold it, if requested.
+    /// The rawlog's object. For a scan folder, an equivalent observation, if requested.
     mrpt::serialization::CSerializable::Ptr object;
-    std::vector<RecordedScan> scans;  ///< its scans of the selected LiDARs
-    double fraction_read = 0;         ///< of the recording, up to and with this entry: 0 ... 1
+    std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
+    double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
 };
 
 /// What a source reads.
 struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
-    std::size_t first_entry = 0;             ///< to the last one, both included
+    std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
-    /// Class of the clouds that RecordedEntry::object gets for scans of a scan folder; none: no
-    /// objects.
+    /// Class of the clouds in RecordedEntry::object for scans of a scan folder; none: no objects.
     std::optional<observations::CloudClass> folder_objects;
     /// Called before each entry is read; false ends reading with Interrupted.
     std::function<bool()> keep_going = [] { return true; };
@@ -58,8 +57,8 @@ struct Interrupted : std::runtime_error {
 /// The sensor label of all scans in a scan folder.
 constexpr const char* kFolderLabel = "velodyne";
 
-/// A recording whose scans are pulled one after the other. Every reader of recordings uses it:
-/// conversion, open loop and evaluation.
+/// A recording from which scans are pulled one by one. Conversion, open loop and evaluation all
+/// read recordings with it:
 ///
 ///     const auto source = openRecording("flight.rawlog");
 ///     source->usePoses("flight.tum");
@@ -68,29 +67,29 @@ class ScanSource {
  public:
     virtual ~ScanSource() = default;
 
-    /// The next entry within the selected ones, with or without scans; none at the end. Throws
-    /// BrokenRawlog or BrokenScan, naming file and entry, and Interrupted.
+    /// The next selected entry, with or without scans; none at the end. Throws BrokenRawlog or
+    /// BrokenScan naming file and entry, and Interrupted.
     virtual std::optional<RecordedEntry> nextEntry() = 0;
 
     /// The next scan of any entry; none at the end. Throws like nextEntry().
     std::optional<RecordedScan> nextScan();
 
-    /// Poses of the scans come from this file (TUM, KITTI), or from the recording itself if the
-    /// name is empty. Call it before the first entry is read; without it, no poses are known.
-    /// Throws std::runtime_error, naming the file, if it cannot be read.
+    /// Takes poses from this file (TUM, KITTI), or from the recording itself if the name is empty.
+    /// Call it before the first entry is read; otherwise no poses are known. Throws
+    /// std::runtime_error naming the file if it cannot be read.
     void usePoses(const std::filesystem::path& file);
     const LogPoses& poses() const { return poses_; }
 
-    /// The times of all scans, by sensor label, of all LiDARs. A rawlog is read beforehand.
+    /// The times of all scans of all LiDARs, by sensor label. A rawlog is read in advance for this.
     virtual std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() = 0;
 
     /// The settings, with those of the recording's own sensor merged in.
     virtual observations::Settings settingsFor(const observations::Settings& settings) const;
 
-    /// Entries of the recording known so far, skipped ones included. Of a scan folder: all.
+    /// Entries read so far, including skipped ones. For a scan folder: all entries.
     virtual std::size_t entriesKnown() const = 0;
     std::size_t entriesSkipped() const { return entries_skipped_; }  ///< before the first selected
-    /// Sensor labels of the LiDAR scans met so far that are not selected.
+    /// Sensor labels of LiDAR scans read so far that are not selected.
     const std::set<std::string>& otherLabels() const { return other_labels_; }
 
  protected:
@@ -98,11 +97,11 @@ class ScanSource {
 
     virtual LogPoses readPoses(const std::filesystem::path& file) = 0;
 
-    /// Call it before an entry is read. False if it is before the first selected one. Throws
+    /// Call it before reading an entry. False if the entry is before the first selected one. Throws
     /// Interrupted.
     bool beginEntry(std::size_t number);
     bool isSelected(const std::string& sensor_label) const;
-    /// Notes the attitude that an observation provides, unless the file of poses does.
+    /// Takes the attitude from an observation, unless a pose file provides it.
     void see(const mrpt::obs::CObservation& observation);
     /// Adds the observation to its entry if it is a scan of a selected LiDAR.
     void addIfScan(const mrpt::obs::CObservation::ConstPtr& observation, const std::string& name,
@@ -112,14 +111,14 @@ class ScanSource {
 
  private:
     LogPoses poses_;
-    bool is_levelled_by_file_ = false;  ///< poses that the user gave win over the recording
+    bool is_levelled_by_file_ = false;  ///< a pose file overrides the recording's attitude
     observations::Horizon horizon_;
     std::size_t entries_skipped_ = 0;
     std::set<std::string> other_labels_;
     std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
 };
 
-/// Opens a .rawlog or a scan folder. Throws std::runtime_error, naming it, if it does not exist or
+/// Opens a .rawlog or a scan folder. Throws std::runtime_error naming it if it does not exist or
 /// cannot be opened.
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});

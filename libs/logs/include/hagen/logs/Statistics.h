@@ -4,11 +4,11 @@
 
 namespace hagen::logs {
 
-/// Writes what a conversion counted as JSON:
+/// Writes the results of a conversion as JSON:
 ///
 ///     {"hagen": version, "input": ..., "outputs": {...}, "settings": {key: value, ...},
 ///      "sensors": {label: text}, "poses": {"source": ..., "scans_with_pose": n},
-///      "scans_in_map": n (of an OctoMap alone),
+///      "scans_in_map": n (only with an OctoMap),
 ///      "entries": n, "unreadable_scans": n, "left_out_before": n,
 ///      "returns": {"all": n, "roi": n, "rou": n, "unclassified": n},
 ///      "latency_ms": {"scans": n, "p50": ..., "p95": ..., "p99": ..., "max": ...},
@@ -16,10 +16,9 @@ namespace hagen::logs {
 ///                 "rou": n, "unclassified": n, "obstacles": n, "nearest_roi_m": x or null,
 ///                 "latency_ms": ...}, ...]}
 ///
-/// A latency is the time from a scan's last packet, the whole observation being in memory, to its
-/// labels; clouds are made after that, and do not count. Where scans are segmented side by side
-/// (see Conversion::jobs) they hinder one another a little. Latencies differ from run to run, all
-/// else does not. Throws std::runtime_error, naming the file.
+/// Latency is the time from the complete observation in memory to its labels; making the clouds is
+/// not included. Scans segmented concurrently (see Conversion::jobs) slow each other down a little.
+/// Everything but the latencies is reproducible. Throws std::runtime_error naming the file.
 void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
                      const ConversionReport& report);
 

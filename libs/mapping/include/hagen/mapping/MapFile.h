@@ -4,9 +4,9 @@
 
 namespace hagen::mapping {
 
-/// True if the name ends like a map's: .bt, .ot, .3Dscene.
+/// True if the name has a map's extension: .bt, .ot, .3Dscene.
 bool isMapFile(const std::filesystem::path& file);
-/// Throws std::runtime_error if it does not; the message names the file and the endings.
+/// Throws std::runtime_error if it does not; the message names the file and the extensions.
 void checkMapFile(const std::filesystem::path& file);
 
 /// Writes the map in the format of the file's ending: .bt (occupied or free), .ot (probabilities),

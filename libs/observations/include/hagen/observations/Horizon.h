@@ -7,17 +7,16 @@
 
 namespace hagen::observations {
 
-/// How the vehicle was tilted, as a log tells it while it goes by. Two kinds of observation do: a
-/// CObservationRobotPose, and a CObservationIMU that has an orientation (its quaternion, else roll
-/// and pitch).
+/// The vehicle's attitude from the observations of a log: CObservationRobotPose, and
+/// CObservationIMU with an orientation (quaternion, otherwise roll and pitch).
 class Horizon {
  public:
-    /// Remembers what an observation says; any other kind, and one without a time, says
-    /// nothing.
+    /// Stores the attitude of an observation. Ignores other classes and observations without a
+    /// time.
     void see(const mrpt::obs::CObservation& observation);
 
-    /// The vehicle's rotation against the horizon by the last one seen, where that is within 0.2 s
-    /// of `time`. Position and heading mean nothing.
+    /// The vehicle's rotation against the horizon from the latest attitude, if it is within 0.2 s
+    /// of `time`. Position and heading are undefined.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
 
  private:

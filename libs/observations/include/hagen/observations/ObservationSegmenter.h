@@ -23,89 +23,88 @@ namespace hagen::observations {
 
 /// The filter as an MRPT observation processor.
 ///
-///     hagen::observations::ObservationSegmenter segmenter;      // or by name, with
-///     mrpt::rtti::classFactory() segmenter.initialize(settings);
+///     hagen::observations::ObservationSegmenter segmenter;  // or mrpt::rtti::classFactory()
+///     segmenter.initialize(settings);
 ///     hagen::observations::ObservationSegmenter::Output out;
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
-/// Takes every LiDAR scan of a log, of several sensors too: each sensor label has its own filter
-/// and its own window.
+/// Accepts every LiDAR scan of a log, also from several sensors: each sensor label has its own
+/// filter and window.
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
     DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen::observations)
 
  public:
     struct Output {
-        /// RoI and ROU of the scan: its time stamp and sensor pose, its label with `_roi` and
-        /// `_non_roi` behind it. Points in the sensor's frame, as measured; returns out of the
-        /// sensor's range are in neither.
+        /// RoI and ROU of the scan, with its time stamp, its sensor pose, and its label plus `_roi`
+        /// and `_non_roi`. Points in the sensor frame, as measured. Returns out of the sensor's
+        /// range are in neither cloud.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
-        /// The scan's returns, and what each stage made of them; valid until the next call of
-        /// process(). With a window of several scans `result` is about `window`, whose first
-        /// scan->size() returns are the scan's, moved to where they would have been seen at the
-        /// scan's time.
+        /// The scan's returns, and the result of each stage; valid until the next call of
+        /// process(). With a window of several scans, `result` refers to `window`, whose first
+        /// scan->size() returns are the deskewed returns of the scan.
         const Scan* scan = nullptr;
         const Scan* window = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
-        bool is_sensor_assumed = false;  ///< a VLP-16, for neither recording nor settings tell
-        /// Where the sensor was. If its attitude is known, angles are relative to that horizon.
+        bool is_sensor_assumed = false;  ///< VLP-16, as neither recording nor settings name it
+        /// Pose of the sensor. If its attitude is known, angles are relative to the horizon.
         ScanPose pose;
 
-        /// What a user should know about this scan; empty where there is nothing. Logged, too.
+        /// Remark about this scan for the user; may be empty. Also logged.
         std::string remark;
 
-        /// From the call of process() to the labels; the clouds are made after that.
+        /// Time from the call of process() to the labels, before the clouds are made.
         std::chrono::steady_clock::duration time_to_labels{};
-        /// Of it, the filter alone: this thread's CPU time.
+        /// CPU time of this thread in the filter only.
         std::chrono::nanoseconds filter_cpu_time{};
     };
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
 
-    /// Takes new settings and forgets all scans. Without it, defaults hold. Throws SettingsError
-    /// where the options do not fit the sensor that the settings name.
+    /// Applies new settings and forgets all scans. Default: default settings. Throws SettingsError
+    /// if the options do not fit the sensor of the settings.
     void initialize(const Settings& settings);
 
-    /// Segments one observation. False, and `out` untouched, for one that is no LiDAR scan.
+    /// Segments one observation. Returns false and leaves `out` unchanged if it is not a LiDAR
+    /// scan.
     ///
-    /// A window of more than one scan needs to know where the vehicle was: `vehicle`. Each return
-    /// is moved by the pose at its own time, where returns have times and poses reach to the scan's
-    /// end, else the scan as a whole by the pose at its time; without that it is segmented alone.
-    /// The remark says which of these fell short.
+    /// A window of several scans needs the trajectory of the `vehicle`. If returns have times and
+    /// the poses cover the scan, each return is moved with the pose at its own time, otherwise the
+    /// whole scan with the pose at its time. Without a pose it is segmented alone. The remark says
+    /// so.
     ///
-    /// The sensor's attitude is that of the last observation that told one (see()), else that of
-    /// `vehicle` where it has a horizon.
+    /// The sensor's attitude is that of the last observation with an attitude (see()), otherwise
+    /// that of `vehicle` if it has a horizon.
     ///
-    /// Throws std::runtime_error, saying why, for a scan that cannot be read, and SettingsError for
-    /// one of a sensor that the options do not fit.
+    /// Throws std::runtime_error with the reason if a scan cannot be read, and SettingsError if the
+    /// options do not fit its sensor.
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const Trajectory& vehicle = Trajectory());
 
-    /// The same for a scan whose pose is known. If poses are noted in the log's order, scans can be
-    /// segmented in any order, and by several segmenters at once.
+    /// The same for a scan with known pose. If poses are determined in the log's order, scans can
+    /// be segmented in any order and by several segmenters concurrently.
     bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
                  const Trajectory& vehicle = Trajectory());
 
-    /// Remembers how the vehicle is tilted, where an observation tells it (Horizon.h). process()
-    /// does so with what is no scan; call it for what comes in the same sensory frame as a scan.
+    /// Stores the vehicle's attitude if an observation provides it (Horizon.h). process() does this
+    /// for observations that are not scans; call it for those in the same sensory frame as a scan.
     void see(const mrpt::obs::CObservation& observation) { horizon_.see(observation); }
 
-    /// What the clouds are made of.
+    /// Class of the output clouds.
     CloudClass cloud_class = CloudClass::Simple;
 
-    /// Times of each part of process(). Off at first: it prints its report when it goes.
+    /// Times of each part of process(). Disabled by default; prints its report when destroyed.
     mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
 
  private:
-    /// What belongs to one sensor label.
+    /// The state of one sensor label.
     struct Lidar {
         HagenFilter filter;
         SlidingWindow window;
     };
     Lidar& lidarOf(const std::string& label, const SensorModel& sensor);
-    /// What the filter shall see of the scan in observed_, and a word where that is not all it
-    /// could be.
+    /// The filter's input for the scan in observed_, and a remark if it is not a full window.
     const Scan& windowOf(const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
                          const std::optional<mrpt::poses::CPose3D>& sensor_pose, Lidar& lidar,
                          std::string& remark);
@@ -117,8 +116,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     Scan deskewed_;
 };
 
-/// Makes this project's classes known to mrpt::rtti::classFactory(). Happens by itself where the
-/// program uses any of them; call it before asking for one by name alone.
+/// Registers this project's classes with mrpt::rtti::classFactory(). Automatic in programs that use
+/// any of them; otherwise call it before creating one by name.
 void registerHagenClasses();
 
 }  // namespace hagen::observations

@@ -9,9 +9,9 @@
 
 namespace hagen::observations {
 
-/// Where the sensor was when it took a scan, and how it was tilted.
+/// Pose and attitude of the sensor at the time of a scan.
 struct ScanPose {
-    /// The sensor in the map at the scan's time; none: the trajectory does not cover that time.
+    /// Sensor pose in the map at the scan's time; none: the trajectory does not cover that time.
     std::optional<mrpt::poses::CPose3D> sensor_pose;
     bool pose_has_horizon = false;     ///< the map's z axis points against gravity
     std::optional<Attitude> attitude;  ///< tilt of the sensor; none: unknown

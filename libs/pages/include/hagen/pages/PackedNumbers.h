@@ -5,10 +5,10 @@
 
 namespace hagen::pages {
 
-/// Whole numbers of 16 bits, little-endian, as pages carry them: in base64.
+/// 16-bit integers, little-endian, embedded in pages as base64.
 class PackedNumbers {
  public:
-    /// Rounded; what is beyond 16 bits becomes the nearest that is not.
+    /// Rounds the value and clamps it to 16 bits.
     void add(double value);
     std::string text() const;
 

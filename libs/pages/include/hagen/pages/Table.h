@@ -4,7 +4,7 @@
 
 namespace hagen::pages {
 
-/// A table of a report. The first column is text, the others are figures.
+/// A table of a report. The first column has text, the others figures.
 struct Table {
     std::vector<std::string> header;
     std::vector<std::vector<std::string>> rows;
@@ -13,10 +13,10 @@ struct Table {
 std::string htmlOf(const Table& table);
 std::string markdownOf(const Table& table);
 
-/// Escapes what has a meaning in HTML.
+/// Escapes HTML's special characters.
 std::string htmlText(const std::string& text);
 
-/// With this many decimals, '.' whatever the locale; "-" for what is not finite.
+/// Formats a number with this many decimals, with '.' in any locale; "-" if it is not finite.
 std::string figure(double value, int decimals);
 
 }  // namespace hagen::pages

@@ -7,24 +7,23 @@
 
 namespace hagen {
 
-/// The depth image of a scan, and where each return went (section III-A).
+/// The depth image of a scan, and the pixel of each return (section III-A).
 struct RangeImage {
-    /// I_h x I_w: range of the closest return in each pixel, metres; NaN where there is none.
+    /// I_h x I_w: range of the closest return in each pixel, metres; NaN if there is none.
     Image<float> depth_m;
-    /// I_h x I_w: the index of that closest return (of two equally close, the earlier); kNoReturn
-    /// where there is none.
+    /// I_h x I_w: the index of that closest return (the first of equally close ones); kNoReturn if
+    /// there is none.
     Image<std::int32_t> closest_return;
-    /// The paper's depth_mapper, kept the other way round: for each return of the scan its pixel
-    /// (column * I_h + row), or kNoPixel where it lies beyond the context or out of the sensor's
-    /// range. A pixel may hold several returns; see returnsByPixel().
+    /// The inverse of the paper's depth_mapper: for each return of the scan its pixel (column * I_h
+    /// + row), or kNoPixel if it is beyond the context or out of the sensor's range. A pixel may
+    /// have several returns; see returnsByPixel().
     std::vector<std::int32_t> depth_mapper;
 
     static constexpr std::int32_t kNoPixel = -1;
     static constexpr std::int32_t kNoReturn = -1;
 };
 
-/// The memory of projectScan(). Keep it from scan to scan, so that none is allocated; it carries
-/// nothing over.
+/// Workspace of projectScan(). Reuse it between scans to avoid allocations; it has no state.
 struct ProjectionWorkspace {
     /// The closest return of each pixel so far: its range and its index, packed into one number.
     std::vector<double> closest;
@@ -32,10 +31,9 @@ struct ProjectionWorkspace {
 
 /// Stage 1, the depth image: each return goes to the row of its beam and the closest of `columns`
 /// azimuths; a pixel keeps its closest return. Column 0 looks backwards, the middle one along x;
-/// columns run clockwise, so that left in the image is left of the sensor.
-/// Returns out of the sensor's range, or farther than `context_m`, are left out.
-/// Throws std::invalid_argument unless the scan was located with this sensor (checkLocated() in
-/// Scan.h). Writes into `image` and reuses its memory.
+/// columns run clockwise, so left in the image is left of the sensor. Returns out of the sensor's
+/// range, or farther than `context_m`, are dropped. Throws std::invalid_argument if the scan was
+/// not located with this sensor (checkLocated() in Scan.h). Reuses the memory of `image`.
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                  RangeImage& image, ProjectionWorkspace& work);
 
@@ -45,8 +43,8 @@ int nearestColumn(float azimuth_rad, int columns);
 /// The azimuth in (-pi, pi] at the centre of a column.
 float columnAzimuth(int column, int columns);
 
-/// The depth_mapper as the paper has it, pixel -> returns: those of pixel p are
-/// returns[first[p]] ... returns[first[p + 1] - 1], in the scan's order.
+/// The paper's depth_mapper, pixel -> returns: those of pixel p are returns[first[p]] ...
+/// returns[first[p + 1] - 1], in the scan's order.
 struct ReturnsByPixel {
     std::vector<std::int32_t> first;    ///< pixels + 1 entries
     std::vector<std::int32_t> returns;  ///< indices into the scan

@@ -6,23 +6,23 @@
 
 namespace hagen {
 
-/// The beams of a sensor in brief: enough to notice rows that another sensor's beams gave.
+/// Summary of a sensor's beams, to detect rows that were computed for another sensor.
 struct BeamSpan {
     int rows = 0;                           ///< number of beams; 0: unknown
     float lowest_rad = 0, highest_rad = 0;  ///< elevation of the lowest and of the highest beam
 };
 BeamSpan beamSpan(const SensorModel& sensor);
 
-/// The returns of one scan in the sensor's frame (x forward, y left, z up), one array per quantity.
-/// All arrays have the same size, except that optional ones may be empty.
+/// The returns of one scan in the sensor frame (x forward, y left, z up), one array per quantity.
+/// All arrays have the same size; optional ones may be empty.
 struct Scan {
     std::vector<float> x_m, y_m, z_m;
     std::vector<float> intensity;  ///< 0..1
-    std::vector<float> range_m;  ///< distance from the sensor; NaN where a coordinate is not finite
+    std::vector<float> range_m;    ///< distance from the sensor; NaN if a coordinate is not finite
     std::vector<float> azimuth_rad;  ///< atan2(y, x) of the firing, counter-clockwise from x
     std::vector<std::uint8_t> row;   ///< image row: the beam, counted from the lowest
     std::vector<float> time_s;       ///< optional: time of the return since the scan's first firing
-    /// Optional: the beams that `row` counts. Set by whoever sets `row`, as locateBeams() does.
+    /// Optional: the beams that `row` refers to. Set together with `row`, as by locateBeams().
     BeamSpan beams;
 
     std::size_t size() const { return x_m.size(); }
@@ -36,9 +36,9 @@ struct Scan {
 void locateBeams(const SensorModel& sensor, Scan& scan);
 
 /// Throws std::invalid_argument, saying what to call, unless every return has a range, an azimuth
-/// and a row of this sensor. Rows of another sensor are noticed by `scan.beams` (another number of
-/// beams, or a span that is off by more than 1 degree); where that is unknown, by rows that this
-/// sensor does not have.
+/// and a row of this sensor. Rows of another sensor are detected by `scan.beams` (a different
+/// number of beams, or a span that differs by more than 1 degree) or, if that is unknown, by rows
+/// that this sensor does not have.
 void checkLocated(const Scan& scan, const SensorModel& sensor);
 
 }  // namespace hagen

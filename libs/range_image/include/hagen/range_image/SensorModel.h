@@ -7,10 +7,10 @@ namespace hagen {
 /// The geometry of a rotating LiDAR.
 struct SensorModel {
     std::string name;
-    /// Elevation of each beam above the sensor's xy plane, strictly increasing: entry r is that of
-    /// image row r, row 0 is the lowest beam.
+    /// Elevation of each beam above the sensor's xy plane, strictly increasing: element r belongs
+    /// to image row r; row 0 is the lowest beam.
     std::vector<float> elevations_rad;
-    /// Returns nearer or farther than these are unclassified.
+    /// Returns outside these limits are unclassified.
     float min_range_m = 0.5f;
     float max_range_m = 130.0f;
 
@@ -23,9 +23,9 @@ struct SensorModel {
     int nearestRow(float elevation_rad) const;
 };
 
-/// A known sensor, by its name in settings files: "VLP-16", "HDL-32E", "HDL-64E", "Puck Hi-Res",
-/// "VLP-32C". Elevations and range limits are those of the manufacturer's data sheets.
-/// Throws std::invalid_argument, naming the known ones, for any other name.
+/// A known sensor by its name in settings files: "VLP-16", "HDL-32E", "HDL-64E", "Puck Hi-Res",
+/// "VLP-32C". Elevations and range limits are from the manufacturer's data sheets. Throws
+/// std::invalid_argument for any other name, listing the known ones.
 SensorModel sensorModel(const std::string& name);
 
 /// The names that sensorModel() knows.

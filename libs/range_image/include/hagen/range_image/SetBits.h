@@ -4,8 +4,8 @@
 
 namespace hagen {
 
-/// For each byte: which bits are set, from the lowest up (then zeros), and how many. Used to move
-/// chosen lanes of a vector to its front: Highway 1.0's own Compress() copies its table to the
+/// For each byte: the indices of its set bits, lowest first (then zeros), and their number. Used to
+/// move selected lanes to the front of a vector: Highway 1.0's Compress() copies its table to the
 /// stack on every call when GCC 12 compiles it for AVX2.
 struct SetBits {
     std::array<std::array<std::uint8_t, 8>, 256> place{};

@@ -6,16 +6,16 @@
 
 namespace hagen {
 
-/// The highest point in each cell of the ground. The cells are those of GroundSurface, with a
-/// border of one cell all around, which holds all points beyond.
+/// The highest point in each ground cell. The cells are those of GroundSurface plus a border of one
+/// cell on all sides for all points beyond.
 struct CellTops {
     static constexpr float kNone_m = -std::numeric_limits<float>::infinity();
 
-    Image<std::int32_t> cell;  ///< of each pixel, as an index into top_m; 0 where it is empty
-    Eigen::ArrayXXf top_m;     ///< height above the surface; kNone_m where there is no pixel
+    Image<std::int32_t> cell;  ///< of each pixel, as an index into top_m; 0 if it is empty
+    Eigen::ArrayXXf top_m;     ///< height above the surface; kNone_m in cells without pixels
 };
 
-/// `pixels` in the ground's frame, `height_m` above the surface.
+/// `pixels` in the ground frame, `height_m` above the surface.
 void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellTops& tops);
 
 }  // namespace hagen

@@ -12,38 +12,38 @@ namespace hagen {
 struct LabelledReturns {
     std::vector<Label> label;             ///< one entry per return, in the scan's order
     std::vector<std::int32_t> component;  ///< RoI component, 1 the nearest; 0 for none
-    /// Indices of the returns with each label, ascending; every return is in exactly one of them.
+    /// Indices of the returns with each label, ascending; every return is in exactly one list.
     std::vector<std::uint32_t> roi, rou, unclassified;
 };
 
-/// A labelled image, and the returns that its pixels stand for.
+/// A labelled image, and the pixels of the returns.
 struct LabelledImage {
     const RangeImage& range_image;
     const Image<Label>& labels;
     const Image<std::int32_t>& components;  ///< numbered obstacles (RoiComponents.h)
 };
 
-/// What holds of a return whatever its pixel is.
+/// Rules for returns that do not depend on their pixel.
 struct ExtractionRules {
-    float min_range_m, max_range_m;  ///< of the sensor; out of these, a return is Unclassified
-    float zone_m;                    ///< farther away, a return is ROU
-    /// A return with a label of its own belongs to its pixel's component if it is less than this
-    /// behind it: what is seen past an obstacle is not part of it.
+    float min_range_m, max_range_m;  ///< of the sensor; returns out of range are Unclassified
+    float zone_m;                    ///< returns farther away are ROU
+    /// A return with its own label belongs to its pixel's component if it is less than this behind
+    /// it: what is seen past an obstacle is not part of it.
     float component_gap_m;
 };
 
-/// The memory of extractReturns(). Keep it from scan to scan, so that none is allocated; it carries
-/// nothing over. Lists may be longer than their contents.
+/// Workspace of extractReturns(). Reuse it between scans to avoid allocations; it has no state.
+/// Lists may be longer than their contents.
 struct ExtractionWorkspace {
-    std::vector<std::int32_t> verdict;  ///< 2 * component + 1 if ROU: for no pixel, then for each
+    std::vector<std::int32_t> verdict;  ///< 2 * component + 1 if ROU; [0]: no pixel
     std::vector<std::int32_t> number;   ///< for each component
     std::vector<std::uint32_t> roi, rou, unclassified;
 };
 
 /// Stage 9, extraction: a return takes the label and the component of its pixel, through the
-/// depth_mapper, unless it has a label of its own. Returns that the image does not reach are ROU.
-/// Components keep their order and are numbered 1, 2, ... without gaps.
-/// Requires `image` and `own_labels` to be those of this scan.
+/// depth_mapper, unless it has its own label. Returns outside the image are ROU. Components keep
+/// their order and are numbered 1, 2, ... without gaps. Requires `image` and `own_labels` of this
+/// scan.
 void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabels& own_labels,
                     const ExtractionRules& rules, LabelledReturns& returns,
                     ExtractionWorkspace& work);

@@ -10,19 +10,18 @@
 
 namespace hagen {
 
-/// The memory of judgeFartherReturns(). Keep it from scan to scan, so that none is allocated; it
-/// carries nothing over. Lists may be longer than their contents.
+/// Workspace of judgeFartherReturns(). Reuse it between scans to avoid allocations; it has no
+/// state. Lists may be longer than their contents.
 struct FartherReturnsWorkspace {
-    std::vector<std::int32_t> index;   ///< in the scan, of the returns to judge
-    std::vector<float> x_m, y_m, z_m;  ///< in the ground's frame
+    std::vector<std::int32_t> index;   ///< of the returns to label, in the scan
+    std::vector<float> x_m, y_m, z_m;  ///< in the ground frame
     std::vector<float> height_m;       ///< above the surface
 };
 
-/// A pixel may hold several returns, and its label is that of the closest. A return that lies more
-/// than 0.3 m behind the closest gets a label of its own: RoI where its height above the ground
-/// exceeds the pixel's tolerance or where it violates the clearance, otherwise ROU. Where there is
-/// no surface of the ground, no return does. Requires `image` and `ground` to be those of this
-/// scan.
+/// Labels returns behind the closest one of their pixel. A pixel may have several returns; its
+/// label is that of the closest. A return more than 0.3 m behind it gets its own label: RoI if its
+/// height above the ground exceeds the pixel's tolerance or if it violates the clearance, otherwise
+/// ROU. Without a ground surface, no return gets one. Requires `image` and `ground` of this scan.
 void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground& ground,
                          const Clearance& clearance, OwnLabels& own_labels,
                          FartherReturnsWorkspace& work);

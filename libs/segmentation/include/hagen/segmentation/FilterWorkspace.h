@@ -15,9 +15,9 @@
 
 namespace hagen {
 
-/// The memory of the filter's stages, each described with its stage. A filter owns one and keeps it
-/// from scan to scan, so that no scan allocates; it carries nothing over, and any stage may be
-/// given a new one at any time. Two threads must not share one.
+/// Workspaces of all stages, each described with its stage. A filter owns one and reuses it, so
+/// that no scan allocates. They have no state: any stage may get a new one at any time. Threads
+/// must not share one.
 struct FilterWorkspace {
     ProjectionWorkspace projection;  // stage 1
     MaximaWorkspace maxima;          // stage 3

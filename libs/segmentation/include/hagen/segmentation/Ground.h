@@ -6,19 +6,19 @@
 
 namespace hagen {
 
-/// The ground under a scan, beyond the paper. Images are I_h x I_w, NaN where a pixel is empty.
+/// The ground under a scan, beyond the paper. Images are I_h x I_w, NaN for empty pixels.
 struct Ground {
-    bool is_seen = false;  ///< whether the plane below can be ground
-    /// From the sensor's frame to the ground's: its z = 0 is the mean plane of the ground.
+    bool is_seen = false;  ///< whether the plane below may be ground
+    /// From the sensor frame to the ground frame, whose z = 0 is the mean plane of the ground.
     Eigen::Isometry3f from_sensor = Eigen::Isometry3f::Identity();
-    PixelPoints pixels;  ///< in the ground's frame
+    PixelPoints pixels;  ///< in the ground frame
 
-    /// Whether a surface was fitted. If not, what follows is that of an older scan.
+    /// Whether a surface was fitted. If not, the members below are from an older scan.
     bool has_surface = false;
     GroundSurface surface;     ///< under the ROU
     Image<float> height_m;     ///< of each pixel above the surface
     CellTops tops;             ///< the highest point in each cell
-    Image<float> tolerance_m;  ///< up to this height a pixel is ground
+    Image<float> tolerance_m;  ///< pixels up to this height are ground
 };
 
 }  // namespace hagen

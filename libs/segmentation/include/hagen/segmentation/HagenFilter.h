@@ -15,28 +15,28 @@
 
 namespace hagen {
 
-/// Everything the filter made of one scan: each stage's image, and finally the label of each
-/// return. Images are I_h x I_w (range angles: I_h - 1 rows), NaN where a pixel has no value.
+/// The filter's result for one scan: each stage's image, and the label of each return. Images are
+/// I_h x I_w (range angles: I_h - 1 rows), NaN for pixels without a value.
 struct SegmentationResult {
     RangeImage range_image;          ///< stage 1
-    Image<float> repaired_m;         ///< stage 2, the depth image without its one-pixel holes
+    Image<float> repaired_m;         ///< stage 2, the depth image without one-pixel gaps
     Image<float> proximity_m;        ///< zone_m - depth, at least 0
     std::vector<Maximum> maxima;     ///< stage 3, with birth, death and persistence
-    Image<float> sharpened_m;        ///< stage 4, in proximity
+    Image<float> sharpened_m;        ///< stage 4, proximity
     Image<float> merged_m;           ///< stage 5, depth again
     Image<float> range_angle_rad;    ///< stage 6
     Image<float> smoothed_rad;       ///< stage 7
-    Image<float> pixel_angle_rad;    ///< the angle that each pixel carries into the labelling
-    Image<Label> labels;             ///< stage 8, judged again by height, limited to the zone
+    Image<float> pixel_angle_rad;    ///< the angle of each pixel, used for labelling
+    Image<Label> labels;             ///< stage 8, relabelled by height, limited to the zone
     Ground ground;                   ///< beyond the paper, see Ground.h
     Image<std::int32_t> components;  ///< obstacles, numbered from the nearest
-    OwnLabels own_labels;            ///< of returns behind their pixel's closest
+    OwnLabels own_labels;            ///< of returns behind the closest one of their pixel
     LabelledReturns returns;         ///< stage 9, for each return of the scan
 };
 
-/// The filter "Hagen" for one sensor: separates near obstacles (RoI) from ground and far returns
-/// (ROU). It keeps nothing from scan to scan but the memory of its result and its workspace.
-/// Filters are independent of one another and of the thread that runs them.
+/// The Hagen filter for one sensor: separates near obstacles (RoI) from ground and far returns
+/// (ROU). It has no state but the reused memory of its result and workspace. Filters do not depend
+/// on each other or on the thread that runs them.
 ///
 ///     HagenFilter filter(sensorModel("VLP-16"));
 ///     Scan scan = ...;                       // coordinates; locateBeams() for the rest
@@ -47,10 +47,10 @@ class HagenFilter {
     /// Throws std::invalid_argument if options and sensor do not fit together; see checkOptions().
     explicit HagenFilter(SensorModel sensor, Options options = {});
 
-    /// Segments one scan, which may be empty. `attitude` is how the sensor was tilted, where that
-    /// is known. The result stays valid until the next call. Throws std::invalid_argument, saying
-    /// what to call, for a scan that has no ranges, azimuths and rows yet, or rows of another
-    /// sensor (checkLocated()); the result is then that of the scan before.
+    /// Segments one scan, which may be empty. `attitude` is the sensor's tilt, if known. The result
+    /// is valid until the next call. Throws std::invalid_argument, saying what to call, if the scan
+    /// has no ranges, azimuths and rows yet, or rows of another sensor (checkLocated()); the result
+    /// is then unchanged.
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
 

@@ -7,15 +7,14 @@
 
 namespace hagen {
 
-/// The memory of growFeet(). Keep it from scan to scan, so that none is allocated; it carries
-/// nothing over.
+/// Workspace of growFeet(). Reuse it between scans to avoid allocations; it has no state.
 struct FeetWorkspace {
     std::vector<std::int32_t> candidates;  ///< pixels that may be a foot; may be longer
 };
 
-/// Extends each obstacle down to its foot: below a RoI pixel, a pixel that is not level with the
-/// ground (0.015 m), and from which it rises more steeply than 45 degrees, is RoI too. Up to three
-/// empty (Unclassified) pixels may lie between the two. `pixels` in the ground's frame.
+/// Extends each obstacle down to its foot: a pixel below a RoI pixel becomes RoI if it is at least
+/// 0.015 m above the ground and the slope up to the RoI pixel exceeds 45 degrees. Up to three empty
+/// (Unclassified) pixels may lie between the two. `pixels` in the ground frame.
 void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels,
               FeetWorkspace& work);
 

@@ -4,16 +4,15 @@
 
 namespace hagen {
 
-/// The labels of returns that are judged by themselves, because they lie behind the closest return
-/// of their pixel. judgeFartherReturns() makes them anew for each scan, extractReturns() obeys
-/// them; nothing changes them in between.
+/// The labels of returns that are labelled individually, because they lie behind the closest return
+/// of their pixel. Written by judgeFartherReturns() for each scan, read by extractReturns().
 struct OwnLabels {
-    /// One entry per return of the scan, or none at all where no ground was found to judge by (then
-    /// every return goes by its pixel):
-    ///   Unclassified  the return goes by its pixel;
-    ///   Rou, Roi      the return's own label, whatever its pixel's. Only being beyond the zone
-    ///   (ROU)
-    ///                 or out of the sensor's range (Unclassified) still overrules it.
+    /// One element per return of the scan; empty if no ground was found, in which case every return
+    /// takes the label of its pixel:
+    ///
+    ///     Unclassified  the return takes the label of its pixel
+    ///     Rou, Roi      the return's own label; overruled only outside the zone (ROU) or the
+    ///                   sensor's range (Unclassified)
     std::vector<Label> label;
 };
 

@@ -6,19 +6,19 @@
 
 namespace hagen {
 
-/// A local maximum of proximity and the interval of levels over which it lives (section III-B).
+/// A local maximum of proximity and the interval of levels in which it exists (section III-B).
 struct Maximum {
     int row, column;
     float birth_m;  ///< proximity of the pixel itself
-    float death_m;  ///< level at which its component meets an older one; 0 where it meets none
+    float death_m;  ///< level at which its component meets an older one; 0 if it meets none
 
     float persistence_m() const { return birth_m - death_m; }
 };
 
-/// The memory of findPersistentMaxima(). Keep it from scan to scan, so that none is allocated; it
-/// carries nothing over. Maxima go by their number in `critical.maximum`, which is in pixel order.
+/// Workspace of findPersistentMaxima(). Reuse it between scans to avoid allocations; it has no
+/// state. Maxima are identified by their index in `critical.maximum`, which is in pixel order.
 struct MaximaWorkspace {
-    /// Where the components born at two maxima meet.
+    /// A place where the components of two maxima meet.
     struct Meeting {
         float level_m;
         std::int32_t maximum, other;
@@ -32,20 +32,20 @@ struct MaximaWorkspace {
     std::vector<std::uint64_t> order, swap;
 };
 
-/// Proximity, in which the closest object is the highest: max(0, zone_m - depth). Empty pixels
-/// (NaN) stay empty; pixels at the zone's edge and beyond have proximity 0.
+/// Proximity: max(0, zone_m - depth), highest for the closest object. Empty pixels (NaN) stay
+/// empty; pixels at the zone's edge and beyond have proximity 0.
 void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proximity_m);
 
 /// Stage 3, local maxima by 0-dimensional persistent homology: the components of
 /// {proximity >= level}, 8-neighbourhood, azimuth wrapped, as the level sinks from the highest
-/// pixel to 0, the edge of the zone. A component is born at its highest pixel; where two meet, the
-/// younger dies (elder rule). Of two equally high pixels or components the one with the smaller
-/// pixel index (column * rows + row) is the older, so a plateau has one maximum and the result is
-/// unique. A component that meets no older one dies at 0. Empty pixels, and those with proximity 0,
-/// are ignored.
+/// pixel to 0, the edge of the zone. A component is born at its highest pixel; when two meet, the
+/// younger one dies (elder rule). Of two equally high pixels or components, the one with the
+/// smaller pixel index (column * rows + row) is older, so a plateau has one maximum and the result
+/// is unique. A component that meets no older one dies at 0. Empty pixels and those with proximity
+/// 0 are ignored.
 ///
-/// Returns in `maxima` those whose persistence is at least `min_persistence_m` and above 0, from
-/// the oldest to the youngest.
+/// Returns in `maxima` those with a persistence of at least `min_persistence_m` and above 0, oldest
+/// first.
 void findPersistentMaxima(const Image<float>& proximity_m, float min_persistence_m,
                           std::vector<Maximum>& maxima, MaximaWorkspace& work);
 

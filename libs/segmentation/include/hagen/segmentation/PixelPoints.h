@@ -6,7 +6,7 @@
 
 namespace hagen {
 
-/// The positions of a depth image's pixels: one image per coordinate, NaN where a pixel is empty.
+/// The positions of a depth image's pixels: one image per coordinate, NaN for empty pixels.
 struct PixelPoints {
     Image<float> x_m, y_m, z_m;
 
@@ -20,8 +20,8 @@ struct PixelPoints {
     }
 };
 
-/// The pixels in the sensor's frame: each at its closest return or, where a hole of the image was
-/// filled, at `depth_m` along its beam. Requires `image` to be that of this scan.
+/// The pixels in the sensor frame: each at its closest return or, if it was repaired, at `depth_m`
+/// along its beam. Requires `image` of this scan.
 void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
                   const Image<float>& depth_m, PixelPoints& pixels);
 

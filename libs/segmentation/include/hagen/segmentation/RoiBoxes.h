@@ -7,16 +7,15 @@
 
 namespace hagen {
 
-/// The space that a RoI component fills.
+/// The bounding box of a RoI component.
 struct RoiBox {
     std::int32_t component;         ///< its number, 1 the nearest
-    std::uint32_t returns;          ///< how many
+    std::uint32_t returns;          ///< number of returns
     float nearest_m;                ///< range of the closest
-    Eigen::AlignedBox3f extents_m;  ///< in the sensor's frame, along its axes
+    Eigen::AlignedBox3f extents_m;  ///< in the sensor frame, axis-aligned
 };
 
-/// One box per component, in the order of their numbers. Requires `returns` to be those of this
-/// scan.
+/// One box per component, ordered by number. Requires `returns` of this scan.
 std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& returns);
 
 }  // namespace hagen

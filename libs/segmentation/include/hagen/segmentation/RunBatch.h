@@ -3,10 +3,10 @@
 
 namespace hagen {
 
-// Stage 7 smooths many runs of values at once, one per lane of its vectors.
+// Stage 7 smooths many runs of values at once, one per vector lane.
 
-/// The number of lanes: several vectors even where vectors are widest, so that while one waits for
-/// a root or a division, the others go on.
+/// The number of lanes: several vectors even for the widest instruction set, so that others proceed
+/// while one waits for a square root or division.
 template <class Real>
 constexpr int kLanes = 128 / sizeof(Real);
 
@@ -27,10 +27,10 @@ struct GivensRotation {
 template <class Real>
 struct EigenBatch {
     using Row = std::vector<Lanes<Real>>;
-    Row matrix;        ///< m x m, row by row; only the lower triangle counts
+    Row matrix;        ///< m x m, row-major; only the lower triangle is used
     Row vectors;       ///< the eigenvectors found, one after the other
     Lanes<Real> last;  ///< the eigenvalue of the last of them,
-    Lanes<Real> next;  ///< and the one that would have come next
+    Lanes<Real> next;  ///< and the next eigenvalue
 
     Row scale, diagonal, beside, product;
     std::vector<GivensRotation<Real>> rotations;
@@ -42,13 +42,13 @@ struct RunBatch {
     using Values = std::vector<Lanes<Real>>;
     int m = 0;            ///< the window; each run has at least 2 m - 1 values
     int values = 0;       ///< of the longest run
-    Values series;        ///< the runs; zeros behind the shorter ones
+    Values series;        ///< the runs; shorter ones are padded with zeros
     Values tail;          ///< the last 2 (m - 1) values of each
     Lanes<Real> columns;  ///< of each trajectory matrix
 
-    Values smooth;        ///< the result except for the last m - 1 values of each,
+    Values smooth;        ///< the result except for the last m - 1 values of each run,
     Values smooth_tail;   ///< and those
-    Lanes<Real> error{};  ///< how far rounding may have moved a value of the result
+    Lanes<Real> error{};  ///< bound on the rounding error of the result
 
     Lanes<Real> trace;
     Values head, filter;

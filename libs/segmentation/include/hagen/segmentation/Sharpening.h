@@ -5,7 +5,7 @@
 
 namespace hagen {
 
-/// Stage 4, sharpening: the modified bilateral filter of section III-B, at the maxima alone,
+/// Stage 4, sharpening: the modified bilateral filter of section III-B, applied to the maxima only,
 ///
 ///   I_f(x) = I(x) + sum_i I(x_i) g_r(|I(x_i) - I(x)|) g_s(|x_i - x|) / sum_i g_r g_s
 ///
@@ -16,8 +16,8 @@ void sharpenMaxima(const Image<float>& proximity_m, const std::vector<Maximum>& 
                    float sigma_px, float sigma_m, Image<float>& sharpened_m);
 
 /// Stage 5, merge: the mean of proximity and sharpened proximity, converted back to depth. Only
-/// maxima move, and only nearer; none comes nearer than `min_range_m`, where the sharpening usually
-/// ends ("maximizing intensities"). `merged_m` must not be the same image as `depth_m`.
+/// maxima move, and only closer, but not below `min_range_m`, where the sharpening usually ends
+/// ("maximizing intensities"). `merged_m` must not be the same image as `depth_m`.
 void mergeMaxima(const Image<float>& depth_m, const Image<float>& proximity_m,
                  const Image<float>& sharpened_m, const std::vector<Maximum>& maxima,
                  float min_range_m, Image<float>& merged_m);
