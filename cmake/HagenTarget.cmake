@@ -33,6 +33,7 @@ endfunction()
 # include/hagen/NAME, exported and installed.
 function(hagen_library name)
   add_library(hagen_${name} ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY HAGEN_LIBRARIES ${name})
   add_library(hagen::${name} ALIAS hagen_${name})
   hagen_target(hagen_${name})
   target_include_directories(

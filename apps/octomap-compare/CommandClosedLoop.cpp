@@ -30,12 +30,12 @@ struct Flags {
 };
 
 /// Two whole numbers around a separator: "12-34" or "1/4".
-std::optional<std::pair<std::uint64_t, std::uint64_t>> pairFrom(const std::string& text,
-                                                                char separator) {
+template <class Number>
+std::optional<std::pair<Number, Number>> pairFrom(const std::string& text, char separator) {
     const std::size_t at = text.find(separator);
     if (at == std::string::npos) return std::nullopt;
-    const auto first = base::numberFrom<std::uint64_t>(text.substr(0, at));
-    const auto second = base::numberFrom<std::uint64_t>(text.substr(at + 1));
+    const auto first = base::numberFrom<Number>(text.substr(0, at));
+    const auto second = base::numberFrom<Number>(text.substr(at + 1));
     if (!first || !second) return std::nullopt;
     return std::pair{*first, *second};
 }
@@ -48,11 +48,11 @@ void expandAll(std::vector<std::string>& names, const std::vector<std::string>& 
 std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     trials::CampaignPlan& plan = flags.plan;
     const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
-    const auto seeds =
-        one_seed ? std::optional(std::pair{*one_seed, *one_seed}) : pairFrom(flags.seeds, '-');
+    const auto seeds = one_seed ? std::optional(std::pair{*one_seed, *one_seed})
+                                : pairFrom<std::uint64_t>(flags.seeds, '-');
     if (!seeds) throw UsageError("--seeds", "'" + flags.seeds + "' is not a seed or a range A-B");
     std::tie(plan.first_seed, plan.last_seed) = *seeds;
-    const auto shard = pairFrom(flags.shard, '/');
+    const auto shard = pairFrom<int>(flags.shard, '/');
     if (!shard) throw UsageError("--shard", "'" + flags.shard + "' is not i/n (part i of n)");
     plan.brakes_in_known_space = flags.unknown == "brake-known";
     plan.pose_errors.clear();
@@ -63,8 +63,7 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     expandAll(plan.guidances, avoidance::guidanceNames());
     expandAll(plan.planners, avoidance::plannerNames());
     try {
-        return trials::flightsOf(plan,
-                                 {static_cast<int>(shard->first), static_cast<int>(shard->second)});
+        return trials::flightsOf(plan, {shard->first, shard->second});
     } catch (const std::invalid_argument& e) {
         throw UsageError("closedloop", e.what());
     }

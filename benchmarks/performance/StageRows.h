@@ -12,7 +12,7 @@ namespace hagen {
 /// A scan and the result of each stage, the input of the next. Stages do not write what they read,
 /// so that all runs of a stage do the same work.
 struct Case {
-    Case(const Input& input, std::size_t scan, const Options& with);
+    Case(const Input& input, std::size_t which, const Options& with);
 
     mrpt::obs::CObservationVelodyneScan::Ptr packets;  ///< null: `scan` has its coordinates
     SensorModel sensor;

@@ -36,8 +36,8 @@ class Nearest {
         return true;
     }
     float worstDist() const { return least_m2_; }
-    std::size_t size() const { return 1; }
-    bool full() const { return true; }
+    static std::size_t size() { return 1; }
+    static bool full() { return true; }
 
  private:
     float least_m2_;

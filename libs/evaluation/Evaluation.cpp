@@ -47,7 +47,8 @@ std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
         LabelledScanSource& source = *sources[s];
         const std::vector<Method> methods = source.makeMethods();
         checkMethods(methods, source.name(), all);
-        for (std::size_t i = 0; auto pulled = source.next(); ++i) {
+        std::size_t i = 0;
+        for (; auto pulled = source.next(); ++i) {
             const GroundTruthScan& scan = *pulled;
             std::vector<CameraPixel> pixels;
             if (options.camera) pixels = visibleReturns(*options.camera, scan.input.scan);
@@ -69,6 +70,11 @@ std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
                 if (listener)
                     listener({s, i, m, methods.size(), methods[m].name, scan, found, pixels});
             }
+        }
+        if (i < source.size()) {
+            throw std::invalid_argument(source.name() + ": has " + std::to_string(i) + " of " +
+                                        std::to_string(source.size()) +
+                                        " scans left; a source can be evaluated once");
         }
     }
     return all;

@@ -67,8 +67,10 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
     } else if (has_kind_files_ && fs::exists(folder_.kindNamesFile())) {
         kinds_ = evaluation::readLabelMap(folder_.kindNamesFile());
     }
+    // Without times, poses cannot be assigned to scans.
+    const bool has_poses = fs::exists(folder_.tumFile()) && !folder_.times().empty();
     // A poses.txt is relative to the first scan, which may have been tilted: no attitude.
-    if (fs::exists(folder_.tumFile())) scans_->usePoses({});
+    if (has_poses) scans_->usePoses({});
 }
 
 void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const {

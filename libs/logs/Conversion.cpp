@@ -34,6 +34,9 @@ void useExternals(const Conversion& conversion, const ConversionListener& listen
 }  // namespace
 
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener) {
+    if (!fs::exists(conversion.input)) {
+        throw std::runtime_error(conversion.input.string() + ": no such file or folder");
+    }
     std::vector<fs::path> outputs = conversion.octomaps;
     outputs.insert(outputs.end(),
                    {conversion.rawlog, conversion.folder, conversion.pictures, conversion.stats});

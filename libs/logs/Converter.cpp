@@ -99,7 +99,6 @@ bool Converter::read(EntryInConversion& entry) {
     try {
         auto recorded = source_->nextEntry();
         if (!recorded) return false;
-        entry.number = recorded->number;
         entry.fraction_read = recorded->fraction_read;
         entry.object = recorded->object;
         for (RecordedScan& scan : recorded->scans) {

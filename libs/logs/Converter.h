@@ -26,7 +26,6 @@ struct ScanInConversion {
 
 /// An entry during its conversion: read, segmented, accounted for, compressed and written.
 struct EntryInConversion {
-    std::size_t number = 0;
     double fraction_read = 0;
     mrpt::serialization::CSerializable::Ptr object;  ///< none: only scans are written
     std::vector<ScanInConversion> scans;

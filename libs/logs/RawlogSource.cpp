@@ -29,13 +29,13 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
     while (reader_.entries() <= options_.last_entry) {
         RecordedEntry entry;
         entry.number = reader_.entries();
-        const bool is_selected = beginEntry(entry.number);
+        checkInterruption();
         entry.object = reader_.next();
         if (!entry.object) return std::nullopt;
         // Skipped entries may provide the attitude of the first scan.
         const auto all = observationsOf(entry.object);
         for (const auto& observation : all) see(*observation);
-        if (!is_selected) continue;
+        if (skips(entry.number)) continue;
         for (const auto& observation : all) addIfScan(observation, "", entry);
         entry.fraction_read = reader_.fractionRead();
         return entry;
@@ -44,7 +44,12 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
 }
 
 const RawlogSurvey& RawlogSource::survey() {
-    if (!survey_) survey_ = surveyRawlog(rawlog_, options_.keep_going);
+    if (survey_) return *survey_;
+    bool is_interrupted = false;
+    RawlogSurvey survey =
+        surveyRawlog(rawlog_, [&] { return !(is_interrupted = !options_.keep_going()); });
+    if (is_interrupted) throw Interrupted("interrupted");
+    survey_ = std::move(survey);
     return *survey_;
 }
 

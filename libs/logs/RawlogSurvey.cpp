@@ -59,7 +59,7 @@ class Surveyor {
     }
 
     void see(const mrpt::obs::CSensoryFrame& frame) {
-        if (frame.size() > 0) {
+        if (!frame.empty()) {
             const auto time = (*frame.begin())->timestamp;
             summed_3d_.arrive(time);
             summed_2d_.arrive(time);

@@ -17,7 +17,8 @@ ScanFolderSource::ScanFolderSource(const std::filesystem::path& folder,
 std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
     while (next_ < folder_.size() && next_ <= options_.last_entry) {
         const std::size_t i = next_++;
-        if (!beginEntry(i)) continue;
+        checkInterruption();
+        if (skips(i)) continue;
         readScan(folder_.scanFile(i), scan_);
         const auto time = mrpt::Clock::fromDouble(times_s_[i]);
         RecordedEntry entry;

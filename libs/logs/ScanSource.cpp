@@ -29,11 +29,14 @@ observations::Settings ScanSource::settingsFor(const observations::Settings& set
     return settings;
 }
 
-bool ScanSource::beginEntry(std::size_t number) {
+void ScanSource::checkInterruption() const {
     if (!options_.keep_going()) throw Interrupted("interrupted");
-    const bool is_before = number < options_.first_entry;
+}
+
+bool ScanSource::skips(std::size_t entry) {
+    const bool is_before = entry < options_.first_entry;
     entries_skipped_ += is_before;
-    return !is_before;
+    return is_before;
 }
 
 bool ScanSource::isSelected(const std::string& sensor_label) const {

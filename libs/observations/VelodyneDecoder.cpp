@@ -176,8 +176,8 @@ std::size_t collectBlocks(const CObservationVelodyneScan& observation, const Vel
         if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
         for (int b = 0; b < kBlocks; ++b) {
             if (!packet.isValid(b)) continue;
-            const double block_us =
-                packet_us + b / packet.blocksPerFiring() * model.blockPeriodUs();
+            const int firing = b / packet.blocksPerFiring();
+            const double block_us = packet_us + firing * model.blockPeriodUs();
             VelodyneBlock& block = *next++;
             block.returns = packet.returns(b);
             block.time_s = static_cast<float>(1e-6 * block_us);

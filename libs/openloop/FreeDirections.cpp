@@ -41,7 +41,8 @@ double share(std::size_t part, std::size_t whole) {
 }  // namespace
 
 double elevationOfDirection(std::size_t number) {
-    const auto step = static_cast<double>(number / kDirectionAzimuths);
+    const std::size_t row = number / kDirectionAzimuths;
+    const auto step = static_cast<double>(row);
     return kHighestDirection_rad * (2 * step / (kDirectionElevations - 1) - 1);
 }
 

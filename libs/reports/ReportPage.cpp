@@ -93,9 +93,9 @@ void addPairings(const Report& report, std::vector<Section>& sections) {
         std::count_if(summary.pairings.begin(), summary.pairings.end(),
                       [](const Pairing& pairing) { return pairing.second.model != "oracle"; });
     Section loses{
-        "Where the RoI window has less success",
+        "Where the RoI window succeeds less often",
         {"Of " + std::to_string(compared) +
-         " comparisons in single scenarios, the RoI window has less success in " +
+         " comparisons in single scenarios, the RoI window succeeds less often in " +
          std::to_string(losses.size()) + "; significant after Holm's correction (p < 0.05): " +
          std::to_string(significant) + ". The others may be chance. Largest loss first."},
         {}};

@@ -64,7 +64,9 @@ void findStands(const CellTops& tops, Stands& stands) {
         const float* const column_m = tops.top_m.col(j + 1).data() + 1;  // without the border
         for (int block = 0; block < kBlocks; ++block) {
             const float* const top_m = column_m + block * kBlockCells;
-            if (std::memcmp(top_m, kNothing_m, sizeof(kNothing_m)) == 0) continue;  // most blocks
+            // Most blocks are empty. kNone_m is always written as this constant, so bits compare.
+            // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+            if (std::memcmp(top_m, kNothing_m, sizeof(kNothing_m)) == 0) continue;
             Stand& stand = stands[j / kBlockCells * kBlocks + block];
             for (int k = 0; k < kBlockCells; ++k) {
                 if (top_m[k] != CellTops::kNone_m) stand.addCell(top_m[k]);

@@ -73,6 +73,7 @@ HWY_INLINE Pack<Real> all(double value) {
     return r;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): names and types cannot stand in parentheses
 #define HAGEN_BINARY(name, op, Result)                                       \
     template <class Real>                                                    \
     HWY_INLINE Result<Real> name(const Pack<Real>& a, const Pack<Real>& b) { \
@@ -80,6 +81,7 @@ HWY_INLINE Pack<Real> all(double value) {
         HAGEN_EACH_PART r.part[k] = hn::op(a.part[k], b.part[k]);            \
         return r;                                                            \
     }
+// NOLINTEND(bugprone-macro-parentheses)
 HAGEN_BINARY(operator+, Add, Pack)
 HAGEN_BINARY(operator-, Sub, Pack)
 HAGEN_BINARY(operator*, Mul, Pack)

@@ -31,7 +31,7 @@ Flight::Flight(const Terrain& terrain, const Path& path, const FlightSettings& s
 }
 
 std::vector<Flight::Sway> Flight::sways(double sd, double slowest_hz, double fastest_hz,
-                                        Random& random) const {
+                                        Random& random) {
     constexpr int kCount = 6;
     std::vector<Sway> made;
     for (int i = 0; i < kCount; ++i) {  // a wave's variance is half its squared amplitude

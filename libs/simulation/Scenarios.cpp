@@ -442,13 +442,13 @@ std::vector<std::string> scenarioNames() {
     return names;
 }
 
-Scene makeScene(const std::string& name, std::uint64_t seed) {
+Scene makeScene(const std::string& scenario, std::uint64_t seed) {
     std::string known;
-    for (const Scenario& scenario : scenarios()) {
-        if (scenario.name == name) return scenario.make(seed);
-        known += (known.empty() ? "" : ", ") + scenario.name;
+    for (const Scenario& one : scenarios()) {
+        if (one.name == scenario) return one.make(seed);
+        known += (known.empty() ? "" : ", ") + one.name;
     }
-    throw std::invalid_argument("unknown scenario '" + name + "'; known are " + known);
+    throw std::invalid_argument("unknown scenario '" + scenario + "'; known are " + known);
 }
 
 }  // namespace hagen::simulation

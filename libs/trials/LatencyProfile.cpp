@@ -95,7 +95,7 @@ double LatencyProfile::draw_ms(const std::string& stage, simulation::Random& ran
 
 double LatencyProfile::median_ms(const std::string& stage) const { return at_ms(stage, 0.5); }
 
-std::vector<double> quantilesOf(std::vector<double> measured_ms, int count) {
+std::vector<double> quantilesOf(const std::vector<double>& measured_ms, int count) {
     std::vector<double> quantiles;
     for (int q = 0; q < count && !measured_ms.empty(); ++q) {
         quantiles.push_back(base::quantile(measured_ms, static_cast<double>(q) / (count - 1)));

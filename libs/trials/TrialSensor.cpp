@@ -69,7 +69,7 @@ const std::vector<Label>& TrialSensor::segment(int number,
 
 mapping::MappedScan TrialSensor::place(int number, const simulation::SimulatedScan& measured,
                                        const std::vector<Label>& labels, const FlightTrace& trace,
-                                       PoseBelief& belief) const {
+                                       PoseBelief& belief) {
     const double start_s = kTurn_s * number;
     const TurnTransforms transforms(start_s, trace, belief);
     const Scan& scan = measured.scan;

@@ -264,6 +264,7 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     failsInstead("--seeds", "-1", "seed");
     failsInstead("--speed", "0", "speed");
     fails({"--shard", "3/2"}, "shard");
+    fails({"--shard", "4294967297/4294967298"}, "shard");
     fails({"--shard", "0/2"}, "shard");
     fails({"--jobs", "0"}, "--jobs");
     fails({"--pose-error", "wild"}, "wild");

@@ -112,6 +112,12 @@ TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
     EXPECT_THAT(message, HasSubstr("1 found labels for 2 returns"));
 }
 
+TEST(Evaluation, ASourceCanBeEvaluatedOnce) {
+    const LabelledScanSources sources = sourcesOf(obstacles("a", {2, 2}));
+    evaluate(sources);
+    EXPECT_THROW(evaluate(sources), std::invalid_argument);
+}
+
 TEST(Evaluation, RefusesNoSourceAndSourcesThatDiffer) {
     EXPECT_THROW(evaluate(LabelledScanSources()), std::invalid_argument);
     const Method another{"another", [](const ScanInput&) { return std::vector{O}; }};

@@ -232,6 +232,16 @@ TEST_F(ScanSourceTest, AKittiFileIsForTheSelectedLidar) {
         HasSubstr("the log has 2 LiDARs"));
 }
 
+TEST_F(ScanSourceTest, WithAKittiFileTheAttitudeIsThatOfTheRecording) {
+    writeKittiPoses(folder_ / "poses.txt", {CPose3D(0, 0, 0, 0, 0.4, 0)});
+    const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
+    source->usePoses(folder_ / "poses.txt");
+    const auto scan = source->nextScan();
+    ASSERT_TRUE(scan && scan->pose.attitude && scan->pose.sensor_pose);
+    EXPECT_NEAR(scan->pose.attitude->pitch_rad, 0.2, 1e-6);
+    EXPECT_FALSE(scan->pose.pose_has_horizon);
+}
+
 TEST_F(ScanSourceTest, ScanTimesOfAllLidars) {
     SourceOptions options;
     options.sensor_labels = {"rear"};
@@ -256,6 +266,24 @@ TEST_F(ScanSourceTest, StopsWhenToldTo) {
     EXPECT_TRUE(source->nextEntry());
     EXPECT_TRUE(source->nextEntry());
     EXPECT_THROW(source->nextEntry(), Interrupted);
+}
+
+TEST_F(ScanSourceTest, StopsWhenToldToWhileItReadsInAdvance) {
+    int asked = 0;
+    SourceOptions options;
+    options.keep_going = [&] { return ++asked != 3; };
+    const auto source = openRecording(rawlogOf(mixed()), options);
+    EXPECT_THROW(source->scanTimes(), Interrupted);
+    EXPECT_EQ(source->scanTimes().at("front").size(), 3u);  // nothing partial is kept
+}
+
+TEST_F(ScanSourceTest, CountsOnlyEntriesThatExist) {
+    SourceOptions options;
+    options.first_entry = 10;
+    const auto source = openRecording(rawlogOf(mixed()), options);
+    EXPECT_FALSE(source->nextEntry());
+    EXPECT_EQ(source->entriesSkipped(), 5u);
+    EXPECT_EQ(source->entriesKnown(), 5u);
 }
 
 TEST_F(ScanSourceTest, ABrokenRawlogGivesWhatIsBeforeTheBreak) {

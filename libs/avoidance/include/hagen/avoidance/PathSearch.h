@@ -14,7 +14,7 @@ struct PathSearchOptions {
     double wanted_clearance_m = 1.2;  ///< cells with less clearance cost more
     int max_cells = 200000;           ///< limit of expanded cells; then the search gives up
     double heuristic_weight =
-        1;  ///< 1: the cheapest path; above: up to so many times dearer, found sooner
+        1;  ///< 1: the cheapest path; w > 1: at most w times its cost, found sooner (weighted A*)
     Eigen::Vector3d anchor_m{0, 0, 0};  ///< the centre of one of the cells
     double wanted_height_m = 0;
     double height_cost_per_m = 0;  ///< per metre of path and metre off the wanted height
@@ -28,7 +28,7 @@ struct PathSearchOptions {
 ///
 /// Returns positions from start to goal, both included, or nothing if the goal is out of bounds or
 /// cannot be reached. Ties are broken by the order of cells, so equal clearances give equal paths.
-/// Throws std::invalid_argument for bounds or cells that make no grid.
+/// Throws std::invalid_argument if bounds and cell size do not define a grid.
 std::optional<std::vector<Eigen::Vector3d>> findPath(
     const std::function<float(const Eigen::Vector3f&)>& clearance_m, const Eigen::Vector3d& start_m,
     const Eigen::Vector3d& goal_m, const PathSearchOptions& options);

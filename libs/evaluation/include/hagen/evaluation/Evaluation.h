@@ -51,11 +51,11 @@ struct MethodOutput {
 };
 using EvaluationListener = std::function<void(const MethodOutput&)>;
 
-/// Segments every scan with every method and scores the labels. Pulls all scans; only one is in
-/// memory at a time. Every method processes the first scan of each source twice; the first time is
-/// a warm-up, neither scored nor timed. Throws std::runtime_error if labels do not fit a scan (the
-/// message names it), and std::invalid_argument if there is no source or the sources have different
-/// methods.
+/// Segments every scan with every method and scores the labels. Pulls all scans, so that a
+/// source can be evaluated once; only one scan is in memory at a time. Every method processes the
+/// first scan of each source twice; the first time is a warm-up, neither scored nor timed. Throws
+/// std::runtime_error if labels do not fit a scan (the message names it), and std::invalid_argument
+/// if there is no source or the sources have different methods.
 std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
                                    const EvaluationOptions& options = {},
                                    const EvaluationListener& listener = {});

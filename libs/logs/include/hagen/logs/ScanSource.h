@@ -45,7 +45,7 @@ struct SourceOptions {
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
     /// Class of the clouds in RecordedEntry::object for scans of a scan folder; none: no objects.
     std::optional<observations::CloudClass> folder_objects;
-    /// Called before each entry is read; false ends reading with Interrupted.
+    /// Called before each entry is read, also in advance; false ends reading with Interrupted.
     std::function<bool()> keep_going = [] { return true; };
 };
 
@@ -97,9 +97,10 @@ class ScanSource {
 
     virtual LogPoses readPoses(const std::filesystem::path& file) = 0;
 
-    /// Call it before reading an entry. False if the entry is before the first selected one. Throws
-    /// Interrupted.
-    bool beginEntry(std::size_t number);
+    /// Call it before reading an entry. Throws Interrupted.
+    void checkInterruption() const;
+    /// True, and counts it, if an entry is before the first selected one.
+    bool skips(std::size_t entry);
     bool isSelected(const std::string& sensor_label) const;
     /// Takes the attitude from an observation, unless a pose file provides it.
     void see(const mrpt::obs::CObservation& observation);

@@ -13,7 +13,7 @@ namespace hagen::observations {
 struct ScanPose {
     /// Sensor pose in the map at the scan's time; none: the trajectory does not cover that time.
     std::optional<mrpt::poses::CPose3D> sensor_pose;
-    bool pose_has_horizon = false;     ///< the map's z axis points against gravity
+    bool pose_has_horizon = false;     ///< the map is gravity-aligned
     std::optional<Attitude> attitude;  ///< tilt of the sensor; none: unknown
 };
 

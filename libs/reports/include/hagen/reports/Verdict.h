@@ -13,7 +13,8 @@ std::vector<std::string> verdictOf(const Summary& summary);
 /// if only wires or no wires were flown.
 std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall);
 
-/// Pairings in single scenarios in which the first contender has less success; largest loss first.
+/// Pairings in single scenarios in which the first contender succeeds less often; largest loss
+/// first.
 std::vector<Pairing> lossesOf(const Summary& summary);
 
 /// The difference in success with interval and p, and whether it is decided.

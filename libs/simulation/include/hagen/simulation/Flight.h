@@ -36,7 +36,7 @@ class Flight {
         double rad_s, phase, amplitude;
     };
     static double valueOf(const std::vector<Sway>& sways, double time_s);
-    std::vector<Sway> sways(double sd, double slowest_hz, double fastest_hz, Random& random) const;
+    static std::vector<Sway> sways(double sd, double slowest_hz, double fastest_hz, Random& random);
     double curvatureAt(double way_m) const;
     double speedAt(double way_m) const;
     double arcLengthAt(double time_s) const;

@@ -21,10 +21,9 @@ class SceneBuilder {
     static constexpr double kHalfLength_m = 75,
                             kHalfWidth_m = 55;  ///< area in which objects are scattered
 
-    SceneBuilder(const TerrainParameters& terrain, const Path& path, std::uint64_t seed);
+    SceneBuilder(const TerrainParameters& form, const Path& path, std::uint64_t seed);
     /// Starts a scene without a path to keep clear; its path is meaningless.
-    SceneBuilder(const TerrainParameters& terrain, const GroundExtent& extent,
-                 const Random& random);
+    SceneBuilder(const TerrainParameters& form, const GroundExtent& extent, const Random& random);
 
     Random& random() { return random_; }
     const Terrain& terrain() const { return content_.terrain; }
@@ -60,7 +59,7 @@ class SceneBuilder {
     Scene build() { return Scene(std::move(content_)); }
 
  private:
-    SceneBuilder(const TerrainParameters& terrain, const Path& path, const GroundExtent& extent,
+    SceneBuilder(const TerrainParameters& form, const Path& path, const GroundExtent& extent,
                  const Random& random);
     std::uint16_t nextNumber(ObjectClass kind);
 

@@ -23,11 +23,11 @@ struct Shape {
     /// Adds a prism: a polygon in the xz plane, star-shaped about the mean of its corners, extruded
     /// along y.
     void addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_y_m, float most_y_m);
-    /// Adds cylinders along a polyline.
-    void addRod(const std::vector<Eigen::Vector4f>& polyline_m);
+    /// Adds cylinders along a polyline. `knots`: x, y, z and radius [m].
+    void addRod(const std::vector<Eigen::Vector4f>& knots);
     /// Adds the same as triangles, with this many sides and open ends: faster to cast in large
     /// numbers.
-    void addTube(const std::vector<Eigen::Vector4f>& polyline_m, int sides);
+    void addTube(const std::vector<Eigen::Vector4f>& knots, int sides);
     /// Adds another shape, transformed. Radii of cylinders do not change.
     void append(const Shape& other, const Eigen::Affine3f& pose);
 };

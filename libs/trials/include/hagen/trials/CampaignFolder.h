@@ -41,7 +41,7 @@ class CampaignFolder {
 
     /// A file for a new journal.
     std::filesystem::path newJournal();
-    /// Takes in the journals' runs. A torn last line is left out: its run is flown again. Throws
+    /// Takes in the journals' runs. A partial last line is left out: its run is flown again. Throws
     /// std::runtime_error, naming file and line, for any other line that cannot be read.
     void readJournals();
     /// Takes in the runs of another folder. Throws std::runtime_error if it has other settings, or

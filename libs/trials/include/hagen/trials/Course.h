@@ -22,11 +22,12 @@ struct Course {
     double oracle_path_m;          ///< length of the shortest path found in the true scene
 };
 
-/// Names of all courses. Each leads 40 m along x:
+/// Names of all scenarios. Each leads 40 m along x:
 ///
 ///     forest-0.02  random trees, 0.02 per square metre; also forest-0.05, forest-0.10
-///     orchard      rows 4 x 3 m at 10 to 30 degrees to the path, some trees missing; flown at 2.5
-///     m gap          a wall 6 m high across the path, with a gap of 1.6 to 2.4 m anywhere in it
+///     orchard      rows 4 x 3 m at 10 to 30 degrees to the path, some trees missing;
+///                  flown at 2.5 m
+///     gap          a wall 6 m high across the path, with a gap of 1.6 to 2.4 m anywhere in it
 ///     u-trap       walls 6 m high as a U, 9 to 11 m wide and 8 to 10 m deep, open to the start
 ///     terrain      slopes up to 15 degrees with trees and rocks
 ///     wires        wires 24 mm thick across the path, one of each line at flight altitude

@@ -28,7 +28,7 @@ struct JournalLine {
     std::string run, measured;
 };
 
-/// The lines of a journal, which may still grow: a torn last line is left out. Throws
+/// The lines of a journal, which may still grow: a partial last line is left out. Throws
 /// std::runtime_error, naming file and line, if any other is incomplete.
 std::vector<JournalLine> readJournal(const std::filesystem::path& file);
 

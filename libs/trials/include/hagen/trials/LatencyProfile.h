@@ -24,7 +24,7 @@ struct LatencyProfile {
 };
 
 /// `count` quantiles of the measurements; none if there are no measurements.
-std::vector<double> quantilesOf(std::vector<double> measured_ms, int count = 201);
+std::vector<double> quantilesOf(const std::vector<double>& measured_ms, int count = 201);
 
 /// The profile as JSON, latencies rounded to the microsecond.
 std::string textOf(const LatencyProfile& profile);

@@ -6,7 +6,7 @@
 
 namespace hagen::trials {
 
-/// What runs of a model cost on the machine that flew them, a value a run.
+/// What runs of a model cost on the machine that flew them, one value per run.
 struct MeasuredRuns {
     std::vector<double> peak_model_bytes;
     std::map<std::string, std::vector<double>> p50_ms;  ///< CPU time by stage

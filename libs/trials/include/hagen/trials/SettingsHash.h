@@ -4,13 +4,13 @@
 
 namespace hagen::trials {
 
-/// Count it up with every change of courses, world models, guidance, planners or the flight itself
-/// that changes the row of any run: old and new runs must not stand in one table.
-/// RecordedFlights_test fails if this was forgotten.
+/// Increment it with every change to courses, world models, guidance, planners or the flight itself
+/// that alters the row of any run: one table must not mix old and new runs. RecordedFlights_test
+/// fails otherwise.
 constexpr int kRevision = 3;
 
-/// 16 hexadecimal digits that stand for everything that makes a run what it is, except what its own
-/// row says: the program's version, kRevision, vehicle, filter settings and latencies.
+/// 16 hexadecimal digits that identify all settings of a run that are not in its own row: the
+/// program's version, kRevision, vehicle, filter options and latencies.
 std::string hashOfSettings(const LatencyProfile& profile);
 
 /// The vehicle of all runs, as JSON.

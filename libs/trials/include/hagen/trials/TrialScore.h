@@ -11,7 +11,7 @@ namespace hagen::trials {
 ///     collision  the true clearance is below limits.collision_m
 ///     success    the vehicle is within kArrived_m of the goal
 ///     timeout    the flight took longer than 3 T + 20 s,
-///                or came no metre closer to the goal for T + 10 s,
+///                or made less than 1 m of progress towards the goal in T + 10 s,
 ///                or left the course's bounds by more than kOutside_m
 class TrialJudge {
  public:

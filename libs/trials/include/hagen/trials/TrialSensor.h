@@ -25,9 +25,9 @@ class TrialSensor {
                                       const FlightTrace& trace, PoseBelief& belief);
 
     /// Places each return within the sensor's range by the believed pose at its own time.
-    mapping::MappedScan place(int number, const simulation::SimulatedScan& measured,
-                              const std::vector<Label>& labels, const FlightTrace& trace,
-                              PoseBelief& belief) const;
+    static mapping::MappedScan place(int number, const simulation::SimulatedScan& measured,
+                                     const std::vector<Label>& labels, const FlightTrace& trace,
+                                     PoseBelief& belief);
 
  private:
     const Course& course_;
