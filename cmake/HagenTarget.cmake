@@ -5,7 +5,11 @@ function(hagen_target target)
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                       $<$<BOOL:${HAGEN_WARNINGS_AS_ERRORS}>:-Werror>
                       # One result on every machine: no fused multiply-add unless it is written.
-                      -ffp-contract=off)
+                      -ffp-contract=off
+                      # Nothing reads floating-point exception flags. Without them GCC vectorises loops with a
+                      # condition per pixel; results do not change. It is set for all targets, because GCC takes
+                      # this option from the precompiled header.
+                      -fno-trapping-math)
   # SIMD (Highway): one binary for every machine, which selects among these instruction sets at run
   # time. Those in between gain nothing here, and each costs a compilation. (ARM's SVE vectors have
   # no compile-time size and cannot be stored in arrays.)
@@ -16,6 +20,12 @@ function(hagen_target target)
     target_compile_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE})
   endif()
+endfunction()
+
+# hagen_hot(TARGET): loops and functions start where a processor fetches. Otherwise a change elsewhere in the library
+# moves them, and small loops over bits become up to 15 % slower or faster.
+function(hagen_hot target)
+  target_compile_options(${target} PRIVATE -falign-functions=64 -falign-loops=32 -falign-jumps=16)
 endfunction()
 
 # hagen_not_hot(TARGET NAME | SOURCES SOURCE...): for code without influence on run time. -O1 compiles it

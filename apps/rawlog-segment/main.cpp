@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
         "\n"
         "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
         "log.");
-    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    program.footer("Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     Flags flags;
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });

@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
         "\n"
         "Simulates a flight with a LiDAR over a generated scene, and writes its scans with ground "
         "truth.");
-    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    program.footer("Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     simulated_logs::SimulatedLog log;
     bool is_quiet = false;
     declare(program, log, is_quiet);

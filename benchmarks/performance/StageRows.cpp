@@ -136,7 +136,7 @@ const std::vector<StageRow>& ownStages() {
         {"own: canopy", false, false,
          [](Case& c) {
              Ground& g = c.result.ground;
-             tolerateCanopy(g.tops, g.height_m, g.tolerance_m, work().canopy);
+             tolerateCanopy(g.tops, g.tolerance_m, work().canopy);
          }},
         {"own: labels, feet, specks", false, false,
          [](Case& c) {

@@ -87,10 +87,25 @@ void sumAlong(const Stand* stands, int stride, Stand* sums) {
     }
 }
 
+/// Raises the tolerance of each pixel to the canopy of its cell; NaN stays NaN. `of_cells_m` is
+/// workspace.
+void raiseTolerances(const CellTops& tops, const std::array<float, kBlocks * kBlocks>& canopy_m,
+                     Image<float>& tolerance_m, Eigen::ArrayXXf& of_cells_m) {
+    of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        of_cells_m.block<kBlockCells, kBlockCells>(
+            1 + block % kBlocks * kBlockCells, 1 + block / kBlocks * kBlockCells) = canopy_m[block];
+    }
+    for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
+        float& tolerated_m = tolerance_m.data()[pixel];
+        const float of_cell_m = of_cells_m.data()[tops.cell.data()[pixel]];
+        tolerated_m = of_cell_m > tolerated_m ? of_cell_m : tolerated_m;
+    }
+}
+
 }  // namespace
 
-void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<float>& tolerance_m,
-                    CanopyWorkspace& work) {
+void tolerateCanopy(const CellTops& tops, Image<float>& tolerance_m, CanopyWorkspace& work) {
     Stands stands{}, sums;
     findStands(tops, stands);
     for (int j = 0; j < kBlocks; ++j) sumAlong(&stands[j * kBlocks], 1, &sums[j * kBlocks]);
@@ -101,18 +116,7 @@ void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<fl
         canopy_m[block] = stands[block].canopy_m();
     }
     if (*std::max_element(canopy_m.begin(), canopy_m.end()) == 0) return;  // nearly always
-
-    Eigen::ArrayXXf& of_cells_m = work.canopy_m;
-    of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
-    for (int block = 0; block < kBlocks * kBlocks; ++block) {
-        of_cells_m.block<kBlockCells, kBlockCells>(
-            1 + block % kBlocks * kBlockCells, 1 + block / kBlocks * kBlockCells) = canopy_m[block];
-    }
-    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
-        float& tolerated_m = tolerance_m.data()[pixel];
-        const float of_cell_m = of_cells_m.data()[tops.cell.data()[pixel]];
-        tolerated_m = of_cell_m > tolerated_m ? of_cell_m : tolerated_m;  // NaN stays NaN
-    }
+    raiseTolerances(tops, canopy_m, tolerance_m, work.canopy_m);
 }
 
 }  // namespace hagen

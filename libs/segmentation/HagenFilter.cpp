@@ -90,7 +90,7 @@ void HagenFilter::judgeByHeight() {
         g.pixels, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
         g.tolerance_m, w.tolerance);
-    if (o.canopy_layer) tolerateCanopy(g.tops, g.height_m, g.tolerance_m, w.canopy);
+    if (o.canopy_layer) tolerateCanopy(g.tops, g.tolerance_m, w.canopy);
     labelByHeight(g.height_m, g.tolerance_m, labels);
 
     // extend obstacles down to their feet, remove specks

@@ -24,7 +24,7 @@ Image<float> tolerated(const PixelPoints& pixels) {
         kNoValue, Image<float>::Constant(pixels.z_m.rows(), pixels.z_m.cols(), kBefore_m));
     CellTops tops;
     findCellTops(pixels, pixels.z_m, tops);
-    tolerateCanopy(tops, pixels.z_m, tolerance_m, work);
+    tolerateCanopy(tops, tolerance_m, work);
     return tolerance_m;
 }
 
@@ -104,7 +104,7 @@ TEST(CanopyLayer, NeverToleratesLess) {
     Image<float> tolerance_m = Image<float>::Constant(1, pixels.z_m.cols(), 5.0f);
     CellTops tops;
     findCellTops(pixels, pixels.z_m, tops);
-    tolerateCanopy(tops, pixels.z_m, tolerance_m, work);
+    tolerateCanopy(tops, tolerance_m, work);
     EXPECT_TRUE((tolerance_m == 5.0f).all());
 }
 

@@ -104,7 +104,7 @@ Judged judged(const Sight& sight) {
     heightsAbove(j.surface, pixels, j.height_m);
     findCellTops(pixels, j.height_m, j.tops);
     toleratedHeights(pixels, j.tops, kTolerance, j.tolerance_m, work.tolerance);
-    tolerateCanopy(j.tops, j.height_m, j.tolerance_m, work.canopy);
+    tolerateCanopy(j.tops, j.tolerance_m, work.canopy);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
     growFeet(pixels, j.height_m, j.labels, work.feet);
     removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels, work.specks);
@@ -155,7 +155,7 @@ TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
         expectNear(fast_m, plain_m, 1e-5f);
         const Image<float> before_m = plain_m;
         fast_m = plain_m;
-        tolerateCanopy(tops, height_m, fast_m, work.canopy);
+        tolerateCanopy(tops, fast_m, work.canopy);
         test::plain::tolerateCanopy(pixels, height_m, plain_m);
         expectNear(fast_m, plain_m, 1e-3f);
         canopies += !test::same(before_m, plain_m);

@@ -561,7 +561,7 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         heightsAbove(g.surface, g.pixels, g.height_m);
         findCellTops(g.pixels, g.height_m, g.tops);
         toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.tolerance_m, work.tolerance);
-        if ((switches & 1) != 0) tolerateCanopy(g.tops, g.height_m, g.tolerance_m, work.canopy);
+        if ((switches & 1) != 0) tolerateCanopy(g.tops, g.tolerance_m, work.canopy);
         labelByHeight(g.height_m, g.tolerance_m, labels);
         if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels, work.feet);
         if ((switches & 4) != 0)

@@ -13,8 +13,7 @@ struct CanopyWorkspace {
 /// cars in a street cover less. In a canopy a return is an obstacle only if it is higher than the
 /// plants: the mean + 2 standard deviations of the cells' highest returns, + 0.1 m. These
 /// statistics are over 13 x 13 blocks of 4 x 4 cells; if fewer than 30 of the cells were seen, no
-/// canopy is assumed. `height_m` is relative to the surface, as are `tops`; NaN for empty pixels.
-void tolerateCanopy(const CellTops& tops, const Image<float>& height_m, Image<float>& tolerance_m,
-                    CanopyWorkspace& work);
+/// canopy is assumed. `tops` are relative to the surface; tolerances of empty pixels are NaN.
+void tolerateCanopy(const CellTops& tops, Image<float>& tolerance_m, CanopyWorkspace& work);
 
 }  // namespace hagen
