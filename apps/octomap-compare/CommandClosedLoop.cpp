@@ -10,7 +10,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -29,17 +28,6 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// Two whole numbers around a separator: "12-34" or "1/4".
-template <class Number>
-std::optional<std::pair<Number, Number>> pairFrom(const std::string& text, char separator) {
-    const std::size_t at = text.find(separator);
-    if (at == std::string::npos) return std::nullopt;
-    const auto first = base::numberFrom<Number>(text.substr(0, at));
-    const auto second = base::numberFrom<Number>(text.substr(at + 1));
-    if (!first || !second) return std::nullopt;
-    return std::pair{*first, *second};
-}
-
 /// Replaces "all" by all names.
 void expandAll(std::vector<std::string>& names, const std::vector<std::string>& all) {
     if (names == std::vector<std::string>{"all"}) names = all;
@@ -49,10 +37,10 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     trials::CampaignPlan& plan = flags.plan;
     const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
     const auto seeds = one_seed ? std::optional(std::pair{*one_seed, *one_seed})
-                                : pairFrom<std::uint64_t>(flags.seeds, '-');
+                                : base::numbersFrom<std::uint64_t>(flags.seeds, '-');
     if (!seeds) throw UsageError("--seeds", "'" + flags.seeds + "' is not a seed or a range A-B");
     std::tie(plan.first_seed, plan.last_seed) = *seeds;
-    const auto shard = pairFrom<int>(flags.shard, '/');
+    const auto shard = base::numbersFrom<int>(flags.shard, '/');
     if (!shard) throw UsageError("--shard", "'" + flags.shard + "' is not i/n (part i of n)");
     plan.brakes_in_known_space = flags.unknown == "brake-known";
     plan.pose_errors.clear();

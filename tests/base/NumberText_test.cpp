@@ -37,5 +37,14 @@ TEST(NumberText, ANumberIsTheWholeTextOrNothing) {
     EXPECT_EQ(numberFrom<std::uint16_t>("-1"), std::nullopt);
 }
 
+TEST(NumberText, TwoNumbersAroundASeparator) {
+    EXPECT_EQ(numbersFrom<int>("12-34", '-'), std::pair(12, 34));
+    EXPECT_EQ(numbersFrom<int>("1/4", '/'), std::pair(1, 4));
+    for (const char* text : {"", "-", "12", "12-", "-34", "12-34-56", "12 - 34"}) {
+        EXPECT_EQ(numbersFrom<unsigned>(text, '-'), std::nullopt) << "'" << text << "'";
+    }
+    EXPECT_EQ(numbersFrom<int>("4294967297/4294967298", '/'), std::nullopt);
+}
+
 }  // namespace
 }  // namespace hagen::base

@@ -1,8 +1,10 @@
 #pragma once
 #include <charconv>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace hagen::base {
 
@@ -22,6 +24,17 @@ std::optional<Number> numberFrom(std::string_view text) {
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc() || rest != end || text.empty()) return std::nullopt;
     return value;
+}
+
+/// Parses two numbers around a separator, such as "12-34"; nullopt for anything else.
+template <class Number>
+std::optional<std::pair<Number, Number>> numbersFrom(std::string_view text, char separator) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string_view::npos) return std::nullopt;
+    const auto first = numberFrom<Number>(text.substr(0, at));
+    const auto second = numberFrom<Number>(text.substr(at + 1));
+    if (!first || !second) return std::nullopt;
+    return std::pair{*first, *second};
 }
 
 }  // namespace hagen::base
