@@ -1,6 +1,6 @@
 // Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
 #include <hagen/logs/Conversion.h>
-#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanSource.h>
 
 #include <cstdio>
 #include <iostream>
@@ -47,10 +47,7 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
 void printSettings(const logs::Conversion& conversion) {
     observations::Settings settings = conversion.settings;
     if (std::filesystem::is_directory(conversion.input)) {
-        const logs::ScanFolder folder(conversion.input);
-        if (std::filesystem::exists(folder.sensorFile())) {
-            observations::mergeSettings(folder.sensorFile(), settings);
-        }
+        settings = logs::openRecording(conversion.input)->settingsFor(settings);
     }
     std::cout << observations::dumpSettings(settings);
 }

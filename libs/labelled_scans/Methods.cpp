@@ -47,6 +47,13 @@ std::vector<std::string> valuesOf(const std::string& text) {
     return values;
 }
 
+/// Returns the settings with those of a recording merged in, if it has any.
+observations::Settings settingsFor(observations::Settings settings,
+                                   const std::filesystem::path& sensor_file) {
+    if (std::filesystem::exists(sensor_file)) observations::mergeSettings(sensor_file, settings);
+    return settings;
+}
+
 }  // namespace
 
 std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
@@ -73,12 +80,6 @@ std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
         }
     }
     return rows;
-}
-
-observations::Settings settingsFor(observations::Settings settings,
-                                   const std::filesystem::path& sensor_file) {
-    if (std::filesystem::exists(sensor_file)) observations::mergeSettings(sensor_file, settings);
-    return settings;
 }
 
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,

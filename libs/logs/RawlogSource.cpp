@@ -3,6 +3,8 @@
 #include <hagen/logs/PoseFile.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <utility>
+
 namespace hagen::logs {
 namespace {
 
@@ -46,8 +48,10 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
 const RawlogSurvey& RawlogSource::survey() {
     if (survey_) return *survey_;
     bool is_interrupted = false;
-    RawlogSurvey survey =
-        surveyRawlog(rawlog_, [&] { return !(is_interrupted = !options_.keep_going()); });
+    RawlogSurvey survey = surveyRawlog(rawlog_, [&] {
+        is_interrupted = !options_.keep_going();
+        return !is_interrupted;
+    });
     if (is_interrupted) throw Interrupted("interrupted");
     survey_ = std::move(survey);
     return *survey_;
@@ -58,7 +62,9 @@ LogPoses RawlogSource::readPoses(const std::filesystem::path& file) {
     if (!file.empty() && kindOfPoseFile(file) == PoseFileKind::Tum) {
         return posesOfRawlog(RawlogSurvey(), file);
     }
-    RawlogSurvey selected = survey();
+    survey();
+    RawlogSurvey selected = std::move(*survey_);  // a long trajectory is not kept twice
+    survey_.reset();
     for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
         scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
     }

@@ -33,6 +33,9 @@ void checkPositive(const std::string& what, const std::vector<double>& values) {
     }
 }
 
+/// The flights of all seeds are listed in memory.
+constexpr std::uint64_t kMostSeeds = 1'000'000;
+
 void check(const CampaignPlan& plan, const Shard& shard) {
     checkNames("scenario", plan.scenarios, courseNames(), joined(courseNames()));
     checkNames("world model", plan.models, avoidance::worldModelNames(),
@@ -46,6 +49,9 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
     if (plan.last_seed < plan.first_seed) {
         throw std::invalid_argument("the last seed is before the first");
+    }
+    if (plan.last_seed - plan.first_seed >= kMostSeeds) {
+        throw std::invalid_argument("at most " + std::to_string(kMostSeeds) + " seeds");
     }
     if (shard.of < 1 || shard.number < 1 || shard.number > shard.of) {
         throw std::invalid_argument("a shard must be i/n with i from 1 to n");

@@ -251,6 +251,14 @@ TEST_F(ScanSourceTest, ScanTimesOfAllLidars) {
     EXPECT_THAT(times.at("rear"), ElementsAre(at(4), at(5)));
 }
 
+TEST_F(ScanSourceTest, ScanTimesAreTheSameBeforeAndAfterUsePoses) {
+    const auto source = openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front")}));
+    const auto before = source->scanTimes();
+    source->usePoses({});
+    EXPECT_EQ(source->scanTimes(), before);
+    EXPECT_EQ(source->poses().source, "CObservationRobotPose");
+}
+
 TEST_F(ScanSourceTest, AFolderBringsItsSensor) {
     const fs::path folder = scanFolderOf(1);
     std::ofstream(folder / "sensor.yaml") << "sensor:\n  model: HDL-32E\n";

@@ -28,12 +28,9 @@ struct MethodSet {
     std::optional<observations::Settings> baselines;  ///< provides zone and sensor of the baselines
 };
 
-/// Returns the settings with those of a recording merged in, if it has any.
-observations::Settings settingsFor(observations::Settings settings,
-                                   const std::filesystem::path& sensor_file);
-
-/// Returns the methods for a recording with its own settings. Includes PCL's baselines if the
-/// program was built with PCL.
+/// Returns the methods for a recording. Settings in `sensor_file`, if that exists, are merged into
+/// those of each row. Includes PCL's baselines if the program was built with PCL. Throws
+/// SettingsError if settings and sensor are inconsistent.
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file);
 

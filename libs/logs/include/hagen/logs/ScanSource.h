@@ -71,16 +71,18 @@ class ScanSource {
     /// BrokenScan naming file and entry, and Interrupted.
     virtual std::optional<RecordedEntry> nextEntry() = 0;
 
-    /// The next scan of any entry; none at the end. Throws like nextEntry().
+    /// The next scan of any entry; none at the end. Throws like nextEntry(). Use one of the two:
+    /// scans of an entry that nextScan() has begun come only from nextScan().
     std::optional<RecordedScan> nextScan();
 
     /// Takes poses from this file (TUM, KITTI), or from the recording itself if the name is empty.
     /// Call it before the first entry is read; otherwise no poses are known. Throws
-    /// std::runtime_error naming the file if it cannot be read.
+    /// std::runtime_error naming the file if it cannot be read, and Interrupted.
     void usePoses(const std::filesystem::path& file);
     const LogPoses& poses() const { return poses_; }
 
-    /// The times of all scans of all LiDARs, by sensor label. A rawlog is read in advance for this.
+    /// The times of all scans of all LiDARs, by sensor label. A rawlog is read in advance for this;
+    /// a call before usePoses() saves it another reading. Throws Interrupted.
     virtual std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() = 0;
 
     /// The settings, with those of the recording's own sensor merged in.
