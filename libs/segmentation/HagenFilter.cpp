@@ -10,6 +10,9 @@ namespace hagen {
 
 namespace {
 
+/// Without ground in sight, nothing is ROU.
+void doubtAll(Image<Label>& labels) { labels = (labels == Label::Rou).select(Label::Roi, labels); }
+
 float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
 
 }  // namespace
@@ -69,6 +72,7 @@ void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>&
     g.is_seen = canBeGround(g.from_sensor, horizon, r.labels);
     g.has_surface = g.is_seen && options_.ground_surface;
     if (g.has_surface) judgeByHeight();
+    if (options_.ground_surface && options_.ground_evidence && !g.is_seen) doubtAll(r.labels);
 
     // ground that is too close; returns behind the closest one of their pixel
     const Clearance clearance{upwards(g, horizon), options_.ground_is_roi_below_m};
@@ -83,7 +87,13 @@ void HagenFilter::judgeByHeight() {
     Ground& g = result_.ground;
     FilterWorkspace& w = work_;
 
-    fitGroundSurface(g.pixels, labels, g.surface, w.ground_surface);
+    const Image<Label>* candidates = &labels;
+    if (o.ground_evidence) {
+        findLevelPixels(g.pixels, g.is_level, w.evidence);
+        keepLevelRou(labels, g.is_level, w.candidates);
+        candidates = &w.candidates;
+    }
+    fitGroundSurface(g.pixels, *candidates, g.surface, w.ground_surface);
     heightsAbove(g.surface, g.pixels, g.height_m);
     findCellTops(g.pixels, g.height_m, g.tops);
     toleratedHeights(
@@ -91,6 +101,9 @@ void HagenFilter::judgeByHeight() {
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
         g.tolerance_m, w.tolerance);
     if (o.canopy_layer) tolerateCanopy(g.tops, g.tolerance_m, w.canopy);
+    if (o.ground_evidence) {
+        requireEvidence(g.pixels, g.tops.cell, g.height_m, g.is_level, g.tolerance_m, w.evidence);
+    }
     labelByHeight(g.height_m, g.tolerance_m, labels);
 
     // extend obstacles down to their feet, remove specks

@@ -535,11 +535,12 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
     const SensorModel sensor = otherSensor();
     const Scan scan = hillyScan(57, sensor);
     std::vector<std::vector<Label>> all_labels;
-    for (const int switches : {0, 1, 2, 4, 8, 6, 7}) {
+    for (const int switches : {0, 1, 2, 4, 8, 6, 7, 20, 23}) {
         Options o = otherOptions();
         o.canopy_layer = (switches & 1) != 0;
         o.grow_feet = (switches & 2) != 0;
         o.remove_specks = (switches & 4) != 0;
+        o.ground_evidence = (switches & 16) != 0;
         if ((switches & 8) != 0) o.ground_is_roi_below_m = 0;
         const Attitude attitude{0.05f, -0.08f};
         HagenFilter filter(sensor, o);
@@ -557,11 +558,19 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
                      r.range_image, r.repaired_m, g.pixels);
         g.from_sensor = fitGroundFrame(g.pixels, attitude, work.ground_frame);
         movePixels(g.from_sensor, g.pixels);
-        fitGroundSurface(g.pixels, labels, g.surface, work.ground_surface);
+        findLevelPixels(g.pixels, g.is_level, work.evidence);
+        keepLevelRou(labels, g.is_level, work.candidates);
+        const bool needs_evidence = (switches & 16) != 0;
+        fitGroundSurface(g.pixels, needs_evidence ? work.candidates : labels, g.surface,
+                         work.ground_surface);
         heightsAbove(g.surface, g.pixels, g.height_m);
         findCellTops(g.pixels, g.height_m, g.tops);
         toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.tolerance_m, work.tolerance);
         if ((switches & 1) != 0) tolerateCanopy(g.tops, g.tolerance_m, work.canopy);
+        if (needs_evidence) {
+            requireEvidence(g.pixels, g.tops.cell, g.height_m, g.is_level, g.tolerance_m,
+                            work.evidence);
+        }
         labelByHeight(g.height_m, g.tolerance_m, labels);
         if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels, work.feet);
         if ((switches & 4) != 0)

@@ -3,6 +3,7 @@
 #include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/Extraction.h>
 #include <hagen/segmentation/FartherReturns.h>
+#include <hagen/segmentation/GroundEvidence.h>
 #include <hagen/segmentation/GroundFrame.h>
 #include <hagen/segmentation/GroundSurface.h>
 #include <hagen/segmentation/HeightLabels.h>
@@ -24,6 +25,8 @@ struct FilterWorkspace {
     SsaWorkspace ssa;                // stage 7
     LabellingWorkspace labelling;    // stage 8
     GroundFrameWorkspace ground_frame;
+    GroundEvidenceWorkspace evidence;
+    Image<Label> candidates;  // of the ground surface
     GroundSurfaceWorkspace ground_surface;
     ToleranceWorkspace tolerance;
     CanopyWorkspace canopy;

@@ -3,6 +3,7 @@
 #include <hagen/segmentation/GroundSurface.h>
 #include <hagen/segmentation/PixelPoints.h>
 #include <Eigen/Geometry>
+#include <cstdint>
 
 namespace hagen {
 
@@ -15,10 +16,11 @@ struct Ground {
 
     /// Whether a surface was fitted. If not, the members below are from an older scan.
     bool has_surface = false;
-    GroundSurface surface;     ///< under the ROU
-    Image<float> height_m;     ///< of each pixel above the surface
-    CellTops tops;             ///< the highest point in each cell
-    Image<float> tolerance_m;  ///< pixels up to this height are ground
+    Image<std::uint8_t> is_level;  ///< 1: the pixel looks like ground (GroundEvidence.h)
+    GroundSurface surface;         ///< under the ROU
+    Image<float> height_m;         ///< of each pixel above the surface
+    CellTops tops;                 ///< the highest point in each cell
+    Image<float> tolerance_m;      ///< pixels up to this height are ground
 };
 
 }  // namespace hagen

@@ -39,6 +39,8 @@ struct Options {
     bool level_by_attitude = true;
     /// Relabel all pixels by their height above a surface fitted to the ROU.
     bool ground_surface = true;
+    /// Only where pixels on level steps show ground, what is close to that surface is ROU.
+    bool ground_evidence = true;
     /// Maximum height of ground returns above that surface; see HeightTolerance.
     float ground_tolerance_m = 0.17f;
     float ground_tolerance_per_m = 0.005f;

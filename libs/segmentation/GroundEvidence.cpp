@@ -1,0 +1,239 @@
+#include <hagen/segmentation/GroundEvidence.h>
+#include <algorithm>
+#include <array>
+#include <limits>
+
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "GroundEvidence.cpp"
+#include <hwy/foreach_target.h>
+#include "GroundGrid-inl.h"
+
+#ifndef HAGEN_GROUND_EVIDENCE
+#define HAGEN_GROUND_EVIDENCE
+namespace hagen {
+namespace {
+
+constexpr float kSteepest = 0.3f;  // slope of a level step
+constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
+
+constexpr float kClose_m = 0.2f, kClose_per_m = 0.005f;  // to the surface
+constexpr float kLeastShare = 0.55f;                     // of level pixels among the close ones
+constexpr int kCells = GroundSurface::kCells;
+constexpr int kBlockCells = 4;
+constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
+constexpr int kReach = 4;                      // blocks in each direction
+
+/// One close pixel that is level, in the units of `close`.
+constexpr std::int32_t kLevel = 1 << 16;
+
+}  // namespace
+}  // namespace hagen
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+namespace {
+
+template <class D>
+using Bytes = hn::Rebind<std::uint8_t, D>;
+
+/// Stores 1 for true and 0 for false.
+template <class D>
+HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
+    const hn::RebindToSigned<D> di;
+    const auto ones = hn::IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, 1));
+    hn::StoreU(hn::DemoteTo(Bytes<D>(), ones), Bytes<D>(), to);
+}
+
+/// Whether each pixel and the next in memory are a level step. At the top of a column, where the
+/// next one is in another column, the caller corrects it.
+void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
+                  const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT is_step,
+                  std::int32_t* HWY_RESTRICT cell) {
+    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+        hn::StoreU(gridCells(d, x, y).cell, hn::RebindToSigned<decltype(d)>(), cell + pixel);
+    });
+    forEachVector(pixels - 1, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+        const auto dx = hn::Sub(hn::LoadU(d, x_m + pixel + 1), x);
+        const auto dy = hn::Sub(hn::LoadU(d, y_m + pixel + 1), y);
+        const auto dz = hn::Sub(hn::LoadU(d, z_m + pixel + 1), hn::LoadU(d, z_m + pixel));
+        const auto run_m2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+        const auto outwards = hn::Add(hn::Mul(dx, x), hn::Mul(dy, y));
+        const auto is_level =  // false for NaN
+            hn::Lt(hn::Mul(dz, dz), hn::Mul(hn::Set(d, kSteepest * kSteepest), run_m2));
+        storeMask(d, hn::And(is_level, hn::Gt(outwards, hn::Zero(d))), is_step + pixel);
+    });
+}
+
+/// Marks both pixels of each step, unless their cell has something below.
+void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
+                 const std::int32_t* HWY_RESTRICT cell, const float* HWY_RESTRICT lowest_m,
+                 const std::uint8_t* HWY_RESTRICT is_step, std::uint8_t* HWY_RESTRICT is_level) {
+    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const Bytes<decltype(d)> d8;
+        const auto low_m = hn::GatherIndex(d, lowest_m, hn::LoadU(di, cell + pixel));
+        const auto is_lowest =
+            hn::Le(hn::LoadU(d, z_m + pixel), hn::Add(low_m, hn::Set(d, kDrop_m)));
+        const auto on_step =
+            hn::Or(hn::LoadU(d8, is_step + pixel), hn::LoadU(d8, is_step + pixel + 1));
+        const auto marks = hn::PromoteTo(di, on_step);
+        storeMask(d, hn::And(is_lowest, hn::RebindMask(d, hn::Gt(marks, hn::Zero(di)))),
+                  is_level + pixel);
+    });
+}
+
+/// What each pixel adds to the count of its cell: 0 unless it is close to the surface.
+void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
+             const float* HWY_RESTRICT height_m, const std::uint8_t* HWY_RESTRICT is_level,
+             std::int32_t* HWY_RESTRICT close) {
+    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+        const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+        const auto most_m =
+            hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kClose_per_m), distance_m));
+        const auto is_close = hn::Lt(hn::Abs(hn::LoadU(d, height_m + pixel)), most_m);
+        const auto level = hn::PromoteTo(di, hn::LoadU(Bytes<decltype(d)>(), is_level + pixel));
+        const auto count = hn::Add(hn::Mul(level, hn::Set(di, kLevel)), hn::Set(di, 1));
+        hn::StoreU(hn::IfThenElseZero(hn::RebindMask(di, is_close), count), di, close + pixel);
+    });
+}
+
+/// Lowers the tolerance of each pixel to `least_m` of its cell, if that is minus infinity.
+void WithdrawIn(std::size_t pixels, const std::int32_t* HWY_RESTRICT cell,
+                const float* HWY_RESTRICT least_m, float* HWY_RESTRICT tolerance_m) {
+    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto least = hn::GatherIndex(d, least_m, hn::LoadU(di, cell + pixel));
+        // NaN stays NaN.
+        hn::StoreU(hn::Add(hn::LoadU(d, tolerance_m + pixel), least), d, tolerance_m + pixel);
+    });
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(LevelStepsIn);
+HWY_EXPORT(MarkLevelIn);
+HWY_EXPORT(CloseIn);
+HWY_EXPORT(WithdrawIn);
+
+/// Pixels close to the surface, and those of them that are level.
+struct Counts {
+    int close = 0, level = 0;
+
+    void add(const Counts& other) { close += other.close, level += other.level; }
+    void remove(const Counts& other) { close -= other.close, level -= other.level; }
+    bool isGround() const {
+        return level > 0 && static_cast<float>(level) >= kLeastShare * static_cast<float>(close);
+    }
+};
+using Blocks = std::array<Counts, kBlocks * kBlocks>;  // column by column
+
+void sumBlocks(const std::int32_t* close, Blocks& blocks) {
+    for (int j = 0; j < kCells; ++j) {
+        const std::int32_t* const column = close + gridColumn(j);
+        for (int i = 0; i < kCells; ++i) {
+            Counts& block = blocks[j / kBlockCells * kBlocks + i / kBlockCells];
+            block.add({column[i] % kLevel, column[i] / kLevel});
+        }
+    }
+}
+
+/// Sums over kReach blocks in each direction along a line of blocks that are `stride` apart.
+void sumAlong(const Counts* blocks, int stride, Counts* sums) {
+    Counts around;
+    for (int k = 0; k < kReach; ++k) around.add(blocks[k * stride]);
+    for (int k = 0; k < kBlocks; ++k) {
+        if (k + kReach < kBlocks) around.add(blocks[(k + kReach) * stride]);
+        if (k - kReach - 1 >= 0) around.remove(blocks[(k - kReach - 1) * stride]);
+        sums[k * stride] = around;
+    }
+}
+
+}  // namespace
+
+void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level,
+                     GroundEvidenceWorkspace& work) {
+    const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
+    const auto size = static_cast<std::size_t>(rows * columns);
+    is_level.resize(rows, columns);
+    work.cell.resize(rows, columns);
+    if (size == 0) return;
+    // Steps from one pixel before the first: none.
+    work.steps.assign(size + 1, 0);
+    std::uint8_t* const is_step = work.steps.data() + 1;
+    HWY_DYNAMIC_DISPATCH(LevelStepsIn)
+    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), is_step, work.cell.data());
+    for (Eigen::Index top = rows - 1; top < rows * columns; top += rows) is_step[top] = 0;
+
+    work.lowest_m.assign(kGridSize, kNoHeight);
+    float* const lowest_m = work.lowest_m.data();
+    const std::int32_t* const cell = work.cell.data();
+    const float* const z_m = pixels.z_m.data();
+    visitByTurns(
+        size, [=](std::size_t pixel) __attribute__((always_inline)) {
+            float& low_m = lowest_m[cell[pixel]];
+            low_m = z_m[pixel] < low_m ? z_m[pixel] : low_m;  // ignores NaN
+        });
+    HWY_DYNAMIC_DISPATCH(MarkLevelIn)
+    (size, z_m, cell, lowest_m, work.steps.data(), is_level.data());
+}
+
+void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
+                  Image<Label>& candidates) {
+    candidates.resize(labels.rows(), labels.cols());
+    static_assert(static_cast<int>(Label::Rou) == 1 && static_cast<int>(Label::Unclassified) == 0);
+    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
+        const int is_rou = labels.data()[pixel] == Label::Rou;
+        candidates.data()[pixel] = static_cast<Label>(is_rou & is_level.data()[pixel]);
+    }
+}
+
+void requireEvidence(const PixelPoints& pixels, const Image<std::int32_t>& cell,
+                     const Image<float>& height_m, const Image<std::uint8_t>& is_level,
+                     Image<float>& tolerance_m, GroundEvidenceWorkspace& work) {
+    const auto size = static_cast<std::size_t>(height_m.size());
+    if (size == 0) return;
+    work.cell.resize(height_m.rows(), height_m.cols());
+    std::int32_t* const of_pixel = work.cell.data();
+    HWY_DYNAMIC_DISPATCH(CloseIn)
+    (size, pixels.x_m.data(), pixels.y_m.data(), height_m.data(), is_level.data(), of_pixel);
+
+    work.close.assign(kGridSize, 0);
+    std::int32_t* const close = work.close.data();
+    const std::int32_t* const place = cell.data();
+    visitByTurns(
+        size, [=](std::size_t pixel)
+                  __attribute__((always_inline)) { close[place[pixel]] += of_pixel[pixel]; });
+
+    Blocks blocks{}, sums;
+    sumBlocks(close, blocks);
+    for (int j = 0; j < kBlocks; ++j) sumAlong(&blocks[j * kBlocks], 1, &sums[j * kBlocks]);
+    for (int i = 0; i < kBlocks; ++i) sumAlong(&sums[i], kBlocks, &blocks[i]);
+
+    constexpr float kNothing = -std::numeric_limits<float>::infinity();
+    work.least_m.assign(kGridSize, kNothing);
+    for (int j = 0; j < kCells; ++j) {
+        float* const column = work.least_m.data() + gridColumn(j);
+        for (int i = 0; i < kCells; ++i) {
+            const Counts& around = blocks[j / kBlockCells * kBlocks + i / kBlockCells];
+            column[i] = around.isGround() ? 0.0f : kNothing;
+        }
+    }
+    HWY_DYNAMIC_DISPATCH(WithdrawIn)(size, place, work.least_m.data(), tolerance_m.data());
+}
+
+}  // namespace hagen
+#endif
