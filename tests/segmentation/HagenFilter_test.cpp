@@ -535,7 +535,7 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
     const SensorModel sensor = otherSensor();
     const Scan scan = hillyScan(57, sensor);
     std::vector<std::vector<Label>> all_labels;
-    for (const int switches : {0, 1, 2, 4, 8, 6, 7, 20, 23}) {
+    for (const int switches : {0, 1, 2, 4, 8, 6, 7, 23}) {
         Options o = otherOptions();
         o.canopy_layer = (switches & 1) != 0;
         o.grow_feet = (switches & 2) != 0;
