@@ -1,5 +1,6 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/Clearance.h>
+#include <hagen/segmentation/DeadBeams.h>
 #include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <hagen/segmentation/RangeAngle.h>
@@ -20,53 +21,81 @@ float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg));
 HagenFilter::HagenFilter(SensorModel sensor, Options options)
     : sensor_(std::move(sensor)), options_(options) {
     checkOptions(options_, sensor_.rows());
-    directions_ = pixelDirections(sensor_, options_.columns);
+    views_[Posture::Upright] = viewIn(Posture::Upright);
+}
+
+HagenFilter::View HagenFilter::viewIn(Posture posture) const {
+    View view{sensorIn(posture, sensor_), {}};
+    view.directions = pixelDirections(view.sensor, options_.columns);
+    return view;
 }
 
 const SegmentationResult& HagenFilter::segment(const Scan& scan,
                                                const std::optional<Attitude>& attitude) {
+    const std::optional<Attitude> horizon = options_.level_by_attitude ? attitude : std::nullopt;
+    const Posture posture = postureOf(horizon);
+    if (posture == Posture::Upright) return segment(scan, horizon, views_.at(posture));
+
+    // The same, in a frame in which the rows of the image rise.
+    checkLocated(scan, sensor_);
+    auto view = views_.find(posture);
+    if (view == views_.end()) view = views_.emplace(posture, viewIn(posture)).first;
+    turnScan(scan, posture, horizon, view->second.sensor, work_.turned);
+    segment(work_.turned, attitudeIn(posture, horizon), view->second);
+    Eigen::Isometry3f& from_sensor = result_.ground.from_sensor;
+    from_sensor = from_sensor * Eigen::Isometry3f(imageFromSensor(posture, horizon));
+    return result_;
+}
+
+const SegmentationResult& HagenFilter::segment(const Scan& scan,
+                                               const std::optional<Attitude>& horizon,
+                                               const View& view) {
     const Options& o = options_;
     SegmentationResult& r = result_;
     FilterWorkspace& w = work_;
     const Image<float>& depth_m = r.repaired_m;
-    const std::optional<Attitude> horizon = o.level_by_attitude ? attitude : std::nullopt;
 
     // III-A: depth image
-    projectScan(scan, sensor_, o.columns, std::max(o.context_m, o.zone_m), r.range_image,
+    projectScan(scan, view.sensor, o.columns, std::max(o.context_m, o.zone_m), r.range_image,
                 w.projection);
     repairGaps(r.range_image.depth_m, o.repair_max_step_m, r.repaired_m);
+    if (o.bridge_dead_beams)
+        bridgeDeadBeams(r.range_image.depth_m, view.directions, r.repaired_m, w.dead_beams);
 
     // III-B: local maxima, sharpened
     proximityOf(depth_m, o.zone_m, r.proximity_m);
     findPersistentMaxima(r.proximity_m, o.persistence_m, r.maxima, w.maxima);
     sharpenMaxima(r.proximity_m, r.maxima, o.sharpening_sigma_px, o.sharpening_sigma_m,
                   r.sharpened_m);
-    mergeMaxima(depth_m, r.proximity_m, r.sharpened_m, r.maxima, sensor_.min_range_m, r.merged_m);
+    mergeMaxima(depth_m, r.proximity_m, r.sharpened_m, r.maxima, view.sensor.min_range_m,
+                r.merged_m);
 
     // III-C and III-D: range-angle image, smoothed
-    rangeAngles(r.merged_m, directions_, horizon, r.range_angle_rad);
+    rangeAngles(r.merged_m, view.directions, horizon, r.range_angle_rad);
     smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad, w.ssa);
     carryAngles(r.smoothed_rad, r.pixel_angle_rad);
 
     // III-E: labels
     labelRegions(depth_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,
                  radiansf(o.seed_gate_deg), r.labels, w.labelling);
-    if (o.ground_surface || o.ground_is_roi_below_m > 0) judgeByGround(scan, horizon);
+    if (o.ground_surface || o.ground_is_roi_below_m > 0)
+        judgeByGround(scan, horizon, view.directions);
     if (o.context_m > o.zone_m) limitToZone(depth_m, o.zone_m, r.labels);
     numberRoiComponents(depth_m, r.labels, o.component_gap_m, r.components, w.components);
     extractReturns(scan, {r.range_image, r.labels, r.components}, r.own_labels,
-                   {sensor_.min_range_m, sensor_.max_range_m, o.zone_m, o.component_gap_m},
+                   {view.sensor.min_range_m, view.sensor.max_range_m, o.zone_m, o.component_gap_m},
                    r.returns, w.extraction);
     return r;
 }
 
 /// Beyond the paper: uses the detected ground to find what else is ground, and what is too close.
-void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon) {
+void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon,
+                                const PixelDirections& directions) {
     SegmentationResult& r = result_;
     Ground& g = r.ground;
 
     // ground plane, if visible
-    locatePixels(scan, directions_, r.range_image, r.repaired_m, g.pixels);
+    locatePixels(scan, directions, r.range_image, r.repaired_m, g.pixels);
     g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}), work_.ground_frame);
     movePixels(g.from_sensor, g.pixels);
     g.is_seen = canBeGround(g.from_sensor, horizon, r.labels);

@@ -26,6 +26,8 @@ const std::vector<OptionKey>& optionKeys() {
         {"repair_max_step_m", "m", 0, 1000,
          "fill one-pixel gaps between vertical neighbours that differ by less; 0: off", "",
          &Options::repair_max_step_m},
+        {"bridge_dead_beams", "", 0, 1, "fill the rows of beams that never return", "",
+         &Options::bridge_dead_beams},
         {"persistence_m", "m", 0, 1000, "minimum persistence of a maximum that is sharpened", "",
          &Options::persistence_m},
         {"sharpening_sigma_px", "px", 0.01, 100, "spatial Gaussian of the bilateral filter", "g_s",

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/segmentation/CanopyLayer.h>
+#include <hagen/segmentation/DeadBeams.h>
 #include <hagen/segmentation/Extraction.h>
 #include <hagen/segmentation/FartherReturns.h>
 #include <hagen/segmentation/GroundEvidence.h>
@@ -20,7 +21,9 @@ namespace hagen {
 /// that no scan allocates. They have no state: any stage may get a new one at any time. Threads
 /// must not share one.
 struct FilterWorkspace {
+    Scan turned;                     // of a sensor that is not upright
     ProjectionWorkspace projection;  // stage 1
+    DeadBeamsWorkspace dead_beams;   // stage 2
     MaximaWorkspace maxima;          // stage 3
     SsaWorkspace ssa;                // stage 7
     LabellingWorkspace labelling;    // stage 8

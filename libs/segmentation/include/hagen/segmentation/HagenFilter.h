@@ -10,6 +10,8 @@
 #include <hagen/segmentation/Options.h>
 #include <hagen/segmentation/OwnLabels.h>
 #include <hagen/segmentation/PersistentMaxima.h>
+#include <hagen/segmentation/Posture.h>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -47,10 +49,11 @@ class HagenFilter {
     /// Throws std::invalid_argument if options and sensor do not fit together; see checkOptions().
     explicit HagenFilter(SensorModel sensor, Options options = {});
 
-    /// Segments one scan, which may be empty. `attitude` is the sensor's tilt, if known. The result
-    /// is valid until the next call. Throws std::invalid_argument, saying what to call, if the scan
-    /// has no ranges, azimuths and rows yet, or rows of another sensor (checkLocated()); the result
-    /// is then unchanged.
+    /// Segments one scan, which may be empty. `attitude` is the sensor's tilt, if known; a sensor
+    /// may be mounted at any angle if it is. The images of a sensor that is upside down or on its
+    /// side have the rows of its posture (Posture.h). The result is valid until the next call.
+    /// Throws std::invalid_argument, saying what to call, if the scan has no ranges, azimuths and
+    /// rows yet, or rows of another sensor (checkLocated()); the result is then unchanged.
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
 
@@ -58,12 +61,21 @@ class HagenFilter {
     const Options& options() const { return options_; }
 
  private:
-    void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon);
+    /// The rows and columns of the image in one posture of the sensor.
+    struct View {
+        SensorModel sensor;
+        PixelDirections directions;
+    };
+    View viewIn(Posture posture) const;
+    const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& horizon,
+                                      const View& view);
+    void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon,
+                       const PixelDirections& directions);
     void judgeByHeight();
 
     SensorModel sensor_;
     Options options_;
-    PixelDirections directions_;
+    std::map<Posture, View> views_;  ///< those that were needed so far
     SegmentationResult result_;
     FilterWorkspace work_;
 };

@@ -20,6 +20,8 @@ struct Options {
     /// Fill one-pixel gaps of the depth image between vertical neighbours that differ by less than
     /// this; 0: off.
     float repair_max_step_m = 1.0f;
+    /// Fill the rows of dead beams (DeadBeams.h).
+    bool bridge_dead_beams = true;
     /// Minimum persistence of a proximity maximum to be sharpened; 0: every local maximum.
     float persistence_m = 0.5f;
     /// Standard deviations of the bilateral filter: spatial, in pixels, and of range, in metres.
