@@ -59,12 +59,23 @@ void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
         .between(0.1, 3600.0)
         .showDefault()
         .group("Flight");
-    app.option("--sensor", log.sensor, "rawlogs require VLP-16 or HDL-32E")
-        .oneOf({"VLP-16", "HDL-32E", "HDL-64E"})
+    app.option("--sensor", log.sensor, "rawlogs require VLP-16, HDL-32E or Mid-360")
+        .oneOf({"VLP-16", "HDL-32E", "HDL-64E", "Mid-360"})
+        .showDefault()
+        .group("Flight");
+    app.option("--mount-roll-deg", log.mount_roll_deg,
+               "the sensor's roll on the vehicle; 180: upside down")
+        .between(-180.0, 180.0)
+        .showDefault()
+        .group("Flight");
+    app.option("--mount-pitch-deg", log.mount_pitch_deg,
+               "the sensor's pitch on the vehicle; positive: tilted forward, down")
+        .between(-90.0, 90.0)
         .showDefault()
         .group("Flight");
 
-    app.option("-o,--output", log.rawlog, "rawlog with the packets of each scan and poses")
+    app.option("-o,--output", log.rawlog,
+               "rawlog with the packets (Mid-360: cloud) of each scan and poses")
         .check(not_empty, "PATH")
         .group("Output");
     app.option("--kitti", log.folder,

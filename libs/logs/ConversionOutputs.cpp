@@ -8,6 +8,17 @@ namespace hagen::logs {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The sensor's tilt on the level vehicle: as in the log, otherwise as in the settings.
+Attitude mountOf(const mrpt::obs::CObservation& scan, const observations::Settings& settings) {
+    const mrpt::math::TPose3D on_vehicle = scan.sensorPose();
+    if (on_vehicle.roll == 0 && on_vehicle.pitch == 0) return settings.mount;
+    return {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)};
+}
+
+}  // namespace
+
 ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_(conversion) {
     const bool overwrite = conversion.overwrite;
     if (!conversion.rawlog.empty()) rawlog_.emplace(conversion.rawlog, overwrite);
@@ -27,14 +38,15 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
 
 std::string ConversionOutputs::writeScan(
     const observations::ObservationSegmenter::Output& segmented, const std::string& sensor_label,
-    const std::string& name, const Options& options) {
+    const std::string& name, const observations::Settings& settings) {
     const std::size_t number = scans_[sensor_label]++;
     const std::string own_name = name.empty() ? scanName(number) : name;
     if (folders_) {
         auto writer = folder_writers_.find(sensor_label);
         if (writer == folder_writers_.end()) {
             writer = folder_writers_
-                         .emplace(sensor_label, ScanFolderWriter(folders_->folderOf(sensor_label)))
+                         .emplace(sensor_label, ScanFolderWriter(folders_->folderOf(sensor_label),
+                                                                 mountOf(*segmented.roi, settings)))
                          .first;
         }
         const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
@@ -47,8 +59,8 @@ std::string ConversionOutputs::writeScan(
         fs::create_directory(folder);
         const std::string title =
             conversion_.input.filename().string() + ", " + sensor_label + ", scan " + own_name;
-        pictures::drawStages({*segmented.window, *segmented.sensor, options, *segmented.result,
-                              title, conversion_.picture_azimuth_deg},
+        pictures::drawStages({*segmented.window, *segmented.sensor, settings.options,
+                              *segmented.result, title, conversion_.picture_azimuth_deg},
                              folder);
     }
     return own_name;

@@ -29,7 +29,7 @@ class ConversionOutputs {
     /// next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const std::string& sensor_label, const std::string& name,
-                          const Options& options);
+                          const observations::Settings& settings);
 
     /// Adds a scan to the map, if there is one.
     bool wantsMap() const { return map_.has_value(); }

@@ -198,8 +198,8 @@ void Converter::account(ScanInConversion& scan) {
         ScanReport report = reportOf(scan.segmented);
         report.entry = scan.recorded.entry;
         report.sensor_label = scan.recorded.observation->sensorLabel;
-        report.name = outputs_.writeScan(scan.segmented, report.sensor_label, scan.recorded.name,
-                                         settings_.options);
+        report.name =
+            outputs_.writeScan(scan.segmented, report.sensor_label, scan.recorded.name, settings_);
         count(scan.segmented, report);
     }
     scan.segmenter.reset();

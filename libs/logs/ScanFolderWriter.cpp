@@ -1,5 +1,6 @@
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
+#include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
 #include <cstdio>
 #include <fstream>
@@ -13,15 +14,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void writeSensor(const fs::path& file, const SensorModel& sensor) {
+void writeSensor(const fs::path& file, const SensorModel& sensor, const Attitude& mount) {
     std::ofstream out(file);
-    out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
-        << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
-    for (int row = 0; row < sensor.rows(); ++row) {
-        out << (row > 0 ? ", " : "") << degrees(sensor.elevations_rad[row]);
+    if (sensor.has_rings) {
+        out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
+            << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
+        for (int row = 0; row < sensor.rows(); ++row) {
+            out << (row > 0 ? ", " : "") << degrees(sensor.elevations_rad[row]);
+        }
+        out << "]\n";
+    } else {  // a custom sensor would have rings
+        out << "# Sensor of this recording\nsensor:\n  model: " << sensor.name << "\n";
     }
-    out << "]\n  min_range_m: " << sensor.min_range_m << "\n  max_range_m: " << sensor.max_range_m
+    out << "  min_range_m: " << sensor.min_range_m << "\n  max_range_m: " << sensor.max_range_m
         << "\n";
+    if (mount.roll_rad != 0 || mount.pitch_rad != 0) {
+        out << "  mount_roll_deg: " << observations::degreesText(mount.roll_rad) << "\n"
+            << "  mount_pitch_deg: " << observations::degreesText(mount.pitch_rad) << "\n";
+    }
     base::closeWritten(out, file);
 }
 
@@ -33,7 +43,8 @@ std::string scanName(std::size_t scan) {
     return name;
 }
 
-ScanFolderWriter::ScanFolderWriter(fs::path folder) : folder_(std::move(folder)) {
+ScanFolderWriter::ScanFolderWriter(fs::path folder, const Attitude& mount)
+    : folder_(std::move(folder)), mount_(mount) {
     fs::create_directory(folder_ / "velodyne");
     fs::create_directory(folder_ / "labels");
 }
@@ -43,7 +54,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
                              double time_s, const std::optional<mrpt::poses::CPose3D>& sensor_pose,
                              bool pose_has_horizon) {
     if (times_s_.empty()) {
-        writeSensor(folder_ / "sensor.yaml", sensor);
+        writeSensor(folder_ / "sensor.yaml", sensor, mount_);
         first_time_s_ = time_s;
     }
     const std::vector<Label> labels(returns.label.begin(), returns.label.begin() + scan.size());

@@ -23,6 +23,9 @@ Json settingsOf(const observations::Settings& settings) {
         json[key.name] = is_word ? Json(text) : Json::parse(text);
     }
     json["sensor.model"] = settings.sensor.model ? Json(*settings.sensor.model) : Json();
+    json["sensor.mount_roll_deg"] = Json::parse(observations::degreesText(settings.mount.roll_rad));
+    json["sensor.mount_pitch_deg"] =
+        Json::parse(observations::degreesText(settings.mount.pitch_rad));
     return json;
 }
 

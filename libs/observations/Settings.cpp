@@ -2,6 +2,7 @@
 
 #include <hagen/base/NumberText.h>
 #include <hagen/observations/Settings.h>
+#include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <algorithm>
 #include <cmath>
@@ -106,7 +107,11 @@ const std::vector<SettingsKey>& sensorKeys() {
         {"min_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
          "nearer returns are unclassified", ""},
         {"max_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
-         "farther returns are unclassified", ""}};
+         "farther returns are unclassified", ""},
+        {"mount_roll_deg", "deg", "0", "-180 ... 180",
+         "the sensor's roll on the level vehicle, if its log does not say", ""},
+        {"mount_pitch_deg", "deg", "0", "-90 ... 90",
+         "the sensor's pitch on the level vehicle, if its log does not say", ""}};
     return keys;
 }
 
@@ -123,7 +128,12 @@ const OptionKey* findOption(const std::string& name) {
     return nullptr;
 }
 
-void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sensor& sensor) {
+float parseAngle(const YAML::Node& node, const std::string& key, double most_deg) {
+    return static_cast<float>(radians(parseNumber<double>(node, key, -most_deg, most_deg)));
+}
+
+void parseSensor(const fs::path& file, const YAML::Node& section, Settings& settings) {
+    Settings::Sensor& sensor = settings.sensor;
     if (!section.IsMap()) {
         throw SettingsError(at(file, section) +
                             "sensor must contain keys, such as 'model: VLP-16'");
@@ -157,6 +167,10 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings::Sens
             } else if (key == "max_range_m") {
                 sensor.max_range_m =
                     parseNumber<float>(value, "sensor.max_range_m", 0, kMostRange_m);
+            } else if (key == "mount_roll_deg") {
+                settings.mount.roll_rad = parseAngle(value, "sensor.mount_roll_deg", 180);
+            } else if (key == "mount_pitch_deg") {
+                settings.mount.pitch_rad = parseAngle(value, "sensor.mount_pitch_deg", 90);
             } else {
                 throw SettingsError(unknownKey(key, namesOf(sensorKeys())) + " (in 'sensor')");
             }
@@ -231,7 +245,7 @@ void mergeFile(const fs::path& file, int includes, Settings& settings) {
         }
         if (name == "include") continue;
         if (name == "sensor") {
-            parseSensor(file, entry.second, settings.sensor);
+            parseSensor(file, entry.second, settings);
         } else if (const OptionKey* key = findOption(name)) {
             try {
                 parseOption(*key, entry.second, settings.options);
@@ -277,6 +291,16 @@ void mergeSettings(const std::filesystem::path& file, Settings& settings) {
     settings = merged;
 }
 
+std::string degreesText(float angle_rad) {
+    const double angle_deg = degrees(static_cast<double>(angle_rad));
+    for (int decimals = 0; decimals < 10; ++decimals) {
+        const std::string text = base::fixedText(angle_deg, decimals);
+        const double read_deg = base::numberFrom<double>(text).value();
+        if (static_cast<float>(radians(read_deg)) == angle_rad) return text;
+    }
+    return base::shortestText(angle_deg);
+}
+
 std::string dumpSettings(const Settings& settings) {
     std::ostringstream text;
     const auto line = [&](const std::string& key, const std::string& value, const SettingsKey& k) {
@@ -300,6 +324,12 @@ std::string dumpSettings(const Settings& settings) {
     };
     limit("min_range_m", sensor.min_range_m);
     limit("max_range_m", sensor.max_range_m);
+    if (settings.mount.roll_rad != 0) {
+        values["mount_roll_deg"] = degreesText(settings.mount.roll_rad);
+    }
+    if (settings.mount.pitch_rad != 0) {
+        values["mount_pitch_deg"] = degreesText(settings.mount.pitch_rad);
+    }
     if (values.empty()) {
         text << "# sensor: from the recording; otherwise a VLP-16\n";
     } else {

@@ -25,6 +25,7 @@ struct KnownSensor {
     std::string name;
     std::vector<double> elevations_deg;
     float min_range_m, max_range_m;
+    bool has_rings = true;
 };
 
 const std::vector<KnownSensor>& knownSensors() {
@@ -38,7 +39,10 @@ const std::vector<KnownSensor>& knownSensors() {
           -3.0,  -2.667,  -2.333, -2.0,   -1.667, -1.333, -1.0,   -0.667, -0.333, 0.0,    0.333,
           0.667, 1.0,     1.333,  1.667,  2.333,  3.333,  4.667,  7.0,    10.333, 15.0},
          0.5f,
-         200.0f}};
+         200.0f},
+        {"OS0-128", evenly(128, -45.0, 90.0 / 127), 0.5f, 100.0f},
+        {"OS1-64", evenly(64, -21.2, 42.4 / 63), 0.5f, 200.0f},
+        {"Mid-360", evenly(40, -6.75, 1.5), 0.1f, 70.0f, false}};  // the middle of each 1.5 degrees
     return sensors;
 }
 
@@ -61,6 +65,7 @@ SensorModel sensorModel(const std::string& name) {
         sensor.name = known.name;
         sensor.min_range_m = known.min_range_m;
         sensor.max_range_m = known.max_range_m;
+        sensor.has_rings = known.has_rings;
         return sensor;
     }
     std::string message = "unknown sensor model '" + name + "'; known are";

@@ -35,8 +35,8 @@ std::vector<Label> asLabels(const std::vector<simulation::ObjectClass>& kinds) {
 
 }  // namespace
 
-GroundTruthFolder::GroundTruthFolder(const fs::path& folder, bool overwrite)
-    : path_(folder, logs::kScanFolders, overwrite), writer_(made(path_.temporary())) {
+GroundTruthFolder::GroundTruthFolder(const fs::path& folder, bool overwrite, const Attitude& mount)
+    : path_(folder, logs::kScanFolders, overwrite), writer_(made(path_.temporary()), mount) {
     fs::create_directory(path_.temporary() / "semantic");
     writeKinds(path_.temporary() / "kinds.yaml");
 }

@@ -1,6 +1,7 @@
 #include <hagen/simulated_logs/SimulatedLog.h>
 
 #include <hagen/logs/RawlogWriter.h>
+#include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/simulation/LogClock.h>
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kStart_s = simulation::kSimulatedLogStart_s;
+constexpr const char* kLidarLabel = "lidar";
 constexpr double kPoseStep_s = 0.05;  // much shorter than the gap over which poses are interpolated
 
 /// A pose file that is renamed into place when complete.
@@ -46,9 +48,9 @@ class PoseOutput {
 /// The requested outputs.
 class Outputs {
  public:
-    explicit Outputs(const SimulatedLog& log) {
+    Outputs(const SimulatedLog& log, const Attitude& mount) {
         if (!log.rawlog.empty()) rawlog.emplace(log.rawlog, log.overwrite);
-        if (!log.folder.empty()) folder.emplace(log.folder, log.overwrite);
+        if (!log.folder.empty()) folder.emplace(log.folder, log.overwrite, mount);
         if (!log.poses.empty()) poses.emplace(log.poses, log.overwrite);
     }
     void commit() {
@@ -85,6 +87,9 @@ bool hasPackets(const SensorModel& sensor) {
     return sensor.name == "VLP-16" || sensor.name == "HDL-32E";
 }
 
+/// Whether scans are written as clouds. (An HDL-64E has packets, but none that MRPT knows.)
+bool hasClouds(const SensorModel& sensor) { return !sensor.has_rings; }
+
 /// Returns the scan as a folder stores it: as measured, or as decoded from its packets.
 struct Measured {
     Scan scan;
@@ -92,11 +97,18 @@ struct Measured {
 };
 
 Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel& sensor,
-                        double time_s, Outputs& outputs) {
+                        const mrpt::poses::CPose3D& mount, double time_s, Outputs& outputs) {
+    if (hasClouds(sensor) && outputs.rawlog) {
+        const auto observation =
+            observations::observationOf(made.scan, kLidarLabel, timePoint(kStart_s + time_s));
+        observation->sensorPose = mount;
+        outputs.rawlog->write(*observation);
+    }
     if (!hasPackets(sensor)) return {made.scan, sensor};
     const auto observation = encodeSimulatedScan(made, sensor, std::fmod(time_s, 3600.0));
-    observation->sensorLabel = "lidar";
+    observation->sensorLabel = kLidarLabel;
     observation->timestamp = timePoint(kStart_s + time_s);
+    observation->sensorPose = mount;
     Measured measured;
     observations::decodePackets(*observation, measured.scan);
     measured.sensor = observations::sensorOf(*observation);
@@ -122,13 +134,20 @@ void count(const std::vector<simulation::ObjectClass>& kinds, SimulationReport& 
 
 SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going) {
     const SensorModel sensor = sensorModel(log.sensor);
-    if (!log.rawlog.empty() && !hasPackets(sensor)) {
+    if (!log.rawlog.empty() && !hasPackets(sensor) && !hasClouds(sensor)) {
         throw std::invalid_argument(
             "there is no packet format for '" + sensor.name +
             "', so it cannot be written to a rawlog; request only a scan folder");
     }
     base::checkApart({log.rawlog, log.folder, log.poses}, {});
-    Outputs outputs(log);
+    const double roll_rad = radians(log.mount_roll_deg), pitch_rad = radians(log.mount_pitch_deg);
+    const Eigen::Quaterniond mount = Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
+                                     Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+    mrpt::poses::CPose3D sensor_on_vehicle;
+    if (roll_rad != 0 || pitch_rad != 0) {  // otherwise it would have a zero with a minus sign
+        sensor_on_vehicle = mrpt::poses::CPose3D(0, 0, 0, 0, pitch_rad, roll_rad);
+    }
+    Outputs outputs(log, {static_cast<float>(roll_rad), static_cast<float>(pitch_rad)});
     const simulation::Scene scene = simulation::makeScene(log.scenario, log.seed);
     simulation::FlightSettings settings;
     settings.altitude_m = log.altitude_m;
@@ -137,7 +156,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     const simulation::Flight flight(scene.terrain(), scene.path(), settings, log.seed);
     const double measuring_s = simulation::firingPattern(sensor).revolutionPeriod_s();
 
-    simulation::SensorErrorModel faults;
+    simulation::SensorErrorModel faults = simulation::sensorErrors(sensor);
     if (log.clear_air) {
         faults.dust_per_m = 0;
         faults.airframe = false;
@@ -152,9 +171,9 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
         }
         const double time_s = log.every_s * scan, next_s = log.every_s * (scan + 1);
         const simulation::SimulatedScan made =
-            simulation::simulateScan(scene, sensor, flight, time_s, random, faults);
-        writePose(time_s, made.pose, outputs);
-        const Measured measured = writeScanEntry(made, sensor, time_s, outputs);
+            simulation::simulateScan(scene, sensor, flight, time_s, random, faults, mount);
+        writePose(time_s, flight.at(time_s), outputs);
+        const Measured measured = writeScanEntry(made, sensor, sensor_on_vehicle, time_s, outputs);
         // Poses until after the last firing, or until the next scan provides one.
         const bool is_last = scan + 1 == log.scans;
         for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "BeamDirections.h"
+
 namespace hagen::simulation {
 namespace {
 
@@ -51,6 +53,10 @@ const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
     return nullptr;
 }
 
+bool isTilted(const Eigen::Quaterniond& mount) {
+    return std::abs(mount.w()) < 1.0;  // otherwise the identity
+}
+
 /// The sensor's pose during a revolution: linear between a few sampled poses.
 class RevolutionPoses {
  public:
@@ -72,39 +78,9 @@ class RevolutionPoses {
     std::vector<SensorPose> poses_;
 };
 
-/// A laser's direction within a firing: its elevation, and the rotation since the start of the
-/// firing.
-struct LaserDirection {
-    float elevation_rad, sine, cosine;  ///< of the elevation
-    float turn_sine, turn_cosine;
-    float turn_rad;
-};
-
-std::vector<LaserDirection> laserDirections(const SensorModel& sensor,
-                                            const FiringPattern& pattern) {
-    std::vector<LaserDirection> lasers;
-    for (std::size_t laser = 0; laser < pattern.row_of_laser.size(); ++laser) {
-        const float elevation = sensor.elevations_rad[pattern.row_of_laser[laser]];
-        const double turn_rad = -radians(pattern.azimuthStep_deg()) * static_cast<double>(laser) *
-                                pattern.laser_period_us / pattern.firing_period_us;
-        lasers.push_back({elevation, std::sin(elevation), std::cos(elevation),
-                          static_cast<float>(std::sin(turn_rad)),
-                          static_cast<float>(std::cos(turn_rad)), static_cast<float>(turn_rad)});
-    }
-    return lasers;
-}
-
-float wrapped(float angle_rad) {
-    const auto pi = static_cast<float>(kPi);
-    if (angle_rad > pi) return angle_rad - 2 * pi;
-    return angle_rad <= -pi ? angle_rad + 2 * pi : angle_rad;
-}
-
 /// A beam of the revolution.
-struct Beam {
-    Vector3f direction;  ///< in the sensor's frame
-    float azimuth_rad;   ///< within +-pi
-    Vector3f axis;       ///< in the map
+struct Beam : BeamDirection {
+    Vector3f axis;  ///< in the map
 };
 
 /// All beams of a revolution, and a ray at a random place in the footprint of each. Blocks of
@@ -122,41 +98,45 @@ struct Revolution {
     }
 };
 
-inline Vector3f randomInFootprint(const Vector3f& axis, double footprint_rad, Random& random) {
-    const auto aside = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
-    const auto up = static_cast<float>(footprint_rad * (random.uniform() - 0.5));
-    const Vector3f left(-axis.y(), axis.x(), 0);  // shorter near the zenith, which no beam reaches
-    return (axis + aside * left + up * axis.cross(left)).normalized();
-}
+/// Random places in the footprints of beams.
+struct Footprint {
+    double width_rad;
+    /// Whether beams may be steep. Others are never near the zenith, and have a footprint that is
+    /// narrower by the cosine of their elevation.
+    bool may_be_steep;
 
-Revolution makeRevolution(const SensorModel& sensor, const FiringPattern& pattern,
-                          const RevolutionPoses& poses, double footprint_rad, Random& random) {
-    const std::vector<LaserDirection> lasers = laserDirections(sensor, pattern);
+    Vector3f random(const Vector3f& axis, Random& random) const {
+        const auto aside = static_cast<float>(width_rad * (random.uniform() - 0.5));
+        const auto up = static_cast<float>(width_rad * (random.uniform() - 0.5));
+        const Vector3f left =
+            may_be_steep ? Vector3f(axis.unitOrthogonal()) : Vector3f(-axis.y(), axis.x(), 0);
+        return (axis + aside * left + up * axis.cross(left)).normalized();
+    }
+};
+
+Revolution makeRevolution(const FiringPattern& pattern, const DirectionsOfFiring& directions_of,
+                          const RevolutionPoses& poses, const Footprint& footprint,
+                          Random& random) {
     Revolution turn;
-    turn.lasers = static_cast<int>(lasers.size());
+    turn.lasers = pattern.lasers;
     turn.firings = pattern.firings_per_revolution;
     turn.beams.resize(static_cast<std::size_t>(turn.lasers) * turn.firings);
     turn.rays.resize(turn.beams.size());
+    std::vector<BeamDirection> directions(static_cast<std::size_t>(turn.lasers));
     for (int firing = 0; firing < turn.firings; ++firing) {
         const SensorPose pose = poses.at(1e-6 * firing * pattern.firing_period_us);
         const Eigen::Matrix3f attitude = pose.attitude.toRotationMatrix().cast<float>();
         const Vector3f origin = pose.position_m.cast<float>();
-        const double azimuth = -radians(kFirstAzimuth_deg + firing * pattern.azimuthStep_deg());
-        const auto sine = static_cast<float>(std::sin(azimuth));
-        const auto cosine = static_cast<float>(std::cos(azimuth));
-        const auto first_rad = static_cast<float>(std::remainder(azimuth, 2 * kPi));
+        directions_of(firing, directions);
         for (int laser = 0; laser < turn.lasers; ++laser) {
-            const LaserDirection& l = lasers[laser];
             const std::size_t i = turn.index(firing, laser);
             Beam& beam = turn.beams[i];
-            beam.direction = {l.cosine * (cosine * l.turn_cosine - sine * l.turn_sine),
-                              l.cosine * (sine * l.turn_cosine + cosine * l.turn_sine), l.sine};
-            beam.azimuth_rad = wrapped(first_rad + l.turn_rad);
+            static_cast<BeamDirection&>(beam) = directions[static_cast<std::size_t>(laser)];
             beam.axis = attitude * beam.direction;
             const double time_s =
                 1e-6 * (firing * pattern.firing_period_us + laser * pattern.laser_period_us);
             turn.rays[i] = {
-                origin, randomInFootprint(beam.axis, footprint_rad, random),
+                origin, footprint.random(beam.axis, random),
                 static_cast<float>(std::min(1.0, time_s / pattern.revolutionPeriod_s()))};
         }
     }
@@ -175,7 +155,8 @@ float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axi
 /// Casts a second ray for some of the beams. If it hits another surface nearly as far away, the
 /// range is set to a value between both, and the return is that of the nearer surface.
 void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max_range_m,
-              const SensorErrorModel& faults, Random& random, std::vector<RayHit>& hits) {
+              const SensorErrorModel& faults, const Footprint& footprint, Random& random,
+              std::vector<RayHit>& hits) {
     constexpr float kLeast_m = 0.2f, kPulse_m = 1.2f;  // farther apart: two separate pulses
     std::vector<std::size_t> chosen;
     std::vector<Ray> rays;
@@ -186,7 +167,7 @@ void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max
         if (hits[i].kind == ObjectClass::None) continue;
         chosen.push_back(i);
         rays.push_back(turn.rays[i]);
-        rays.back().direction = randomInFootprint(turn.beams[i].axis, faults.footprint_rad, random);
+        rays.back().direction = footprint.random(turn.beams[i].axis, random);
         rays.back().reach_m = hits[i].range_m + 1.01f * kPulse_m;  // farther surfaces are not mixed
     }
     std::vector<RayHit> others;
@@ -214,12 +195,17 @@ struct Echo {
 class Receiver {
  public:
     Receiver(const Scene& scene, const SensorErrorModel& faults, const SensorModel& sensor,
-             Random& random)
-        : scene_(scene), faults_(faults), sensor_(sensor), random_(random) {}
+             const Eigen::Quaterniond& mount, Random& random)
+        : scene_(scene),
+          faults_(faults),
+          sensor_(sensor),
+          is_tilted_(isTilted(mount)),
+          vehicle_from_sensor_(mount.toRotationMatrix().cast<float>()),
+          random_(random) {}
 
-    Echo measure(const RayHit& hit, const Ray& ray, const Beam& beam, float elevation_rad) {
+    Echo measure(const RayHit& hit, const Ray& ray, const Beam& beam) {
         if (faults_.airframe) {
-            if (const AirframeSpot* spot = airframeAt(beam.azimuth_rad, elevation_rad)) {
+            if (const AirframeSpot* spot = spotBefore(beam)) {
                 if (random_.chance(0.4)) return {};  // too near to be measured
                 return {withNoise(spot->range_m, 1.0f), 0.1f, ObjectClass::Airframe, 0};
             }
@@ -253,6 +239,15 @@ class Receiver {
  private:
     static constexpr double kDust_m = 15.0;  // dust farther away is too faint
 
+    /// The part of the vehicle in front of a beam; it stays where it is, however the sensor is
+    /// mounted.
+    const AirframeSpot* spotBefore(const Beam& beam) const {
+        if (!is_tilted_) return airframeAt(beam.azimuth_rad, beam.elevation_rad);
+        const Vector3f way = vehicle_from_sensor_ * beam.direction;
+        return airframeAt(std::atan2(way.y(), way.x()),
+                          std::asin(std::clamp(way.z(), -1.0f, 1.0f)));
+    }
+
     float withNoise(float range_m, float times) {
         return range_m +
                static_cast<float>(faults_.least_noise_m * random_.approximateNormal()) * times;
@@ -272,6 +267,8 @@ class Receiver {
     const Scene& scene_;
     const SensorErrorModel& faults_;
     const SensorModel& sensor_;
+    bool is_tilted_;
+    Eigen::Matrix3f vehicle_from_sensor_;
     Random& random_;
 };
 
@@ -283,8 +280,8 @@ void reserve(std::size_t returns, SimulatedScan& out) {
     out.laser.reserve(returns);
 }
 
-void append(const Echo& echo, const Beam& beam, int firing, int laser, std::uint8_t row,
-            float time_s, SimulatedScan& out) {
+void append(const Echo& echo, const Beam& beam, int firing, int laser, float time_s,
+            SimulatedScan& out) {
     const Vector3f at = echo.range_m * beam.direction;
     out.scan.x_m.push_back(at.x());
     out.scan.y_m.push_back(at.y());
@@ -292,7 +289,7 @@ void append(const Echo& echo, const Beam& beam, int firing, int laser, std::uint
     out.scan.intensity.push_back(echo.intensity);
     out.scan.range_m.push_back(echo.range_m);
     out.scan.azimuth_rad.push_back(beam.azimuth_rad);
-    out.scan.row.push_back(row);
+    out.scan.row.push_back(beam.row);
     out.scan.time_s.push_back(time_s);
     out.kind.push_back(echo.kind);
     out.object.push_back(echo.object);
@@ -303,42 +300,50 @@ void append(const Echo& echo, const Beam& beam, int firing, int laser, std::uint
 }  // namespace
 
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
-                           double time_s, Random& random, const SensorErrorModel& faults) {
+                           double time_s, Random& random, const SensorErrorModel& faults,
+                           const Eigen::Quaterniond& mount) {
     const FiringPattern pattern = firingPattern(sensor);
     const Scene::Snapshot snapshot = scene.snapshotOver(time_s, pattern.revolutionPeriod_s());
-    const RevolutionPoses poses(pose_at, time_s, pattern.revolutionPeriod_s());
-    const Revolution turn = makeRevolution(sensor, pattern, poses, faults.footprint_rad, random);
+    const PoseAt sensor_at = [&](double at_s) {
+        const SensorPose vehicle = pose_at(at_s);
+        return SensorPose{vehicle.position_m, vehicle.attitude * mount};
+    };
+    const RevolutionPoses poses(sensor_at, time_s, pattern.revolutionPeriod_s());
+    const Footprint footprint{faults.footprint_rad, isTilted(mount) || !sensor.has_rings};
+    const Revolution turn = makeRevolution(pattern, directionsOfScan(sensor, pattern, time_s),
+                                           poses, footprint, random);
 
     std::vector<RayHit> hits;
     snapshot.cast(turn.rays, sensor.max_range_m, hits);
-    if (faults.mixed > 0) mixEdges(snapshot, turn, sensor.max_range_m, faults, random, hits);
+    if (faults.mixed > 0) {
+        mixEdges(snapshot, turn, sensor.max_range_m, faults, footprint, random, hits);
+    }
 
     SimulatedScan out;
     reserve(turn.beams.size(), out);
     out.scan.beams = beamSpan(sensor);
-    out.pose = pose_at(time_s);
+    out.pose = sensor_at(time_s);
     out.altitude_m = out.pose.position_m.z() -
                      scene.terrain().height_m(out.pose.position_m.x(), out.pose.position_m.y());
-    Receiver receiver(scene, faults, sensor, random);
+    Receiver receiver(scene, faults, sensor, mount, random);
     for (int firing = 0; firing < turn.firings; ++firing) {
         for (int laser = 0; laser < turn.lasers; ++laser) {
             const std::size_t i = turn.index(firing, laser);
-            const std::uint8_t row = pattern.row_of_laser[laser];
-            const Echo echo =
-                receiver.measure(hits[i], turn.rays[i], turn.beams[i], sensor.elevations_rad[row]);
+            const Echo echo = receiver.measure(hits[i], turn.rays[i], turn.beams[i]);
             if (echo.kind == ObjectClass::None) continue;
             const double since_s =
                 1e-6 * (firing * pattern.firing_period_us + laser * pattern.laser_period_us);
-            append(echo, turn.beams[i], firing, laser, row, static_cast<float>(since_s), out);
+            append(echo, turn.beams[i], firing, laser, static_cast<float>(since_s), out);
         }
     }
     return out;
 }
 
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const Flight& flight,
-                           double time_s, Random& random, const SensorErrorModel& faults) {
+                           double time_s, Random& random, const SensorErrorModel& faults,
+                           const Eigen::Quaterniond& mount) {
     const PoseAt pose_at = [&](double at_s) { return flight.at(at_s); };
-    return simulateScan(scene, sensor, pose_at, time_s, random, faults);
+    return simulateScan(scene, sensor, pose_at, time_s, random, faults, mount);
 }
 
 }  // namespace hagen::simulation

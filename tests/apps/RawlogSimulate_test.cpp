@@ -4,10 +4,13 @@
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/ScanFolder.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/Settings.h>
 #include <hagen/observations/Trajectory.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/simulation/Scenarios.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cmath>
@@ -145,6 +148,92 @@ TEST_F(RawlogSimulate, ASensorWithoutPacketsGoesIntoAFolder) {
     EXPECT_GT(scan.size(), 50000u);
 }
 
+TEST_F(RawlogSimulate, AMountIsInTheLogAndTheFolderButNotInTheVehiclesPoses) {
+    ASSERT_EQ(run(with(wires_, {"--poses", path("upright.tum")})).exit_code, 0);
+    const auto outcome =
+        run(with(wires_, {"--mount-roll-deg", "180", "--mount-pitch-deg", "-20", "-o",
+                          path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(test::readFile(path("a.tum")), test::readFile(path("upright.tum")));
+
+    const mrpt::poses::CPose3D mount(0, 0, 0, 0, radians(-20), radians(180));
+    const auto expectSame = [](const mrpt::poses::CPose3D& a, const mrpt::poses::CPose3D& b) {
+        EXPECT_LT((a.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>() -
+                   b.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>())
+                      .maxCoeff(),
+                  1e-6);
+    };
+    const LogContent log = readLog(path("a.rawlog"));
+    observations::Trajectory vehicle;
+    for (const auto& pose : log.poses) vehicle.add(pose->timestamp, pose->pose.mean);
+    const auto sensor_poses = logs::readTumPoses(logs::ScanFolder(path("a")).tumFile());
+    ASSERT_EQ(sensor_poses.size(), log.scans.size());
+    for (std::size_t n = 0; n < log.scans.size(); ++n) {
+        expectSame(log.scans[n]->sensorPose, mount);
+        expectSame(sensor_poses[n].pose, *vehicle.at(log.scans[n]->timestamp) + mount);
+    }
+    observations::Settings settings;
+    observations::mergeSettings(logs::ScanFolder(path("a")).sensorFile(), settings);
+    EXPECT_FLOAT_EQ(settings.mount.roll_rad, static_cast<float>(kPi));
+    EXPECT_FLOAT_EQ(settings.mount.pitch_rad, static_cast<float>(radians(-20)));
+    EXPECT_EQ(settings.sensorModel().rows(), 16);
+}
+
+TEST_F(RawlogSimulate, AMountGoesWithTheScansThatAreSegmented) {
+    ASSERT_EQ(run(with(wires_, {"--mount-roll-deg", "170", "-o", path("a.rawlog")})).exit_code, 0);
+    const auto segmented = test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("a.rawlog"), "--kitti",
+                                                            path("b"), "--stats", path("b.json")});
+    ASSERT_EQ(segmented.exit_code, 0) << segmented.err;
+    EXPECT_THAT(test::readFile(folder_ / "b/sensor.yaml"), HasSubstr("mount_roll_deg: 170\n"));
+    // What the log has to say is not the settings'.
+    EXPECT_THAT(test::readFile(path("b.json")), HasSubstr("\"sensor.mount_roll_deg\": 0"));
+    EXPECT_THAT(test::run(HAGEN_RAWLOG_SEGMENT, {"--config-dump", "-i", path("b")}).out,
+                HasSubstr("mount_roll_deg: 170 "));
+}
+
+TEST_F(RawlogSimulate, AMid360GoesIntoARawlogAsCloudsThatAreSegmentedLikeItsFolder) {
+    const auto outcome = run({"--scenario", "forest-0.05", "--scans", "3", "--altitude", "2",
+                              "--seed", "3", "--sensor", "Mid-360", "-o", path("a.rawlog"),
+                              "--kitti", path("a"), "--mount-roll-deg", "180"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const logs::ScanFolder folder(path("a"));
+    ASSERT_EQ(folder.size(), 3u);
+    observations::Settings settings;
+    observations::mergeSettings(folder.sensorFile(), settings);
+    EXPECT_FALSE(settings.sensorModel().has_rings);
+
+    logs::RawlogReader reader(path("a.rawlog"));
+    std::size_t entries = 0, scans = 0;
+    while (const auto entry = reader.next()) {
+        ++entries;
+        const auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(entry);
+        if (!cloud) continue;
+        EXPECT_EQ(cloud->sensorLabel, "lidar");
+        EXPECT_NEAR(std::abs(cloud->sensorPose.roll()), kPi, 1e-9);
+        observations::ObservedScan observed;
+        observations::readObservation(*cloud, settings, observed);
+        Scan stored;
+        logs::readScan(folder.scanFile(scans), stored);
+        EXPECT_GT(stored.size(), 10000u);
+        EXPECT_EQ(observed.scan.x_m, stored.x_m);
+        EXPECT_EQ(observed.scan.z_m, stored.z_m);
+        EXPECT_EQ(observed.scan.intensity, stored.intensity);
+        EXPECT_EQ(logs::readLabels(folder.labelFile(scans)).size(), stored.size());
+        ++scans;
+    }
+    ASSERT_EQ(scans, 3u);
+
+    const std::string preset = HAGEN_SOURCE_DIR "/config/mid360.yaml";
+    const auto segmented = test::run(
+        HAGEN_RAWLOG_SEGMENT, {"-i", path("a.rawlog"), "-c", preset, "-o", path("b.rawlog")});
+    ASSERT_EQ(segmented.exit_code, 0) << segmented.err;
+    EXPECT_EQ(segmented.err, "");
+    logs::RawlogReader result(path("b.rawlog"));
+    std::size_t written = 0;
+    while (result.next()) ++written;
+    EXPECT_EQ(written, entries + 2 * scans);
+}
+
 TEST_F(RawlogSimulate, InClearAirNothingIsUnclassified) {
     const auto dusty = run(with(wires_, {"-o", path("a.rawlog")}));
     const auto clear = run(with(wires_, {"-o", path("b.rawlog"), "--clear-air"}));
@@ -213,6 +302,10 @@ TEST_F(RawlogSimulate, RefusesWhatCannotBeFlown) {
     expectFailure(with(orchard, {"--scans", "1", "--altitude", "2", "--sensor", "VLP-99"}), 2,
                   "VLP-99");
     expectFailure(with(orchard, {"--altitude", "2"}), 2, "--scans is required");
+    const std::vector<std::string> one = with(orchard, {"--scans", "1", "--altitude", "2"});
+    expectFailure(with(one, {"--mount-roll-deg", "181"}), 2, "--mount-roll-deg");
+    expectFailure(with(one, {"--mount-roll-deg", "down"}), 2, "--mount-roll-deg");
+    expectFailure(with(one, {"--mount-pitch-deg", "-91"}), 2, "--mount-pitch-deg");
 }
 
 TEST_F(RawlogSimulate, RefusesARawlogOfASensorWithoutPackets) {

@@ -57,6 +57,33 @@ TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
     EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
 }
 
+TEST(ScanFolderWriter, KeepsTheMountOfTheSensor) {
+    const test::TemporaryFolder folder;
+    ScanFolderWriter writer(folder.path(), {2.5f, -0.4f});
+    writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
+    writer.finish();
+    observations::Settings settings;
+    observations::mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
+    EXPECT_EQ(settings.mount.roll_rad, 2.5f);
+    EXPECT_EQ(settings.mount.pitch_rad, -0.4f);
+    EXPECT_EQ(settings.sensorModel().rows(), 32);
+}
+
+TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
+    const test::TemporaryFolder folder;
+    const SensorModel sensor = sensorModel("Mid-360");
+    ScanFolderWriter writer(folder.path());
+    writer.write("000000", threePoints(), labels(), sensor, 50.0);
+    writer.finish();
+    const fs::path file = ScanFolder(folder.path()).sensorFile();
+    observations::Settings settings;
+    observations::mergeSettings(file, settings);
+    EXPECT_FALSE(settings.sensorModel().has_rings);
+    EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
+    EXPECT_EQ(settings.sensorModel().min_range_m, 0.1f);
+    EXPECT_EQ(test::readFile(file).find("mount"), std::string::npos);
+}
+
 TEST(ScanFolderWriter, OfAWindowWritesTheNewestScan) {
     const test::TemporaryFolder folder;
     LabelledReturns returns = labels();

@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <fstream>
+#include <tuple>
 
 #include "support/Program.h"
+#include "support/Random.h"
 
 namespace hagen::observations {
 namespace {
@@ -76,7 +78,8 @@ TEST_F(SettingsTest, PaperIsThePublishedFilter) {
 TEST_F(SettingsTest, PresetsDifferInGeometryImageSizeAndSmoothingAlone) {
     Settings vlp16;
     mergeSettings(kConfig / "vlp16.yaml", vlp16);
-    for (const std::string file : {"hdl32e.yaml", "hdl64e.yaml", "common.yaml"}) {
+    for (const std::string file : {"hdl32e.yaml", "hdl64e.yaml", "mid360.yaml",
+                                   "ouster_os0_128.yaml", "ouster_os1_64.yaml", "common.yaml"}) {
         Settings preset;
         mergeSettings(kConfig / file, preset);
         for (const OptionKey& key : optionKeys()) {
@@ -91,11 +94,17 @@ TEST_F(SettingsTest, PresetsDifferInGeometryImageSizeAndSmoothingAlone) {
 }
 
 TEST_F(SettingsTest, PresetsFitTheirSensors) {
-    for (const auto& [file, beams] :
-         {std::pair{"vlp16.yaml", 16}, {"hdl32e.yaml", 32}, {"hdl64e.yaml", 64}}) {
+    for (const auto& [file, name, beams, columns] : {std::tuple{"vlp16.yaml", "VLP-16", 16, 870},
+                                                     {"hdl32e.yaml", "HDL-32E", 32, 870},
+                                                     {"hdl64e.yaml", "HDL-64E", 64, 870},
+                                                     {"mid360.yaml", "Mid-360", 40, 360},
+                                                     {"ouster_os0_128.yaml", "OS0-128", 128, 870},
+                                                     {"ouster_os1_64.yaml", "OS1-64", 64, 870}}) {
         Settings preset;
         mergeSettings(kConfig / file, preset);
+        EXPECT_EQ(preset.sensorModel().name, name);
         EXPECT_EQ(preset.sensorModel().rows(), beams);
+        EXPECT_EQ(preset.options.columns, columns) << file;
         EXPECT_NO_THROW(checkOptions(preset.options, beams));
     }
 }
@@ -229,6 +238,32 @@ TEST_F(SettingsTest, SensorsThatMakeNoSenseAreRefused) {
                  SettingsError);
 }
 
+TEST_F(SettingsTest, TheMountIsReadInDegreesAndCheckedAtBothEnds) {
+    const Settings settings = settingsOf("sensor: {mount_roll_deg: 180, mount_pitch_deg: -30}");
+    EXPECT_FLOAT_EQ(settings.mount.roll_rad, static_cast<float>(kPi));
+    EXPECT_FLOAT_EQ(settings.mount.pitch_rad, static_cast<float>(-kPi / 6));
+    EXPECT_EQ(settingsOf("").mount.roll_rad, 0.0f);
+    EXPECT_EQ(settingsOf("").mount.pitch_rad, 0.0f);
+    for (const std::string edge : {"mount_roll_deg: -180", "mount_pitch_deg: 90"}) {
+        EXPECT_NO_THROW(settingsOf("sensor: {" + edge + "}")) << edge;
+    }
+    EXPECT_TRUE(says(refusalOf("sensor: {mount_roll_deg: 180.1}"), "-180 and 180"));
+    EXPECT_TRUE(says(refusalOf("sensor: {mount_pitch_deg: -91}"), "-90 and 90"));
+    EXPECT_TRUE(says(refusalOf("sensor: {mount_roll_deg: upside}"), "must be a number"));
+    EXPECT_TRUE(says(refusalOf("mount_roll_deg: 180"), "unknown key"));
+    EXPECT_TRUE(says(refusalOf("sensor: {mount_rol_deg: 1}"), "'mount_roll_deg'"));
+}
+
+TEST_F(SettingsTest, TheMountStaysWhenALaterFileNamesAnotherModel) {
+    Settings settings;
+    mergeSettings(folder_.write("drone.yaml", "sensor: {mount_roll_deg: 180}"), settings);
+    mergeSettings(kConfig / "mid360.yaml", settings);
+    EXPECT_EQ(settings.sensorModel().name, "Mid-360");
+    EXPECT_FLOAT_EQ(settings.mount.roll_rad, static_cast<float>(kPi));
+    mergeSettings(folder_.write("upright.yaml", "sensor: {mount_roll_deg: 0}"), settings);
+    EXPECT_EQ(settings.mount.roll_rad, 0.0f);
+}
+
 TEST_F(SettingsTest, OneOptionFromText) {
     Settings settings;
     setOption("beta_deg", "12.5", settings);
@@ -250,6 +285,7 @@ TEST(Settings, ADumpReadsBackAsTheSameSettings) {
     settings.sensor.model = "custom";
     settings.sensor.elevations_deg = {-7.25, 0.1, 3};
     settings.sensor.max_range_m = 33.3f;
+    settings.mount = {static_cast<float>(radians(179.7)), static_cast<float>(radians(-12.345))};
     Settings again;
     mergeSettings(folder.write("dump.yaml", dumpSettings(settings)), again);
     for (const OptionKey& key : optionKeys()) {
@@ -259,13 +295,31 @@ TEST(Settings, ADumpReadsBackAsTheSameSettings) {
     EXPECT_EQ(again.sensor.elevations_deg, settings.sensor.elevations_deg);
     EXPECT_EQ(again.sensor.max_range_m, settings.sensor.max_range_m);
     EXPECT_FALSE(again.sensor.min_range_m);
+    EXPECT_EQ(again.mount.roll_rad, settings.mount.roll_rad);
+    EXPECT_EQ(again.mount.pitch_rad, settings.mount.pitch_rad);
+    EXPECT_THAT(dumpSettings(settings), HasSubstr("mount_roll_deg: 179.7 "));
+    EXPECT_THAT(dumpSettings(settings), HasSubstr("mount_pitch_deg: -12.345 "));
     mergeSettings(folder.write("none.yaml", dumpSettings(Settings())), again = Settings());
     EXPECT_FALSE(again.sensor.model);
 }
 
+TEST(Settings, DegreesReadBackAsTheSameAngleWithFewDecimals) {
+    EXPECT_EQ(degreesText(0), "0");
+    EXPECT_EQ(degreesText(static_cast<float>(kPi)), "180");
+    test::Random random(1);
+    for (int i = 0; i < 2000; ++i) {
+        const float angle_rad = random.real(-3.2f, 3.2f);
+        const double read_deg = std::stod(degreesText(angle_rad));
+        ASSERT_EQ(static_cast<float>(radians(read_deg)), angle_rad);
+        const int tenths = static_cast<int>(random.real(-1800.0f, 1800.0f));
+        const auto even_rad = static_cast<float>(radians(0.1 * tenths));
+        ASSERT_LE(degreesText(even_rad).size(), 6u) << tenths;
+    }
+}
+
 TEST(Settings, TheTableHasEveryKeyWithItsDefault) {
     const auto keys = settingsKeys();
-    EXPECT_EQ(keys.size(), optionKeys().size() + 5);
+    EXPECT_EQ(keys.size(), optionKeys().size() + 7);
     for (const SettingsKey& key : keys) EXPECT_FALSE(key.what.empty()) << key.name;
     EXPECT_EQ(keys[0].name, "zone_m");
     EXPECT_EQ(keys[0].standard, "20");

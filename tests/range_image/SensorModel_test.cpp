@@ -23,7 +23,8 @@ TEST(SensorModel, Vlp16HasSixteenBeamsTwoDegreesApart) {
 
 TEST(SensorModel, EveryKnownSensorHasItsBeamsFromLowToHigh) {
     const std::vector<std::pair<std::string, int>> beams{
-        {"VLP-16", 16}, {"HDL-32E", 32}, {"HDL-64E", 64}, {"Puck Hi-Res", 16}, {"VLP-32C", 32}};
+        {"VLP-16", 16},  {"HDL-32E", 32},  {"HDL-64E", 64}, {"Puck Hi-Res", 16},
+        {"VLP-32C", 32}, {"OS0-128", 128}, {"OS1-64", 64},  {"Mid-360", 40}};
     ASSERT_EQ(knownSensorModels().size(), beams.size());
     for (const auto& [name, count] : beams) {
         const SensorModel sensor = sensorModel(name);
@@ -39,6 +40,32 @@ TEST(SensorModel, DataSheetsEndsOfTheFieldOfView) {
     EXPECT_NEAR(degrees(sensorModel("HDL-32E").elevations_rad.back()), 10.67, 0.01);
     EXPECT_NEAR(degrees(sensorModel("HDL-64E").elevations_rad.front()), -24.33, 0.01);
     EXPECT_NEAR(degrees(sensorModel("HDL-64E").elevations_rad.back()), 2.0, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS0-128").elevations_rad.front()), -45.0, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS0-128").elevations_rad.back()), 45.0, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS1-64").elevations_rad.front()), -21.2, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS1-64").elevations_rad.back()), 21.2, 0.01);
+}
+
+TEST(SensorModel, VirtualBeamsCoverTheFieldOfViewEvenly) {
+    const SensorModel sensor = sensorModel("Mid-360");
+    EXPECT_FALSE(sensor.has_rings);
+    EXPECT_EQ(sensor.min_range_m, 0.1f);
+    EXPECT_EQ(sensor.max_range_m, 70.0f);
+    for (int row = 0; row < sensor.rows(); ++row) {
+        EXPECT_NEAR(degrees(sensor.elevations_rad[row]), -6.75 + 1.5 * row, 1e-5);
+    }
+    for (double elevation_deg = -7; elevation_deg <= 52; elevation_deg += 0.01) {
+        const auto elevation_rad = static_cast<float>(radians(elevation_deg));
+        const float beam_rad = sensor.elevations_rad[sensor.nearestRow(elevation_rad)];
+        ASSERT_LE(std::abs(degrees(beam_rad - elevation_rad)), 0.7501) << elevation_deg;
+    }
+}
+
+TEST(SensorModel, EveryOtherKnownSensorHasRings) {
+    for (const std::string& name : knownSensorModels()) {
+        EXPECT_EQ(sensorModel(name).has_rings, name != "Mid-360") << name;
+    }
+    EXPECT_TRUE(customSensorModel({-10, 0, 5}).has_rings);
 }
 
 TEST(SensorModel, NearestRowIsThatOfASearchThroughAllBeams) {

@@ -43,10 +43,10 @@ struct Simulation {
           flight(scene.terrain(), scene.path(), settings, 5),
           sensor(sensorModel(name)) {}
 
-    SimulatedScan scan(double time_s, const SensorErrorModel& faults,
-                       std::uint64_t seed = 1) const {
+    SimulatedScan scan(double time_s, const SensorErrorModel& faults, std::uint64_t seed = 1,
+                       const Eigen::Quaterniond& mount = Eigen::Quaterniond::Identity()) const {
         Random random(seed);
-        return simulateScan(scene, sensor, flight, time_s, random, faults);
+        return simulateScan(scene, sensor, flight, time_s, random, faults, mount);
     }
     /// A return in the map.
     Eigen::Vector3d inMap(const SimulatedScan& scan, std::size_t i, double start_s) const {
@@ -286,6 +286,170 @@ TEST(LidarTest, DustAndTheOwnAirframeAreTold) {
     EXPECT_GT(airframe, 50);
 }
 
+Eigen::Vector3d pointOf(const SimulatedScan& scan, std::size_t i) {
+    return Eigen::Vector3f(scan.scan.x_m[i], scan.scan.y_m[i], scan.scan.z_m[i]).cast<double>();
+}
+
+Eigen::Quaterniond mountedAt(double roll_deg, double pitch_deg) {
+    return Eigen::AngleAxisd(radians(pitch_deg), Eigen::Vector3d::UnitY()) *
+           Eigen::AngleAxisd(radians(roll_deg), Eigen::Vector3d::UnitX());
+}
+
+TEST(LidarTest, AMountTurnsTheSensorOnTheVehicle) {
+    const Simulation setup(level(), flightAt(3, 8, 10));
+    for (const auto& [roll_deg, pitch_deg] : {std::pair{180.0, 0.0}, {0.0, 90.0}, {-35.0, 20.0}}) {
+        const Eigen::Quaterniond mount = mountedAt(roll_deg, pitch_deg);
+        const SimulatedScan scan = setup.scan(7.3, noFaults(), 1, mount);
+        ASSERT_GT(scan.size(), 5000u);
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            const SensorPose vehicle =
+                setup.flight.at(7.3 + static_cast<double>(scan.scan.time_s[i]));
+            const Eigen::Vector3d in_map =
+                vehicle.position_m + vehicle.attitude * (mount * pointOf(scan, i));
+            const double range_m = static_cast<double>(scan.scan.range_m[i]);
+            ASSERT_NEAR(in_map.z(), 0, 1e-3 + 1e-4 * range_m) << i;
+        }
+        const SensorPose vehicle = setup.flight.at(7.3);
+        EXPECT_TRUE(scan.pose.attitude.isApprox(vehicle.attitude * mount));
+        EXPECT_EQ(scan.pose.position_m, vehicle.position_m);
+        EXPECT_EQ(scan.altitude_m, vehicle.position_m.z());
+    }
+}
+
+TEST(LidarTest, TheAirframeStaysWithTheVehicleHoweverTheSensorIsMounted) {
+    // Azimuth and range of the four legs, which are below the vehicle's horizon.
+    const std::vector<std::pair<double, double>> legs{
+        {0.80, 0.42}, {2.35, 0.44}, {-0.78, 0.41}, {-2.38, 0.45}};
+    SensorErrorModel faults = noFaults();
+    faults.airframe = true;
+    const Simulation setup(emptyContent(), flightAt(3, 4, 4), "HDL-32E");
+    struct Case {
+        double roll_deg, pitch_deg;
+        std::size_t legs_in_view;
+    };
+    for (const auto& [roll_deg, pitch_deg, legs_in_view] :
+         {Case{0, 0, 4}, {180, 0, 4}, {170, 20, 2}, {0, 20, 4}}) {
+        const Eigen::Quaterniond mount = mountedAt(roll_deg, pitch_deg);
+        const SimulatedScan scan = setup.scan(0, faults, 1, mount);
+        std::set<std::size_t> seen;
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            ASSERT_EQ(scan.kind[i], ObjectClass::Airframe);
+            const Eigen::Vector3d on_vehicle = mount * pointOf(scan, i);
+            if (on_vehicle.z() > 0) continue;  // rotors
+            const double azimuth = std::atan2(on_vehicle.y(), on_vehicle.x());
+            bool is_leg = false;
+            for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+                if (std::abs(azimuth - legs[leg].first) > 0.046) continue;
+                EXPECT_NEAR(on_vehicle.norm(), legs[leg].second, 1e-5);
+                is_leg = true;
+                seen.insert(leg);
+            }
+            ASSERT_TRUE(is_leg) << roll_deg << " " << azimuth;
+        }
+        EXPECT_EQ(seen.size(), legs_in_view) << roll_deg;
+    }
+}
+
+/// The inside of a building, which returns every beam of a Mid-360.
+Simulation livoxIndoors() {
+    const FlightSettings hover = flightAt(3, 1e-3, 0);
+    const SceneContent empty = emptyContent();
+    const Eigen::Vector3f at =
+        Flight(empty.terrain, empty.path, hover, 5).at(0).position_m.cast<float>();
+    SceneContent content = emptyContent();
+    Shape walls;
+    walls.addBox(at - Eigen::Vector3f(25, 25, 25), at + Eigen::Vector3f(25, 25, 25));
+    put(content, ObjectClass::Building, 1, std::move(walls));
+    return {std::move(content), hover, "Mid-360"};
+}
+
+double elevationOf(const SimulatedScan& scan, std::size_t i) {
+    const Eigen::Vector3d at = pointOf(scan, i);
+    return degrees(std::asin(at.z() / at.norm()));
+}
+
+TEST(Mid360, AFrameHasTwentyThousandPointsInItsFieldOfView) {
+    const Simulation setup = livoxIndoors();
+    const SimulatedScan scan = setup.scan(1.7, noFaults());
+    ASSERT_EQ(scan.size(), 20000u);
+    double lowest = 90, highest = -90;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const double elevation = elevationOf(scan, i);
+        lowest = std::min(lowest, elevation);
+        highest = std::max(highest, elevation);
+        ASSERT_EQ(scan.scan.row[i], setup.sensor.nearestRow(static_cast<float>(radians(elevation))))
+            << elevation;
+        ASSERT_EQ(scan.laser[i], i % 4);
+        ASSERT_EQ(scan.firing[i], static_cast<int>(i / 4));
+        ASSERT_NEAR(scan.scan.time_s[i], 5e-6 * static_cast<double>(i), 1e-7);
+        const Eigen::Vector3d at = pointOf(scan, i);
+        const double turned = std::remainder(
+            static_cast<double>(scan.scan.azimuth_rad[i]) - std::atan2(at.y(), at.x()), 2 * kPi);
+        ASSERT_NEAR(turned, 0, 1e-5);
+    }
+    EXPECT_NEAR(lowest, -7, 0.1);
+    EXPECT_GE(lowest, -7.0001);
+    EXPECT_NEAR(highest, 52, 0.1);
+    EXPECT_LE(highest, 52.0001);
+}
+
+TEST(Mid360, NoTwoFramesShareADirection) {
+    const Simulation setup = livoxIndoors();
+    std::set<std::pair<float, float>> directions;
+    for (const double time_s : {0.0, 0.1, 0.2, 5.0, 3600.0}) {
+        const SimulatedScan scan = setup.scan(time_s, noFaults());
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            directions.insert({scan.scan.azimuth_rad[i], static_cast<float>(elevationOf(scan, i))});
+        }
+    }
+    EXPECT_EQ(directions.size(), 5 * 20000u);
+}
+
+TEST(Mid360, FramesFillEachOthersGapsAndBecomeUniform) {
+    const Simulation setup = livoxIndoors();
+    std::vector<bool> is_met(40 * 360);
+    std::vector<double> filled;
+    std::vector<int> by_azimuth(36), by_elevation(40);
+    constexpr int kFrames = 20;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        const SimulatedScan scan = setup.scan(0.1 * frame, noFaults());
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            const double turned = degrees(static_cast<double>(scan.scan.azimuth_rad[i])) + 180;
+            const int column = static_cast<int>(turned) % 360;
+            is_met[static_cast<std::size_t>(scan.scan.row[i] * 360 + column)] = true;
+            ++by_azimuth[static_cast<std::size_t>(column / 10)];
+            const int band = static_cast<int>((elevationOf(scan, i) + 7) / 59 * 40);
+            ++by_elevation[static_cast<std::size_t>(std::clamp(band, 0, 39))];
+        }
+        filled.push_back(static_cast<double>(std::count(is_met.begin(), is_met.end(), true)) /
+                         static_cast<double>(is_met.size()));
+    }
+    EXPECT_GT(filled[0], 0.6);
+    EXPECT_LT(filled[0], 0.7);
+    EXPECT_NEAR(filled[1], 0.96, 0.01);
+    EXPECT_EQ(filled[2], 1.0);
+    for (const int count : by_azimuth) EXPECT_NEAR(count, 20000 * kFrames / 36.0, 250);
+    for (const int count : by_elevation) EXPECT_NEAR(count, 20000 * kFrames / 40.0, 250);
+}
+
+TEST(Mid360, HasTheErrorsOfItsManual) {
+    const SensorErrorModel errors = sensorErrors(sensorModel("Mid-360"));
+    EXPECT_EQ(errors.footprint_rad, SensorErrorModel().footprint_rad);
+    EXPECT_LT(errors.half_range_m, SensorErrorModel().half_range_m);
+    EXPECT_EQ(sensorErrors(sensorModel("VLP-16")).half_range_m, SensorErrorModel().half_range_m);
+
+    const Simulation setup = livoxIndoors();  // walls at 25 m and more
+    SensorErrorModel noise = noFaults();
+    noise.least_noise_m = errors.least_noise_m;
+    const SimulatedScan exact = setup.scan(0, noFaults()), noisy = setup.scan(0, noise);
+    ASSERT_EQ(exact.size(), noisy.size());
+    double squares = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        squares += std::pow(static_cast<double>(noisy.scan.range_m[i] - exact.scan.range_m[i]), 2);
+    }
+    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(exact.size())), 0.018, 0.001);
+}
+
 TEST(LidarTest, TheSameSeedMakesTheSameScan) {
     const Simulation setup(level(), flightAt(3, 4, 4));
     const SimulatedScan a = setup.scan(1, {}, 6), b = setup.scan(1, {}, 6),
@@ -306,6 +470,7 @@ TEST(LidarTest, AnotherSensorIsRefusedByName) {
     } catch (const std::invalid_argument& e) {
         EXPECT_THAT(e.what(), HasSubstr("VLP-32C"));
         EXPECT_THAT(e.what(), HasSubstr("HDL-32E"));
+        EXPECT_THAT(e.what(), HasSubstr("Mid-360"));
     }
 }
 

@@ -25,9 +25,11 @@ extern const base::OutputKind kScanFolders;
 ///     poses.tum              optional: sensor poses in the map, with the clock of times.txt
 ///     poses.txt              optional: sensor pose per scan, relative to the first scan; if there
 ///                            is a calib.txt, camera poses as in the KITTI odometry benchmark
-///     sensor.yaml            optional: beams of this recording
+///     sensor.yaml            optional: beams of this recording, and the sensor's mount on the
+///     vehicle
 ///
-/// All numbers are little-endian. Functions throw std::runtime_error naming the file.
+/// All numbers are little-endian. Poses are those of the sensor, so they include its mount.
+/// Functions throw std::runtime_error naming the file.
 class ScanFolder {
  public:
     /// Lists velodyne/*.bin in the order of their names. Throws if there are none.

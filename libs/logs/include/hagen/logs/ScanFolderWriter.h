@@ -3,6 +3,7 @@
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/Extraction.h>
+#include <hagen/segmentation/Levelling.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <filesystem>
@@ -19,8 +20,9 @@ std::string scanName(std::size_t scan);
 /// naming the file that cannot be written.
 class ScanFolderWriter {
  public:
-    /// Creates velodyne/ and labels/ in an existing folder.
-    explicit ScanFolderWriter(std::filesystem::path folder);
+    /// Creates velodyne/ and labels/ in an existing folder. `mount`: the sensor's tilt on the level
+    /// vehicle, for sensor.yaml.
+    explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {});
 
     /// Adds a scan with the labels of the first scan.size() returns. `sensor_pose`: sensor pose in
     /// the map at the scan's time, if known. `pose_has_horizon`: the z axis of that map points
@@ -36,6 +38,7 @@ class ScanFolderWriter {
 
  private:
     std::filesystem::path folder_;
+    Attitude mount_;
     double first_time_s_ = 0;
     std::vector<double> times_s_;  ///< since the first scan
     std::vector<TimedPose> poses_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/Options.h>
 #include <filesystem>
 #include <optional>
@@ -27,6 +28,10 @@ struct Settings {
         std::optional<float> min_range_m, max_range_m;
     };
     Sensor sensor;
+    /// The sensor's roll and pitch on the level vehicle (`mount_roll_deg` and `mount_pitch_deg` of
+    /// the section `sensor:`), for logs that do not say. Not part of `sensor`: the mount stays when
+    /// a later file names another model.
+    Attitude mount;
 
     /// Returns the sensor described by these settings; default: VLP-16. Throws SettingsError for
     /// `custom` without elevations.
@@ -41,6 +46,9 @@ HagenFilter filterFor(const SensorModel& sensor, const Options& options);
 /// parsed, a key is unknown or occurs twice, or a value has the wrong type or is out of range;
 /// `settings` is then unchanged.
 void mergeSettings(const std::filesystem::path& file, Settings& settings);
+
+/// Returns an angle in degrees, with as few decimals as read back as the same angle.
+std::string degreesText(float angle_rad);
 
 /// Returns the current settings as a settings file, with each key's unit and meaning in a comment.
 /// Reading it returns the same settings.

@@ -22,8 +22,10 @@ struct GroundTruthLabels {
 ///     altitudes.txt           height of the sensor above the ground [m], one line per scan
 class GroundTruthFolder {
  public:
-    /// Throws std::runtime_error if the folder cannot be written.
-    GroundTruthFolder(const std::filesystem::path& folder, bool overwrite);
+    /// `mount`: the sensor's tilt on the level vehicle. Throws std::runtime_error if the folder
+    /// cannot be written.
+    GroundTruthFolder(const std::filesystem::path& folder, bool overwrite,
+                      const Attitude& mount = {});
 
     void write(const Scan& scan, const GroundTruthLabels& truth, const SensorModel& sensor,
                double time_s, const mrpt::poses::CPose3D& sensor_pose, double altitude_m);

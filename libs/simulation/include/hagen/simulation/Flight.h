@@ -7,10 +7,11 @@
 
 namespace hagen::simulation {
 
-/// Position and attitude of the sensor in the map (x east, z up).
+/// Position and attitude in the map (x east, z up) of the sensor, or of the vehicle, which are the
+/// same unless the sensor's mount is tilted.
 struct SensorPose {
     Eigen::Vector3d position_m;
-    Eigen::Quaterniond attitude;  ///< from the sensor's frame (x forward, z up) to the map
+    Eigen::Quaterniond attitude;  ///< from its frame (x forward, z up) to the map
 };
 
 struct FlightSettings {

@@ -1,0 +1,95 @@
+#include "BeamDirections.h"
+
+#include <hagen/range_image/Angle.h>
+#include <algorithm>
+#include <cmath>
+
+namespace hagen::simulation {
+namespace {
+
+/// A laser's direction within a firing: its elevation, and the rotation since the start of the
+/// firing.
+struct LaserDirection {
+    float elevation_rad, sine, cosine;  ///< of the elevation
+    float turn_sine, turn_cosine;
+    float turn_rad;
+    std::uint8_t row;
+};
+
+std::vector<LaserDirection> laserDirections(const SensorModel& sensor,
+                                            const FiringPattern& pattern) {
+    std::vector<LaserDirection> lasers;
+    for (std::size_t laser = 0; laser < pattern.row_of_laser.size(); ++laser) {
+        const std::uint8_t row = pattern.row_of_laser[laser];
+        const float elevation = sensor.elevations_rad[row];
+        const double turn_rad = -radians(pattern.azimuthStep_deg()) * static_cast<double>(laser) *
+                                pattern.laser_period_us / pattern.firing_period_us;
+        lasers.push_back({elevation, std::sin(elevation), std::cos(elevation),
+                          static_cast<float>(std::sin(turn_rad)),
+                          static_cast<float>(std::cos(turn_rad)), static_cast<float>(turn_rad),
+                          row});
+    }
+    return lasers;
+}
+
+float wrapped(float angle_rad) {
+    const auto pi = static_cast<float>(kPi);
+    if (angle_rad > pi) return angle_rad - 2 * pi;
+    return angle_rad <= -pi ? angle_rad + 2 * pi : angle_rad;
+}
+
+DirectionsOfFiring directionsOfRings(const SensorModel& sensor, const FiringPattern& pattern) {
+    return [lasers = laserDirections(sensor, pattern), step_deg = pattern.azimuthStep_deg()](
+               int firing, std::vector<BeamDirection>& directions) {
+        const double azimuth = -radians(kFirstAzimuth_deg + firing * step_deg);
+        const auto sine = static_cast<float>(std::sin(azimuth));
+        const auto cosine = static_cast<float>(std::cos(azimuth));
+        const auto first_rad = static_cast<float>(std::remainder(azimuth, 2 * kPi));
+        for (std::size_t i = 0; i < lasers.size(); ++i) {
+            const LaserDirection& l = lasers[i];
+            directions[i] = {{l.cosine * (cosine * l.turn_cosine - sine * l.turn_sine),
+                              l.cosine * (sine * l.turn_cosine + cosine * l.turn_sine), l.sine},
+                             wrapped(first_rad + l.turn_rad),
+                             l.elevation_rad,
+                             l.row};
+        }
+    };
+}
+
+// The pattern of a Mid-360; see the header.
+constexpr double kLowest_rad = radians(-7), kSpan_rad = radians(59);
+const double kTurns_hz = 25 * (1 + std::sqrt(5.0)), kSweeps_hz = 10 * std::sqrt(2.0);
+
+double fraction(double value) { return value - std::floor(value); }
+
+DirectionsOfFiring directionsOfSweeps(const SensorModel& sensor, const FiringPattern& pattern,
+                                      double time_s) {
+    return [sensor, pattern, time_s](int firing, std::vector<BeamDirection>& directions) {
+        for (int line = 0; line < pattern.lasers; ++line) {
+            const double at_s = time_s + 1e-6 * (firing * pattern.firing_period_us +
+                                                 line * pattern.laser_period_us);
+            const double azimuth_rad = std::remainder(
+                radians(kFirstAzimuth_deg) - 2 * kPi * fraction(kTurns_hz * at_s), 2 * kPi);
+            const double sweep = 1 - std::abs(2 * fraction(kSweeps_hz * at_s) - 1);
+            const double elevation_rad = kLowest_rad + kSpan_rad / pattern.lasers * (line + sweep);
+            const double level = std::cos(elevation_rad);
+            const auto elevation = static_cast<float>(elevation_rad);
+            directions[static_cast<std::size_t>(line)] = {
+                Eigen::Vector3d(level * std::cos(azimuth_rad), level * std::sin(azimuth_rad),
+                                std::sin(elevation_rad))
+                    .cast<float>(),
+                static_cast<float>(azimuth_rad), elevation,
+                static_cast<std::uint8_t>(sensor.nearestRow(elevation))};
+        }
+    };
+}
+
+}  // namespace
+
+DirectionsOfFiring directionsOfScan(const SensorModel& sensor, const FiringPattern& pattern,
+                                    double time_s) {
+    return sensor.has_rings ? directionsOfRings(sensor, pattern)
+                            : directionsOfSweeps(sensor, pattern, time_s);
+}
+
+}  // namespace hagen::simulation
