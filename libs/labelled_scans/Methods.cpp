@@ -25,8 +25,14 @@ std::optional<Attitude> attitudeOf(const evaluation::ScanInput& input) {
 evaluation::Method filterMethod(const std::string& name, const observations::Settings& settings) {
     const auto filter = std::make_shared<HagenFilter>(
         observations::filterFor(settings.sensorModel(), settings.options));
-    return {name, [filter](const evaluation::ScanInput& input) {
-                return filter->segment(input.scan, attitudeOf(input)).returns.label;
+    // Poses of scan folders are those of the sensor, with its mount.
+    const Attitude mount = settings.mount;
+    const bool is_mounted_level = mount.roll_rad == 0 && mount.pitch_rad == 0;
+    const std::optional<Attitude> otherwise =
+        is_mounted_level ? std::nullopt : std::optional(mount);
+    return {name, [filter, otherwise](const evaluation::ScanInput& input) {
+                const std::optional<Attitude> attitude = attitudeOf(input);
+                return filter->segment(input.scan, attitude ? attitude : otherwise).returns.label;
             }};
 }
 

@@ -29,6 +29,7 @@ std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
                 observations::observationOf(scan_, kFolderLabel, time, *options_.folder_objects);
         }
         addIfScan(observations::observationOf(scan_, kFolderLabel, time), folder_.name(i), entry);
+        for (RecordedScan& scan : entry.scans) scan.pose.is_of_sensor = true;
         return entry;
     }
     return std::nullopt;

@@ -1,5 +1,6 @@
 #include <hagen/base/ProcessCost.h>
 #include <hagen/observations/Deskew.h>
+#include <hagen/observations/Mount.h>
 #include <hagen/observations/ObservationSegmenter.h>
 #include <mrpt/core/initializer.h>
 #include <mrpt/rtti/CObject.h>
@@ -107,6 +108,9 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     const Scan& scan = observed_.scan;
     Lidar& lidar = lidarOf(observation.sensorLabel, observed_.sensor);
 
+    const std::optional<Attitude> tilt =
+        sensorTilt(pose, mrpt::poses::CPose3D(observation.sensorPose()), settings_.mount);
+
     std::string remark = observed_.remark;
     const Scan& window = windowOf(observation, vehicle, pose.sensor_pose, lidar, remark);
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
@@ -114,7 +118,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
                                                              "process.segment");
     const auto cpu_start = base::threadCpuTime();
-    const SegmentationResult& result = lidar.filter.segment(window, pose.attitude);
+    const SegmentationResult& result = lidar.filter.segment(window, tilt);
     const auto filter_cpu_time = base::threadCpuTime() - cpu_start;
     segmenting.reset();
     const auto labelled = std::chrono::steady_clock::now();
@@ -129,6 +133,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.sensor = &lidar.filter.sensor();
     out.is_sensor_assumed = observed_.is_sensor_assumed;
     out.pose = pose;
+    out.pose.attitude = tilt;
     out.remark = remark;
     out.time_to_labels = labelled - start;
     out.filter_cpu_time = filter_cpu_time;

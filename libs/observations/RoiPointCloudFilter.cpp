@@ -1,3 +1,4 @@
+#include <hagen/observations/Mount.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/RoiPointCloudFilter.h>
 
@@ -5,7 +6,9 @@ namespace hagen::observations {
 
 RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
                                          const mrpt::poses::CPose3D& sensor_pose)
-    : sensor_pose_(sensor_pose), filter_(filterFor(settings.sensorModel(), settings.options)) {}
+    : sensor_pose_(sensor_pose),
+      tilt_(sensorTilt({}, sensor_pose, settings.mount)),
+      filter_(filterFor(settings.sensorModel(), settings.options)) {}
 
 void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
                                  mrpt::system::TTimeStamp /*pc_timestamp*/,
@@ -24,7 +27,7 @@ void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
     locateBeams(filter_.sensor(), scan_);
 
     std::vector<bool> deleted(scan_.size(), true);
-    for (const std::uint32_t i : filter_.segment(scan_).returns.roi) deleted[i] = false;
+    for (const std::uint32_t i : filter_.segment(scan_, tilt_).returns.roi) deleted[i] = false;
     if (params == nullptr || !params->do_not_delete) inout_pointcloud->applyDeletionMask(deleted);
     if (params != nullptr && params->out_deletion_mask != nullptr) {
         *params->out_deletion_mask = std::move(deleted);

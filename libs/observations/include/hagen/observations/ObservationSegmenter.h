@@ -74,8 +74,9 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     /// whole scan with the pose at its time. Without a pose it is segmented alone. The remark says
     /// so.
     ///
-    /// The sensor's attitude is that of the last observation with an attitude (see()), otherwise
-    /// that of `vehicle` if it has a horizon.
+    /// The vehicle's attitude is that of the last observation with an attitude (see()), otherwise
+    /// that of `vehicle` if it has a horizon. The sensor is mounted on it as the observation's
+    /// sensor pose says or, if that is level, as the settings say (Mount.h).
     ///
     /// Throws std::runtime_error with the reason if a scan cannot be read, and SettingsError if the
     /// options do not fit its sensor.

@@ -4,6 +4,8 @@
 #include <mrpt/maps/CPointCloudFilterBase.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <optional>
+
 namespace hagen::observations {
 
 /// The filter behind MRPT's interface for point-cloud filters, as used by its reactive navigation:
@@ -12,7 +14,8 @@ namespace hagen::observations {
 class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
  public:
     /// `sensor_pose`: the sensor in the cloud's frame; identity if the points are in the sensor's
-    /// own frame. Throws SettingsError if the options do not fit the sensor.
+    /// own frame. The cloud's frame is taken to be level. Throws SettingsError if the options do
+    /// not fit the sensor.
     explicit RoiPointCloudFilter(const Settings& settings,
                                  const mrpt::poses::CPose3D& sensor_pose = {});
 
@@ -24,6 +27,7 @@ class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
 
  private:
     mrpt::poses::CPose3D sensor_pose_;
+    std::optional<Attitude> tilt_;
     HagenFilter filter_;
     Scan scan_;
 };

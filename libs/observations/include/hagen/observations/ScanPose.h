@@ -15,6 +15,7 @@ struct ScanPose {
     std::optional<mrpt::poses::CPose3D> sensor_pose;
     bool pose_has_horizon = false;     ///< the map is gravity-aligned
     std::optional<Attitude> attitude;  ///< tilt of the sensor; none: unknown
+    bool is_of_sensor = false;         ///< poses are those of the sensor, not of the vehicle
 };
 
 /// The pose of a scan: interpolated from the vehicle's trajectory and composed with the sensor's
