@@ -24,7 +24,7 @@ using namespace hagen::command_line;
 namespace fs = std::filesystem;
 
 struct Flags {
-    std::vector<std::string> folders, configs, sweeps;
+    std::vector<std::string> folders, configs, sweeps, labels;
     std::string label_map, camera, overlay, json, charts;
     float max_range_m = 20.0f;
     int resamples = 1000;
@@ -39,6 +39,9 @@ void addFlags(Command& app, Flags& flags) {
                "KEY=VALUE,VALUE,...: one row per value; sweeps are independent");
     app.flag("--baselines", flags.with_baselines,
              "add rows of published segmenters, as published and as tuned");
+    app.option("--labels", flags.labels,
+               "NAME=DIR: also score the label files of another program; may be repeated")
+        .once();
     app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
         .showDefault()
         .between(0.1, 1000.0);
@@ -71,9 +74,10 @@ auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read
 
 /// The outputs. None appears before all are complete.
 struct Outputs {
-    explicit Outputs(const Flags& flags) {
-        base::checkApart({flags.json, flags.charts, flags.overlay},
-                         {flags.folders.begin(), flags.folders.end()});
+    Outputs(const Flags& flags, const labelled_scans::MethodSet& rows) {
+        std::vector<fs::path> inputs(flags.folders.begin(), flags.folders.end());
+        for (const labelled_scans::LabelRow& row : rows.labels) inputs.push_back(row.folder);
+        base::checkApart({flags.json, flags.charts, flags.overlay}, inputs);
         const auto open = [&](const std::string& path, const base::OutputKind& kind,
                               std::optional<base::OutputPath>& output) {
             if (path.empty()) return;
@@ -95,16 +99,17 @@ struct Outputs {
 int run(const Flags& flags, labelled_scans::Summary summary) {
     for (const std::string& config : flags.configs)
         observations::mergeSettings(config, summary.settings);
-    labelled_scans::MethodSet rows{labelled_scans::rowsOf(summary.settings, flags.sweeps),
-                                   std::nullopt};
+    labelled_scans::MethodSet rows;
+    rows.filter = labelled_scans::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
+    labelled_scans::addLabelRows(flags.labels, rows);
     const auto label_map = fromFlag(flags.label_map, evaluation::readLabelMap);
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
     options.camera = fromFlag(flags.camera, evaluation::readCamera);
     const evaluation::LabelledScanSources sources =
         labelled_scans::sourcesOf(flags.folders, rows, label_map);
-    Outputs outputs(flags);
+    Outputs outputs(flags, rows);
 
     std::vector<evaluation::MethodScores> methods;
     {

@@ -82,6 +82,20 @@ std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
     return rows;
 }
 
+void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
+    std::vector<std::string> taken;
+    for (const SweepPoint& row : rows.filter) taken.push_back(row.name);
+    if (rows.baselines) {
+        for (const evaluation::Baseline& row : allBaselines(rows.baselines->options.zone_m))
+            taken.push_back(row.name);
+    }
+    for (const LabelRow& row : rows.labels) taken.push_back(row.name);
+    for (const std::string& text : texts) {
+        rows.labels.push_back(labelRowFrom(text, taken));
+        taken.push_back(rows.labels.back().name);
+    }
+}
+
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file) {
     std::vector<evaluation::Method> methods;

@@ -55,10 +55,36 @@ Json json(const ScoreTotals& scores) {
 }
 
 Json json(const evaluation::Latency& latency) {
+    if (latency.runs == 0) return {};
     return {{"runs", latency.runs},          {"mean", number(latency.mean_ms)},
             {"sd", number(latency.sd_ms)},   {"p50", number(latency.p50_ms)},
             {"p95", number(latency.p95_ms)}, {"p99", number(latency.p99_ms)},
             {"max", number(latency.max_ms)}};
+}
+
+Json json(const evaluation::Missed& missed) {
+    return {
+        {"missed", missed.missed}, {"of", missed.all}, {"missed_share", number(missed.share())}};
+}
+
+Json json(const std::vector<MissedGroup>& groups) {
+    Json list = Json::array();
+    for (const MissedGroup& group : groups) {
+        Json part = json(group.missed);
+        part["name"] = group.name;
+        list.push_back(part);
+    }
+    return list;
+}
+
+Json json(const DroneTotals& drone) {
+    const evaluation::DroneScores& all = drone.all;
+    return {{"returns_above_half_metre", json(all.tall)},
+            {"returns_above_half_metre_by_range", json(drone.by_range)},
+            {"returns_above_half_metre_by_kind", json(drone.by_kind)},
+            {"obstacles", all.obstacles.all == 0 ? Json() : json(all.obstacles)},
+            {"false_roi_on_bare_ground", all.false_on_bare_ground},
+            {"false_roi_on_bare_ground_per_scan", number(all.falseOnBareGroundPerScan())}};
 }
 
 Json json(const MethodTotals& method) {
@@ -66,6 +92,7 @@ Json json(const MethodTotals& method) {
     return {{"name", method.name},
             {"sweep", method.sweep_key.empty() ? Json() : sweep},
             {"latency_ms", json(method.latency)},
+            {"drone", json(method.drone)},
             {"returns", json(method.returns)},
             {"pixels", method.pixels.all.scans == 0 ? Json() : json(method.pixels)}};
 }

@@ -72,6 +72,12 @@ class SegmentationEvaluate : public test::ProgramTest {
         folder_.write("pole/altitudes.txt", "2.0\n");
         return pole;
     }
+    void writeLabelFile(const std::string& file, const std::vector<std::uint16_t>& labels) const {
+        fs::create_directories((folder_ / file).parent_path());
+        const std::vector<std::uint32_t> entries(labels.begin(), labels.end());
+        folder_.write(
+            file, std::string(reinterpret_cast<const char*>(entries.data()), 4 * entries.size()));
+    }
     nlohmann::json json(std::vector<std::string> arguments) const {
         const std::string file = (folder_ / "report.json").string();
         arguments.insert(arguments.end(), {"--json", file, "--overwrite"});
@@ -134,6 +140,104 @@ TEST_F(SegmentationEvaluate, BaselinesComeAfterASweepWithTheZoneOfTheSettings) {
         EXPECT_TRUE(methods[m]["sweep"].is_null());
         EXPECT_EQ(methods[m]["returns"]["all"]["roi"]["recall"], 0.0) << methods[m]["name"];
     }
+}
+
+// What another program might have found, as files.
+TEST_F(SegmentationEvaluate, LabelsOfAnotherProgramAreARow) {
+    const std::string pole = labelledPole();
+    const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    writeLabelFile("theirs/000000.label", truth);
+    std::vector<std::uint16_t> wrong = truth;
+    for (std::uint16_t& label : wrong) label = label == 2 ? 1 : label;
+    wrong[0] = 0;
+    writeLabelFile("blind/labels/000000.label", wrong);
+    const auto report = json({"-i", pole, "--labels", "theirs=" + path("theirs"), "--labels",
+                              "blind one=" + path("blind"), "--charts", path("charts")});
+    const auto& methods = report["methods"];
+    ASSERT_EQ(methods.size(), 3u);
+    EXPECT_EQ(methods[1]["name"], "theirs");
+    EXPECT_EQ(methods[1]["returns"]["all"]["correct"], 1.0);
+    EXPECT_EQ(methods[1]["returns"]["all"]["returns"], methods[0]["returns"]["all"]["returns"]);
+    EXPECT_TRUE(methods[1]["latency_ms"].is_null());
+    EXPECT_EQ(methods[2]["name"], "blind one");
+    EXPECT_EQ(methods[2]["returns"]["all"]["roi"]["recall"], 0.0);
+    EXPECT_THAT(test::readFile(folder_ / "charts/by_range.svg"), HasSubstr("blind one"));
+    const auto outcome = run({"-i", pole, "--labels", "theirs=" + path("theirs")});
+    EXPECT_EQ(row(outcome.out, "theirs"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
+}
+
+TEST_F(SegmentationEvaluate, LabelsOfSeveralFoldersAreInFoldersOfTheirNames) {
+    const std::string pole = labelledPole(), other = labelledPole("other");
+    const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    writeLabelFile("theirs/pole/000000.label", truth);
+    const std::string theirs = "theirs=" + path("theirs");
+    expectFailure({"-i", pole, other, "--labels", theirs}, 1, "theirs/other/000000.label: no such");
+    writeLabelFile("theirs/other/labels/000000.label", truth);
+    const auto report = json({"-i", pole, other, "--labels", theirs});
+    EXPECT_EQ(report["methods"][1]["returns"]["all"]["correct"], 1.0);
+    EXPECT_EQ(report["methods"][1]["returns"]["by_folder"].size(), 2u);
+    EXPECT_EQ(json({"-i", pole, "--labels", theirs})["methods"].size(), 2u);
+}
+
+TEST_F(SegmentationEvaluate, RefusesLabelsOfAnotherProgramThatItCannotUse) {
+    const std::string pole = labelledPole();
+    fs::create_directories(folder_ / "theirs");
+    const std::string theirs = path("theirs");
+    for (const std::string& words : {theirs, "=" + theirs, std::string("theirs=")}) {
+        expectFailure({"-i", pole, "--labels", words}, 2, "expected NAME=DIR");
+    }
+    expectFailure({"-i", pole, "--labels", "a=" + path("none")}, 2, "none: no such folder");
+    expectFailure({"-i", pole, "--labels", "a=" + theirs, "--labels", "a=" + theirs}, 2,
+                  "already a row 'a'");
+    expectFailure({"-i", pole, "--labels", "hagen=" + theirs}, 2, "already a row 'hagen'");
+    expectFailure({"-i", pole, "--baselines", "--labels", "zermas tuned=" + theirs}, 2,
+                  "already a row 'zermas tuned'");
+    expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1, "theirs/000000.label: no such file");
+    auto labels = logs::readLabels(folder_ / "pole/labels/000000.label");
+    labels[6] = 3;
+    writeLabelFile("theirs/000000.label", labels);
+    expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1,
+                  "000000.label: label 7 is 3; write 0");
+    labels.resize(2);
+    writeLabelFile("theirs/000000.label", labels);
+    expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1, "000000.label: has 2 labels for");
+}
+
+// The pole's returns above 0.5 m are those of beams that meet it above z = 0.5 m - 2 m.
+TEST_F(SegmentationEvaluate, SaysWhatMattersToADrone) {
+    const std::string pole = poleWithKinds();
+    auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    Scan scan;
+    logs::readScan(folder_ / "pole/velodyne/000000.bin", scan);
+    int high = 0, all_roi = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        all_roi += truth[i] == 2;
+        high += truth[i] == 2 && scan.z_m[i] > 0.5f - 2.0f;
+    }
+    ASSERT_GT(high, 10);
+    ASSERT_GT(all_roi, high);
+    std::vector<std::uint16_t> blind(truth.size(), 1);
+    const auto bare = std::find(truth.begin(), truth.end(), 1);  // ground behind the sensor
+    blind[static_cast<std::size_t>(bare - truth.begin())] = 2;
+    writeLabelFile("blind/000000.label", blind);
+    const std::vector<std::string> flags{"-i", pole, "--labels", "blind=" + path("blind")};
+    auto drone = json(flags)["methods"][1]["drone"];
+    EXPECT_EQ(drone["returns_above_half_metre"]["missed"], high);
+    EXPECT_EQ(drone["returns_above_half_metre"]["of"], high);
+    EXPECT_EQ(drone["returns_above_half_metre_by_kind"][0]["name"], "pole");
+    EXPECT_EQ(drone["returns_above_half_metre_by_range"][0]["name"], "10-15 m");
+    EXPECT_EQ(drone["false_roi_on_bare_ground_per_scan"], 1.0);
+    EXPECT_TRUE(drone["obstacles"].is_null());  // no numbers yet
+    std::vector<std::uint32_t> numbered;
+    for (const std::uint16_t label : truth) numbered.push_back(label == 2 ? 7 << 16 | 2 : label);
+    folder_.write("pole/labels/000000.label",
+                  std::string(reinterpret_cast<const char*>(numbered.data()), 4 * numbered.size()));
+    EXPECT_EQ(json(flags)["methods"][0]["drone"]["obstacles"]["missed"], 0);
+    EXPECT_EQ(json(flags)["methods"][1]["drone"]["obstacles"]["missed"], 1);
+    EXPECT_EQ(json(flags)["methods"][1]["drone"]["obstacles"]["of"], 1);
+    const auto outcome = run(flags);
+    EXPECT_THAT(outcome.out, HasSubstr("What matters to a drone"));
+    EXPECT_THAT(outcome.out, HasSubstr("Missed obstacle returns above 0.5 m, by object class"));
 }
 
 // The published filter on labelled recordings, with the required scores.

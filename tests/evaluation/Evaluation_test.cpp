@@ -112,6 +112,20 @@ TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
     EXPECT_THAT(message, HasSubstr("1 found labels for 2 returns"));
 }
 
+TEST(Evaluation, RecordedLabelsAreReadOnceAndNotTimed) {
+    int calls = 0;
+    const Method recorded{"theirs",
+                          [&calls](const ScanInput& input) {
+                              ++calls;
+                              return std::vector<Label>(input.scan.size(), O);
+                          },
+                          true};
+    const auto methods = evaluate(sourcesOf(obstacles("a", {2, 2}, {recorded})));
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(methods[0].returns[1].all.roi.hits, 2);
+    EXPECT_TRUE(methods[0].latency_ms.empty());
+}
+
 TEST(Evaluation, ASourceCanBeEvaluatedOnce) {
     const LabelledScanSources sources = sourcesOf(obstacles("a", {2, 2}));
     evaluate(sources);

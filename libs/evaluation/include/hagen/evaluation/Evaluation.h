@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/evaluation/Camera.h>
+#include <hagen/evaluation/DroneScores.h>
 #include <hagen/evaluation/ScanScores.h>
 #include <functional>
 #include <memory>
@@ -37,7 +38,8 @@ struct MethodScores {
     std::vector<ScanScores> returns;  ///< over returns
     std::vector<ScanScores>
         pixels;  ///< over the camera's pixels, one return each; empty without a camera
-    std::vector<double> latency_ms;  ///< of each call of Method::segment
+    std::vector<DroneScores> drone;
+    std::vector<double> latency_ms;  ///< of each call of Method::segment; empty if is_recorded
 };
 
 /// A scan as labelled by one method, for visualisation.

@@ -25,11 +25,26 @@ struct ScoreTotals {
     std::vector<GroupTotals> by_range, by_altitude, by_kind, by_folder;
 };
 
+/// A named part of the obstacle returns above 0.5 m: a range band or an object class.
+struct MissedGroup {
+    std::string name;
+    evaluation::Missed missed;
+};
+
+/// What matters to a drone, summed over scans.
+struct DroneTotals {
+    evaluation::DroneScores all;
+    std::vector<MissedGroup> by_range, by_kind;  ///< without empty parts
+};
+DroneTotals totalsOf(const std::vector<evaluation::DroneScores>& scans,
+                     const evaluation::RangeBands& bands);
+
 struct MethodTotals {
     std::string name;
     std::string sweep_key, sweep_value;  ///< key of the sweep; empty: no sweep
     evaluation::Latency latency;
     ScoreTotals returns, pixels;  ///< pixels: zero scans without a camera
+    DroneTotals drone;
 };
 
 /// A run of the program: its parameters and results.
