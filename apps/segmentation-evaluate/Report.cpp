@@ -118,6 +118,54 @@ std::string droneTable(const labelled_scans::Summary& summary) {
     return text;
 }
 
+/// "+0.12", or a dash.
+std::string change(double degraded, double recorded) {
+    const double points = labelled_scans::changeInPoints(degraded, recorded);
+    return std::isnan(points) ? "-" : format("%+.2f", points);
+}
+
+/// `recorded`: null for the scans as recorded, which have no change.
+std::string hardSetLine(const std::string& name, std::size_t width,
+                        const evaluation::Scores& scores, const evaluation::Scores* recorded,
+                        const evaluation::Missed& tall) {
+    const auto changeOf = [&](evaluation::ClassScore evaluation::Scores::*c) {
+        return recorded == nullptr ? "" : change((scores.*c).f1(), (recorded->*c).f1());
+    };
+    return left(name, width) + right(figure(scores.roi.f1()), 9) +
+           right(changeOf(&evaluation::Scores::roi), 9) + right(figure(scores.rou.f1()), 10) +
+           right(changeOf(&evaluation::Scores::rou), 9) + right(count(tall.missed), 10) +
+           right(count(tall.all), 10) + right(percentage(tall.share()), 8) + "\n";
+}
+
+/// A method on all degradations.
+std::string hardSetTable(const labelled_scans::Summary& summary, std::size_t method) {
+    std::vector<std::string> names{"as recorded"};
+    for (const labelled_scans::HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
+    const labelled_scans::MethodTotals& recorded = summary.methods[method];
+    const std::size_t width = widthOf("degradation", names);
+    std::string text =
+        "\nOn degraded scans: " + recorded.name + "\n" + left("", width) +
+        "      F1 of RoI          F1 of ROU          obstacle returns above 0.5 m\n" +
+        left("degradation", width) +
+        "             points             points    missed        of       %\n";
+    const evaluation::Scores& scores = recorded.returns.all.scores;
+    text += hardSetLine(names[0], width, scores, nullptr, recorded.drone.all.tall);
+    for (const labelled_scans::HardSetTotals& set : summary.hard_sets) {
+        const labelled_scans::HardSetScores& own = set.methods[method];
+        text += hardSetLine(set.name, width, own.returns.scores, &scores, own.drone.all.tall);
+    }
+    return text;
+}
+
+std::string hardSetTables(const labelled_scans::Summary& summary) {
+    if (summary.hard_sets.empty()) return "";
+    const std::size_t methods = summary.hard_sets.front().methods.size();
+    if (methods > kMostColumns) return "\nScores on degraded scans are in --json.\n";
+    std::string text;
+    for (std::size_t method = 0; method < methods; ++method) text += hardSetTable(summary, method);
+    return text;
+}
+
 using Part = std::vector<labelled_scans::GroupTotals> labelled_scans::ScoreTotals::*;
 struct PartName {
     const char* title;
@@ -259,7 +307,7 @@ std::string reportOf(const labelled_scans::Summary& summary) {
         text += scoreTable(summary, &labelled_scans::MethodTotals::pixels);
     }
     text += "\nRun time of the segmentation alone, ms per scan\n" + latencyTable(summary);
-    text += droneTable(summary);
+    text += droneTable(summary) + hardSetTables(summary);
     const std::size_t methods = summary.methods.size();
     if (methods == 1) return text + missedParts(summary) + partsOf(summary.methods.front().returns);
     if (methods <= kMostColumns) return text + missedParts(summary) + comparison(summary);

@@ -9,6 +9,7 @@
 
 #include <hagen/command_line/CommandLine.h>
 #include <hagen/labelled_scans/Charts.h>
+#include <hagen/labelled_scans/HardSets.h>
 #include <hagen/labelled_scans/LabelledFolders.h>
 #include <hagen/labelled_scans/Methods.h>
 #include <hagen/labelled_scans/Overlay.h>
@@ -24,11 +25,11 @@ using namespace hagen::command_line;
 namespace fs = std::filesystem;
 
 struct Flags {
-    std::vector<std::string> folders, configs, sweeps, labels;
+    std::vector<std::string> folders, configs, sweeps, labels, degradations;
     std::string label_map, camera, overlay, json, charts;
     float max_range_m = 20.0f;
     int resamples = 1000;
-    bool with_baselines = false, overwrite = false;
+    bool with_baselines = false, with_hard_sets = false, overwrite = false;
 };
 
 void addFlags(Command& app, Flags& flags) {
@@ -41,6 +42,11 @@ void addFlags(Command& app, Flags& flags) {
              "add rows of published segmenters, as published and as tuned");
     app.option("--labels", flags.labels,
                "NAME=DIR: also score the label files of another program; may be repeated")
+        .once();
+    app.flag("--hard-sets", flags.with_hard_sets,
+             "also score degraded copies of all scans: dead beams, rain, tilt, ...");
+    app.option("--degrade", flags.degradations,
+               "also score one such copy, such as dropout=20; may be repeated")
         .once();
     app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
         .showDefault()
@@ -103,23 +109,32 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     rows.filter = labelled_scans::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
     labelled_scans::addLabelRows(flags.labels, rows);
-    const auto label_map = fromFlag(flags.label_map, evaluation::readLabelMap);
+    const labelled_scans::LabelledInputs inputs{
+        flags.folders, rows, fromFlag(flags.label_map, evaluation::readLabelMap)};
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
     options.camera = fromFlag(flags.camera, evaluation::readCamera);
     const evaluation::LabelledScanSources sources =
-        labelled_scans::sourcesOf(flags.folders, rows, label_map);
+        labelled_scans::sourcesOf(inputs.folders, inputs.rows, inputs.label_map);
+    const std::vector<evaluation::Degradation> degradations =
+        labelled_scans::degradationsOf(flags.degradations, flags.with_hard_sets, inputs);
     Outputs outputs(flags, rows);
 
     std::vector<evaluation::MethodScores> methods;
+    std::vector<labelled_scans::HardSet> hard_sets;
     {
-        Progress progress(sources);
+        Progress progress(sources, 1 + degradations.size());
         methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
             progress.show(view);
             if (!outputs.overlay) return;
             labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source]->name(),
                                         view, options);
         });
+        hard_sets = labelled_scans::scoreHardSets(
+            inputs, degradations, options.range,
+            [&](const std::string& degradation, const evaluation::MethodOutput& view) {
+                progress.show(view, degradation + ": ");
+            });
     }
 
     summary.folders = flags.folders;
@@ -129,6 +144,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
     labelled_scans::addScores(methods, rows.filter, summary);
+    labelled_scans::addHardSets(hard_sets, summary);
     if (outputs.json) labelled_scans::writeJson(outputs.json->temporary(), summary);
     if (outputs.charts) labelled_scans::drawCharts(outputs.charts->temporary(), summary);
     outputs.commit();

@@ -53,6 +53,7 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return folder_.size(); }
     const evaluation::LabelMap& kinds() const override { return kinds_; }
+    SensorModel sensor() const override { return settings_.sensorModel(); }
     std::vector<evaluation::Method> makeMethods() const override;
 
  private:

@@ -1,6 +1,7 @@
 #include <hagen/labelled_scans/Methods.h>
 
 #include <hagen/evaluation/Baselines.h>
+#include <hagen/evaluation/Degradation.h>
 #include <hagen/segmentation/HagenFilter.h>
 #ifdef HAGEN_HAS_PCL_BASELINE
 #include <hagen/pcl_baseline/BaselinePclEuclidean.h>
@@ -22,9 +23,9 @@ std::optional<Attitude> attitudeOf(const evaluation::ScanInput& input) {
                     std::asin(std::clamp(-turn(2, 0), -1.0f, 1.0f))};
 }
 
-evaluation::Method filterMethod(const std::string& name, const observations::Settings& settings) {
-    const auto filter = std::make_shared<HagenFilter>(
-        observations::filterFor(settings.sensorModel(), settings.options));
+evaluation::Method filterMethod(const std::string& name, const SensorModel& sensor,
+                                const Options& options) {
+    const auto filter = std::make_shared<HagenFilter>(observations::filterFor(sensor, options));
     return {name, [filter](const evaluation::ScanInput& input) {
                 return filter->segment(input.scan, attitudeOf(input)).returns.label;
             }};
@@ -98,13 +99,18 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
 
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file) {
+    const auto sensorOf = [&](const observations::Settings& settings) {
+        const SensorModel sensor = settings.sensorModel();
+        return rows.is_upside_down ? evaluation::mirrored(sensor) : sensor;
+    };
     std::vector<evaluation::Method> methods;
     for (const SweepPoint& row : rows.filter) {
-        methods.push_back(filterMethod(row.name, settingsFor(row.settings, sensor_file)));
+        const observations::Settings settings = settingsFor(row.settings, sensor_file);
+        methods.push_back(filterMethod(row.name, sensorOf(settings), settings.options));
     }
     if (!rows.baselines) return methods;
     const observations::Settings settings = settingsFor(*rows.baselines, sensor_file);
-    const SensorModel sensor = settings.sensorModel();
+    const SensorModel sensor = sensorOf(settings);
     for (const evaluation::Baseline& baseline : allBaselines(settings.options.zone_m)) {
         methods.push_back({baseline.name, [baseline, sensor](const evaluation::ScanInput& input) {
                                return baseline.segment(input.scan, sensor);

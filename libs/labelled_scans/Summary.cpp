@@ -58,4 +58,20 @@ void addScores(const std::vector<evaluation::MethodScores>& methods,
     }
 }
 
+void addHardSets(const std::vector<HardSet>& sets, Summary& summary) {
+    evaluation::BootstrapOptions without_intervals = summary.bootstrap;
+    without_intervals.resamples = 0;
+    for (const HardSet& set : sets) {
+        HardSetTotals totals{set.name, {}};
+        for (const evaluation::MethodScores& method : set.methods) {
+            totals.methods.push_back(
+                {method.name, summed(evaluation::overallScores(method.returns), without_intervals),
+                 totalsOf(method.drone, summary.range)});
+        }
+        summary.hard_sets.push_back(totals);
+    }
+}
+
+double changeInPoints(double degraded, double recorded) { return 100 * (degraded - recorded); }
+
 }  // namespace hagen::labelled_scans

@@ -97,6 +97,16 @@ Json json(const MethodTotals& method) {
             {"pixels", method.pixels.all.scans == 0 ? Json() : json(method.pixels)}};
 }
 
+/// `recorded`: the same method on the scans as recorded.
+Json json(const HardSetScores& method, const MethodTotals& recorded) {
+    const evaluation::Scores &scores = method.returns.scores, &before = recorded.returns.all.scores;
+    return {{"name", method.method},
+            {"returns", json(method.returns)},
+            {"roi_f1_change_points", number(changeInPoints(scores.roi.f1(), before.roi.f1()))},
+            {"rou_f1_change_points", number(changeInPoints(scores.rou.f1(), before.rou.f1()))},
+            {"drone", json(method.drone)}};
+}
+
 Json json(const observations::Settings& settings) {
     Json keys;
     for (const OptionKey& key : optionKeys()) {
@@ -128,6 +138,14 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
                            {"level", summary.bootstrap.level}};
     report["methods"] = Json::array();
     for (const MethodTotals& method : summary.methods) report["methods"].push_back(json(method));
+
+    report["hard_sets"] = Json::array();
+    for (const HardSetTotals& set : summary.hard_sets) {
+        Json methods = Json::array();
+        for (std::size_t m = 0; m < set.methods.size(); ++m)
+            methods.push_back(json(set.methods[m], summary.methods[m]));
+        report["hard_sets"].push_back({{"name", set.name}, {"methods", methods}});
+    }
 
     // File names may be invalid UTF-8, which JSON does not allow.
     base::writeText(report.dump(2, Json::NotUtf8::Replace) + "\n", file, file);

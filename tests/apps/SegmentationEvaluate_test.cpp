@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "support/ProgramTest.h"
@@ -238,6 +239,58 @@ TEST_F(SegmentationEvaluate, SaysWhatMattersToADrone) {
     const auto outcome = run(flags);
     EXPECT_THAT(outcome.out, HasSubstr("What matters to a drone"));
     EXPECT_THAT(outcome.out, HasSubstr("Missed obstacle returns above 0.5 m, by object class"));
+}
+
+TEST_F(SegmentationEvaluate, DegradedScansHaveATableAndAnEntryEach) {
+    const std::string pole = labelledPole();
+    writeLabelFile("theirs/000000.label", logs::readLabels(folder_ / "pole/labels/000000.label"));
+    const std::vector<std::string> flags{
+        "-i",        pole,           "--labels",  "theirs=" + path("theirs"),
+        "--degrade", "dropout=0",    "--degrade", "dropout=50",
+        "--degrade", "below_deg=-90"};
+    const auto report = json(flags);
+    const auto& recorded = report["methods"][0];
+    const auto& sets = report["hard_sets"];
+    ASSERT_EQ(sets.size(), 3u);
+    for (const auto& set : sets) EXPECT_EQ(set["methods"].size(), 1u);  // not those of --labels
+    const auto& same = sets[0]["methods"][0];
+    EXPECT_EQ(sets[0]["name"], "dropout=0");
+    EXPECT_EQ(same["name"], "hagen");
+    for (const char* key : {"roi", "rou"}) {
+        EXPECT_EQ(same["returns"][key]["hits"], recorded["returns"]["all"][key]["hits"]);
+    }
+    EXPECT_EQ(same["roi_f1_change_points"], 0.0);
+    EXPECT_EQ(same["drone"], recorded["drone"]);
+    const int all = recorded["returns"]["all"]["returns"];
+    EXPECT_NEAR(int(sets[1]["methods"][0]["returns"]["returns"]), all / 2, all / 20);
+    EXPECT_EQ(sets[2]["methods"][0]["returns"]["returns"], 0);
+    EXPECT_TRUE(sets[2]["methods"][0]["rou_f1_change_points"].is_null());
+    const auto outcome = run(flags);
+    EXPECT_THAT(outcome.out, HasSubstr("On degraded scans: hagen"));
+    EXPECT_EQ(row(outcome.out, "below_deg=-90").size(), 6u);
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST_F(SegmentationEvaluate, HardSetsAreTheStandardDegradations) {
+    const auto report = json({"-i", labelledPole(), "--hard-sets", "--degrade", "upside_down",
+                              "--degrade", "noise_m=0.01", "--bootstrap", "0"});
+    std::set<std::string> names;
+    for (const auto& set : report["hard_sets"]) names.insert(set["name"]);
+    EXPECT_EQ(names.size(), report["hard_sets"].size());  // each once
+    for (const char* name : {"dead_beams=0", "dead_beams=15", "dead_beams=7,8", "dropout=50",
+                             "rain=3", "roll_deg=20", "upside_down", "rate_hz=20", "noise_m=0.01"})
+        EXPECT_EQ(names.count(name), 1u) << name;
+}
+
+TEST_F(SegmentationEvaluate, RefusesDegradationsThatItDoesNotKnow) {
+    const std::string pole = labelledPole();
+    expectFailure({"-i", pole, "--degrade", "snow=3"}, 2,
+                  "'snow=3': unknown; known are dead_beams");
+    expectFailure({"-i", pole, "--degrade", "dropout=120"}, 2, "from 0 to 100");
+    expectFailure({"-i", pole, "--degrade", "dead_beams=16"}, 2,
+                  "pole: 'dead_beams=16': the sensor");
+    expectFailure({"-i", pole, "--degrade"}, 2, "--degrade");
 }
 
 // The published filter on labelled recordings, with the required scores.

@@ -45,6 +45,7 @@ class Obstacles : public LabelledScanSource {
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return returns_.size(); }
     const LabelMap& kinds() const override { return kinds_; }
+    SensorModel sensor() const override { return sensorModel("VLP-16"); }
     std::vector<Method> makeMethods() const override { return methods_; }
 
  private:

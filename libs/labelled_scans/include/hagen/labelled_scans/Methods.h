@@ -29,6 +29,7 @@ struct MethodSet {
     std::vector<SweepPoint> filter;
     std::optional<observations::Settings> baselines;  ///< provides zone and sensor of the baselines
     std::vector<LabelRow> labels = {};
+    bool is_upside_down = false;  ///< the sensor; see evaluation::mirrored()
 };
 
 /// Adds a row per "NAME=DIR" of labels of other programs. Throws SettingsError like labelRowFrom().

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "HardSets.h"
 #include "Methods.h"
 
 namespace hagen::labelled_scans {
@@ -47,6 +48,17 @@ struct MethodTotals {
     DroneTotals drone;
 };
 
+/// The scores of a method on a degradation.
+struct HardSetScores {
+    std::string method;
+    GroupTotals returns;
+    DroneTotals drone;
+};
+struct HardSetTotals {
+    std::string name;                    ///< the degradation
+    std::vector<HardSetScores> methods;  ///< as in Summary::methods, without those of --labels
+};
+
 /// A run of the program: its parameters and results.
 struct Summary {
     std::vector<std::string> command_line;
@@ -58,10 +70,17 @@ struct Summary {
     evaluation::BootstrapOptions bootstrap;
     std::size_t scans = 0;
     std::vector<MethodTotals> methods;
+    std::vector<HardSetTotals> hard_sets;
 };
 
 /// Sums the scores and computes intervals with the options in `summary`, and fills its methods.
 void addScores(const std::vector<evaluation::MethodScores>& methods,
                const std::vector<SweepPoint>& rows, Summary& summary);
+
+/// The same for degraded scans, without intervals.
+void addHardSets(const std::vector<HardSet>& sets, Summary& summary);
+
+/// How much better F1 is on degraded than on recorded scans, in points: hundredths.
+double changeInPoints(double degraded, double recorded);
 
 }  // namespace hagen::labelled_scans
