@@ -143,11 +143,11 @@ std::string hardSetTable(const labelled_scans::Summary& summary, std::size_t met
     for (const labelled_scans::HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
     const labelled_scans::MethodTotals& recorded = summary.methods[method];
     const std::size_t width = widthOf("degradation", names);
-    std::string text =
-        "\nOn degraded scans: " + recorded.name + "\n" + left("", width) +
-        "      F1 of RoI          F1 of ROU          obstacle returns above 0.5 m\n" +
-        left("degradation", width) +
-        "             points             points    missed        of       %\n";
+    std::string text = "\nOn degraded scans: " + recorded.name +
+                       " (change of F1 in points of 0.01)\n" + left("", width) +
+                       left("   RoI", 22) + left("ROU", 16) + "obstacle returns above 0.5 m\n" +
+                       left("degradation", width) +
+                       "       F1   change        F1   change    missed        of       %\n";
     const evaluation::Scores& scores = recorded.returns.all.scores;
     text += hardSetLine(names[0], width, scores, nullptr, recorded.drone.all.tall);
     for (const labelled_scans::HardSetTotals& set : summary.hard_sets) {

@@ -46,7 +46,8 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--hard-sets", flags.with_hard_sets,
              "also score degraded copies of all scans: dead beams, rain, tilt, ...");
     app.option("--degrade", flags.degradations,
-               "also score one such copy, such as dropout=20; may be repeated")
+               "SPEC: also score one such copy, such as dropout=20; may be repeated; a wrong SPEC "
+               "lists all")
         .once();
     app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
         .showDefault()

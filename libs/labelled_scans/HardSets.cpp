@@ -28,6 +28,7 @@ std::vector<evaluation::Degradation> degradationsOf(const std::vector<std::strin
                                                     bool with_standard,
                                                     const LabelledInputs& inputs) {
     std::vector<evaluation::Degradation> all;
+    if (texts.empty() && !with_standard) return all;
     const evaluation::LabelledScanSources sources = open(inputs, false);
     if (with_standard) {
         const auto coarsest = std::min_element(

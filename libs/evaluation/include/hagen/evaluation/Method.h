@@ -11,11 +11,11 @@ namespace hagen::evaluation {
 
 /// The input of a method for one scan.
 struct ScanInput {
-    std::string name;  ///< of its file, without folder and extension; empty: unknown
-    Scan scan;         ///< with range, azimuth and row
+    Scan scan;  ///< with range, azimuth and row
     /// Rotates directions from the sensor's frame to the map's, whose z points up. nullopt if the
     /// pose is unknown.
     std::optional<Eigen::Matrix3f> map_from_sensor;
+    std::string name = {};  ///< of its file, without folder and extension; empty: unknown
 };
 
 /// A segmenter for scans of one sensor and its name in tables: the filter or a baseline. `segment`
