@@ -53,6 +53,7 @@ void forEachArray(GroundTruthScan& scan, Work work) {
     work(scan.truth);
     work(scan.kinds);
     work(scan.objects);
+    work(scan.heights_m);
 }
 
 /// Keeps the returns for which `isKept(index)`.
@@ -263,6 +264,7 @@ GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& senso
         result.truth[added] = scan.truth[second.neighbour];
         if (!scan.kinds.empty()) result.kinds[added] = scan.kinds[second.neighbour];
         if (!scan.objects.empty()) result.objects[added] = scan.objects[second.neighbour];
+        if (!scan.heights_m.empty()) result.heights_m[added] = scan.heights_m[second.neighbour];
     }
     return result;
 }

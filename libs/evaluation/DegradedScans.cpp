@@ -1,4 +1,6 @@
 #include <hagen/evaluation/DegradedScans.h>
+#include <hagen/evaluation/TrueHeights.h>
+#include <limits>
 #include <utility>
 
 namespace hagen::evaluation {
@@ -9,8 +11,12 @@ DegradedScans::DegradedScans(std::unique_ptr<LabelledScanSource> source, Degrada
 }
 
 std::optional<GroundTruthScan> DegradedScans::next() {
-    const auto scan = source_->next();
+    auto scan = source_->next();
     if (!scan) return std::nullopt;
+    if (scan->heights_m.empty()) {
+        constexpr float kAnyRange_m = std::numeric_limits<float>::infinity();
+        scan->heights_m = heightsAboveTrueGround(*scan, levelPoints(*scan), kAnyRange_m);
+    }
     return degradation_.apply(*scan, sensor_, scans_++);
 }
 

@@ -37,9 +37,10 @@ std::vector<Eigen::Vector2f> plansOfObstacles(const GroundTruthScan& scan,
 void checkSizes(const GroundTruthScan& scan) {
     const std::size_t returns = scan.input.scan.size();
     if (scan.truth.size() != returns || (!scan.kinds.empty() && scan.kinds.size() != returns) ||
-        (!scan.objects.empty() && scan.objects.size() != returns)) {
-        throw std::invalid_argument("ground-truth labels, kinds or object numbers do not fit " +
-                                    std::to_string(returns) + " returns");
+        (!scan.objects.empty() && scan.objects.size() != returns) ||
+        (!scan.heights_m.empty() && scan.heights_m.size() != returns)) {
+        throw std::invalid_argument("ground truth does not fit " + std::to_string(returns) +
+                                    " returns");
     }
 }
 
@@ -82,9 +83,13 @@ DroneTruth::DroneTruth(const GroundTruthScan& scan, const RangeBands& bands)
     checkSizes(scan);
     plan_ = std::make_unique<Plan>(scan, levelPoints(scan));
     const std::vector<float> heights_m =
-        heightsAboveTrueGround(scan, plan_->points_m, bands.max_range_m);
+        scan.heights_m.empty() ? heightsAboveTrueGround(scan, plan_->points_m, bands.max_range_m)
+                               : scan.heights_m;
     for (std::size_t i = 0; i < heights_m.size(); ++i) {
-        if (heights_m[i] > kTall_m) tall_.push_back(i);  // false for NaN
+        const bool is_counted = scan.truth[i] == Label::Roi &&
+                                scan.input.scan.range_m[i] <= bands.max_range_m &&
+                                heights_m[i] > kTall_m;  // false for NaN
+        if (is_counted) tall_.push_back(i);
     }
     obstacles_ = numberedObstacles(scan, bands.max_range_m);
 }

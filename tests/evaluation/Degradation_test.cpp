@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/evaluation/DegradedScans.h>
+#include <hagen/evaluation/TrueHeights.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/Levelling.h>
 #include <algorithm>
@@ -35,6 +36,7 @@ GroundTruthScan randomScan(unsigned seed = 1) {
             scan.truth.push_back(random.chance(0.5) ? G : O);
             scan.kinds.push_back(static_cast<std::uint16_t>(scan.kinds.size()));
             scan.objects.push_back(static_cast<std::uint32_t>(scan.objects.size()));
+            scan.heights_m.push_back(random.real(0, 3));
         }
     }
     scan.input.scan = test::scanOf(kSensor, points_m);
@@ -57,7 +59,8 @@ void expectSound(const GroundTruthScan& scan) {
     const Scan& s = scan.input.scan;
     for (const std::size_t size :
          {s.y_m.size(), s.z_m.size(), s.intensity.size(), s.range_m.size(), s.azimuth_rad.size(),
-          s.row.size(), s.time_s.size(), scan.truth.size(), scan.kinds.size(), scan.objects.size()})
+          s.row.size(), s.time_s.size(), scan.truth.size(), scan.kinds.size(), scan.objects.size(),
+          scan.heights_m.size()})
         ASSERT_EQ(size, s.size());
     for (std::size_t i = 0; i < s.size(); ++i) {
         ASSERT_NEAR(point(scan, i).norm(), s.range_m[i], 1e-4f * s.range_m[i]) << i;
@@ -256,6 +259,7 @@ TEST(Degradation, SecondReturnsComeFromBehindTheNearestEdge) {
         const std::size_t behind = dual.kinds[k];
         ASSERT_EQ(dual.truth[k], scan.truth[behind]);
         ASSERT_EQ(dual.objects[k], scan.objects[behind]);
+        ASSERT_EQ(dual.heights_m[k], scan.heights_m[behind]);
         ASSERT_FLOAT_EQ(dual.input.scan.range_m[k], scan.input.scan.range_m[behind]);
         const auto isRay = [&](std::size_t i) {
             return dual.input.scan.azimuth_rad[k] == scan.input.scan.azimuth_rad[i] &&
@@ -371,7 +375,10 @@ TEST(Degradation, RefusesValuesOutOfRange) {
 class OneScan : public LabelledScanSource {
  public:
     std::optional<GroundTruthScan> next() override {
-        return pulled_++ < 3 ? std::optional(randomScan()) : std::nullopt;
+        if (pulled_++ == 3) return std::nullopt;
+        GroundTruthScan scan = randomScan();
+        scan.heights_m.clear();
+        return scan;
     }
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return 3; }
@@ -396,6 +403,21 @@ TEST(DegradedScans, DegradesEachScanOfASourceWithItsOwnSeed) {
     EXPECT_FALSE(scans.next().has_value());
     DegradedScans again(std::make_unique<OneScan>(), Degradation("dropout=50"));
     EXPECT_EQ(again.next()->kinds, first->kinds);
+}
+
+// Beams that look up see no ground.
+TEST(DegradedScans, KeepsHeightsAboveTheGroundAsRecorded) {
+    DegradedScans scans(std::make_unique<OneScan>(), Degradation("above_deg=0"));
+    const auto recorded = randomScan();
+    const std::vector<float> heights_m =
+        heightsAboveTrueGround(recorded, levelPoints(recorded), 100);
+    const auto scan = scans.next();
+    ASSERT_EQ(scan->heights_m.size(), scan->truth.size());
+    for (std::size_t k = 0; k < scan->truth.size(); ++k) {
+        if (scan->truth[k] == O) {
+            ASSERT_EQ(scan->heights_m[k], heights_m[scan->kinds[k]]);
+        }
+    }
 }
 
 TEST(DegradedScans, RefusesRowsThatTheSensorDoesNotHave) {

@@ -49,6 +49,15 @@ TEST(DroneScores, ReturnsOfUnknownHeightCountAsHigh) {
     EXPECT_EQ(scores.tall.missed, 1);
 }
 
+TEST(DroneScores, KnownHeightsComeFirst) {
+    auto scan = scanOf({{4, 0, kGround_m}, {4, 0, 0}, {4, 0, -1.9f}, {30, 0, 0}, {4, 1, 0}},
+                       {G, O, O, O, U});
+    scan.heights_m = {9, 0.4f, 0.6f, 9, 9};  // of obstacles in range only
+    EXPECT_EQ(scoresOf(scan, {G, G, G, G, G}).tall.all, 1);
+    scan.heights_m.pop_back();
+    EXPECT_THROW(scoresOf(scan, {G, G, G, G, G}), std::invalid_argument);
+}
+
 TEST(DroneScores, MissedReturnsAreSummedByClassName) {
     auto scan = scanOf({{4, 0, kGround_m}, {4, 0, 0}, {5, 0, 0}, {6, 0, 0}}, {G, O, O, O});
     scan.kinds = {1, 4, 4, 9};

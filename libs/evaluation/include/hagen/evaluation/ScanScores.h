@@ -22,6 +22,9 @@ struct GroundTruthScan {
     double altitude_m = NAN;             ///< of the sensor above the ground; NaN: unknown
     /// The true attitude, like ScanInput::map_from_sensor, if methods are not told it.
     std::optional<Eigen::Matrix3f> true_level_from_sensor;
+    /// Heights of obstacle returns above the true ground, if the scan does not show that ground as
+    /// it is. Empty: heightsAboveTrueGround().
+    std::vector<float> heights_m = {};
 
     /// Rotates to a frame whose z points up: by the true attitude, otherwise the input's; a sensor
     /// without either is level.
