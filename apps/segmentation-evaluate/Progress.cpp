@@ -6,18 +6,18 @@
 
 namespace hagen {
 
-Progress::Progress(const evaluation::LabelledScanSources& sources)
+Progress::Progress(const evaluation::LabelledScanSources& sources, std::size_t times)
     : is_on_terminal_(isatty(STDERR_FILENO) == 1) {
-    for (const auto& source : sources) all_ += source->size();
+    for (const auto& source : sources) all_ += times * source->size();
 }
 
 Progress::~Progress() {
     if (is_on_terminal_) std::cerr << "\r\033[K" << std::flush;
 }
 
-void Progress::show(const evaluation::MethodOutput& view) {
+void Progress::show(const evaluation::MethodOutput& view, const std::string& what) {
     if (!is_on_terminal_ || view.method + 1 < view.methods) return;
-    std::cerr << "\rscan " << ++done_ << " of " << all_ << std::flush;
+    std::cerr << "\r\033[K" << what << "scan " << ++done_ << " of " << all_ << std::flush;
 }
 
 }  // namespace hagen

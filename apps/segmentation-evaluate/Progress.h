@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/evaluation/Evaluation.h>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace hagen {
@@ -9,12 +10,14 @@ namespace hagen {
 /// terminal.
 class Progress {
  public:
-    explicit Progress(const evaluation::LabelledScanSources& sources);
+    /// `times`: how often all scans are processed.
+    explicit Progress(const evaluation::LabelledScanSources& sources, std::size_t times = 1);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void show(const evaluation::MethodOutput& view);
+    /// `what`: shown before the number of the scan.
+    void show(const evaluation::MethodOutput& view, const std::string& what = "");
 
  private:
     bool is_on_terminal_;

@@ -96,6 +96,76 @@ std::string latencyTable(const labelled_scans::Summary& summary) {
     return text;
 }
 
+/// A percentage; a dash if it is undefined.
+std::string percentage(double share) { return figure(100 * share, 2); }
+
+std::string droneTable(const labelled_scans::Summary& summary) {
+    const std::size_t width = widthOf("method", namesOf(summary.methods));
+    std::string text =
+        "\nWhat matters to a drone\n" + left("", width) +
+        "  obstacle returns above 0.5 m  obstacles of which     RoI on bare ground,\n" +
+        left("method", width) +
+        "    missed        of         %  nothing is found  of   returns per scan\n";
+    for (const labelled_scans::MethodTotals& method : summary.methods) {
+        const evaluation::DroneScores& all = method.drone.all;
+        const bool are_numbered = all.obstacles.all > 0;
+        text += left(method.name, width) + right(count(all.tall.missed), 10) +
+                right(count(all.tall.all), 10) + right(percentage(all.tall.share()), 10) +
+                right(are_numbered ? count(all.obstacles.missed) : "-", 18) +
+                right(are_numbered ? count(all.obstacles.all) : "-", 6) +
+                right(figure(all.falseOnBareGroundPerScan(), 2), 17) + "\n";
+    }
+    return text;
+}
+
+/// "+0.12", or a dash.
+std::string change(double degraded, double recorded) {
+    const double points = labelled_scans::changeInPoints(degraded, recorded);
+    return std::isnan(points) ? "-" : format("%+.2f", points);
+}
+
+/// `recorded`: null for the scans as recorded, which have no change.
+std::string hardSetLine(const std::string& name, std::size_t width,
+                        const evaluation::Scores& scores, const evaluation::Scores* recorded,
+                        const evaluation::Missed& tall) {
+    const auto changeOf = [&](evaluation::ClassScore evaluation::Scores::*c) {
+        return recorded == nullptr ? "" : change((scores.*c).f1(), (recorded->*c).f1());
+    };
+    return left(name, width) + right(figure(scores.roi.f1()), 9) +
+           right(changeOf(&evaluation::Scores::roi), 9) + right(figure(scores.rou.f1()), 10) +
+           right(changeOf(&evaluation::Scores::rou), 9) + right(count(tall.missed), 10) +
+           right(count(tall.all), 10) + right(percentage(tall.share()), 8) + "\n";
+}
+
+/// A method on all degradations.
+std::string hardSetTable(const labelled_scans::Summary& summary, std::size_t method) {
+    std::vector<std::string> names{"as recorded"};
+    for (const labelled_scans::HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
+    const labelled_scans::MethodTotals& recorded = summary.methods[method];
+    const std::size_t width = widthOf("degradation", names);
+    std::string text = "\nOn degraded scans: " + recorded.name +
+                       " (change of F1 in points of 0.01)\n" + left("", width) +
+                       left("   RoI", 22) + left("ROU", 16) + "obstacle returns above 0.5 m\n" +
+                       left("degradation", width) +
+                       "       F1   change        F1   change    missed        of       %\n";
+    const evaluation::Scores& scores = recorded.returns.all.scores;
+    text += hardSetLine(names[0], width, scores, nullptr, recorded.drone.all.tall);
+    for (const labelled_scans::HardSetTotals& set : summary.hard_sets) {
+        const labelled_scans::HardSetScores& own = set.methods[method];
+        text += hardSetLine(set.name, width, own.returns.scores, &scores, own.drone.all.tall);
+    }
+    return text;
+}
+
+std::string hardSetTables(const labelled_scans::Summary& summary) {
+    if (summary.hard_sets.empty()) return "";
+    const std::size_t methods = summary.hard_sets.front().methods.size();
+    if (methods > kMostColumns) return "\nScores on degraded scans are in --json.\n";
+    std::string text;
+    for (std::size_t method = 0; method < methods; ++method) text += hardSetTable(summary, method);
+    return text;
+}
+
 using Part = std::vector<labelled_scans::GroupTotals> labelled_scans::ScoreTotals::*;
 struct PartName {
     const char* title;
@@ -152,14 +222,12 @@ std::string kindTable(const std::vector<labelled_scans::GroupTotals>& kinds) {
     return text;
 }
 
-/// One row per group, one column per method.
-template <class Cell>
+/// One row per group, one column per method. `groupsOf` returns the groups of a method.
+template <class Groups, class Cell>
 std::string matrix(const std::string& title, const std::string& heading,
-                   const labelled_scans::Summary& summary, Part part, Cell cell) {
+                   const labelled_scans::Summary& summary, Groups groupsOf, Cell cell) {
     std::vector<std::string> groups;
-    for (const labelled_scans::GroupTotals& group : summary.methods.front().returns.*part) {
-        groups.push_back(group.name);
-    }
+    for (const auto& group : groupsOf(summary.methods.front())) groups.push_back(group.name);
     if (groups.empty()) return "";
     const std::size_t width = widthOf(heading, groups);
     std::string heads = left(heading, width), text = "\n" + title + "\n";
@@ -170,7 +238,7 @@ std::string matrix(const std::string& title, const std::string& heading,
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::string line = left(groups[g], width);
         for (const labelled_scans::MethodTotals& method : summary.methods) {
-            line += "  " + left(cell((method.returns.*part)[g].scores), 15);
+            line += "  " + left(cell(groupsOf(method)[g]), 15);
         }
         text += trimmed(line);
     }
@@ -179,17 +247,39 @@ std::string matrix(const std::string& title, const std::string& heading,
 
 std::string comparison(const labelled_scans::Summary& summary) {
     std::string text;
-    const auto f1 = [](const evaluation::Scores& scores) {
-        return figure(scores.roi.f1(), 3) + " / " + figure(scores.rou.f1(), 3);
+    const auto f1 = [](const labelled_scans::GroupTotals& group) {
+        return figure(group.scores.roi.f1(), 3) + " / " + figure(group.scores.rou.f1(), 3);
+    };
+    const auto returns = [](Part part) {
+        return [part](const labelled_scans::MethodTotals& method) -> const auto& {
+            return method.returns.*part;
+        };
     };
     for (const PartName& part : kParts) {
         text += matrix(std::string(part.title) + ": F1 of RoI / ROU", part.heading, summary,
-                       part.part, f1);
+                       returns(part.part), f1);
     }
-    text +=
-        matrix("By object class: recall", "class", summary, &labelled_scans::ScoreTotals::by_kind,
-               [](const evaluation::Scores& scores) { return figure(scores.correct()); });
+    text += matrix(
+        "By object class: recall", "class", summary, returns(&labelled_scans::ScoreTotals::by_kind),
+        [](const labelled_scans::GroupTotals& group) { return figure(group.scores.correct()); });
     return text;
+}
+
+/// Missed obstacle returns above 0.5 m, by part: "12 of 3456".
+std::string missedParts(const labelled_scans::Summary& summary) {
+    using Groups = std::vector<labelled_scans::MissedGroup> labelled_scans::DroneTotals::*;
+    const auto table = [&](const std::string& by, const std::string& heading, Groups part) {
+        return matrix(
+            "Missed obstacle returns above 0.5 m, by " + by, heading, summary,
+            [part](const labelled_scans::MethodTotals& method) -> const auto& {
+                return method.drone.*part;
+            },
+            [](const labelled_scans::MissedGroup& group) {
+                return count(group.missed.missed) + " of " + count(group.missed.all);
+            });
+    };
+    return table("range", "range", &labelled_scans::DroneTotals::by_range) +
+           table("object class", "class", &labelled_scans::DroneTotals::by_kind);
 }
 
 std::string partsOf(const labelled_scans::ScoreTotals& scores) {
@@ -217,8 +307,10 @@ std::string reportOf(const labelled_scans::Summary& summary) {
         text += scoreTable(summary, &labelled_scans::MethodTotals::pixels);
     }
     text += "\nRun time of the segmentation alone, ms per scan\n" + latencyTable(summary);
-    if (summary.methods.size() == 1) return text + partsOf(summary.methods.front().returns);
-    if (summary.methods.size() <= kMostColumns) return text + comparison(summary);
+    text += droneTable(summary) + hardSetTables(summary);
+    const std::size_t methods = summary.methods.size();
+    if (methods == 1) return text + missedParts(summary) + partsOf(summary.methods.front().returns);
+    if (methods <= kMostColumns) return text + missedParts(summary) + comparison(summary);
     return text + "\nScores by range, altitude, folder and class are in --json.\n";
 }
 

@@ -9,6 +9,7 @@
 
 #include <hagen/command_line/CommandLine.h>
 #include <hagen/labelled_scans/Charts.h>
+#include <hagen/labelled_scans/HardSets.h>
 #include <hagen/labelled_scans/LabelledFolders.h>
 #include <hagen/labelled_scans/Methods.h>
 #include <hagen/labelled_scans/Overlay.h>
@@ -24,11 +25,11 @@ using namespace hagen::command_line;
 namespace fs = std::filesystem;
 
 struct Flags {
-    std::vector<std::string> folders, configs, sweeps;
+    std::vector<std::string> folders, configs, sweeps, labels, degradations;
     std::string label_map, camera, overlay, json, charts;
     float max_range_m = 20.0f;
     int resamples = 1000;
-    bool with_baselines = false, overwrite = false;
+    bool with_baselines = false, with_hard_sets = false, overwrite = false;
 };
 
 void addFlags(Command& app, Flags& flags) {
@@ -39,6 +40,15 @@ void addFlags(Command& app, Flags& flags) {
                "KEY=VALUE,VALUE,...: one row per value; sweeps are independent");
     app.flag("--baselines", flags.with_baselines,
              "add rows of published segmenters, as published and as tuned");
+    app.option("--labels", flags.labels,
+               "NAME=DIR: also score the label files of another program; may be repeated")
+        .once();
+    app.flag("--hard-sets", flags.with_hard_sets,
+             "also score degraded copies of all scans: dead beams, rain, tilt, ...");
+    app.option("--degrade", flags.degradations,
+               "SPEC: also score one such copy, such as dropout=20; may be repeated; a wrong SPEC "
+               "lists all")
+        .once();
     app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
         .showDefault()
         .between(0.1, 1000.0);
@@ -71,9 +81,10 @@ auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read
 
 /// The outputs. None appears before all are complete.
 struct Outputs {
-    explicit Outputs(const Flags& flags) {
-        base::checkApart({flags.json, flags.charts, flags.overlay},
-                         {flags.folders.begin(), flags.folders.end()});
+    Outputs(const Flags& flags, const labelled_scans::MethodSet& rows) {
+        std::vector<fs::path> inputs(flags.folders.begin(), flags.folders.end());
+        for (const labelled_scans::LabelRow& row : rows.labels) inputs.push_back(row.folder);
+        base::checkApart({flags.json, flags.charts, flags.overlay}, inputs);
         const auto open = [&](const std::string& path, const base::OutputKind& kind,
                               std::optional<base::OutputPath>& output) {
             if (path.empty()) return;
@@ -95,26 +106,36 @@ struct Outputs {
 int run(const Flags& flags, labelled_scans::Summary summary) {
     for (const std::string& config : flags.configs)
         observations::mergeSettings(config, summary.settings);
-    labelled_scans::MethodSet rows{labelled_scans::rowsOf(summary.settings, flags.sweeps),
-                                   std::nullopt};
+    labelled_scans::MethodSet rows;
+    rows.filter = labelled_scans::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
-    const auto label_map = fromFlag(flags.label_map, evaluation::readLabelMap);
+    labelled_scans::addLabelRows(flags.labels, rows);
+    const labelled_scans::LabelledInputs inputs{
+        flags.folders, rows, fromFlag(flags.label_map, evaluation::readLabelMap)};
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
     options.camera = fromFlag(flags.camera, evaluation::readCamera);
     const evaluation::LabelledScanSources sources =
-        labelled_scans::sourcesOf(flags.folders, rows, label_map);
-    Outputs outputs(flags);
+        labelled_scans::sourcesOf(inputs.folders, inputs.rows, inputs.label_map);
+    const std::vector<evaluation::Degradation> degradations =
+        labelled_scans::degradationsOf(flags.degradations, flags.with_hard_sets, inputs);
+    Outputs outputs(flags, rows);
 
     std::vector<evaluation::MethodScores> methods;
+    std::vector<labelled_scans::HardSet> hard_sets;
     {
-        Progress progress(sources);
+        Progress progress(sources, 1 + degradations.size());
         methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
             progress.show(view);
             if (!outputs.overlay) return;
             labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source]->name(),
                                         view, options);
         });
+        hard_sets = labelled_scans::scoreHardSets(
+            inputs, degradations, options.range,
+            [&](const std::string& degradation, const evaluation::MethodOutput& view) {
+                progress.show(view, degradation + ": ");
+            });
     }
 
     summary.folders = flags.folders;
@@ -124,6 +145,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
     labelled_scans::addScores(methods, rows.filter, summary);
+    labelled_scans::addHardSets(hard_sets, summary);
     if (outputs.json) labelled_scans::writeJson(outputs.json->temporary(), summary);
     if (outputs.charts) labelled_scans::drawCharts(outputs.charts->temporary(), summary);
     outputs.commit();

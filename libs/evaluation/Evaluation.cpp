@@ -5,9 +5,10 @@
 namespace hagen::evaluation {
 namespace {
 
-/// The labels that a method assigns, and its run time.
+/// The labels that a method assigns, and its run time unless they were made beforehand.
 std::vector<Label> timed(const Method& method, const ScanInput& input,
                          std::vector<double>& latency_ms) {
+    if (method.is_recorded) return method.segment(input);
     using Clock = std::chrono::steady_clock;
     const auto before = Clock::now();
     std::vector<Label> found = method.segment(input);
@@ -15,10 +16,20 @@ std::vector<Label> timed(const Method& method, const ScanInput& input,
     return found;
 }
 
+/// Names the scan in the message of labels that do not fit it.
+template <class Work>
+auto forScan(const GroundTruthScan& scan, Work work) {
+    try {
+        return work();
+    } catch (const std::invalid_argument& e) {
+        throw std::runtime_error(scan.name + ": " + e.what());
+    }
+}
+
 void checkMethods(const std::vector<Method>& methods, const std::string& source,
                   std::vector<MethodScores>& scores) {
     if (scores.empty()) {
-        for (const Method& method : methods) scores.push_back({method.name, {}, {}, {}});
+        for (const Method& method : methods) scores.push_back({method.name, {}, {}, {}, {}});
     }
     bool are_same = methods.size() == scores.size();
     for (std::size_t m = 0; are_same && m < methods.size(); ++m) {
@@ -53,20 +64,20 @@ std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
             std::vector<CameraPixel> pixels;
             if (options.camera) pixels = visibleReturns(*options.camera, scan.input.scan);
             const std::vector<std::size_t> seen = returnsOf(pixels);
+            const DroneTruth drone = forScan(scan, [&] { return DroneTruth(scan, options.range); });
             for (std::size_t m = 0; m < methods.size(); ++m) {
-                if (i == 0) methods[m].segment(scan.input);
+                if (i == 0 && !methods[m].is_recorded) methods[m].segment(scan.input);
                 const std::vector<Label> found = timed(methods[m], scan.input, all[m].latency_ms);
                 const auto score = [&](const std::vector<std::size_t>* chosen,
                                        std::vector<ScanScores>& scores) {
                     scores.push_back(scoreScan(scan, found, source.kinds(), options.range, chosen));
                     scores.back().folder = s;
                 };
-                try {
+                forScan(scan, [&] {
                     score(nullptr, all[m].returns);
                     if (options.camera) score(&seen, all[m].pixels);
-                } catch (const std::invalid_argument& e) {
-                    throw std::runtime_error(scan.name + ": " + e.what());
-                }
+                    all[m].drone.push_back(drone.score(found, source.kinds()));
+                });
                 if (listener)
                     listener({s, i, m, methods.size(), methods[m].name, scan, found, pixels});
             }

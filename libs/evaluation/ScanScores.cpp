@@ -14,6 +14,11 @@ void checkSizes(std::size_t returns, std::size_t labels, const std::string& what
 
 }  // namespace
 
+Eigen::Matrix3f GroundTruthScan::levelFromSensor() const {
+    if (true_level_from_sensor) return *true_level_from_sensor;
+    return input.map_from_sensor.value_or(Eigen::Matrix3f::Identity());
+}
+
 std::size_t RangeBands::count() const {
     return static_cast<std::size_t>(std::max(1.0f, std::ceil(max_range_m / width_m)));
 }

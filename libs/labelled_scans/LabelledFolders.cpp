@@ -13,28 +13,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void checkSize(const Scan& scan, std::size_t labels, const fs::path& file) {
+    if (labels == scan.size()) return;
+    throw std::runtime_error(file.string() + ": has " + std::to_string(labels) + " labels for " +
+                             std::to_string(scan.size()) + " returns");
+}
+
 std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) {
     std::vector<std::uint16_t> labels = logs::readLabels(file);
-    if (labels.size() != scan.size()) {
-        throw std::runtime_error(file.string() + ": has " + std::to_string(labels.size()) +
-                                 " labels for " + std::to_string(scan.size()) + " returns");
-    }
+    checkSize(scan, labels.size(), file);
     return labels;
+}
+
+/// Returns the entries of the first of these files that numbers objects in the high 16 bits, 0 for
+/// returns without number. Entire entries tell objects apart, because SemanticKITTI numbers those
+/// of each class anew. Empty: no file has numbers.
+std::vector<std::uint32_t> readObjectsOf(const Scan& scan, const std::vector<fs::path>& files) {
+    for (const fs::path& file : files) {
+        if (!fs::exists(file)) continue;
+        std::vector<std::uint32_t> entries = logs::readLabelEntries(file);
+        checkSize(scan, entries.size(), file);
+        bool has_numbers = false;
+        for (std::uint32_t& entry : entries) {
+            if (entry >> 16 == 0) entry = 0;
+            has_numbers = has_numbers || entry != 0;
+        }
+        if (has_numbers) return entries;
+    }
+    return {};
 }
 
 /// A scan folder: the recording and its ground-truth labels.
 class LabelledFolder : public evaluation::LabelledScanSource {
  public:
     LabelledFolder(const std::string& path, const std::string& name, const MethodSet& methods,
-                   const std::optional<evaluation::LabelMap>& label_map);
+                   const std::optional<evaluation::LabelMap>& label_map, bool is_only);
 
     std::optional<evaluation::GroundTruthScan> next() override;
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return folder_.size(); }
     const evaluation::LabelMap& kinds() const override { return kinds_; }
-    std::vector<evaluation::Method> makeMethods() const override {
-        return methodsFor(methods_, folder_.sensorFile());
-    }
+    SensorModel sensor() const override { return settings_.sensorModel(); }
+    std::vector<evaluation::Method> makeMethods() const override;
 
  private:
     void readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const;
@@ -43,6 +63,7 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     logs::ScanFolder folder_;
     std::unique_ptr<logs::ScanSource> scans_;
     MethodSet methods_;
+    std::vector<fs::path> label_folders_;  ///< of methods_.labels
     observations::Settings settings_;
     evaluation::LabelMap kinds_;  ///< from --label-map or the folder; empty: unknown
     bool has_label_map_;          ///< ground-truth labels are derived with `kinds_`
@@ -53,7 +74,7 @@ class LabelledFolder : public evaluation::LabelledScanSource {
 
 LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
                                const MethodSet& methods,
-                               const std::optional<evaluation::LabelMap>& label_map)
+                               const std::optional<evaluation::LabelMap>& label_map, bool is_only)
     : name_(name),
       folder_(path),
       scans_(logs::openRecording(path)),
@@ -67,10 +88,21 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
     } else if (has_kind_files_ && fs::exists(folder_.kindNamesFile())) {
         kinds_ = evaluation::readLabelMap(folder_.kindNamesFile());
     }
+    for (const LabelRow& row : methods_.labels) {
+        label_folders_.push_back(labelFilesOf(row, folder_, name_, is_only));
+    }
     // Without times, poses cannot be assigned to scans.
     const bool has_poses = fs::exists(folder_.tumFile()) && !folder_.times().empty();
     // A poses.txt is relative to the first scan, which may have been tilted: no attitude.
     if (has_poses) scans_->usePoses({});
+}
+
+std::vector<evaluation::Method> LabelledFolder::makeMethods() const {
+    std::vector<evaluation::Method> methods = methodsFor(methods_, folder_.sensorFile());
+    for (std::size_t row = 0; row < label_folders_.size(); ++row) {
+        methods.push_back(labelFileMethod(methods_.labels[row].name, label_folders_[row]));
+    }
+    return methods;
 }
 
 void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const {
@@ -88,6 +120,7 @@ void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan)
     } else if (!kinds_.empty()) {
         scan.kinds = readLabelsOf(scan.input.scan, folder_.kindFile(i));
     }
+    scan.objects = readObjectsOf(scan.input.scan, {folder_.labelFile(i), folder_.kindFile(i)});
 }
 
 std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
@@ -96,6 +129,7 @@ std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
     observations::readObservation(*recorded->observation, settings_, observed_);
     evaluation::GroundTruthScan scan;
     scan.name = folder_.scanFile(recorded->entry).string();
+    scan.input.name = folder_.name(recorded->entry);
     scan.input.scan = observed_.scan;
     readTruth(recorded->entry, scan);
     if (!altitudes_m_.empty()) scan.altitude_m = altitudes_m_[recorded->entry];
@@ -145,7 +179,8 @@ evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folder
     const std::vector<std::string> names = namesOf(folders);
     evaluation::LabelledScanSources sources;
     for (std::size_t f = 0; f < folders.size(); ++f) {
-        sources.push_back(std::make_unique<LabelledFolder>(folders[f], names[f], rows, label_map));
+        sources.push_back(std::make_unique<LabelledFolder>(folders[f], names[f], rows, label_map,
+                                                           folders.size() == 1));
     }
     return sources;
 }

@@ -1,6 +1,7 @@
 #include <hagen/labelled_scans/Methods.h>
 
 #include <hagen/evaluation/Baselines.h>
+#include <hagen/evaluation/Degradation.h>
 #include <hagen/segmentation/HagenFilter.h>
 #ifdef HAGEN_HAS_PCL_BASELINE
 #include <hagen/pcl_baseline/BaselinePclEuclidean.h>
@@ -22,9 +23,10 @@ std::optional<Attitude> attitudeOf(const evaluation::ScanInput& input) {
                     std::asin(std::clamp(-turn(2, 0), -1.0f, 1.0f))};
 }
 
-evaluation::Method filterMethod(const std::string& name, const observations::Settings& settings) {
-    const auto filter = std::make_shared<HagenFilter>(
-        observations::filterFor(settings.sensorModel(), settings.options));
+evaluation::Method filterMethod(const std::string& name, const SensorModel& sensor,
+                                const observations::Settings& settings) {
+    const auto filter =
+        std::make_shared<HagenFilter>(observations::filterFor(sensor, settings.options));
     // Poses of scan folders are those of the sensor, with its mount.
     const Attitude mount = settings.mount;
     const bool is_mounted_level = mount.roll_rad == 0 && mount.pitch_rad == 0;
@@ -88,15 +90,34 @@ std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
     return rows;
 }
 
+void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
+    std::vector<std::string> taken;
+    for (const SweepPoint& row : rows.filter) taken.push_back(row.name);
+    if (rows.baselines) {
+        for (const evaluation::Baseline& row : allBaselines(rows.baselines->options.zone_m))
+            taken.push_back(row.name);
+    }
+    for (const LabelRow& row : rows.labels) taken.push_back(row.name);
+    for (const std::string& text : texts) {
+        rows.labels.push_back(labelRowFrom(text, taken));
+        taken.push_back(rows.labels.back().name);
+    }
+}
+
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file) {
+    const auto sensorOf = [&](const observations::Settings& settings) {
+        const SensorModel sensor = settings.sensorModel();
+        return rows.is_upside_down ? evaluation::mirrored(sensor) : sensor;
+    };
     std::vector<evaluation::Method> methods;
     for (const SweepPoint& row : rows.filter) {
-        methods.push_back(filterMethod(row.name, settingsFor(row.settings, sensor_file)));
+        const observations::Settings settings = settingsFor(row.settings, sensor_file);
+        methods.push_back(filterMethod(row.name, sensorOf(settings), settings));
     }
     if (!rows.baselines) return methods;
     const observations::Settings settings = settingsFor(*rows.baselines, sensor_file);
-    const SensorModel sensor = settings.sensorModel();
+    const SensorModel sensor = sensorOf(settings);
     for (const evaluation::Baseline& baseline : allBaselines(settings.options.zone_m)) {
         methods.push_back({baseline.name, [baseline, sensor](const evaluation::ScanInput& input) {
                                return baseline.segment(input.scan, sensor);

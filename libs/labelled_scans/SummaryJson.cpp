@@ -55,10 +55,36 @@ Json json(const ScoreTotals& scores) {
 }
 
 Json json(const evaluation::Latency& latency) {
+    if (latency.runs == 0) return {};
     return {{"runs", latency.runs},          {"mean", number(latency.mean_ms)},
             {"sd", number(latency.sd_ms)},   {"p50", number(latency.p50_ms)},
             {"p95", number(latency.p95_ms)}, {"p99", number(latency.p99_ms)},
             {"max", number(latency.max_ms)}};
+}
+
+Json json(const evaluation::Missed& missed) {
+    return {
+        {"missed", missed.missed}, {"of", missed.all}, {"missed_share", number(missed.share())}};
+}
+
+Json json(const std::vector<MissedGroup>& groups) {
+    Json list = Json::array();
+    for (const MissedGroup& group : groups) {
+        Json part = json(group.missed);
+        part["name"] = group.name;
+        list.push_back(part);
+    }
+    return list;
+}
+
+Json json(const DroneTotals& drone) {
+    const evaluation::DroneScores& all = drone.all;
+    return {{"returns_above_half_metre", json(all.tall)},
+            {"returns_above_half_metre_by_range", json(drone.by_range)},
+            {"returns_above_half_metre_by_kind", json(drone.by_kind)},
+            {"obstacles", all.obstacles.all == 0 ? Json() : json(all.obstacles)},
+            {"false_roi_on_bare_ground", all.false_on_bare_ground},
+            {"false_roi_on_bare_ground_per_scan", number(all.falseOnBareGroundPerScan())}};
 }
 
 Json json(const MethodTotals& method) {
@@ -66,8 +92,19 @@ Json json(const MethodTotals& method) {
     return {{"name", method.name},
             {"sweep", method.sweep_key.empty() ? Json() : sweep},
             {"latency_ms", json(method.latency)},
+            {"drone", json(method.drone)},
             {"returns", json(method.returns)},
             {"pixels", method.pixels.all.scans == 0 ? Json() : json(method.pixels)}};
+}
+
+/// `recorded`: the same method on the scans as recorded.
+Json json(const HardSetScores& method, const MethodTotals& recorded) {
+    const evaluation::Scores &scores = method.returns.scores, &before = recorded.returns.all.scores;
+    return {{"name", method.method},
+            {"returns", json(method.returns)},
+            {"roi_f1_change_points", number(changeInPoints(scores.roi.f1(), before.roi.f1()))},
+            {"rou_f1_change_points", number(changeInPoints(scores.rou.f1(), before.rou.f1()))},
+            {"drone", json(method.drone)}};
 }
 
 Json json(const observations::Settings& settings) {
@@ -101,6 +138,14 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
                            {"level", summary.bootstrap.level}};
     report["methods"] = Json::array();
     for (const MethodTotals& method : summary.methods) report["methods"].push_back(json(method));
+
+    report["hard_sets"] = Json::array();
+    for (const HardSetTotals& set : summary.hard_sets) {
+        Json methods = Json::array();
+        for (std::size_t m = 0; m < set.methods.size(); ++m)
+            methods.push_back(json(set.methods[m], summary.methods[m]));
+        report["hard_sets"].push_back({{"name", set.name}, {"methods", methods}});
+    }
 
     // File names may be invalid UTF-8, which JSON does not allow.
     base::writeText(report.dump(2, Json::NotUtf8::Replace) + "\n", file, file);

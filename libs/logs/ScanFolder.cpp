@@ -122,8 +122,12 @@ void writeScan(const fs::path& file, const Scan& scan) {
     writeRecords(file, points);
 }
 
+std::vector<std::uint32_t> readLabelEntries(const fs::path& file) {
+    return readRecords<std::uint32_t>(file);
+}
+
 std::vector<std::uint16_t> readLabels(const fs::path& file) {
-    const auto entries = readRecords<std::uint32_t>(file);
+    const std::vector<std::uint32_t> entries = readLabelEntries(file);
     std::vector<std::uint16_t> labels(entries.size());
     std::transform(entries.begin(), entries.end(), labels.begin(),
                    [](std::uint32_t entry) { return static_cast<std::uint16_t>(entry & 0xffff); });

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "support/ProgramTest.h"
@@ -72,6 +73,12 @@ class SegmentationEvaluate : public test::ProgramTest {
         folder_.write("pole/altitudes.txt", "2.0\n");
         return pole;
     }
+    void writeLabelFile(const std::string& file, const std::vector<std::uint16_t>& labels) const {
+        fs::create_directories((folder_ / file).parent_path());
+        const std::vector<std::uint32_t> entries(labels.begin(), labels.end());
+        folder_.write(
+            file, std::string(reinterpret_cast<const char*>(entries.data()), 4 * entries.size()));
+    }
     nlohmann::json json(std::vector<std::string> arguments) const {
         const std::string file = (folder_ / "report.json").string();
         arguments.insert(arguments.end(), {"--json", file, "--overwrite"});
@@ -134,6 +141,156 @@ TEST_F(SegmentationEvaluate, BaselinesComeAfterASweepWithTheZoneOfTheSettings) {
         EXPECT_TRUE(methods[m]["sweep"].is_null());
         EXPECT_EQ(methods[m]["returns"]["all"]["roi"]["recall"], 0.0) << methods[m]["name"];
     }
+}
+
+// What another program might have found, as files.
+TEST_F(SegmentationEvaluate, LabelsOfAnotherProgramAreARow) {
+    const std::string pole = labelledPole();
+    const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    writeLabelFile("theirs/000000.label", truth);
+    std::vector<std::uint16_t> wrong = truth;
+    for (std::uint16_t& label : wrong) label = label == 2 ? 1 : label;
+    wrong[0] = 0;
+    writeLabelFile("blind/labels/000000.label", wrong);
+    const auto report = json({"-i", pole, "--labels", "theirs=" + path("theirs"), "--labels",
+                              "blind one=" + path("blind"), "--charts", path("charts")});
+    const auto& methods = report["methods"];
+    ASSERT_EQ(methods.size(), 3u);
+    EXPECT_EQ(methods[1]["name"], "theirs");
+    EXPECT_EQ(methods[1]["returns"]["all"]["correct"], 1.0);
+    EXPECT_EQ(methods[1]["returns"]["all"]["returns"], methods[0]["returns"]["all"]["returns"]);
+    EXPECT_TRUE(methods[1]["latency_ms"].is_null());
+    EXPECT_EQ(methods[2]["name"], "blind one");
+    EXPECT_EQ(methods[2]["returns"]["all"]["roi"]["recall"], 0.0);
+    EXPECT_THAT(test::readFile(folder_ / "charts/by_range.svg"), HasSubstr("blind one"));
+    const auto outcome = run({"-i", pole, "--labels", "theirs=" + path("theirs")});
+    EXPECT_EQ(row(outcome.out, "theirs"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
+}
+
+TEST_F(SegmentationEvaluate, LabelsOfSeveralFoldersAreInFoldersOfTheirNames) {
+    const std::string pole = labelledPole(), other = labelledPole("other");
+    const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    writeLabelFile("theirs/pole/000000.label", truth);
+    const std::string theirs = "theirs=" + path("theirs");
+    expectFailure({"-i", pole, other, "--labels", theirs}, 1, "theirs/other/000000.label: no such");
+    writeLabelFile("theirs/other/labels/000000.label", truth);
+    const auto report = json({"-i", pole, other, "--labels", theirs});
+    EXPECT_EQ(report["methods"][1]["returns"]["all"]["correct"], 1.0);
+    EXPECT_EQ(report["methods"][1]["returns"]["by_folder"].size(), 2u);
+    EXPECT_EQ(json({"-i", pole, "--labels", theirs})["methods"].size(), 2u);
+}
+
+TEST_F(SegmentationEvaluate, RefusesLabelsOfAnotherProgramThatItCannotUse) {
+    const std::string pole = labelledPole();
+    fs::create_directories(folder_ / "theirs");
+    const std::string theirs = path("theirs");
+    for (const std::string& words : {theirs, "=" + theirs, std::string("theirs=")}) {
+        expectFailure({"-i", pole, "--labels", words}, 2, "expected NAME=DIR");
+    }
+    expectFailure({"-i", pole, "--labels", "a=" + path("none")}, 2, "none: no such folder");
+    expectFailure({"-i", pole, "--labels", "a=" + theirs, "--labels", "a=" + theirs}, 2,
+                  "already a row 'a'");
+    expectFailure({"-i", pole, "--labels", "hagen=" + theirs}, 2, "already a row 'hagen'");
+    expectFailure({"-i", pole, "--baselines", "--labels", "zermas tuned=" + theirs}, 2,
+                  "already a row 'zermas tuned'");
+    expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1, "theirs/000000.label: no such file");
+    auto labels = logs::readLabels(folder_ / "pole/labels/000000.label");
+    labels[6] = 3;
+    writeLabelFile("theirs/000000.label", labels);
+    expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1,
+                  "000000.label: label 7 is 3; write 0");
+    labels.resize(2);
+    writeLabelFile("theirs/000000.label", labels);
+    expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1, "000000.label: has 2 labels for");
+}
+
+// The pole's returns above 0.5 m are those of beams that meet it above z = 0.5 m - 2 m.
+TEST_F(SegmentationEvaluate, SaysWhatMattersToADrone) {
+    const std::string pole = poleWithKinds();
+    auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    Scan scan;
+    logs::readScan(folder_ / "pole/velodyne/000000.bin", scan);
+    int high = 0, all_roi = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        all_roi += truth[i] == 2;
+        high += truth[i] == 2 && scan.z_m[i] > 0.5f - 2.0f;
+    }
+    ASSERT_GT(high, 10);
+    ASSERT_GT(all_roi, high);
+    std::vector<std::uint16_t> blind(truth.size(), 1);
+    const auto bare = std::find(truth.begin(), truth.end(), 1);  // ground behind the sensor
+    blind[static_cast<std::size_t>(bare - truth.begin())] = 2;
+    writeLabelFile("blind/000000.label", blind);
+    const std::vector<std::string> flags{"-i", pole, "--labels", "blind=" + path("blind")};
+    auto drone = json(flags)["methods"][1]["drone"];
+    EXPECT_EQ(drone["returns_above_half_metre"]["missed"], high);
+    EXPECT_EQ(drone["returns_above_half_metre"]["of"], high);
+    EXPECT_EQ(drone["returns_above_half_metre_by_kind"][0]["name"], "pole");
+    EXPECT_EQ(drone["returns_above_half_metre_by_range"][0]["name"], "10-15 m");
+    EXPECT_EQ(drone["false_roi_on_bare_ground_per_scan"], 1.0);
+    EXPECT_TRUE(drone["obstacles"].is_null());  // no numbers yet
+    std::vector<std::uint32_t> numbered;
+    for (const std::uint16_t label : truth) numbered.push_back(label == 2 ? 7 << 16 | 2 : label);
+    folder_.write("pole/labels/000000.label",
+                  std::string(reinterpret_cast<const char*>(numbered.data()), 4 * numbered.size()));
+    EXPECT_EQ(json(flags)["methods"][0]["drone"]["obstacles"]["missed"], 0);
+    EXPECT_EQ(json(flags)["methods"][1]["drone"]["obstacles"]["missed"], 1);
+    EXPECT_EQ(json(flags)["methods"][1]["drone"]["obstacles"]["of"], 1);
+    const auto outcome = run(flags);
+    EXPECT_THAT(outcome.out, HasSubstr("What matters to a drone"));
+    EXPECT_THAT(outcome.out, HasSubstr("Missed obstacle returns above 0.5 m, by object class"));
+}
+
+TEST_F(SegmentationEvaluate, DegradedScansHaveATableAndAnEntryEach) {
+    const std::string pole = labelledPole();
+    writeLabelFile("theirs/000000.label", logs::readLabels(folder_ / "pole/labels/000000.label"));
+    const std::vector<std::string> flags{
+        "-i",        pole,           "--labels",  "theirs=" + path("theirs"),
+        "--degrade", "dropout=0",    "--degrade", "dropout=50",
+        "--degrade", "below_deg=-90"};
+    const auto report = json(flags);
+    const auto& recorded = report["methods"][0];
+    const auto& sets = report["hard_sets"];
+    ASSERT_EQ(sets.size(), 3u);
+    for (const auto& set : sets) EXPECT_EQ(set["methods"].size(), 1u);  // not those of --labels
+    const auto& same = sets[0]["methods"][0];
+    EXPECT_EQ(sets[0]["name"], "dropout=0");
+    EXPECT_EQ(same["name"], "hagen");
+    for (const char* key : {"roi", "rou"}) {
+        EXPECT_EQ(same["returns"][key]["hits"], recorded["returns"]["all"][key]["hits"]);
+    }
+    EXPECT_EQ(same["roi_f1_change_points"], 0.0);
+    EXPECT_EQ(same["drone"], recorded["drone"]);
+    const int all = recorded["returns"]["all"]["returns"];
+    EXPECT_NEAR(int(sets[1]["methods"][0]["returns"]["returns"]), all / 2, all / 20);
+    EXPECT_EQ(sets[2]["methods"][0]["returns"]["returns"], 0);
+    EXPECT_TRUE(sets[2]["methods"][0]["rou_f1_change_points"].is_null());
+    const auto outcome = run(flags);
+    EXPECT_THAT(outcome.out, HasSubstr("On degraded scans: hagen"));
+    EXPECT_EQ(row(outcome.out, "below_deg=-90").size(), 6u);
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST_F(SegmentationEvaluate, HardSetsAreTheStandardDegradations) {
+    const auto report = json({"-i", labelledPole(), "--hard-sets", "--degrade", "upside_down",
+                              "--degrade", "noise_m=0.01", "--bootstrap", "0"});
+    std::set<std::string> names;
+    for (const auto& set : report["hard_sets"]) names.insert(set["name"]);
+    EXPECT_EQ(names.size(), report["hard_sets"].size());  // each once
+    for (const char* name : {"dead_beams=0", "dead_beams=15", "dead_beams=7,8", "dropout=50",
+                             "rain=3", "roll_deg=20", "upside_down", "rate_hz=20", "noise_m=0.01"})
+        EXPECT_EQ(names.count(name), 1u) << name;
+}
+
+TEST_F(SegmentationEvaluate, RefusesDegradationsThatItDoesNotKnow) {
+    const std::string pole = labelledPole();
+    expectFailure({"-i", pole, "--degrade", "snow=3"}, 2,
+                  "'snow=3': unknown; known are dead_beams");
+    expectFailure({"-i", pole, "--degrade", "dropout=120"}, 2, "from 0 to 100");
+    expectFailure({"-i", pole, "--degrade", "dead_beams=16"}, 2,
+                  "pole: 'dead_beams=16': the sensor");
+    expectFailure({"-i", pole, "--degrade"}, 2, "--degrade");
 }
 
 // The published filter on labelled recordings, with the required scores.

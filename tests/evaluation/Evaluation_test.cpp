@@ -45,6 +45,7 @@ class Obstacles : public LabelledScanSource {
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return returns_.size(); }
     const LabelMap& kinds() const override { return kinds_; }
+    SensorModel sensor() const override { return sensorModel("VLP-16"); }
     std::vector<Method> makeMethods() const override { return methods_; }
 
  private:
@@ -110,6 +111,20 @@ TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
     });
     EXPECT_THAT(message, HasSubstr("a/1: "));
     EXPECT_THAT(message, HasSubstr("1 found labels for 2 returns"));
+}
+
+TEST(Evaluation, RecordedLabelsAreReadOnceAndNotTimed) {
+    int calls = 0;
+    const Method recorded{"theirs",
+                          [&calls](const ScanInput& input) {
+                              ++calls;
+                              return std::vector<Label>(input.scan.size(), O);
+                          },
+                          true};
+    const auto methods = evaluate(sourcesOf(obstacles("a", {2, 2}, {recorded})));
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(methods[0].returns[1].all.roi.hits, 2);
+    EXPECT_TRUE(methods[0].latency_ms.empty());
 }
 
 TEST(Evaluation, ASourceCanBeEvaluatedOnce) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <hagen/evaluation/Camera.h>
+#include <hagen/evaluation/DroneScores.h>
 #include <hagen/evaluation/ScanScores.h>
+#include <hagen/range_image/SensorModel.h>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,6 +22,7 @@ class LabelledScanSource {
     virtual const std::string& name() const = 0;  ///< in tables
     virtual std::size_t size() const = 0;         ///< number of scans
     virtual const LabelMap& kinds() const = 0;    ///< the object classes of its scans
+    virtual SensorModel sensor() const = 0;       ///< that its scans are located for
     /// Creates the methods for its sensor; every source must return the same names in the same
     /// order.
     virtual std::vector<Method> makeMethods() const = 0;
@@ -37,7 +40,8 @@ struct MethodScores {
     std::vector<ScanScores> returns;  ///< over returns
     std::vector<ScanScores>
         pixels;  ///< over the camera's pixels, one return each; empty without a camera
-    std::vector<double> latency_ms;  ///< of each call of Method::segment
+    std::vector<DroneScores> drone;
+    std::vector<double> latency_ms;  ///< of each call of Method::segment; empty if is_recorded
 };
 
 /// A scan as labelled by one method, for visualisation.

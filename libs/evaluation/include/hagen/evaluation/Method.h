@@ -15,6 +15,7 @@ struct ScanInput {
     /// Rotates directions from the sensor's frame to the map's, whose z points up. nullopt if the
     /// pose is unknown.
     std::optional<Eigen::Matrix3f> map_from_sensor;
+    std::string name = {};  ///< of its file, without folder and extension; empty: unknown
 };
 
 /// A segmenter for scans of one sensor and its name in tables: the filter or a baseline. `segment`
@@ -22,6 +23,8 @@ struct ScanInput {
 struct Method {
     std::string name;
     std::function<std::vector<Label>(const ScanInput& input)> segment;
+    /// The labels were made beforehand, and `segment` only reads them: it is not timed.
+    bool is_recorded = false;
 };
 
 }  // namespace hagen::evaluation

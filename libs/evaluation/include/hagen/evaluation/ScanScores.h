@@ -2,9 +2,11 @@
 #include <hagen/evaluation/LabelMap.h>
 #include <hagen/evaluation/Method.h>
 #include <hagen/evaluation/Scores.h>
+#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,18 @@ struct GroundTruthScan {
     std::string name;  ///< its file or entry, for messages
     ScanInput input;
     std::vector<Label> truth;  ///< one label per return; Unclassified returns are not scored
-    std::vector<std::uint16_t> kinds;  ///< class of each return; empty: unknown
-    double altitude_m = NAN;           ///< of the sensor above the ground; NaN: unknown
+    std::vector<std::uint16_t> kinds;    ///< class of each return; empty: unknown
+    std::vector<std::uint32_t> objects;  ///< obstacle of each return; 0: none; empty: unknown
+    double altitude_m = NAN;             ///< of the sensor above the ground; NaN: unknown
+    /// The true attitude, like ScanInput::map_from_sensor, if methods are not told it.
+    std::optional<Eigen::Matrix3f> true_level_from_sensor;
+    /// Heights of obstacle returns above the true ground, if the scan does not show that ground as
+    /// it is. Empty: heightsAboveTrueGround().
+    std::vector<float> heights_m = {};
+
+    /// Rotates to a frame whose z points up: by the true attitude, otherwise the input's; a sensor
+    /// without either is level.
+    Eigen::Matrix3f levelFromSensor() const;
 };
 
 /// The scores of one scan, in total and by part.

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "LabelRows.h"
+
 namespace hagen::labelled_scans {
 
 /// The filter with one set of settings: one row of the table.
@@ -22,15 +24,20 @@ struct SweepPoint {
 std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
                                const std::vector<std::string>& sweeps);
 
-/// All scored methods: the filter's rows, then the baselines if requested.
+/// All scored methods: the filter's rows, then the baselines if requested, then labels of others.
 struct MethodSet {
     std::vector<SweepPoint> filter;
     std::optional<observations::Settings> baselines;  ///< provides zone and sensor of the baselines
+    std::vector<LabelRow> labels = {};
+    bool is_upside_down = false;  ///< the sensor; see evaluation::mirrored()
 };
 
-/// Returns the methods for a recording. Settings in `sensor_file`, if that exists, are merged into
-/// those of each row. Includes PCL's baselines if the program was built with PCL. Throws
-/// SettingsError if settings and sensor are inconsistent.
+/// Adds a row per "NAME=DIR" of labels of other programs. Throws SettingsError like labelRowFrom().
+void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
+
+/// Returns the filter's and baselines' methods for a recording. Settings in `sensor_file`, if that
+/// exists, are merged into those of each row. Includes PCL's baselines if the program was built
+/// with PCL. Throws SettingsError if settings and sensor are inconsistent.
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file);
 

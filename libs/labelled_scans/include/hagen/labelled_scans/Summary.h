@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "HardSets.h"
 #include "Methods.h"
 
 namespace hagen::labelled_scans {
@@ -25,11 +26,37 @@ struct ScoreTotals {
     std::vector<GroupTotals> by_range, by_altitude, by_kind, by_folder;
 };
 
+/// A named part of the obstacle returns above 0.5 m: a range band or an object class.
+struct MissedGroup {
+    std::string name;
+    evaluation::Missed missed;
+};
+
+/// What matters to a drone, summed over scans.
+struct DroneTotals {
+    evaluation::DroneScores all;
+    std::vector<MissedGroup> by_range, by_kind;  ///< without empty parts
+};
+DroneTotals totalsOf(const std::vector<evaluation::DroneScores>& scans,
+                     const evaluation::RangeBands& bands);
+
 struct MethodTotals {
     std::string name;
     std::string sweep_key, sweep_value;  ///< key of the sweep; empty: no sweep
     evaluation::Latency latency;
     ScoreTotals returns, pixels;  ///< pixels: zero scans without a camera
+    DroneTotals drone;
+};
+
+/// The scores of a method on a degradation.
+struct HardSetScores {
+    std::string method;
+    GroupTotals returns;
+    DroneTotals drone;
+};
+struct HardSetTotals {
+    std::string name;                    ///< the degradation
+    std::vector<HardSetScores> methods;  ///< as in Summary::methods, without those of --labels
 };
 
 /// A run of the program: its parameters and results.
@@ -43,10 +70,17 @@ struct Summary {
     evaluation::BootstrapOptions bootstrap;
     std::size_t scans = 0;
     std::vector<MethodTotals> methods;
+    std::vector<HardSetTotals> hard_sets;
 };
 
 /// Sums the scores and computes intervals with the options in `summary`, and fills its methods.
 void addScores(const std::vector<evaluation::MethodScores>& methods,
                const std::vector<SweepPoint>& rows, Summary& summary);
+
+/// The same for degraded scans, without intervals.
+void addHardSets(const std::vector<HardSet>& sets, Summary& summary);
+
+/// How much better F1 is on degraded than on recorded scans, in points: hundredths.
+double changeInPoints(double degraded, double recorded);
 
 }  // namespace hagen::labelled_scans

@@ -73,7 +73,8 @@ void writeScan(const std::filesystem::path& file, const Scan& scan);
 /// The highest component number that a label file can store; higher ones are stored as this one.
 constexpr std::int32_t kMaxFileComponent = 65535;
 
-/// Reads a .label file: the low 16 bits of each entry.
+/// Reads a .label file: entire entries, or the low 16 bits of each.
+std::vector<std::uint32_t> readLabelEntries(const std::filesystem::path& file);
 std::vector<std::uint16_t> readLabels(const std::filesystem::path& file);
 void writeLabels(const std::filesystem::path& file, const std::vector<Label>& labels,
                  const std::vector<std::int32_t>& components);

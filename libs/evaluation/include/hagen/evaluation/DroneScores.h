@@ -1,0 +1,63 @@
+#pragma once
+#include <hagen/evaluation/ScanScores.h>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::evaluation {
+
+/// A part that was missed.
+struct Missed {
+    std::int64_t missed = 0, all = 0;
+
+    double share() const;  ///< NaN if there is nothing to miss
+    Missed& operator+=(const Missed& other);
+};
+
+/// What F1 hides and a drone notices, for one scan or summed over several.
+struct DroneScores {
+    std::size_t scans = 0;
+    /// Returns of obstacles more than kTall_m above the true ground (TrueHeights.h) that are not
+    /// labelled RoI: in total, by range band, and by class name if classes are known.
+    Missed tall;
+    std::vector<Missed> tall_by_range;
+    std::map<std::string, Missed> tall_by_kind;
+    /// Obstacles with at least kObstacleReturns returns in range of which no return is RoI, scan by
+    /// scan. Nothing if the ground truth does not number obstacles.
+    Missed obstacles;
+    /// Returns of the ground that are labelled RoI although no true obstacle is within
+    /// kBareGround_m, horizontally.
+    std::int64_t false_on_bare_ground = 0;
+
+    double falseOnBareGroundPerScan() const;  ///< NaN without scans
+    DroneScores& operator+=(const DroneScores& other);
+};
+
+constexpr float kTall_m = 0.5f, kBareGround_m = 2.0f;
+constexpr std::size_t kObstacleReturns = 5;
+
+/// The ground truth of one scan for these scores, the same for all methods. Refers to the scan.
+class DroneTruth {
+ public:
+    DroneTruth(const GroundTruthScan& scan, const RangeBands& bands);
+    ~DroneTruth();
+    DroneTruth(const DroneTruth&) = delete;
+    DroneTruth& operator=(const DroneTruth&) = delete;
+
+    /// Scores the labels `found`, one per return; `kinds` names all classes of obstacles.
+    DroneScores score(const std::vector<Label>& found, const LabelMap& kinds) const;
+
+ private:
+    struct Plan;
+    bool isBareGround(std::size_t i) const;
+
+    const GroundTruthScan& scan_;
+    RangeBands bands_;
+    std::vector<std::size_t> tall_;                    ///< returns
+    std::vector<std::vector<std::size_t>> obstacles_;  ///< returns of each
+    std::unique_ptr<Plan> plan_;
+};
+
+}  // namespace hagen::evaluation
