@@ -73,11 +73,10 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
         return;
     }
     sensorOf(observation, observed.sensor);
-    // Settings may narrow the sensor's range limits, not widen them.
+    // The recording's range limits are those of its driver; all returns are in the packets.
     SensorModel& sensor = observed.sensor;
-    sensor.min_range_m = std::max(sensor.min_range_m, settings.sensor.min_range_m.value_or(0.0f));
-    sensor.max_range_m =
-        std::min(sensor.max_range_m, settings.sensor.max_range_m.value_or(sensor.max_range_m));
+    sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
+    sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
     const std::size_t unsound_blocks =
         decodePackets(observation, observed.scan, observed.work.decoder);
     if (unsound_blocks > 0) {

@@ -1,6 +1,7 @@
 #include <hagen/range_image/SetBits.h>
 #include <hagen/segmentation/Extraction.h>
 #include <algorithm>
+#include <limits>
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE
@@ -45,8 +46,7 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
     const std::size_t lanes = hn::Lanes(d);
     const auto zero = hn::Zero(d), one = hn::Set(d, 1), two = hn::Set(d, 2);
-    const auto min_range = hn::Set(df, rules.min_range_m),
-               max_range = hn::Set(df, rules.max_range_m);
+    const auto infinite = hn::Set(df, std::numeric_limits<float>::infinity());
     const auto zone = hn::Set(df, rules.zone_m), gap = hn::Set(df, rules.component_gap_m);
     const float* HWY_RESTRICT range_m = in.range_m;
     const std::int32_t* HWY_RESTRICT pixels = in.pixel;
@@ -65,7 +65,8 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
             const auto range = hn::LoadU(df, range_m + i);
             const auto pixel = hn::LoadU(d, pixels + i);
             const auto verdict = hn::GatherIndex(d, verdict_of_pixel, pixel);
-            const auto is_seen = hn::And(hn::Ge(range, min_range), hn::Le(range, max_range));
+            const auto is_seen =
+                hn::And(hn::Gt(range, hn::Zero(df)), hn::Lt(range, infinite));  // false for NaN
             auto is_rou = hn::Eq(hn::And(verdict, one), one);
             auto component = hn::ShiftRight<1>(verdict);
             if (kHasOwnLabel) {
@@ -76,7 +77,7 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
                 const auto is_near = hn::RebindMask(d, hn::Lt(hn::Sub(range, depth), gap));
                 component = hn::IfThenElseZero(hn::Or(has_none, is_near), component);
             }
-            const auto is_far = hn::Or(hn::RebindMask(d, hn::Gt(range, zone)), hn::Lt(pixel, zero));
+            const auto is_far = hn::RebindMask(d, hn::Gt(range, zone));
             const auto seen = hn::RebindMask(d, is_seen);
             const auto is_roi = hn::AndNot(hn::Or(is_far, is_rou), seen);
             const auto label = hn::IfThenElseZero(seen, hn::IfThenElse(is_roi, two, one));
@@ -120,12 +121,12 @@ namespace {
 
 HWY_EXPORT(LabelWords);
 
-/// 2 * component + 1 if ROU, per pixel, so that a return needs one look-up. Returns without a pixel
-/// are ROU.
+/// 2 * component + 1 if ROU, per pixel, so that a return needs one look-up. Without a pixel: RoI,
+/// of no component.
 void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& components,
                   std::vector<std::int32_t>& verdict) {
     verdict.resize(static_cast<std::size_t>(labels.size()) + 1);
-    verdict[0] = 1;
+    verdict[0] = 0;
     const Label* const label = labels.data();
     const std::int32_t* const component = components.data();
     for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {

@@ -83,8 +83,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     if (o.context_m > o.zone_m) limitToZone(depth_m, o.zone_m, r.labels);
     numberRoiComponents(depth_m, r.labels, o.component_gap_m, r.components, w.components);
     extractReturns(scan, {r.range_image, r.labels, r.components}, r.own_labels,
-                   {view.sensor.min_range_m, view.sensor.max_range_m, o.zone_m, o.component_gap_m},
-                   r.returns, w.extraction);
+                   {o.zone_m, o.component_gap_m}, r.returns, w.extraction);
     return r;
 }
 

@@ -125,7 +125,8 @@ TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     ASSERT_TRUE(segmenter.process(*cloud, out));
-    EXPECT_FALSE(out.pose.attitude);
+    ASSERT_TRUE(out.pose.attitude);  // as on a level vehicle
+    EXPECT_NEAR(out.pose.attitude->pitch_rad, 0.2, 1e-5);
 
     EXPECT_FALSE(segmenter.process(poseOf({0, 0, 5, 1.0, -0.05, 0.1}), out));
     ASSERT_TRUE(segmenter.process(*cloud, out));
@@ -136,7 +137,9 @@ TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
 
     segmenter.initialize({});  // forgets the attitude
     ASSERT_TRUE(segmenter.process(*cloud, out));
-    EXPECT_FALSE(out.pose.attitude);
+    ASSERT_TRUE(out.pose.attitude);
+    EXPECT_NEAR(out.pose.attitude->pitch_rad, 0.2, 1e-5);
+    EXPECT_NEAR(out.pose.attitude->roll_rad, 0, 1e-5);
 }
 
 TEST(Horizon, ATrajectoryCountsOnlyWhereItHasOne) {

@@ -106,13 +106,15 @@ TEST(ObservationScan, IntensitiesThatCountTo255AreScaled) {
     EXPECT_TRUE(observed.is_sensor_assumed);
 }
 
-TEST(ObservationScan, SettingsMayNarrowWhatTheSensorSees) {
+TEST(ObservationScan, SettingsSayWhatTheSensorSees) {
     ObservedScan observed;
     Settings settings;
     settings.sensor.max_range_m = 10.0f;
     settings.sensor.min_range_m = 0.1f;
     readObservation(*velodyneScan(), settings, observed);
     EXPECT_EQ(observed.sensor.max_range_m, 10.0f);
+    EXPECT_EQ(observed.sensor.min_range_m, 0.1f);
+    readObservation(*velodyneScan(), Settings(), observed);
     EXPECT_EQ(observed.sensor.min_range_m, 0.5f);  // the recording's own
     EXPECT_FALSE(observed.is_sensor_assumed);
 }

@@ -3,6 +3,7 @@
 #include <hagen/segmentation/FilterWorkspace.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
@@ -46,15 +47,14 @@ struct Example {
     }
 
     void extract(const OwnLabels& own_labels = {}, float component_gap_m = 1.0f) {
-        extractReturns(scan, {image, labels, components}, own_labels,
-                       {sensor.min_range_m, sensor.max_range_m, 20.0f, component_gap_m}, returns,
-                       work.extraction);
+        extractReturns(scan, {image, labels, components}, own_labels, {20.0f, component_gap_m},
+                       returns, work.extraction);
     }
 };
 
 /// The definition, return by return.
-LabelledReturns plainReturns(const Scan& scan, const SensorModel& sensor, const RangeImage& image,
-                             const Image<Label>& labels, const Image<std::int32_t>& components,
+LabelledReturns plainReturns(const Scan& scan, const RangeImage& image, const Image<Label>& labels,
+                             const Image<std::int32_t>& components,
                              const std::vector<Label>& own_label, float zone_m,
                              float component_gap_m) {
     LabelledReturns returns;
@@ -65,8 +65,8 @@ LabelledReturns plainReturns(const Scan& scan, const SensorModel& sensor, const 
         const Label own = own_label.empty() ? Label::Unclassified : own_label[i];
         Label label = Label::Unclassified;
         std::int32_t component = 0;
-        if (sensor.sees(range_m)) {
-            label = Label::Rou;
+        if (range_m > 0 && std::isfinite(range_m)) {
+            label = range_m > zone_m ? Label::Rou : Label::Roi;
             if (range_m <= zone_m && pixel != RangeImage::kNoPixel) {
                 label = own != Label::Unclassified ? own : labels.data()[pixel];
                 if (label != Label::Rou) {
@@ -120,12 +120,10 @@ TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
             labels.data()[pixel] = static_cast<Label>(random.whole(0, 2));
             components.data()[pixel] = random.whole(0, 60);
         }
-        const auto expected =
-            plainReturns(scan, sensor, image, labels, components, own_label, 20.0f, 1.0f);
+        const auto expected = plainReturns(scan, image, labels, components, own_label, 20.0f, 1.0f);
         forEachInstructionSet([&](const std::string& name) {
             SCOPED_TRACE(name + ", returns: " + std::to_string(size));
-            extractReturns(scan, {image, labels, components}, {own_label},
-                           {sensor.min_range_m, sensor.max_range_m, 20.0f, 1.0f}, returns,
+            extractReturns(scan, {image, labels, components}, {own_label}, {20.0f, 1.0f}, returns,
                            work.extraction);
             ASSERT_EQ(returns.label, expected.label);
             ASSERT_EQ(returns.component, expected.component);
@@ -201,9 +199,24 @@ TEST(Extraction, BeyondTheZoneIsRouWhateverThePixelSays) {
     EXPECT_EQ(example.returns.label[2], Label::Rou);
 }
 
-TEST(Extraction, OutOfTheSensorsRangeIsUnclassified) {
-    const Example example;
-    EXPECT_EQ(example.returns.unclassified, (std::vector<std::uint32_t>{4, 5, 6}));
+TEST(Extraction, OutOfTheSensorsRangeIsRoiInTheZone) {
+    const Example example;  // 4: too near, 5: too far
+    EXPECT_EQ(example.returns.label[4], Label::Roi);
+    EXPECT_EQ(example.returns.component[4], 0);
+    EXPECT_EQ(example.returns.label[5], Label::Rou);
+}
+
+TEST(Extraction, OnlyWhatHasNoRangeIsUnclassified) {
+    Example example;
+    EXPECT_EQ(example.returns.unclassified, (std::vector<std::uint32_t>{6}));
+    for (const float range_m : {0.0f, std::numeric_limits<float>::infinity(), kNoValue}) {
+        example.scan.range_m[1] = range_m;
+        example.extract();
+        EXPECT_EQ(example.returns.label[1], Label::Unclassified) << range_m;
+    }
+    example.scan.range_m[1] = 1e-6f;
+    example.extract();
+    EXPECT_EQ(example.returns.label[1], Label::Roi);
 }
 
 TEST(Extraction, EveryReturnIsInExactlyOneList) {

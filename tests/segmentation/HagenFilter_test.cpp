@@ -302,11 +302,13 @@ TEST(HagenFilter, EveryReturnOfARandomScanEndsInExactlyOneList) {
                 for (const auto i : *indices) {
                     ++seen[i];
                     ASSERT_EQ(returns.label[i], label);
-                    // RoI returns without a component must have their own label.
-                    const bool is_behind = !result.own_labels.label.empty() &&
-                                           result.own_labels.label[i] != Label::Unclassified;
+                    // RoI returns without a component have their own label or no pixel.
+                    const bool is_judged_alone =
+                        result.range_image.depth_mapper[i] == RangeImage::kNoPixel ||
+                        (!result.own_labels.label.empty() &&
+                         result.own_labels.label[i] != Label::Unclassified);
                     ASSERT_TRUE(returns.component[i] == 0 || label == Label::Roi);
-                    ASSERT_TRUE(returns.component[i] > 0 || label != Label::Roi || is_behind);
+                    ASSERT_TRUE(returns.component[i] > 0 || label != Label::Roi || is_judged_alone);
                 }
             }
             ASSERT_TRUE(
@@ -507,8 +509,7 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
                      static_cast<float>(radians(50.0)), labels, work.labelling);
         limitToZone(repaired, 15.0f, labels);
         numberRoiComponents(repaired, labels, 0.4f, components, work.components);
-        extractReturns(scan, {image, labels, components}, {},
-                       {sensor.min_range_m, sensor.max_range_m, 15.0f, 0.4f}, returns,
+        extractReturns(scan, {image, labels, components}, {}, {15.0f, 0.4f}, returns,
                        work.extraction);
 
         EXPECT_TRUE(test::same(r.range_image.depth_m, image.depth_m));
@@ -582,9 +583,8 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         judgeFartherReturns(scan, r.range_image, g, clearance, own_labels, work.farther_returns);
         limitToZone(r.repaired_m, 15.0f, labels);
         numberRoiComponents(r.repaired_m, labels, 0.4f, components, work.components);
-        extractReturns(scan, {r.range_image, labels, components}, own_labels,
-                       {sensor.min_range_m, sensor.max_range_m, 15.0f, 0.4f}, returns,
-                       work.extraction);
+        extractReturns(scan, {r.range_image, labels, components}, own_labels, {15.0f, 0.4f},
+                       returns, work.extraction);
 
         EXPECT_TRUE(r.ground.from_sensor.isApprox(g.from_sensor));
         EXPECT_TRUE((r.ground.surface.height_m == g.surface.height_m).all());

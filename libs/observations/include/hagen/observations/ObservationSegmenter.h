@@ -36,8 +36,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
  public:
     struct Output {
         /// RoI and ROU of the scan, with its time stamp, its sensor pose, and its label plus `_roi`
-        /// and `_non_roi`. Points in the sensor frame, as measured. Returns out of the sensor's
-        /// range are in neither cloud.
+        /// and `_non_roi`. Points in the sensor frame, as measured. Every return with a range
+        /// is in one of the clouds.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
         /// The scan's returns, and the result of each stage; valid until the next call of

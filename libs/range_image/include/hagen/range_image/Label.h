@@ -5,7 +5,7 @@ namespace hagen {
 
 /// The filter's label of a return. The numbers are those of label files.
 enum class Label : std::uint8_t {
-    Unclassified = 0,  ///< no range, or out of the sensor's range limits
+    Unclassified = 0,  ///< no range
     Rou = 1,           ///< region of uninterest: ground, far returns
     Roi = 2            ///< region of interest: a near obstacle
 };

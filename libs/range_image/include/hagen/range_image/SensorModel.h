@@ -10,7 +10,7 @@ struct SensorModel {
     /// Elevation of each beam above the sensor's xy plane, strictly increasing: element r belongs
     /// to image row r; row 0 is the lowest beam.
     std::vector<float> elevations_rad;
-    /// Returns outside these limits are unclassified.
+    /// Returns outside these limits do not enter the image: in the zone they are RoI unjudged.
     float min_range_m = 0.5f;
     float max_range_m = 130.0f;
     /// Whether the beams above are those of the sensor. False for a sensor that scans without

@@ -25,8 +25,7 @@ struct LabelledImage {
 
 /// Rules for returns that do not depend on their pixel.
 struct ExtractionRules {
-    float min_range_m, max_range_m;  ///< of the sensor; returns out of range are Unclassified
-    float zone_m;                    ///< returns farther away are ROU
+    float zone_m;  ///< returns farther away are ROU
     /// A return with its own label belongs to its pixel's component if it is less than this behind
     /// it: what is seen past an obstacle is not part of it.
     float component_gap_m;
@@ -41,9 +40,10 @@ struct ExtractionWorkspace {
 };
 
 /// Stage 9, extraction: a return takes the label and the component of its pixel, through the
-/// depth_mapper, unless it has its own label. Returns outside the image are ROU. Components keep
-/// their order and are numbered 1, 2, ... without gaps. Requires `image` and `own_labels` of this
-/// scan.
+/// depth_mapper, unless it has its own label. In the zone, a return without a pixel is RoI, of no
+/// component: it is out of the sensor's range limits, so its position is doubtful, but something is
+/// there. Only what has no range (0, not finite) is Unclassified. Components keep their order and
+/// are numbered 1, 2, ... without gaps. Requires `image` and `own_labels` of this scan.
 void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabels& own_labels,
                     const ExtractionRules& rules, LabelledReturns& returns,
                     ExtractionWorkspace& work);

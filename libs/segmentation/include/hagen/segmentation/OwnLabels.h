@@ -12,7 +12,7 @@ struct OwnLabels {
     ///
     ///     Unclassified  the return takes the label of its pixel
     ///     Rou, Roi      the return's own label; overruled only outside the zone (ROU) or the
-    ///                   sensor's range (Unclassified)
+    ///                   image (RoI)
     std::vector<Label> label;
 };
 
