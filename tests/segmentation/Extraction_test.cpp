@@ -67,15 +67,14 @@ LabelledReturns plainReturns(const Scan& scan, const RangeImage& image, const Im
         std::int32_t component = 0;
         if (range_m > 0 && std::isfinite(range_m)) {
             label = range_m > zone_m ? Label::Rou : Label::Roi;
-            if (range_m <= zone_m && pixel != RangeImage::kNoPixel) {
-                label = own != Label::Unclassified ? own : labels.data()[pixel];
-                if (label != Label::Rou) {
-                    label = Label::Roi;
-                    if (own == Label::Unclassified ||
-                        range_m - image.depth_m.data()[pixel] < component_gap_m) {
-                        component = components.data()[pixel];
-                    }
-                }
+            const bool has_pixel = pixel != RangeImage::kNoPixel;
+            const Label of_pixel = has_pixel ? labels.data()[pixel] : Label::Roi;
+            const bool is_rou = (own != Label::Unclassified ? own : of_pixel) == Label::Rou;
+            if (is_rou) label = Label::Rou;
+            if (label == Label::Roi && has_pixel &&
+                (own == Label::Unclassified ||
+                 range_m - image.depth_m.data()[pixel] < component_gap_m)) {
+                component = components.data()[pixel];
             }
         }
         returns.label.push_back(label);
@@ -151,13 +150,15 @@ TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
     EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
 }
 
-TEST(Extraction, WhatTheImageDoesNotReachIsRou) {
+TEST(Extraction, WhatTheImageDoesNotReachIsRoiInTheZone) {
     Example example;
     projectScan(example.scan, example.sensor, 8, 10.0f, example.image,
                 work.projection);  // context smaller than the zone
     example.extract();
-    EXPECT_EQ(example.returns.label[0], Label::Roi);
-    EXPECT_EQ(example.returns.label[1], Label::Rou);
+    EXPECT_EQ(example.image.depth_mapper[1], RangeImage::kNoPixel);
+    EXPECT_EQ(example.returns.label[1], Label::Roi);
+    EXPECT_EQ(example.returns.component[1], 0);
+    EXPECT_EQ(example.returns.label[2], Label::Rou);
 }
 
 TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
@@ -169,15 +170,15 @@ TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
     std::vector<Label> own_label(7, Label::Unclassified);
     EXPECT_EQ(extracted(own_label).label, Example().returns.label);
     own_label[1] = Label::Rou;
-    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0}));
-    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{1, 2, 3}));
+    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 4}));
+    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{1, 2, 3, 5}));
     EXPECT_EQ(example.returns.component[1], 0);
     own_label[3] = Label::Roi;
-    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 3}));
+    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 3, 4}));
     EXPECT_EQ(example.returns.component[3], 0);  // its pixel has no component
-    own_label[2] = own_label[4] = Label::Roi;    // beyond the zone, below the minimum range
+    own_label[2] = own_label[6] = Label::Roi;    // beyond the zone, no range
     EXPECT_EQ(extracted(own_label).label[2], Label::Rou);
-    EXPECT_EQ(example.returns.label[4], Label::Unclassified);
+    EXPECT_EQ(example.returns.label[6], Label::Unclassified);
 }
 
 TEST(Extraction, WhatIsSeenPastAnObstacleIsOfNoComponent) {
@@ -221,8 +222,9 @@ TEST(Extraction, OnlyWhatHasNoRangeIsUnclassified) {
 
 TEST(Extraction, EveryReturnIsInExactlyOneList) {
     const Example example;
-    EXPECT_EQ(example.returns.roi, (std::vector<std::uint32_t>{0, 1}));
-    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{2, 3}));
+    EXPECT_EQ(example.returns.roi, (std::vector<std::uint32_t>{0, 1, 4}));
+    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{2, 3, 5}));
+    EXPECT_EQ(example.returns.unclassified, (std::vector<std::uint32_t>{6}));
 }
 
 }  // namespace
