@@ -89,6 +89,7 @@ FilterWorkspace work;  // shared by all tests, as by all scans in a filter
 /// All stages from the pixels to the labels.
 struct Judged {
     Eigen::Isometry3f frame;
+    Image<std::uint8_t> is_level;
     GroundSurface surface;
     Image<float> height_m, tolerance_m;
     CellTops tops;
@@ -100,11 +101,14 @@ Judged judged(const Sight& sight) {
     PixelPoints pixels = sight.pixels;
     j.frame = fitGroundFrame(pixels, Attitude{0.02f, -0.03f}, work.ground_frame);
     movePixels(j.frame, pixels);
-    fitGroundSurface(pixels, sight.labels, j.surface, work.ground_surface);
+    findLevelPixels(pixels, j.is_level, work.evidence);
+    keepLevelRou(sight.labels, j.is_level, work.candidates);
+    fitGroundSurface(pixels, work.candidates, j.surface, work.ground_surface);
     heightsAbove(j.surface, pixels, j.height_m);
     findCellTops(pixels, j.height_m, j.tops);
     toleratedHeights(pixels, j.tops, kTolerance, j.tolerance_m, work.tolerance);
     tolerateCanopy(j.tops, j.tolerance_m, work.canopy);
+    requireEvidence(pixels, j.tops.cell, j.height_m, j.is_level, j.tolerance_m, work.evidence);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
     growFeet(pixels, j.height_m, j.labels, work.feet);
     removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels, work.specks);
@@ -180,6 +184,42 @@ TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
     EXPECT_GT(specks, 10);
 }
 
+TEST(GroundStages, EvidenceIsThatOfPlainLoops) {
+    int withdrawn = 0, kept = 0;
+    forManySights([&](const Sight& sight) {
+        PixelPoints pixels = sight.pixels;
+        Eigen::Isometry3f up = Eigen::Isometry3f::Identity();
+        up.translation().z() = 2;
+        movePixels(up, pixels);
+        Image<std::uint8_t> plain;
+        test::plain::findLevelPixels(pixels, plain);
+        Image<Label> candidates;
+        test::plain::keepLevelRou(sight.labels, plain, candidates);
+        const Image<float>& height_m = pixels.z_m;
+        Image<float> before_m, plain_m;
+        test::plain::toleratedHeights(pixels, height_m, kTolerance, before_m);
+        plain_m = before_m;
+        test::plain::requireEvidence(pixels, height_m, plain, plain_m);
+        withdrawn += (plain_m < 0).any();
+        kept += (plain_m >= 0).any();
+
+        CellTops tops;
+        findCellTops(pixels, height_m, tops);
+        forEachInstructionSet([&](const std::string& name) {
+            Image<std::uint8_t> fast;
+            findLevelPixels(pixels, fast, work.evidence);
+            EXPECT_TRUE((fast == plain).all()) << name;
+            keepLevelRou(sight.labels, fast, work.candidates);
+            EXPECT_TRUE((work.candidates == candidates).all()) << name;
+            Image<float> fast_m = before_m;
+            requireEvidence(pixels, tops.cell, height_m, fast, fast_m, work.evidence);
+            EXPECT_TRUE(test::same(fast_m, plain_m)) << name;
+        });
+    });
+    EXPECT_GT(withdrawn, 10);  // otherwise nothing was compared
+    EXPECT_GT(kept, 10);
+}
+
 bool sameBits(const Eigen::ArrayXXf& a, const Eigen::ArrayXXf& b) {
     return a.size() == b.size() &&
            std::memcmp(a.data(), b.data(), sizeof(float) * static_cast<std::size_t>(a.size())) == 0;
@@ -192,6 +232,7 @@ TEST(GroundStages, AreTheSameToTheLastBitOnEveryInstructionSet) {
             results.push_back(judged(sight));
             const Judged &first = results.front(), &own = results.back();
             EXPECT_EQ(first.frame.matrix(), own.frame.matrix()) << name;
+            EXPECT_TRUE((first.is_level == own.is_level).all()) << name;
             EXPECT_TRUE(sameBits(first.surface.height_m, own.surface.height_m)) << name;
             EXPECT_TRUE(test::same(first.height_m, own.height_m)) << name;
             EXPECT_TRUE(test::same(first.tolerance_m, own.tolerance_m)) << name;

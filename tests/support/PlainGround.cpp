@@ -461,6 +461,119 @@ void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
 }
 }  // namespace canopy_stage
 
+namespace evidence_stage {
+namespace {
+
+constexpr int kCells = GroundSurface::kCells;
+constexpr int kBlockCells = 4;
+constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
+constexpr int kReach = 4;                      // blocks in each direction
+
+constexpr float kSteepest = 0.3f;  // slope of a level step
+constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
+constexpr float kLeastShare = 0.55f;
+
+/// The cell of a coordinate; all coordinates beyond the grid are in the cells around it.
+int cellOf(float coordinate_m) {
+    return static_cast<int>(
+        std::clamp(wholeCells(coordinate_m), -1.0f, static_cast<float>(kCells)));
+}
+
+bool isLevelStep(const Eigen::Vector3f& below, const Eigen::Vector3f& above) {
+    const Eigen::Vector3f step = above - below;
+    const float run_m2 = step.x() * step.x() + step.y() * step.y();
+    const float outwards = step.x() * below.x() + step.y() * below.y();
+    return outwards > 0 && step.z() * step.z() < kSteepest * kSteepest * run_m2;
+}
+
+/// Pixels close to the surface, and those of them that are level.
+struct Counts {
+    int close = 0, level = 0;
+};
+using Blocks = Eigen::Array<Counts, kBlocks, kBlocks>;
+
+bool hasEvidence(const Blocks& blocks, int i, int j) {
+    Counts around;
+    for (int y = std::max(j - kReach, 0); y <= std::min(j + kReach, kBlocks - 1); ++y) {
+        for (int x = std::max(i - kReach, 0); x <= std::min(i + kReach, kBlocks - 1); ++x) {
+            around.close += blocks(x, y).close;
+            around.level += blocks(x, y).level;
+        }
+    }
+    return around.level > 0 &&
+           static_cast<float>(around.level) >= kLeastShare * static_cast<float>(around.close);
+}
+
+}  // namespace
+
+void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level) {
+    const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
+    constexpr float kNone = std::numeric_limits<float>::infinity();
+    Eigen::ArrayXXf lowest_m = Eigen::ArrayXXf::Constant(kCells + 2, kCells + 2, kNone);
+    for (Eigen::Index pixel = 0; pixel < rows * columns; ++pixel) {
+        const Eigen::Vector3f point = pixels.at(pixel);
+        if (!hasValue(point.z())) continue;
+        float& low_m = lowest_m(cellOf(point.x()) + 1, cellOf(point.y()) + 1);
+        low_m = std::min(low_m, point.z());
+    }
+    is_level.setZero(rows, columns);
+    for (Eigen::Index column = 0; column < columns; ++column) {
+        for (Eigen::Index row = 0; row < rows; ++row) {
+            const Eigen::Index pixel = column * rows + row;
+            const Eigen::Vector3f point = pixels.at(pixel);
+            if (!hasValue(point.z())) continue;
+            const bool up = row + 1 < rows && isLevelStep(point, pixels.at(pixel + 1));
+            const bool down = row > 0 && isLevelStep(pixels.at(pixel - 1), point);
+            const float low_m = lowest_m(cellOf(point.x()) + 1, cellOf(point.y()) + 1);
+            is_level(row, column) = (up || down) && point.z() <= low_m + kDrop_m;
+        }
+    }
+}
+
+void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
+                  Image<Label>& candidates) {
+    candidates.setConstant(labels.rows(), labels.cols(), Label::Unclassified);
+    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
+        if (labels.data()[pixel] == Label::Rou && is_level.data()[pixel] == 1) {
+            candidates.data()[pixel] = Label::Rou;
+        }
+    }
+}
+
+void requireEvidence(const PixelPoints& pixels, const Image<float>& height_m,
+                     const Image<std::uint8_t>& is_level, Image<float>& tolerance_m) {
+    struct Block {
+        int i, j;
+        bool is_on_grid;
+    };
+    const auto blockOf = [&](Eigen::Index pixel) {
+        const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
+        return Block{i / kBlockCells, j / kBlockCells,
+                     i >= 0 && i < kCells && j >= 0 && j < kCells};
+    };
+    Blocks blocks;
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        if (!hasValue(height_m.data()[pixel])) continue;
+        const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
+        const float most_m = 0.2f + 0.005f * std::sqrt(x_m * x_m + y_m * y_m);
+        const Block block = blockOf(pixel);
+        if (!block.is_on_grid || !(std::abs(height_m.data()[pixel]) < most_m)) continue;
+        ++blocks(block.i, block.j).close;
+        blocks(block.i, block.j).level += is_level.data()[pixel];
+    }
+    Eigen::Array<bool, kBlocks, kBlocks> is_ground;
+    for (int j = 0; j < kBlocks; ++j) {
+        for (int i = 0; i < kBlocks; ++i) is_ground(i, j) = hasEvidence(blocks, i, j);
+    }
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        if (!hasValue(tolerance_m.data()[pixel])) continue;
+        const Block block = blockOf(pixel);
+        if (block.is_on_grid && is_ground(block.i, block.j)) continue;
+        tolerance_m.data()[pixel] = -std::numeric_limits<float>::infinity();
+    }
+}
+}  // namespace evidence_stage
+
 namespace frame_stage {
 namespace {
 
@@ -590,6 +703,13 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       GroundSurface& surface) {
     surface_stage::fitGroundSurface(pixels, labels, surface);
 }
+void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level) {
+    evidence_stage::findLevelPixels(pixels, is_level);
+}
+void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
+                  Image<Label>& candidates) {
+    evidence_stage::keepLevelRou(labels, is_level, candidates);
+}
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {
     surface_stage::heightsAbove(surface, pixels, height_m);
 }
@@ -600,6 +720,10 @@ void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
 void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
                     Image<float>& tolerance_m) {
     canopy_stage::tolerateCanopy(pixels, height_m, tolerance_m);
+}
+void requireEvidence(const PixelPoints& pixels, const Image<float>& height_m,
+                     const Image<std::uint8_t>& is_level, Image<float>& tolerance_m) {
+    evidence_stage::requireEvidence(pixels, height_m, is_level, tolerance_m);
 }
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels) {

@@ -13,11 +13,16 @@ void locatePixels(const Scan& scan, const PixelDirections& directions, const Ran
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude);
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       GroundSurface& surface);
+void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level);
+void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
+                  Image<Label>& candidates);
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);
 void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
                       const HeightTolerance& tolerance, Image<float>& tolerance_m);
 void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
                     Image<float>& tolerance_m);
+void requireEvidence(const PixelPoints& pixels, const Image<float>& height_m,
+                     const Image<std::uint8_t>& is_level, Image<float>& tolerance_m);
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels);
 void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels);
