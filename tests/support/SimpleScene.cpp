@@ -38,6 +38,15 @@ double rangeTo(const SimpleScene::Pole& pole, const Eigen::Vector3d& origin,
     return range > 0.0 && height >= 0.0 && height <= pole.height_m ? range : kNothing;
 }
 
+double rangeTo(const SimpleScene::Floor& floor, const Eigen::Vector3d& origin,
+               const Eigen::Vector3d& direction) {
+    if (!(direction.z() < 0.0)) return kNothing;
+    const double range = (floor.z_m - origin.z()) / direction.z();
+    const Eigen::Array2d at = (origin + range * direction).head<2>();
+    const bool is_inside = (at >= floor.low_m.array()).all() && (at <= floor.high_m.array()).all();
+    return range > 0.0 && is_inside ? range : kNothing;
+}
+
 }  // namespace
 
 Hit castRay(const SimpleScene& scene, const Eigen::Vector3d& origin_m,
@@ -47,6 +56,7 @@ Hit castRay(const SimpleScene& scene, const Eigen::Vector3d& origin_m,
         if (range_m < hit.range_m) hit = {range_m, label};
     };
     if (scene.has_ground && direction.z() < 0.0) meet(-origin_m.z() / direction.z(), Label::Rou);
+    for (const auto& floor : scene.floors) meet(rangeTo(floor, origin_m, direction), Label::Rou);
     for (const auto& box : scene.boxes) meet(rangeTo(box, origin_m, direction), Label::Roi);
     for (const auto& pole : scene.poles) meet(rangeTo(pole, origin_m, direction), Label::Roi);
     return hit;

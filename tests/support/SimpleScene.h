@@ -8,8 +8,8 @@
 
 namespace hagen::test {
 
-/// A world of flat ground (z = 0), upright boxes and cylindrical poles, whose ranges and labels are
-/// known in closed form. Everything but the ground is RoI.
+/// A world of flat ground (z = 0), floors at other heights, upright boxes and cylindrical poles,
+/// whose ranges and labels are known in closed form. Ground and floors are ROU, the rest is RoI.
 struct SimpleScene {
     struct Box {
         Eigen::Vector3d low_m, high_m;
@@ -17,8 +17,14 @@ struct SimpleScene {
     struct Pole {
         double x_m, y_m, radius_m, height_m;
     };
+    /// Level, limited to a rectangle; seen only from above.
+    struct Floor {
+        Eigen::Vector2d low_m, high_m;
+        double z_m;
+    };
     std::vector<Box> boxes;
     std::vector<Pole> poles;
+    std::vector<Floor> floors;
     bool has_ground = true;
 };
 
