@@ -15,6 +15,7 @@ constexpr int kReach = 6;                      // blocks in each direction
 
 constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
 constexpr float kLeastShare = 0.35f;                  // of the cells seen nearby
+constexpr float kMostTall = 0.2f;                     // share of higher cells: walls, trees
 constexpr float kLeastCells = 30;                     // seen nearby; with fewer, no canopy
 constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
@@ -23,12 +24,14 @@ constexpr double kMargin_m = 0.1;
 /// leaves hardly any rounding error.
 struct Stand {
     float seen = 0;     ///< cells with returns
+    float tall = 0;     ///< cells whose highest return is higher than plants
     float plants = 0;   ///< cells whose highest return is that of a low plant
     double sum_m = 0;   ///< sum of the plants' heights
     double sum_m2 = 0;  ///< sum of their squares
 
     void addCell(float top_m) {
         seen += 1;
+        tall += top_m >= kTallest_m ? 1.0f : 0.0f;
         if (!(top_m > kLowest_m && top_m < kTallest_m)) return;
         plants += 1;
         sum_m += top_m;
@@ -36,19 +39,22 @@ struct Stand {
     }
     void add(const Stand& other) {
         seen += other.seen;
+        tall += other.tall;
         plants += other.plants;
         sum_m += other.sum_m;
         sum_m2 += other.sum_m2;
     }
     void remove(const Stand& other) {
         seen -= other.seen;
+        tall -= other.tall;
         plants -= other.plants;
         sum_m -= other.sum_m;
         sum_m2 -= other.sum_m2;
     }
     /// The height that plants do not exceed; 0 without a canopy.
     float canopy_m() const {
-        if (seen < kLeastCells || plants < kLeastShare * static_cast<float>(seen)) return 0;
+        if (seen < kLeastCells || plants < kLeastShare * seen) return 0;
+        if (tall > kMostTall * seen) return 0;
         const double mean_m = sum_m / plants;
         const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
         return static_cast<float>(mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m);

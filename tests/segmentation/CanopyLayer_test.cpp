@@ -70,6 +70,14 @@ TEST(CanopyLayer, BareGroundStaysAsItWas) {
     EXPECT_TRUE((tolerated(pixelsAt(field(40, [](int) { return 0.05f; }))) == kBefore_m).all());
 }
 
+TEST(CanopyLayer, AmongWallsAndTreesThereIsNone) {
+    const auto share = [](int percent_tall) {
+        return field(20, [=](int k) { return k % 100 < percent_tall ? 2.0f : 0.6f; });
+    };
+    EXPECT_LT((tolerated(pixelsAt(share(20))) - 0.7f).abs().maxCoeff(), 2e-3f);
+    EXPECT_TRUE((tolerated(pixelsAt(share(21))) == kBefore_m).all());
+}
+
 TEST(CanopyLayer, ThirtyFivePercentOfTheCellsMakeACanopy) {
     const auto share = [](int percent) {
         return field(20, [=](int k) { return k % 100 < percent ? 0.6f : 0.0f; });

@@ -466,9 +466,9 @@ Scan hillyScan(unsigned seed, const SensorModel& sensor) {
     for (int i = 0; i < 15000; ++i) {
         const float x_m = random.real(-24, 24), y_m = random.real(-24, 24);
         const float ground_m = -2 + 0.05f * x_m + 0.3f * std::sin(0.3f * y_m);
-        const float above_m = random.chance(0.3)   ? random.real(0, 0.4f)
-                              : random.chance(0.2) ? random.real(0, 3)
-                                                   : 0.0f;
+        const float above_m = random.chance(0.3)                    ? random.real(0, 0.4f)
+                              : random.chance(x_m > 5 ? 0.3 : 0.01) ? random.real(0, 3)
+                                                                    : 0.0f;
         points.emplace_back(x_m, y_m, ground_m + above_m);
     }
     return test::scanOf(sensor, points);

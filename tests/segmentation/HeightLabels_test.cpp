@@ -84,13 +84,13 @@ TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
     }
 }
 
-TEST(LabelByHeight, HigherThanTheToleranceIsRoi) {
-    Image<float> height_m(1, 5), tolerance_m(1, 5);
-    height_m << -3, 0.2f, 0.21f, 5, kNoValue;
-    tolerance_m << 0.2f, 0.2f, 0.2f, 0.2f, kNoValue;
-    Image<Label> labels, expected(1, 5);
+TEST(LabelByHeight, HigherThanTheToleranceOrFarBelowTheSurfaceIsRoi) {
+    Image<float> height_m(1, 6), tolerance_m(1, 6);
+    height_m << -1.51f, -1.5f, 0.2f, 0.21f, 5, kNoValue;
+    tolerance_m << 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, kNoValue;
+    Image<Label> labels, expected(1, 6);
     labelByHeight(height_m, tolerance_m, labels);
-    expected << Label::Rou, Label::Rou, Label::Roi, Label::Roi, Label::Unclassified;
+    expected << Label::Roi, Label::Rou, Label::Rou, Label::Roi, Label::Roi, Label::Unclassified;
     EXPECT_TRUE((labels == expected).all());
 }
 

@@ -315,9 +315,10 @@ void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m
     labels.resize(height_m.rows(), height_m.cols());
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         const float h_m = height_m.data()[pixel];
-        labels.data()[pixel] = !hasValue(h_m)                    ? Label::Unclassified
-                               : h_m > tolerance_m.data()[pixel] ? Label::Roi
-                                                                 : Label::Rou;
+        const bool is_ground = h_m <= tolerance_m.data()[pixel] && h_m >= -1.5f;
+        labels.data()[pixel] = !hasValue(h_m) ? Label::Unclassified
+                               : is_ground    ? Label::Rou
+                                              : Label::Roi;
     }
 }
 
@@ -379,6 +380,7 @@ constexpr int kReach = 6;                      // blocks in each direction
 
 constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
 constexpr float kLeastShare = 0.35f;                  // of the cells seen nearby
+constexpr float kMostTall = 0.2f;                     // share of higher cells: walls, trees
 constexpr float kLeastCells = 30;                     // seen nearby; with fewer, no canopy
 constexpr float kDeviations = 2.0f;
 constexpr float kMargin_m = 0.1f;
@@ -392,12 +394,14 @@ int cellOf(float coordinate_m) {
 /// The plants in the cells of one or more blocks.
 struct Stand {
     float seen = 0;    ///< cells with returns
+    float tall = 0;    ///< cells whose highest return is higher than plants
     float plants = 0;  ///< cells whose highest return is that of a low plant
     float sum_m = 0;   ///< sum of the plants' heights
     float sum_m2 = 0;  ///< sum of their squares
 
     void addCell(float top_m) {
         seen += 1;
+        if (top_m >= kTallest_m) tall += 1;
         if (!(top_m > kLowest_m && top_m < kTallest_m)) return;
         plants += 1;
         sum_m += top_m;
@@ -405,6 +409,7 @@ struct Stand {
     }
     void add(const Stand& other) {
         seen += other.seen;
+        tall += other.tall;
         plants += other.plants;
         sum_m += other.sum_m;
         sum_m2 += other.sum_m2;
@@ -412,6 +417,7 @@ struct Stand {
     /// The height that plants do not exceed; 0 without a canopy.
     float canopy_m() const {
         if (seen < kLeastCells || plants < kLeastShare * seen) return 0;
+        if (tall > kMostTall * seen) return 0;
         const float mean_m = sum_m / plants;
         const float variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0f);
         return mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m;

@@ -29,7 +29,8 @@ void toleratedHeights(const PixelPoints& pixels, const CellTops& tops,
                       const HeightTolerance& tolerance, Image<float>& tolerance_m,
                       ToleranceWorkspace& work);
 
-/// RoI if a pixel is higher than its tolerance, otherwise ROU; Unclassified if it is empty.
+/// RoI if a pixel is higher than its tolerance or more than 1.5 m below the surface, which is then
+/// not the ground; otherwise ROU. Unclassified if it is empty.
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels);
 
