@@ -67,7 +67,7 @@ constexpr float kNothing_m[kBlockCells] = {CellTops::kNone_m, CellTops::kNone_m,
 
 void findStands(const CellTops& tops, Stands& stands) {
     for (int j = 0; j < kCells; ++j) {
-        const float* const column_m = tops.top_m.col(j + 1).data() + 1;  // without the border
+        const float* const column_m = tops.highest_m.col(j + 1).data() + 1;  // without the border
         for (int block = 0; block < kBlocks; ++block) {
             const float* const top_m = column_m + block * kBlockCells;
             // Most blocks are empty. kNone_m is always written as this constant, so bits compare.

@@ -28,20 +28,29 @@ namespace hagen {
 
 HWY_EXPORT(FindCellsIn);
 
+static constexpr float kOverhead_m = 1.5f;  // what is higher need not stand in its cell
+
 void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellTops& tops) {
     tops.cell.resize(height_m.rows(), height_m.cols());
     HWY_DYNAMIC_DISPATCH(FindCellsIn)
     (tops.cell.size(), pixels.x_m.data(), pixels.y_m.data(), tops.cell.data());
 
+    tops.highest_m.setConstant(kGridStride, kGridStride, CellTops::kNone_m);
     tops.top_m.setConstant(kGridStride, kGridStride, CellTops::kNone_m);
-    float* const top_m = tops.top_m.data();
+    float *const highest_m = tops.highest_m.data(), *const top_m = tops.top_m.data();
     const float* const h_m = height_m.data();
     const std::int32_t* const cell = tops.cell.data();
     const auto raise = [=](std::size_t pixel) __attribute__((always_inline)) {
-        float& highest_m = top_m[cell[pixel]];
-        highest_m = h_m[pixel] > highest_m ? h_m[pixel] : highest_m;  // ignores NaN
+        float &first_m = highest_m[cell[pixel]], &second_m = top_m[cell[pixel]];
+        const float own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : CellTops::kNone_m;  // NaN: none
+        const float lower_m = own_m < first_m ? own_m : first_m;
+        second_m = lower_m > second_m ? lower_m : second_m;
+        first_m = own_m > first_m ? own_m : first_m;
     };
     visitByTurns(static_cast<std::size_t>(height_m.size()), raise);
+    // An only return has no second.
+    for (Eigen::Index k = 0; k < tops.top_m.size(); ++k)
+        top_m[k] = top_m[k] == CellTops::kNone_m ? highest_m[k] : top_m[k];
 }
 
 }  // namespace hagen

@@ -72,7 +72,7 @@ TEST(CanopyLayer, BareGroundStaysAsItWas) {
 
 TEST(CanopyLayer, AmongWallsAndTreesThereIsNone) {
     const auto share = [](int percent_tall) {
-        return field(20, [=](int k) { return k % 100 < percent_tall ? 2.0f : 0.6f; });
+        return field(20, [=](int k) { return k % 100 < percent_tall ? 1.2f : 0.6f; });
     };
     EXPECT_LT((tolerated(pixelsAt(share(20))) - 0.7f).abs().maxCoeff(), 2e-3f);
     EXPECT_TRUE((tolerated(pixelsAt(share(21))) == kBefore_m).all());

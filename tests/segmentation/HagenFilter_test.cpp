@@ -467,7 +467,7 @@ Scan hillyScan(unsigned seed, const SensorModel& sensor) {
         const float x_m = random.real(-24, 24), y_m = random.real(-24, 24);
         const float ground_m = -2 + 0.05f * x_m + 0.3f * std::sin(0.3f * y_m);
         const float above_m = random.chance(0.3)                    ? random.real(0, 0.4f)
-                              : random.chance(x_m > 5 ? 0.3 : 0.01) ? random.real(0, 3)
+                              : random.chance(x_m > 0 ? 0.5 : 0.01) ? random.real(0, 3)
                                                                     : 0.0f;
         points.emplace_back(x_m, y_m, ground_m + above_m);
     }

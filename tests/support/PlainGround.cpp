@@ -286,17 +286,26 @@ constexpr int kLeastVotes = 3;
 void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
                       const HeightTolerance& tolerance, Image<float>& tolerance_m) {
     constexpr int kCells = GroundSurface::kCells;
-    Eigen::ArrayXXf tallest_m = Eigen::ArrayXXf::Zero(kCells + 2, kCells + 2);  // with a border
+    // With a border.
+    Eigen::Array<std::vector<float>, Eigen::Dynamic, Eigen::Dynamic> in_cell_m(kCells + 2,
+                                                                               kCells + 2);
     const auto cellOf = [&](float coordinate_m) {
         const float cell = wholeCells(coordinate_m);
         return static_cast<int>(std::clamp(cell, -1.0f, static_cast<float>(kCells))) + 1;
     };
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         const float h_m = height_m.data()[pixel];
-        if (!hasValue(h_m)) continue;
-        float& tall_m =
-            tallest_m(cellOf(pixels.x_m.data()[pixel]), cellOf(pixels.y_m.data()[pixel]));
-        tall_m = std::max(tall_m, std::min(h_m, kTallest_m));
+        if (!(h_m < 1.5f)) continue;  // empty or overhead
+        in_cell_m(cellOf(pixels.x_m.data()[pixel]), cellOf(pixels.y_m.data()[pixel]))
+            .push_back(h_m);
+    }
+    Eigen::ArrayXXf tallest_m = Eigen::ArrayXXf::Zero(kCells + 2, kCells + 2);
+    for (Eigen::Index cell = 0; cell < tallest_m.size(); ++cell) {
+        std::vector<float>& heights_m = in_cell_m.data()[cell];
+        std::sort(heights_m.rbegin(), heights_m.rend());
+        if (heights_m.empty()) continue;
+        const float top_m = heights_m[heights_m.size() > 1 ? 1 : 0];
+        tallest_m.data()[cell] = std::clamp(top_m, 0.0f, kTallest_m);
     }
     tolerance_m.setConstant(height_m.rows(), height_m.cols(), kNoValue);
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
@@ -444,7 +453,7 @@ void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
     Eigen::ArrayXXf top_m = Eigen::ArrayXXf::Constant(kCells, kCells, kNoValue);
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         const float h_m = height_m.data()[pixel];
-        if (!hasValue(h_m)) continue;
+        if (!(h_m < 1.5f)) continue;  // empty or overhead
         const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
         if (i < 0 || j < 0) continue;
         if (!(top_m(i, j) >= h_m)) top_m(i, j) = h_m;
