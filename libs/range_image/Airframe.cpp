@@ -2,6 +2,7 @@
 #include <hagen/range_image/Angle.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace hagen {
 namespace {
@@ -22,6 +23,14 @@ float reachOf(const Airframe& airframe) {
         reach_m = std::max(reach_m, airframe.bin_range_m.maxCoeff());
     }
     return reach_m + kMostOffset_m;
+}
+
+constexpr std::size_t kBlock = 32;  // most blocks of a scan have no near return
+
+bool isBlockFarther(const float* range_m, float reach_m) {
+    std::int32_t near_returns = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) near_returns += range_m[i] <= reach_m ? 1 : 0;
+    return near_returns == 0;
 }
 
 bool contains(const Airframe& airframe, const Eigen::Vector3f& point_m, float range_m) {
@@ -56,12 +65,16 @@ std::size_t maskAirframe(const Airframe& airframe, Scan& scan) {
     if (airframe.isEmpty()) return 0;
     const float reach_m = reachOf(airframe);
     std::size_t masked = 0;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        float& range_m = scan.range_m[i];
-        if (!(range_m > 0 && range_m <= reach_m)) continue;  // also without a range
-        if (!contains(airframe, {scan.x_m[i], scan.y_m[i], scan.z_m[i]}, range_m)) continue;
-        range_m = kNoValue;
-        ++masked;
+    for (std::size_t begin = 0; begin < scan.size(); begin += kBlock) {
+        const std::size_t end = std::min(begin + kBlock, scan.size());
+        if (end == begin + kBlock && isBlockFarther(&scan.range_m[begin], reach_m)) continue;
+        for (std::size_t i = begin; i < end; ++i) {
+            float& range_m = scan.range_m[i];
+            if (!(range_m > 0 && range_m <= reach_m)) continue;  // also without a range
+            if (!contains(airframe, {scan.x_m[i], scan.y_m[i], scan.z_m[i]}, range_m)) continue;
+            range_m = kNoValue;
+            ++masked;
+        }
     }
     return masked;
 }
