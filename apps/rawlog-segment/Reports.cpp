@@ -43,7 +43,10 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     std::snprintf(zone, sizeof zone, "%g", static_cast<double>(report.settings.options.zone_m));
     line(report.roi, "region of interest: near obstacles");
     line(report.rou, std::string("region of uninterest: ground, or farther than ") + zone + " m");
-    line(report.unclassified, "unclassified: outside the sensor's range limits");
+    line(report.unclassified, "unclassified: no range, or the vehicle's own airframe");
+    if (report.returns_masked > 0) {
+        line(report.returns_masked, "  of these: the airframe, masked as the settings say");
+    }
     if (report.unreadable_scans > 0) {
         std::printf("%s could not be read, kept unchanged\n",
                     counted(report.unreadable_scans, "scan", "scans").c_str());
@@ -71,6 +74,33 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     output("pictures", conversion.pictures);
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);
+}
+
+void printAirframe(const hagen::logs::AirframeLearning& learning,
+                   const hagen::logs::AirframeReport& report) {
+    std::printf("%s of '%s':\n", counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
+                report.sensor_label.c_str());
+    std::printf("  %s masked: %.2f %% of the sphere, %.2f %% of the directions with returns\n",
+                counted(static_cast<std::size_t>(report.bins), "bin", "bins").c_str(),
+                100 * report.share_of_sphere, 100 * report.share_of_seen);
+    if (report.unreadable_scans > 0) {
+        std::printf("%s could not be read and left out\n",
+                    counted(report.unreadable_scans, "scan", "scans").c_str());
+    }
+    std::printf("airframe: %s\npicture: %s\n", learning.file.c_str(), report.picture.c_str());
+    std::fflush(stdout);
+    const char* const input = learning.input.c_str();
+    if (report.bins == 0) {
+        std::fprintf(stderr, "%s: nothing near the sensor stays at its place: no mask is needed\n",
+                     input);
+    }
+    if (report.isSuspicious()) {
+        std::fprintf(stderr,
+                     "%s: WARNING: more than 20 %% is masked. A wall beside a standing vehicle "
+                     "looks like this: fly or turn, or skip the time on the ground with --from. "
+                     "Look at %s before you use it\n",
+                     input, report.picture.c_str());
+    }
 }
 
 void printSettingsKeys() {

@@ -1,5 +1,6 @@
 // Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
 #include <hagen/logs/Conversion.h>
+#include <hagen/logs/LearnAirframe.h>
 #include <hagen/logs/ScanSource.h>
 
 #include <cstdio>
@@ -56,6 +57,8 @@ struct Flags {
     logs::Conversion conversion;
     std::vector<std::string> configs;
     bool is_quiet = false, dumps_settings = false;
+    std::filesystem::path learned_airframe;
+    double learn_seconds = logs::AirframeLearning().seconds;
 };
 
 void declare(Program& app, Flags& flags) {
@@ -146,6 +149,24 @@ void declare(Program& app, Flags& flags) {
     app.option("--stats", conversion.stats, "JSON: settings, counts, latencies, per-scan data")
         .check(not_empty, "PATH")
         .group("Output");
+    const Flag learn =
+        app.option("--learn-airframe", flags.learned_airframe,
+                   "learn from a flight which returns are the vehicle's own, for 'airframe:' in "
+                   "settings: FILE.yaml and a picture beside it; no other output")
+            .check(
+                [](const std::string& name) {
+                    return std::filesystem::path(name).extension() == ".yaml"
+                               ? ""
+                               : name + " does not end in .yaml";
+                },
+                "PATH")
+            .group("Output");
+    app.option("--learn-seconds", flags.learn_seconds,
+               "learn from the first seconds after --from (default: 10)")
+        .between(0.1, 1e6)
+        .valueName("S")
+        .needs(learn)
+        .group("Output");
     app.flag("--overwrite", conversion.overwrite, "replace existing outputs").group("Output");
     app.option("--jobs", conversion.jobs,
                "threads (default: all cores); does not affect the output")
@@ -170,16 +191,47 @@ void check(const Flags& flags) {
     const logs::Conversion& conversion = flags.conversion;
     if (flags.dumps_settings) return;
     if (conversion.input.empty()) throw UsageError("--input is required");
-    if (conversion.rawlog.empty() && conversion.folder.empty() && conversion.pictures.empty() &&
-        conversion.octomaps.empty() && conversion.stats.empty()) {
-        throw UsageError("an output (-o, --kitti, --pictures, --octomap or --stats) is required");
+    const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
+                            !conversion.pictures.empty() || !conversion.octomaps.empty() ||
+                            !conversion.stats.empty();
+    if (!has_output && flags.learned_airframe.empty()) {
+        throw UsageError(
+            "an output (-o, --kitti, --pictures, --octomap, --stats or --learn-airframe) is "
+            "required");
     }
+    if (has_output && !flags.learned_airframe.empty()) {
+        throw UsageError("--learn-airframe",
+                         "has no other output; learn first, then segment with the file in the "
+                         "settings");
+    }
+    if (!(flags.learn_seconds > 0)) throw UsageError("--learn-seconds", "must be positive");
     if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes any range check
         throw UsageError("--octomap-resolution", "must be positive");
     }
     if (conversion.from > conversion.to) {
         throw UsageError("--from", "must not be greater than --to");
     }
+}
+
+/// Learns the airframe and reports it.
+void learn(const Flags& flags) {
+    const logs::Conversion& conversion = flags.conversion;
+    logs::AirframeLearning learning;
+    learning.input = conversion.input;
+    learning.file = flags.learned_airframe;
+    learning.overwrite = conversion.overwrite;
+    learning.seconds = flags.learn_seconds;
+    learning.from = conversion.from;
+    learning.to = conversion.to;
+    learning.sensor_labels = conversion.sensor_labels;
+    learning.settings = conversion.settings;
+    logs::AirframeListener listener;
+    listener.keep_going = [] { return !isInterrupted(); };
+    listener.unreadable = [&](const std::string& entry, const std::string& why) {
+        std::cerr << conversion.input.string() << ": " << entry << ": left out: " << why << "\n";
+    };
+    const logs::AirframeReport report = logs::learnAirframe(learning, listener);
+    if (!flags.is_quiet) printAirframe(learning, report);
 }
 
 int run(const Program& program, Flags& flags) {
@@ -193,6 +245,10 @@ int run(const Program& program, Flags& flags) {
             return kDone;
         }
         catchSignals();
+        if (!flags.learned_airframe.empty()) {
+            learn(flags);
+            return kDone;
+        }
         const logs::ConversionReport report = convertAloud(flags.conversion, flags.is_quiet);
         if (!flags.is_quiet) printSummary(flags.conversion, report);
         if (report.scans > 0 || report.unreadable_scans == 0) return kDone;
@@ -214,6 +270,7 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"
         "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
+        "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"
         "\n"
         "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
         "log.");

@@ -32,9 +32,16 @@ evaluation::Method filterMethod(const std::string& name, const SensorModel& sens
     const bool is_mounted_level = mount.roll_rad == 0 && mount.pitch_rad == 0;
     const std::optional<Attitude> otherwise =
         is_mounted_level ? std::nullopt : std::optional(mount);
-    return {name, [filter, otherwise](const evaluation::ScanInput& input) {
+    return {name, [filter, otherwise, airframe = settings.airframe.parts,
+                   masked = Scan()](const evaluation::ScanInput& input) mutable {
                 const std::optional<Attitude> attitude = attitudeOf(input);
-                return filter->segment(input.scan, attitude ? attitude : otherwise).returns.label;
+                const Scan* scan = &input.scan;
+                if (!airframe.isEmpty()) {
+                    masked = input.scan;
+                    maskAirframe(airframe, masked);
+                    scan = &masked;
+                }
+                return filter->segment(*scan, attitude ? attitude : otherwise).returns.label;
             }};
 }
 

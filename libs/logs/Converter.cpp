@@ -30,6 +30,7 @@ ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     report.roi = out.roi->pointcloud->size();
     report.rou = out.non_roi->pointcloud->size();
     report.unclassified = report.returns - report.roi - report.rou;
+    report.returns_masked = out.returns_masked;
     float nearest_m = std::numeric_limits<float>::infinity();
     std::int32_t obstacles = 0;
     for (const std::uint32_t i : out.result->returns.roi) {
@@ -230,6 +231,7 @@ void Converter::count(const observations::ObservationSegmenter::Output& out,
     report_.roi += scan.roi;
     report_.rou += scan.rou;
     report_.unclassified += scan.unclassified;
+    report_.returns_masked += scan.returns_masked;
     report_.scans_with_pose += out.pose.sensor_pose.has_value();
     report_.scans_with_attitude += out.pose.attitude.has_value();
     report_.sensors[scan.sensor_label] =
@@ -280,6 +282,12 @@ ConversionReport Converter::finish() {
                                  std::to_string(report_.scans) + " scans of " +
                                  conversion_.input.string() +
                                  "; are its times from another clock? No map is written");
+    }
+    const observations::Settings::AirframeMask& airframe = settings_.airframe;
+    if (!airframe.parts.isEmpty() && report_.scans > 0 && report_.returns_masked == 0) {
+        listener_.remark("the log",
+                         "the airframe of the settings masks none of its returns; is it that of "
+                         "this vehicle, in the frame of the sensor?");
     }
     outputs_.commit(report_);
     return std::move(report_);

@@ -26,6 +26,11 @@ Json settingsOf(const observations::Settings& settings) {
     json["sensor.mount_roll_deg"] = Json::parse(observations::degreesText(settings.mount.roll_rad));
     json["sensor.mount_pitch_deg"] =
         Json::parse(observations::degreesText(settings.mount.pitch_rad));
+    const observations::Settings::AirframeMask& airframe = settings.airframe;
+    json["airframe"] = {
+        {"boxes", airframe.parts.boxes.size()},
+        {"spheres", airframe.parts.spheres.size()},
+        {"learned", airframe.learned.empty() ? Json() : Json(airframe.learned.string())}};
     return json;
 }
 
@@ -60,6 +65,7 @@ Json lineOf(const ScanReport& scan) {
             {"roi", scan.roi},
             {"rou", scan.rou},
             {"unclassified", scan.unclassified},
+            {"returns_masked", scan.returns_masked},
             {"obstacles", scan.obstacles},
             {"nearest_roi_m", has_roi ? Json(inMillimetres(scan.nearest_roi_m)) : Json()},
             {"latency_ms", scan.latency_ms}};
@@ -88,6 +94,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
                        {"roi", report.roi},
                        {"rou", report.rou},
                        {"unclassified", report.unclassified}};
+    json["returns_masked"] = report.returns_masked;
     json["latency_ms"] = latencyOf(report.scan_reports);
 
     // Scans are written one by one. A single JSON value would take about 1 kB of memory per scan.

@@ -78,6 +78,10 @@ const Scan& ObservationSegmenter::windowOf(const mrpt::obs::CObservation& observ
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.window");
     const mrpt::poses::CPose3D sensor_on_vehicle(observation.sensorPose());
     deskewed_ = scan;
+    // What has no range gets none by being moved.
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (!hasValue(scan.range_m[i])) deskewed_.x_m[i] = kNoValue;
+    }
     if (scan.time_s.empty()) {
         append("its returns have no times: it is not deskewed", remark);
     } else if (!deskew(vehicle, observation.timestamp, sensor_on_vehicle, observed_.sensor,
@@ -105,6 +109,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
         const mrpt::system::CTimeLoggerEntry part(profiler, "process.read");
         readObservation(observation, settings_, observed_);
     }
+    const std::size_t returns_masked = maskAirframe(settings_.airframe.parts, observed_.scan);
     const Scan& scan = observed_.scan;
     Lidar& lidar = lidarOf(observation.sensorLabel, observed_.sensor);
 
@@ -135,6 +140,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.pose = pose;
     out.pose.attitude = tilt;
     out.remark = remark;
+    out.returns_masked = returns_masked;
     out.time_to_labels = labelled - start;
     out.filter_cpu_time = filter_cpu_time;
     return true;

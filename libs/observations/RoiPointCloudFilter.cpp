@@ -8,7 +8,8 @@ RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
                                          const mrpt::poses::CPose3D& sensor_pose)
     : sensor_pose_(sensor_pose),
       tilt_(sensorTilt({}, sensor_pose, settings.mount)),
-      filter_(filterFor(settings.sensorModel(), settings.options)) {}
+      filter_(filterFor(settings.sensorModel(), settings.options)),
+      airframe_(settings.airframe.parts) {}
 
 void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
                                  mrpt::system::TTimeStamp /*pc_timestamp*/,
@@ -25,6 +26,7 @@ void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
     }
     scan_.intensity.assign(scan_.size(), 0.0f);
     locateBeams(filter_.sensor(), scan_);
+    maskAirframe(airframe_, scan_);
 
     std::vector<bool> deleted(scan_.size(), true);
     for (const std::uint32_t i : filter_.segment(scan_, tilt_).returns.roi) deleted[i] = false;

@@ -8,60 +8,17 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
+
+#include "AirframeSettings.h"
+#include "YamlParts.h"
 
 namespace hagen::observations {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr int kMostIncludes = 8;  // stops circular includes
-
-/// The place of a value in a file, for messages.
-std::string at(const fs::path& file, const YAML::Node& node) {
-    const YAML::Mark mark = node.Mark();
-    return file.string() + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
-}
-
-std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
-}
-
-std::string unknownKey(const std::string& key, const std::vector<std::string>& known) {
-    const std::string nearest = *std::min_element(
-        known.begin(), known.end(),
-        [&](const auto& a, const auto& b) { return editDistance(key, a) < editDistance(key, b); });
-    return "unknown key '" + key + "'; did you mean '" + nearest + "'?";
-}
-
-/// Reads a number within [least, most]; otherwise throws SettingsError with the allowed range.
-template <class Number>
-Number parseNumber(const YAML::Node& node, const std::string& key, double least, double most) {
-    // Integers are also read as real numbers, because YAML parses 010 as octal.
-    double value = 0;
-    const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
-    if (!is_number || (std::is_integral_v<Number> && value != std::floor(value))) {
-        throw SettingsError(key + " must be a " + (std::is_integral_v<Number> ? "whole " : "") +
-                            "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
-    }
-    if (!(value >= least && value <= most)) {  // also for NaN
-        throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
-                            base::shortestText(least) + " and " + base::shortestText(most));
-    }
-    return static_cast<Number>(value);
-}
 
 Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
@@ -185,26 +142,6 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings& sett
     }
 }
 
-YAML::Node parseFile(const fs::path& file) {
-    if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
-    if (fs::is_directory(file)) throw SettingsError(file.string() + ": is a folder, not a file");
-    try {
-        const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
-        if (documents.size() > 1) {
-            throw SettingsError(file.string() +
-                                ": contains several documents (---); only one is allowed");
-        }
-        return documents.empty() ? YAML::Node() : documents.front();
-    } catch (const SettingsError&) {
-        throw;
-    } catch (const YAML::ParserException& e) {
-        throw SettingsError(file.string() + ":" + std::to_string(e.mark.line + 1) +
-                            ": not YAML: " + e.msg);
-    } catch (const std::exception&) {
-        throw SettingsError(file.string() + ": cannot be read");
-    }
-}
-
 void mergeFile(const fs::path& file, int includes, Settings& settings);
 
 void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, Settings& settings) {
@@ -235,7 +172,7 @@ void mergeFile(const fs::path& file, int includes, Settings& settings) {
     }
     if (document["include"]) mergeIncludes(file, document["include"], includes, settings);
 
-    std::vector<std::string> known{"include", "sensor"};
+    std::vector<std::string> known{"include", "sensor", "airframe"};
     for (const OptionKey& key : optionKeys()) known.push_back(key.name);
     std::set<std::string> seen;
     for (const auto& entry : document) {
@@ -246,6 +183,8 @@ void mergeFile(const fs::path& file, int includes, Settings& settings) {
         if (name == "include") continue;
         if (name == "sensor") {
             parseSensor(file, entry.second, settings);
+        } else if (name == "airframe") {
+            settings.airframe = parseAirframe(file, entry.second);
         } else if (const OptionKey* key = findOption(name)) {
             try {
                 parseOption(*key, entry.second, settings.options);
@@ -339,6 +278,7 @@ std::string dumpSettings(const Settings& settings) {
             if (value != values.end()) line("  " + key.name, value->second, key);
         }
     }
+    text << airframeText(settings.airframe);
     return text.str();
 }
 
@@ -352,6 +292,8 @@ std::vector<SettingsKey> settingsKeys() {
         key.name = "sensor." + key.name;
         keys.push_back(key);
     }
+    keys.push_back({"airframe", "", "", "a list of box, sphere, learned",
+                    "parts of the vehicle: their returns are unclassified", ""});
     keys.push_back({"include", "", "", "a file, or a list", "files merged before this one", ""});
     return keys;
 }

@@ -166,6 +166,56 @@ TEST(ObservationSegmenter, AWindowPutsTheScansOfAMovingSensorTogether) {
     EXPECT_GT(out.roi->pointcloud->size(), 30u);
 }
 
+/// A mask around the pole that scanFrom(0) sees at (12, 2), 2 m above the ground.
+Settings withMaskedPole(int window_scans) {
+    Settings settings;
+    settings.options.window_scans = window_scans;
+    settings.airframe.parts.boxes = {{{11, 1, -1.95f}, {13, 3, 5}}};
+    return settings;
+}
+
+TEST(ObservationSegmenter, TheAirframeIsInNoCloudAndUnclassified) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    segmenter.process(*scanFrom(0), out);
+    const std::size_t pole = out.roi->pointcloud->size(), returns = out.scan->size();
+    ASSERT_GT(pole, 30u);
+    EXPECT_EQ(out.returns_masked, 0u);
+
+    segmenter.initialize(withMaskedPole(1));
+    segmenter.process(*scanFrom(0), out);
+    EXPECT_GT(out.returns_masked, 30u);
+    EXPECT_EQ(out.scan->size(), returns);
+    EXPECT_EQ(out.roi->pointcloud->size() + out.non_roi->pointcloud->size(),
+              returns - out.returns_masked);
+    EXPECT_EQ(out.result->returns.unclassified.size(), out.returns_masked);
+    for (const std::uint32_t i : out.result->returns.unclassified) {
+        EXPECT_GT(out.scan->x_m[i], 11);
+        EXPECT_TRUE(std::isnan(out.scan->range_m[i]));
+    }
+    for (const float x_m : out.roi->pointcloud->getPointsBufferRef_x()) EXPECT_LT(x_m, 11);
+}
+
+TEST(ObservationSegmenter, TheAirframeStaysMaskedInAWindow) {
+    // Every scan sees the pole at the same place, as if it were mounted on the moving vehicle.
+    ObservationSegmenter segmenter;
+    segmenter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    segmenter.initialize(withMaskedPole(3));
+    ObservationSegmenter::Output out;
+    std::size_t masked = 0;
+    for (const double x : {0.0, 1.0, 2.0}) {
+        auto scan = scanFrom(0);
+        scan->timestamp = mrpt::Clock::fromDouble(100.0 + x);
+        segmenter.process(*scan, out, standingAt({x, 0, 0, 0, 0, 0}, x, x + 1));
+        masked += out.returns_masked;
+    }
+    EXPECT_GT(masked, 3 * 30u);
+    ASSERT_GT(out.window->size(), 2 * out.scan->size());
+    EXPECT_EQ(out.result->returns.unclassified.size(), masked);
+    EXPECT_EQ(out.roi->pointcloud->size() + out.non_roi->pointcloud->size(),
+              out.scan->size() - out.returns_masked);
+}
+
 TEST(ObservationSegmenter, AWindowTellsWhereItCannotMoveEachReturnByItself) {
     Settings settings;
     settings.options.window_scans = 2;

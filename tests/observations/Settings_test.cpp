@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/observations/AirframeFile.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/OptionKeys.h>
@@ -264,6 +265,109 @@ TEST_F(SettingsTest, TheMountStaysWhenALaterFileNamesAnotherModel) {
     EXPECT_EQ(settings.mount.roll_rad, 0.0f);
 }
 
+TEST_F(SettingsTest, AnAirframeIsAListOfBoxesSpheresAndWhatWasLearned) {
+    const fs::path folder = folder_ / "drone";
+    fs::create_directory(folder);
+    folder_.write("drone/legs.yaml", "bin_deg: 10\nbins: [[-180, -20, 0.6], [170, 80, 1]]");
+    folder_.write("drone/drone.yaml",
+                  "airframe:\n"
+                  "- box: {low_m: [-1, -0.5, 0], high_m: [1, 0.5, 0.25]}\n"
+                  "- sphere: {centre_m: [0, 0, -0.3], radius_m: 0.2}\n"
+                  "- learned: legs.yaml\n");
+    const auto airframe = settingsOf("include: drone/drone.yaml").airframe;
+    ASSERT_EQ(airframe.parts.boxes.size(), 1u);
+    EXPECT_EQ(airframe.parts.boxes[0].low_m, Eigen::Vector3f(-1, -0.5f, 0));
+    EXPECT_EQ(airframe.parts.boxes[0].high_m, Eigen::Vector3f(1, 0.5f, 0.25f));
+    ASSERT_EQ(airframe.parts.spheres.size(), 1u);
+    EXPECT_EQ(airframe.parts.spheres[0].centre_m, Eigen::Vector3f(0, 0, -0.3f));
+    EXPECT_EQ(airframe.parts.spheres[0].radius_m, 0.2f);
+    ASSERT_EQ(airframe.parts.bin_range_m.rows(), 18);
+    EXPECT_EQ(airframe.parts.bin_range_m(7, 0), 0.6f);
+    EXPECT_EQ(airframe.parts.bin_range_m(17, 35), 1.0f);
+    EXPECT_EQ((airframe.parts.bin_range_m > 0).count(), 2);
+    EXPECT_EQ(airframe.learned, folder / "legs.yaml");
+}
+
+TEST_F(SettingsTest, ALaterAirframeReplacesTheEarlierOne) {
+    Settings settings;
+    const auto a =
+        folder_.write("a.yaml", "airframe: [sphere: {centre_m: [0, 0, 0], radius_m: 1}]");
+    mergeSettings(a, settings);
+    mergeSettings(folder_.write("b.yaml", "zone_m: 10"), settings);
+    EXPECT_EQ(settings.airframe.parts.spheres.size(), 1u);
+    mergeSettings(folder_.write("c.yaml", "airframe: []"), settings);
+    EXPECT_TRUE(settings.airframe.parts.isEmpty());
+    EXPECT_TRUE(settingsOf("").airframe.parts.isEmpty());
+}
+
+TEST_F(SettingsTest, PartsOfAnAirframeThatMakeNoSenseAreRefused) {
+    const auto refused = [&](const std::string& part) {
+        return refusalOf("zone_m: 20\nairframe:\n- " + part);
+    };
+    EXPECT_THAT(refusalOf("airframe: {box: 1}"), HasSubstr("must be a list"));
+    EXPECT_THAT(refused("box"), HasSubstr("refused.yaml:3: each part of airframe must be one of"));
+    EXPECT_THAT(refused("{box: 1, sphere: 2}"), HasSubstr("must be one of {box: "));
+    EXPECT_THAT(refused("bx: {}"), HasSubstr("unknown key 'bx'; did you mean 'box'?"));
+    EXPECT_THAT(refused("box: 3"), HasSubstr("airframe.box must contain low_m and high_m"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, 0]}"), HasSubstr("low_m and high_m"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, 0], hihg_m: [1, 1, 1]}"), HasSubstr("'high_m'"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, 0], low_m: [0, 0, 0]}"), HasSubstr("twice"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0], high_m: [1, 1, 1]}"), HasSubstr("[x, y, z]"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, 2], high_m: [1, 1, 1]}"), HasSubstr("below"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, 1], high_m: [1, 1, 1]}"), HasSubstr("below"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, -21], high_m: [1, 1, 1]}"), HasSubstr("-20 and 20"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, a], high_m: [1, 1, 1]}"), HasSubstr("a number"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, .nan], high_m: [1, 1, 1]}"), HasSubstr("-20 and 20"));
+    EXPECT_THAT(refused("sphere: {centre_m: [0, 0, 0], radius_m: 0}"), HasSubstr("positive"));
+    EXPECT_THAT(refused("sphere: {centre_m: [0, 0, 0], radius_m: -1}"), HasSubstr("0 and 20"));
+    EXPECT_THAT(refused("sphere: {centre_m: 1, radius_m: 1}"), HasSubstr("[x, y, z]"));
+}
+
+TEST_F(SettingsTest, ALearnedAirframeThatIsNoneIsRefused) {
+    const auto refused = [&](const std::string& learned) {
+        folder_.write("learned.yaml", learned);
+        return refusalOf("airframe: [learned: learned.yaml]");
+    };
+    EXPECT_THAT(refusalOf("airframe: [learned: none.yaml]"), HasSubstr("no such settings file"));
+    EXPECT_THAT(refusalOf("airframe: [learned: [1]]"), HasSubstr("must be a file name"));
+    EXPECT_THAT(refused("zone_m: 20"), HasSubstr("not a learned airframe"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins: []\nbin: 3"), HasSubstr("learned.yaml:3: unknown key"));
+    EXPECT_THAT(refused("bin_deg: 7\nbins: []"), HasSubstr("divide 180"));
+    EXPECT_THAT(refused("bin_deg: 0\nbins: []"), HasSubstr("0.5 and 30"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins: 3"), HasSubstr("a list"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins:\n- [0, 0]"), HasSubstr("learned.yaml:3: each of bins"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins: [[1, 0, 1]]"), HasSubstr("multiple of bin_deg (2)"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins: [[180, 0, 1]]"), HasSubstr("below 180"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins: [[0, 92, 1]]"), HasSubstr("-90 and 90"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins: [[0, 0, -1]]"), HasSubstr("0 and 20"));
+    EXPECT_THAT(refused("bin_deg: 2\nbins: [[0, 0, 1], [0, 0, 1]]"), HasSubstr("twice"));
+    folder_.write("learned.yaml", "bin_deg: 2\nbins: []");
+    EXPECT_THAT(refusalOf("airframe: [learned: learned.yaml, learned: learned.yaml]"),
+                HasSubstr("twice"));
+}
+
+TEST_F(SettingsTest, LearnedBinsReadBackAsTheyWereWritten) {
+    test::Random random(4);
+    for (const int rows : {6, 90, 360}) {
+        Image<float> bins = random.image(rows, 2 * rows, 0.1f, 1.6f, 0.9);
+        for (float& range_m : bins.reshaped()) range_m = hasValue(range_m) ? range_m : 0;
+        const auto file = folder_.write("bins.yaml", airframeBinsText(bins, "a\nfile: {"));
+        const Image<float> again = readAirframeBins(file);
+        ASSERT_EQ(again.rows(), rows);
+        EXPECT_LE((again - bins).abs().maxCoeff(), 0.0005001f);  // in millimetres
+        EXPECT_TRUE(((again > 0) == (bins > 0)).all());
+    }
+    const auto file = folder_.write("none.yaml", airframeBinsText(Image<float>::Zero(90, 180), ""));
+    EXPECT_EQ((readAirframeBins(file) > 0).count(), 0);
+}
+
+TEST_F(SettingsTest, TheAirframeOfASimulatedVehicleIsASettingsFile) {
+    Settings settings;
+    mergeSettings(kConfig / "airframe_simulated.yaml", settings);
+    EXPECT_EQ(settings.airframe.parts.boxes.size(), 5u);
+    EXPECT_EQ(settings.airframe.parts.spheres.size(), 1u);
+}
+
 TEST_F(SettingsTest, OneOptionFromText) {
     Settings settings;
     setOption("beta_deg", "12.5", settings);
@@ -286,6 +390,9 @@ TEST(Settings, ADumpReadsBackAsTheSameSettings) {
     settings.sensor.elevations_deg = {-7.25, 0.1, 3};
     settings.sensor.max_range_m = 33.3f;
     settings.mount = {static_cast<float>(radians(179.7)), static_cast<float>(radians(-12.345))};
+    settings.airframe.parts.boxes = {{{-1.5f, 0.1f, -0.25f}, {1, 2, 3}}, {{0, 0, 0}, {1, 1, 1}}};
+    settings.airframe.parts.spheres = {{{0.3f, -0.1f, 0}, 0.123f}};
+    settings.airframe.learned = folder.write("it's #1.yaml", "bin_deg: 30\nbins: [[0, 0, 0.5]]");
     Settings again;
     mergeSettings(folder.write("dump.yaml", dumpSettings(settings)), again);
     for (const OptionKey& key : optionKeys()) {
@@ -297,10 +404,19 @@ TEST(Settings, ADumpReadsBackAsTheSameSettings) {
     EXPECT_FALSE(again.sensor.min_range_m);
     EXPECT_EQ(again.mount.roll_rad, settings.mount.roll_rad);
     EXPECT_EQ(again.mount.pitch_rad, settings.mount.pitch_rad);
+    ASSERT_EQ(again.airframe.parts.boxes.size(), 2u);
+    EXPECT_EQ(again.airframe.parts.boxes[0].low_m, settings.airframe.parts.boxes[0].low_m);
+    EXPECT_EQ(again.airframe.parts.boxes[1].high_m, settings.airframe.parts.boxes[1].high_m);
+    ASSERT_EQ(again.airframe.parts.spheres.size(), 1u);
+    EXPECT_EQ(again.airframe.parts.spheres[0].centre_m, Eigen::Vector3f(0.3f, -0.1f, 0));
+    EXPECT_EQ(again.airframe.parts.spheres[0].radius_m, 0.123f);
+    EXPECT_EQ(again.airframe.learned, settings.airframe.learned);
+    EXPECT_EQ(again.airframe.parts.bin_range_m(3, 6), 0.5f);
     EXPECT_THAT(dumpSettings(settings), HasSubstr("mount_roll_deg: 179.7 "));
     EXPECT_THAT(dumpSettings(settings), HasSubstr("mount_pitch_deg: -12.345 "));
     mergeSettings(folder.write("none.yaml", dumpSettings(Settings())), again = Settings());
     EXPECT_FALSE(again.sensor.model);
+    EXPECT_TRUE(again.airframe.parts.isEmpty());
 }
 
 TEST(Settings, DegreesReadBackAsTheSameAngleWithFewDecimals) {
@@ -319,7 +435,7 @@ TEST(Settings, DegreesReadBackAsTheSameAngleWithFewDecimals) {
 
 TEST(Settings, TheTableHasEveryKeyWithItsDefault) {
     const auto keys = settingsKeys();
-    EXPECT_EQ(keys.size(), optionKeys().size() + 7);
+    EXPECT_EQ(keys.size(), optionKeys().size() + 8);
     for (const SettingsKey& key : keys) EXPECT_FALSE(key.what.empty()) << key.name;
     EXPECT_EQ(keys[0].name, "zone_m");
     EXPECT_EQ(keys[0].standard, "20");

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/pictures/AirframePicture.h>
 #include <hagen/pictures/StagePictures.h>
 #include <png.h>
 
@@ -327,6 +328,30 @@ TEST(StagePictures, WhatGnuplotComplainsOfIsPassedOn) {
     const std::string error =
         errorWithGnuplot("printf '\\nset x\\n    ^\\nline 1: unknown terminal\\n' >&2; exit 1\n");
     EXPECT_THAT(error, HasSubstr("unknown terminal"));
+}
+
+TEST(AirframePicture, ShowsMaskedDirectionsWhereTheyAre) {
+    const TemporaryFolder folder;
+    Image<float> bins = Image<float>::Zero(90, 180);
+    for (int row = 60; row < 75; ++row) {                                         // 30 to 60 deg up
+        for (int column = 120; column < 150; ++column) bins(row, column) = 1.2f;  // to the left
+    }
+    drawAirframe(bins, "Peter's `drone`", folder.path(), "airframe.png");
+    const Picture picture = readPicture(folder / "airframe.png");
+    const Colour farthest{0xFD, 0xE7, 0x25};
+    EXPECT_GT(picture.count(farthest, 0, 0.45, 0, 0.5), 4000);
+    EXPECT_EQ(picture.count(farthest, 0, 0.45, 0.5, 1), 0);
+    EXPECT_EQ(picture.count(farthest, 0.45, 0.8), 0);  // right of this: the colour scale
+    EXPECT_GT(picture.count(kEmpty), 100000);
+}
+
+TEST(AirframePicture, IsDrawnWithoutAnyMaskAndNamesTheFolderThatIsNotThere) {
+    const TemporaryFolder folder;
+    const Image<float> none = Image<float>::Zero(6, 12);
+    drawAirframe(none, "", folder.path(), "none.png");
+    EXPECT_GT(readPicture(folder / "none.png").count(kEmpty), 100000);
+    EXPECT_THAT(test::messageOf([&] { drawAirframe(none, "", folder / "none", "a.png"); }),
+                HasSubstr("no such folder"));
 }
 
 }  // namespace

@@ -37,7 +37,9 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
 
 /// Returns the filter's and baselines' methods for a recording. Settings in `sensor_file`, if that
 /// exists, are merged into those of each row. Includes PCL's baselines if the program was built
-/// with PCL. Throws SettingsError if settings and sensor are inconsistent.
+/// with PCL. The filter masks the airframe of its settings first, where it is in the sensor frame
+/// of the scan: in a scan that was turned (tilted, upside down), it is elsewhere. Throws
+/// SettingsError if settings and sensor are inconsistent.
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file);
 

@@ -45,9 +45,10 @@ struct ScanReport {
     std::string name;          ///< file name in a scan folder
     double time_s;
     std::size_t returns, roi, rou, unclassified;
-    std::size_t obstacles;  ///< RoI components
-    float nearest_roi_m;    ///< NaN if the scan has no RoI
-    double latency_ms;      ///< from the observation in memory to its labels
+    std::size_t returns_masked;  ///< of the unclassified: those of the airframe of the settings
+    std::size_t obstacles;       ///< RoI components
+    float nearest_roi_m;         ///< NaN if the scan has no RoI
+    double latency_ms;           ///< from the observation in memory to its labels
 };
 
 /// Results of a conversion.
@@ -55,6 +56,7 @@ struct ConversionReport {
     std::size_t entries = 0;  ///< entries converted; all are in the output
     std::size_t scans = 0;    ///< segmented LiDAR scans in these entries
     std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
+    std::size_t returns_masked = 0;    ///< of the unclassified: those of the airframe
     std::size_t unreadable_scans = 0;  ///< kept but not segmented; each was reported
     std::size_t left_out_before = 0;   ///< entries skipped before `from`
     /// Description of the sensor by sensor label: "VLP-16, 16 beams".

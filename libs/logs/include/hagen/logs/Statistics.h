@@ -11,10 +11,11 @@ namespace hagen::logs {
 ///      "scans_in_map": n (only with an OctoMap),
 ///      "entries": n, "unreadable_scans": n, "left_out_before": n,
 ///      "returns": {"all": n, "roi": n, "rou": n, "unclassified": n},
+///      "returns_masked": n (of the unclassified: the airframe's),
 ///      "latency_ms": {"scans": n, "p50": ..., "p95": ..., "p99": ..., "max": ...},
 ///      "scans": [{"entry": n, "sensor": label, "name": ..., "time_s": ..., "returns": n, "roi": n,
-///                 "rou": n, "unclassified": n, "obstacles": n, "nearest_roi_m": x or null,
-///                 "latency_ms": ...}, ...]}
+///                 "rou": n, "unclassified": n, "returns_masked": n, "obstacles": n,
+///                 "nearest_roi_m": x or null, "latency_ms": ...}, ...]}
 ///
 /// Latency is the time from the complete observation in memory to its labels; making the clouds is
 /// not included. Scans segmented concurrently (see Conversion::jobs) slow each other down a little.

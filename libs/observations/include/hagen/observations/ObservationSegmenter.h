@@ -37,7 +37,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     struct Output {
         /// RoI and ROU of the scan, with its time stamp, its sensor pose, and its label plus `_roi`
         /// and `_non_roi`. Points in the sensor frame, as measured. Every return with a range
-        /// is in one of the clouds.
+        /// is in one of the clouds, except those of the airframe of the settings.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
         /// The scan's returns, and the result of each stage; valid until the next call of
@@ -47,6 +47,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         const Scan* window = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
+        std::size_t returns_masked = 0;  ///< of the airframe: without a range in `scan`
         bool is_sensor_assumed = false;  ///< VLP-16, as neither recording nor settings name it
         /// Pose of the sensor. If its attitude is known, angles are relative to the horizon.
         ScanPose pose;

@@ -9,8 +9,7 @@
 namespace hagen::observations {
 
 /// The filter behind MRPT's interface for point-cloud filters, as used by its reactive navigation:
-/// keeps only the RoI points of one LiDAR scan. Points outside the sensor's range limits are
-/// deleted too.
+/// keeps only the RoI points of one LiDAR scan, without those of the settings' airframe.
 class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
  public:
     /// `sensor_pose`: the sensor in the cloud's frame; identity if the points are in the sensor's
@@ -29,6 +28,7 @@ class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
     mrpt::poses::CPose3D sensor_pose_;
     std::optional<Attitude> tilt_;
     HagenFilter filter_;
+    Airframe airframe_;
     Scan scan_;
 };
 

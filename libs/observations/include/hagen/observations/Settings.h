@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/range_image/Airframe.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <hagen/segmentation/Levelling.h>
@@ -17,7 +18,7 @@ struct SettingsError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The content of settings files: the filter's options and the sensor.
+/// The content of settings files: the filter's options, the sensor and the airframe.
 struct Settings {
     Options options;
 
@@ -32,6 +33,15 @@ struct Settings {
     /// the section `sensor:`), for logs that do not say. Not part of `sensor`: the mount stays when
     /// a later file names another model.
     Attitude mount;
+
+    /// The section `airframe:` of a settings file: the vehicle's own parts, in the frame of the
+    /// sensor itself. Holds for every LiDAR that is segmented with these settings. A later file
+    /// with this section replaces the whole of it.
+    struct AirframeMask {
+        Airframe parts;
+        std::filesystem::path learned;  ///< absolute; the file of `bin_range_m`; empty: none
+    };
+    AirframeMask airframe;
 
     /// Returns the sensor described by these settings; default: VLP-16. Throws SettingsError for
     /// `custom` without elevations.
@@ -59,7 +69,7 @@ struct SettingsKey {
     std::string name, unit, standard, range, what;
     std::string symbol;  ///< the symbol in the paper; empty: none
 };
-/// Returns every key: those of optionKeys(), the sensor's, and `include`.
+/// Returns every key: those of optionKeys(), the sensor's, `airframe` and `include`.
 std::vector<SettingsKey> settingsKeys();
 
 /// Sets one option from text, as `--sweep KEY=VALUE` does. Throws SettingsError.

@@ -24,7 +24,7 @@ class TrialSensor {
     const std::vector<Label>& segment(int number, const simulation::SimulatedScan& measured,
                                       const FlightTrace& trace, PoseBelief& belief);
 
-    /// Places each return within the sensor's range by the believed pose at its own time.
+    /// Places each return with a range by the believed pose at its own time.
     static mapping::MappedScan place(int number, const simulation::SimulatedScan& measured,
                                      const std::vector<Label>& labels, const FlightTrace& trace,
                                      PoseBelief& belief);

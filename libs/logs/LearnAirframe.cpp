@@ -1,0 +1,95 @@
+#include <hagen/logs/LearnAirframe.h>
+
+#include <hagen/base/NumberText.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
+#include <hagen/logs/ScanSource.h>
+#include <hagen/observations/AirframeFile.h>
+#include <hagen/observations/MrptMessage.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/pictures/AirframePicture.h>
+#include <hagen/range_image/AirframeLearner.h>
+
+#include <new>
+#include <optional>
+#include <stdexcept>
+
+namespace hagen::logs {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Adds the scans of the first seconds.
+void addScans(const AirframeLearning& learning, const AirframeListener& listener,
+              AirframeLearner& learner, AirframeReport& report) {
+    SourceOptions options;
+    options.sensor_labels = learning.sensor_labels;
+    options.first_entry = learning.from;
+    options.last_entry = learning.to;
+    options.keep_going = listener.keep_going;
+    const auto source = openRecording(learning.input, options);
+    const observations::Settings settings = source->settingsFor(learning.settings);
+    observations::ObservedScan observed;
+    std::optional<double> first_s;
+    while (const auto scan = source->nextScan()) {
+        const double time_s = mrpt::Clock::toDouble(scan->observation->timestamp);
+        if (!first_s) first_s = time_s;
+        if (time_s - *first_s >= learning.seconds) break;
+        const std::string& label = scan->observation->sensorLabel;
+        if (report.scans + report.unreadable_scans == 0) report.sensor_label = label;
+        if (label != report.sensor_label) {
+            throw std::runtime_error(learning.input.string() + ": has scans of '" +
+                                     report.sensor_label + "' and of '" + label +
+                                     "'; an airframe is that of one sensor: add --sensor-label");
+        }
+        try {
+            observations::readObservation(*scan->observation, settings, observed);
+        } catch (const observations::SettingsError&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception& e) {
+            ++report.unreadable_scans;
+            listener.unreadable(titleOf(*scan), observations::messageOf(e));
+            continue;
+        }
+        learner.add(observed.scan);
+        ++report.scans;
+    }
+}
+
+}  // namespace
+
+AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeListener& listener) {
+    AirframeReport report;
+    report.picture = fs::path(learning.file).replace_extension(".png");
+    base::checkApart({learning.file, report.picture}, {learning.input});
+    base::OutputPath file(learning.file, base::kFile, learning.overwrite);
+    base::OutputPath picture(report.picture, base::kFile, learning.overwrite);
+
+    AirframeLearner learner;
+    addScans(learning, listener, learner, report);
+    const std::string origin = learning.input.filename().string() + ", " + report.sensor_label +
+                               ", " + std::to_string(report.scans) + " scans";
+    LearnedAirframe learned;
+    try {
+        learned = learner.learn();
+    } catch (const std::invalid_argument& e) {
+        throw std::runtime_error(learning.input.string() + ": " + e.what() + " (read: the first " +
+                                 base::shortestText(learning.seconds) + " s; see --learn-seconds)");
+    }
+    report.bins = learned.bins;
+    report.share_of_sphere = learned.share_of_sphere;
+    report.share_of_seen = learned.share_of_seen;
+
+    base::writeText(observations::airframeBinsText(learned.bin_range_m, origin), file.temporary(),
+                    file.path());
+    const fs::path folder = fs::absolute(picture.temporary()).parent_path();
+    pictures::drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
+                           picture.temporary().filename().string());
+    picture.commit();
+    file.commit();
+    return report;
+}
+
+}  // namespace hagen::logs
