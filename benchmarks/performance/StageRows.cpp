@@ -100,9 +100,7 @@ const std::vector<StageRow>& papersStages() {
          }},
         {"9 extraction", true, false, [](Case& c) {
              extractReturns(c.scan, {c.result.range_image, c.result.labels, c.result.components},
-                            c.result.own_labels,
-                            {c.sensor.min_range_m, c.sensor.max_range_m, c.options.zone_m,
-                             c.options.component_gap_m},
+                            c.result.own_labels, {c.options.zone_m, c.options.component_gap_m},
                             c.result.returns, work().extraction);
          }}};
     return rows;
@@ -115,6 +113,17 @@ const std::vector<StageRow>& ownStages() {
              static PixelPoints pixels;
              locatePixels(c.scan, c.directions, c.result.range_image, c.result.repaired_m, pixels);
              movePixels(fitGroundFrame(pixels, Attitude{}, work().ground_frame), pixels);
+         }},
+        {"own: evidence of ground", false, false,
+         [](Case& c) {
+             static Image<std::uint8_t> is_level;
+             static Image<float> tolerance_m;
+             Ground& g = c.result.ground;
+             findLevelPixels(g.pixels, is_level, work().evidence);
+             keepLevelRou(c.result.labels, is_level, work().candidates);
+             tolerance_m = g.tolerance_m;
+             requireEvidence(g.pixels, g.tops.cell, g.height_m, is_level, tolerance_m,
+                             work().evidence);
          }},
         {"own: ground surface", false, false,
          [](Case& c) {
