@@ -42,15 +42,15 @@ void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellT
     const std::int32_t* const cell = tops.cell.data();
     const auto raise = [=](std::size_t pixel) __attribute__((always_inline)) {
         float &first_m = highest_m[cell[pixel]], &second_m = top_m[cell[pixel]];
-        const float own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : CellTops::kNone_m;  // NaN: none
+        float own_m = CellTops::kNone_m;
+        own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : own_m;  // NaN: none
         const float lower_m = own_m < first_m ? own_m : first_m;
         second_m = lower_m > second_m ? lower_m : second_m;
         first_m = own_m > first_m ? own_m : first_m;
     };
     visitByTurns(static_cast<std::size_t>(height_m.size()), raise);
-    // An only return has no second.
     for (Eigen::Index k = 0; k < tops.top_m.size(); ++k)
-        top_m[k] = top_m[k] == CellTops::kNone_m ? highest_m[k] : top_m[k];
+        top_m[k] = top_m[k] == CellTops::kNone_m ? highest_m[k] : top_m[k];  // the only one
 }
 
 }  // namespace hagen

@@ -30,8 +30,7 @@ void bridgeRow(const PixelDirections& directions, Eigen::Index below, Eigen::Ind
     for (Eigen::Index column = 0; column < repaired_m.cols(); ++column) {
         const float low_m = repaired_m(below, column), high_m = repaired_m(above, column);
         // The line through both points in polar coordinates.
-        repaired_m(row, column) =
-            low_m * high_m * whole / (low_m * from_below + high_m * to_above);
+        repaired_m(row, column) = low_m * high_m * whole / (low_m * from_below + high_m * to_above);
     }
 }
 

@@ -105,8 +105,9 @@ Eigen::Matrix3f imageFromSensor(Posture posture, const std::optional<Attitude>& 
 std::optional<Attitude> attitudeIn(Posture posture, const std::optional<Attitude>& attitude) {
     switch (posture) {
         case Posture::UpsideDown:
-            return Attitude{attitude->roll_rad - std::copysign(static_cast<float>(kPi), attitude->roll_rad),
-                            attitude->pitch_rad};
+            return Attitude{
+                attitude->roll_rad - std::copysign(static_cast<float>(kPi), attitude->roll_rad),
+                attitude->pitch_rad};
         case Posture::OnItsSide:
             return Attitude{};
         case Posture::Upright:

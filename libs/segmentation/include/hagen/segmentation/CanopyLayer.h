@@ -11,10 +11,11 @@ struct CanopyWorkspace {
 /// Raises the tolerance over crops. If plants 0.1 to 1 m high stand in 35 % of all cells (0.75 m)
 /// seen within 18 m, they are a canopy, which is flown over like the ground. Bushes, hedges and
 /// cars in a street cover less. If more than 20 % of these cells are higher, it is none: in a room,
-/// desks are as high as crops, but walls stand around them. In a canopy a return is an obstacle only if it is higher than the
-/// plants: the mean + 2 standard deviations of the cells' highest returns, + 0.1 m. These
-/// statistics are over 13 x 13 blocks of 4 x 4 cells; if fewer than 30 of the cells were seen, no
-/// canopy is assumed. `tops` are relative to the surface; tolerances of empty pixels are NaN.
+/// desks are as high as crops, but walls stand around them. In a canopy a return is an obstacle
+/// only if it is higher than the plants: the mean + 2 standard deviations of the cells' highest
+/// returns, + 0.1 m. These statistics are over 13 x 13 blocks of 4 x 4 cells; if fewer than 30 of
+/// the cells were seen, no canopy is assumed. `tops` are relative to the surface; tolerances of
+/// empty pixels are NaN.
 void tolerateCanopy(const CellTops& tops, Image<float>& tolerance_m, CanopyWorkspace& work);
 
 }  // namespace hagen
