@@ -28,12 +28,13 @@ observations::Settings settingsOf(const DataSet& set, const std::filesystem::pat
 void checkPaper(const Options& paper, const std::filesystem::path& file) {
     const bool is_published = !paper.ground_surface && !paper.level_by_attitude &&
                               paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
-                              paper.context_m <= paper.zone_m;
+                              !paper.bridge_dead_beams && paper.context_m <= paper.zone_m;
     if (is_published) return;
     throw std::runtime_error(
         file.string() +
         ": has a stage that the paper does not have; switch off ground_surface, "
-        "level_by_attitude, the seed gate, gap repair and context beyond the zone");
+        "level_by_attitude, the seed gate, gap repair, bridge_dead_beams and context beyond the "
+        "zone");
 }
 
 void addChanges(const std::string& filter, const observations::Settings& settings,
@@ -77,6 +78,7 @@ const std::vector<Change>& ownStages() {
 const std::vector<Change>& ownStagesOfSurface() {
     static const std::vector<Change> changes{
         kNoSurface,
+        {"no evidence of ground needed", "ground_evidence", "false"},
         {"no canopy layer", "canopy_layer", "false"},
         {"obstacles not extended to the ground", "grow_feet", "false"},
         {"no speckle filter", "remove_specks", "false"},

@@ -10,6 +10,7 @@ inline Options paperOptions() {
     options.repair_max_step_m = 0.0f;
     options.seed_gate_deg = 90.0f;
     options.level_by_attitude = false;
+    options.bridge_dead_beams = false;
     options.ground_surface = false;
     return options;
 }
