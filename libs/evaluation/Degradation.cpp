@@ -1,6 +1,7 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/evaluation/Degradation.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/Posture.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -337,13 +338,7 @@ GroundTruthScan partOf(const GroundTruthScan& scan, const std::vector<bool>& is_
     return part;
 }
 
-SensorModel mirrored(const SensorModel& sensor) {
-    SensorModel result = sensor;
-    result.name += ", upside down";
-    std::reverse(result.elevations_rad.begin(), result.elevations_rad.end());
-    for (float& elevation_rad : result.elevations_rad) elevation_rad = -elevation_rad;
-    return result;
-}
+SensorModel mirrored(const SensorModel& sensor) { return sensorIn(Posture::UpsideDown, sensor); }
 
 Degradation::Degradation(const std::string& text) : name_(text) {
     const std::size_t equals = std::min(text.find('='), text.size());

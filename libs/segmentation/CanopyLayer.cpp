@@ -1,17 +1,16 @@
 #include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/GroundSurface.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
+
+#include "BlockSums.h"
 
 namespace hagen {
 namespace {
 
 constexpr int kCells = GroundSurface::kCells;
-constexpr int kBlockCells = 4;
-constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
-constexpr int kReach = 6;                      // blocks in each direction
+constexpr int kReach = 6;  // blocks in each direction
 
 constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
 constexpr float kLeastShare = 0.35f;                  // of the cells seen nearby
@@ -60,12 +59,10 @@ struct Stand {
         return static_cast<float>(mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m);
     }
 };
-using Stands = std::array<Stand, kBlocks * kBlocks>;  // column by column
-
 constexpr float kNothing_m[kBlockCells] = {CellTops::kNone_m, CellTops::kNone_m, CellTops::kNone_m,
                                            CellTops::kNone_m};
 
-void findStands(const CellTops& tops, Stands& stands) {
+void findStands(const CellTops& tops, Blocks<Stand>& stands) {
     for (int j = 0; j < kCells; ++j) {
         const float* const column_m = tops.highest_m.col(j + 1).data() + 1;  // without the border
         for (int block = 0; block < kBlocks; ++block) {
@@ -81,22 +78,10 @@ void findStands(const CellTops& tops, Stands& stands) {
     }
 }
 
-/// Sums over kReach blocks in each direction along a line of blocks that are `stride` apart. Each
-/// step adds one block and removes one.
-void sumAlong(const Stand* stands, int stride, Stand* sums) {
-    Stand around;
-    for (int k = 0; k < kReach; ++k) around.add(stands[k * stride]);
-    for (int k = 0; k < kBlocks; ++k) {
-        if (k + kReach < kBlocks) around.add(stands[(k + kReach) * stride]);
-        if (k - kReach - 1 >= 0) around.remove(stands[(k - kReach - 1) * stride]);
-        sums[k * stride] = around;
-    }
-}
-
 /// Raises the tolerance of each pixel to the canopy of its cell; NaN stays NaN. `of_cells_m` is
 /// workspace.
-void raiseTolerances(const CellTops& tops, const std::array<float, kBlocks * kBlocks>& canopy_m,
-                     Image<float>& tolerance_m, Eigen::ArrayXXf& of_cells_m) {
+void raiseTolerances(const CellTops& tops, const Blocks<float>& canopy_m, Image<float>& tolerance_m,
+                     Eigen::ArrayXXf& of_cells_m) {
     of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         of_cells_m.block<kBlockCells, kBlockCells>(
@@ -112,12 +97,11 @@ void raiseTolerances(const CellTops& tops, const std::array<float, kBlocks * kBl
 }  // namespace
 
 void tolerateCanopy(const CellTops& tops, Image<float>& tolerance_m, CanopyWorkspace& work) {
-    Stands stands{}, sums;
+    Blocks<Stand> stands{};
     findStands(tops, stands);
-    for (int j = 0; j < kBlocks; ++j) sumAlong(&stands[j * kBlocks], 1, &sums[j * kBlocks]);
-    for (int i = 0; i < kBlocks; ++i) sumAlong(&sums[i], kBlocks, &stands[i]);
+    sumAround<kReach>(stands);
 
-    std::array<float, kBlocks * kBlocks> canopy_m;
+    Blocks<float> canopy_m;
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         canopy_m[block] = stands[block].canopy_m();
     }

@@ -1,12 +1,12 @@
 #include <hagen/segmentation/GroundEvidence.h>
 #include <algorithm>
-#include <array>
 #include <limits>
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "GroundEvidence.cpp"
 #include <hwy/foreach_target.h>
+#include "BlockSums.h"
 #include "GroundGrid-inl.h"
 
 #ifndef HAGEN_GROUND_EVIDENCE
@@ -20,9 +20,7 @@ constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level
 constexpr float kClose_m = 0.2f, kClose_per_m = 0.005f;  // to the surface
 constexpr float kLeastShare = 0.55f;                     // of level pixels among the close ones
 constexpr int kCells = GroundSurface::kCells;
-constexpr int kBlockCells = 4;
-constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
-constexpr int kReach = 4;                      // blocks in each direction
+constexpr int kReach = 4;  // blocks in each direction
 
 /// One close pixel that is level, in the units of `close`.
 constexpr std::int32_t kLevel = 1 << 16;
@@ -139,26 +137,14 @@ struct Counts {
         return level > 0 && static_cast<float>(level) >= kLeastShare * static_cast<float>(close);
     }
 };
-using Blocks = std::array<Counts, kBlocks * kBlocks>;  // column by column
-
-void sumBlocks(const std::int32_t* close, Blocks& blocks) {
+void sumBlocks(const std::int32_t* close, Blocks<Counts>& blocks) {
     for (int j = 0; j < kCells; ++j) {
         const std::int32_t* const column = close + gridColumn(j);
         for (int i = 0; i < kCells; ++i) {
+            if (column[i] == 0) continue;  // most cells
             Counts& block = blocks[j / kBlockCells * kBlocks + i / kBlockCells];
             block.add({column[i] % kLevel, column[i] / kLevel});
         }
-    }
-}
-
-/// Sums over kReach blocks in each direction along a line of blocks that are `stride` apart.
-void sumAlong(const Counts* blocks, int stride, Counts* sums) {
-    Counts around;
-    for (int k = 0; k < kReach; ++k) around.add(blocks[k * stride]);
-    for (int k = 0; k < kBlocks; ++k) {
-        if (k + kReach < kBlocks) around.add(blocks[(k + kReach) * stride]);
-        if (k - kReach - 1 >= 0) around.remove(blocks[(k - kReach - 1) * stride]);
-        sums[k * stride] = around;
     }
 }
 
@@ -218,10 +204,9 @@ void requireEvidence(const PixelPoints& pixels, const Image<std::int32_t>& cell,
         size, [=](std::size_t pixel)
                   __attribute__((always_inline)) { close[place[pixel]] += of_pixel[pixel]; });
 
-    Blocks blocks{}, sums;
+    Blocks<Counts> blocks{};
     sumBlocks(close, blocks);
-    for (int j = 0; j < kBlocks; ++j) sumAlong(&blocks[j * kBlocks], 1, &sums[j * kBlocks]);
-    for (int i = 0; i < kBlocks; ++i) sumAlong(&sums[i], kBlocks, &blocks[i]);
+    sumAround<kReach>(blocks);
 
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
     work.least_m.assign(kGridSize, kNothing);
