@@ -140,7 +140,7 @@ const std::vector<StageRow>& ownStages() {
              toleratedHeights(
                  g.pixels, g.tops,
                  {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
-                 g.tolerance_m, work().tolerance);
+                 g.from_sensor.translation().z(), g.tolerance_m, work().tolerance);
          }},
         {"own: canopy", false, false,
          [](Case& c) {

@@ -18,6 +18,7 @@ constexpr float kMostTall = 0.2f;                     // share of higher cells: 
 constexpr float kLeastCells = 30;                     // seen nearby; with fewer, no canopy
 constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
+constexpr float kStandsOut_m = 0.1f;  // above the canopy: an obstacle in it
 
 /// The plants in the cells of one or more blocks. Sums are double, so that subtracting a block
 /// leaves hardly any rounding error.
@@ -86,6 +87,10 @@ void raiseTolerances(const CellTops& tops, const Blocks<float>& canopy_m, Image<
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         of_cells_m.block<kBlockCells, kBlockCells>(
             1 + block % kBlocks * kBlockCells, 1 + block / kBlocks * kBlockCells) = canopy_m[block];
+    }
+    for (Eigen::Index cell = 0; cell < of_cells_m.size(); ++cell) {
+        float& of_cell_m = of_cells_m.data()[cell];
+        of_cell_m = tops.top_m.data()[cell] > of_cell_m + kStandsOut_m ? 0 : of_cell_m;
     }
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
         float& tolerated_m = tolerance_m.data()[pixel];

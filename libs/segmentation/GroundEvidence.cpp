@@ -1,6 +1,7 @@
 #include <hagen/segmentation/GroundEvidence.h>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE
@@ -15,12 +16,16 @@ namespace hagen {
 namespace {
 
 constexpr float kSteepest = 0.3f;  // slope of a level step
+constexpr float kShort_m = 0.08f;  // a step as short as this is too noisy
 constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
 
 constexpr float kClose_m = 0.2f, kClose_per_m = 0.005f;  // to the surface
 constexpr float kLeastShare = 0.55f;                     // of level pixels among the close ones
 constexpr int kCells = GroundSurface::kCells;
 constexpr int kReach = 4;  // blocks in each direction
+
+/// Level steps that lead to the pixel above, and to the next but one.
+constexpr std::uint8_t kToNext = 1, kToNextButOne = 2;
 
 /// One close pixel that is level, in the units of `close`.
 constexpr std::int32_t kLevel = 1 << 16;
@@ -45,41 +50,63 @@ HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
     hn::StoreU(hn::DemoteTo(Bytes<D>(), ones), Bytes<D>(), to);
 }
 
-/// Whether each pixel and the next in memory are a level step. At the top of a column, where the
-/// next one is in another column, the caller corrects it.
+/// Whether each pixel is a level step with the next in memory (1) and, if that is close, with the
+/// next but one (2). At the top of a column, where these are in another column, the caller corrects
+/// it.
 void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-                  const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT is_step,
+                  const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps,
                   std::int32_t* HWY_RESTRICT cell) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         hn::StoreU(gridCells(d, x, y).cell, hn::RebindToSigned<decltype(d)>(), cell + pixel);
     });
-    forEachVector(pixels - 1, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+    const auto stepTo = [&](auto d, std::size_t pixel, std::size_t next) HAGEN_INLINE {
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
-        const auto dx = hn::Sub(hn::LoadU(d, x_m + pixel + 1), x);
-        const auto dy = hn::Sub(hn::LoadU(d, y_m + pixel + 1), y);
-        const auto dz = hn::Sub(hn::LoadU(d, z_m + pixel + 1), hn::LoadU(d, z_m + pixel));
-        const auto run_m2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+        const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
+        const auto dy = hn::Sub(hn::LoadU(d, y_m + next), y);
+        const auto dz = hn::Sub(hn::LoadU(d, z_m + next), hn::LoadU(d, z_m + pixel));
+        const auto run_m2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), rise_m2 = hn::Mul(dz, dz);
         const auto outwards = hn::Add(hn::Mul(dx, x), hn::Mul(dy, y));
         const auto is_level =  // false for NaN
-            hn::Lt(hn::Mul(dz, dz), hn::Mul(hn::Set(d, kSteepest * kSteepest), run_m2));
-        storeMask(d, hn::And(is_level, hn::Gt(outwards, hn::Zero(d))), is_step + pixel);
-    });
+            hn::And(hn::Lt(rise_m2, hn::Mul(hn::Set(d, kSteepest * kSteepest), run_m2)),
+                    hn::Gt(outwards, hn::Zero(d)));
+        const auto is_short = hn::Lt(hn::Add(run_m2, rise_m2), hn::Set(d, kShort_m * kShort_m));
+        return std::pair{is_level, is_short};
+    };
+    const auto markSteps = [&](auto d, std::size_t pixel, bool has_next_but_one) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const Bytes<decltype(d)> d8;
+        const auto [is_level, is_short] = stepTo(d, pixel, pixel + 1);
+        auto marks = hn::IfThenElseZero(hn::RebindMask(di, is_level), hn::Set(di, kToNext));
+        if (has_next_but_one && !hn::AllFalse(d, is_short)) {
+            const auto is_long = hn::And(is_short, stepTo(d, pixel, pixel + 2).first);
+            marks = hn::Or(
+                marks, hn::IfThenElseZero(hn::RebindMask(di, is_long), hn::Set(di, kToNextButOne)));
+        }
+        hn::StoreU(hn::DemoteTo(d8, marks), d8, steps + pixel);
+    };
+    const std::size_t with_next_but_one = pixels < 2 ? 0 : pixels - 2;
+    forEachVector(with_next_but_one,
+                  [&](auto d, std::size_t pixel) HAGEN_INLINE { markSteps(d, pixel, true); });
+    if (pixels >= 2) markSteps(hn::CappedTag<float, 1>(), pixels - 2, false);
 }
 
-/// Marks both pixels of each step, unless their cell has something below.
+/// Marks both pixels of each step, unless their cell has something below. `steps` has two more
+/// values before the first.
 void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
                  const std::int32_t* HWY_RESTRICT cell, const float* HWY_RESTRICT lowest_m,
-                 const std::uint8_t* HWY_RESTRICT is_step, std::uint8_t* HWY_RESTRICT is_level) {
+                 const std::uint8_t* HWY_RESTRICT steps, std::uint8_t* HWY_RESTRICT is_level) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const Bytes<decltype(d)> d8;
         const auto low_m = hn::GatherIndex(d, lowest_m, hn::LoadU(di, cell + pixel));
         const auto is_lowest =
             hn::Le(hn::LoadU(d, z_m + pixel), hn::Add(low_m, hn::Set(d, kDrop_m)));
-        const auto on_step =
-            hn::Or(hn::LoadU(d8, is_step + pixel), hn::LoadU(d8, is_step + pixel + 1));
-        const auto marks = hn::PromoteTo(di, on_step);
+        const auto to_next = hn::And(hn::LoadU(d8, steps + pixel - 1), hn::Set(d8, kToNext));
+        const auto to_next_but_one =
+            hn::And(hn::LoadU(d8, steps + pixel - 2), hn::Set(d8, kToNextButOne));
+        const auto marks = hn::PromoteTo(
+            di, hn::Or(hn::LoadU(d8, steps + pixel), hn::Or(to_next, to_next_but_one)));
         storeMask(d, hn::And(is_lowest, hn::RebindMask(d, hn::Gt(marks, hn::Zero(di)))),
                   is_level + pixel);
     });
@@ -157,12 +184,15 @@ void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level,
     is_level.resize(rows, columns);
     work.cell.resize(rows, columns);
     if (size == 0) return;
-    // Steps from one pixel before the first: none.
-    work.steps.assign(size + 1, 0);
-    std::uint8_t* const is_step = work.steps.data() + 1;
+    // Steps from two pixels before the first: none.
+    work.steps.assign(size + 2, 0);
+    std::uint8_t* const steps = work.steps.data() + 2;
     HWY_DYNAMIC_DISPATCH(LevelStepsIn)
-    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), is_step, work.cell.data());
-    for (Eigen::Index top = rows - 1; top < rows * columns; top += rows) is_step[top] = 0;
+    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), steps, work.cell.data());
+    for (Eigen::Index top = rows - 1; top < rows * columns; top += rows) {
+        if (rows >= 2) steps[top - 1] &= kToNext;
+        steps[top] = 0;
+    }
 
     work.lowest_m.assign(kGridSize, kNoHeight);
     float* const lowest_m = work.lowest_m.data();
@@ -174,7 +204,7 @@ void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level,
             low_m = z_m[pixel] < low_m ? z_m[pixel] : low_m;  // ignores NaN
         });
     HWY_DYNAMIC_DISPATCH(MarkLevelIn)
-    (size, z_m, cell, lowest_m, work.steps.data(), is_level.data());
+    (size, z_m, cell, lowest_m, steps, is_level.data());
 }
 
 void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,

@@ -127,7 +127,7 @@ void HagenFilter::judgeByHeight() {
     toleratedHeights(
         g.pixels, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
-        g.tolerance_m, w.tolerance);
+        g.from_sensor.translation().z(), g.tolerance_m, w.tolerance);
     if (o.canopy_layer) tolerateCanopy(g.tops, g.tolerance_m, w.canopy);
     if (o.ground_evidence) {
         requireEvidence(g.pixels, g.tops.cell, g.height_m, g.is_level, g.tolerance_m, w.evidence);

@@ -16,6 +16,7 @@ constexpr int kCells = GroundSurface::kCells;
 constexpr float kLeastTolerance_m = 0.04f;
 constexpr float kLowest_m = -1.5f;  // ground is never this far below the surface
 constexpr float kTallest_m = 1.1f;  // taller objects do not reduce the tolerance further
+constexpr float kShallow = 3;       // distance per height of the sensor from which they fully do
 
 }  // namespace
 }  // namespace hagen
@@ -25,7 +26,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
-/// The maximum of each cell and its eight neighbours, limited to 0...kTallest_m. The border gets
+/// The maximum of each cell and the four at its sides, limited to 0...kTallest_m. The border gets
 /// the values of the adjacent cells.
 void TallestAroundIn(const float* HWY_RESTRICT top_m, float* HWY_RESTRICT tallest_m) {
     const hn::ScalableTag<float> d;
@@ -35,10 +36,8 @@ void TallestAroundIn(const float* HWY_RESTRICT top_m, float* HWY_RESTRICT talles
         for (int i = 0; i < kCells; i += lanes) {
             const float* HWY_RESTRICT cell = top_m + gridColumn(j) + i;
             auto highest_m = hn::Zero(d);
-            for (const int column : {-kGridStride, 0, kGridStride}) {
-                for (const int row : {-1, 0, 1}) {
-                    highest_m = hn::Max(highest_m, hn::LoadU(d, cell + column + row));
-                }
+            for (const int place : {-kGridStride, -1, 0, 1, kGridStride}) {
+                highest_m = hn::Max(highest_m, hn::LoadU(d, cell + place));
             }
             hn::StoreU(hn::Min(highest_m, hn::Set(d, kTallest_m)), d, result_m + i);
         }
@@ -55,15 +54,18 @@ void TallestAroundIn(const float* HWY_RESTRICT top_m, float* HWY_RESTRICT talles
 void ToleratedHeightsIn(std::size_t pixels, const float* HWY_RESTRICT x_m,
                         const float* HWY_RESTRICT y_m, const std::int32_t* HWY_RESTRICT cell,
                         const float* HWY_RESTRICT tallest_m, const HeightTolerance& tolerance,
-                        float* HWY_RESTRICT tolerance_m) {
+                        float sensor_height_m, float* HWY_RESTRICT tolerance_m) {
+    const float shallow_per_m = 1 / (kShallow * sensor_height_m);
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
         const auto tall_m = hn::GatherIndex(d, tallest_m, hn::LoadU(di, cell + pixel));
+        const auto shallow =
+            hn::Min(hn::Mul(distance_m, hn::Set(d, shallow_per_m)), hn::Set(d, 1.0f));
         const auto tolerated_m = hn::Sub(
             hn::Add(hn::Set(d, tolerance.near_m), hn::Mul(hn::Set(d, tolerance.per_m), distance_m)),
-            hn::Mul(hn::Set(d, tolerance.beside_tall), tall_m));
+            hn::Mul(hn::Mul(hn::Set(d, tolerance.beside_tall), shallow), tall_m));
         const auto least_m = hn::Set(d, kLeastTolerance_m);
         const auto is_less = hn::Lt(tolerated_m, least_m);  // false for NaN
         hn::StoreU(hn::IfThenElse(is_less, least_m, tolerated_m), d, tolerance_m + pixel);
@@ -103,14 +105,14 @@ HWY_EXPORT(LabelByHeightIn);
 }  // namespace
 
 void toleratedHeights(const PixelPoints& pixels, const CellTops& tops,
-                      const HeightTolerance& tolerance, Image<float>& tolerance_m,
-                      ToleranceWorkspace& work) {
+                      const HeightTolerance& tolerance, float sensor_height_m,
+                      Image<float>& tolerance_m, ToleranceWorkspace& work) {
     work.tallest_m.resize(kGridSize);
     HWY_DYNAMIC_DISPATCH(TallestAroundIn)(tops.top_m.data(), work.tallest_m.data());
     tolerance_m.resize(tops.cell.rows(), tops.cell.cols());
     HWY_DYNAMIC_DISPATCH(ToleratedHeightsIn)
     (tolerance_m.size(), pixels.x_m.data(), pixels.y_m.data(), tops.cell.data(),
-     work.tallest_m.data(), tolerance, tolerance_m.data());
+     work.tallest_m.data(), tolerance, sensor_height_m, tolerance_m.data());
 }
 
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,

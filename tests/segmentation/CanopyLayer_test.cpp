@@ -52,8 +52,12 @@ TEST(CanopyLayer, PlantsAllAroundAreGroundAndAPoleAmongThemIsNot) {
     const PixelPoints pixels = pixelsAt(points);
     Image<Label> labels;
     labelByHeight(pixels.z_m, tolerated(pixels), labels);
-    for (std::size_t i = 0; i < plants; ++i) ASSERT_EQ(labels.data()[i], Label::Rou);
-    for (std::size_t i = plants + 3; i < points.size(); ++i) {  // 0.9 m and higher
+    for (std::size_t i = 0; i < plants; ++i) {
+        const bool is_at_pole = cellFromSensor(points[i].x()) == cellFromSensor(6.1f) &&
+                                cellFromSensor(points[i].y()) == cellFromSensor(2.2f);
+        ASSERT_EQ(labels.data()[i], is_at_pole ? Label::Roi : Label::Rou);
+    }
+    for (std::size_t i = plants + 1; i < points.size(); ++i) {  // 0.3 m and higher
         EXPECT_EQ(labels.data()[i], Label::Roi) << points[i].z();
     }
 }
@@ -66,6 +70,19 @@ TEST(CanopyLayer, ToleratesTheMeanAndTwoDeviationsAndTenCentimetres) {
     EXPECT_LT((tolerated(pixelsAt(mixed)) - 1.1f).abs().maxCoeff(), 1e-3f);
 }
 
+TEST(CanopyLayer, TwoReturnsThatStandOutShowThatThereIsAnObstacle) {
+    const auto points = field(40, [](int) { return 0.6f; });
+    const auto toleratedBelow = [&](std::vector<float> heights_m) {
+        auto with = points;
+        for (const float height_m : heights_m) with.emplace_back(1.1f, 1.1f, height_m);
+        return tolerated(pixelsAt(with)).rightCols<1>().value();
+    };
+    // The plants are tolerated up to 0.7 m, and one higher cell changes their deviation little.
+    EXPECT_NEAR(toleratedBelow({0.79f, 0.79f}), 0.7f, 0.02f);
+    EXPECT_NEAR(toleratedBelow({0.95f, 0.79f}), 0.7f, 0.03f);
+    EXPECT_EQ(toleratedBelow({0.85f, 0.85f}), kBefore_m);
+}
+
 TEST(CanopyLayer, BareGroundStaysAsItWas) {
     EXPECT_TRUE((tolerated(pixelsAt(field(40, [](int) { return 0.05f; }))) == kBefore_m).all());
 }
@@ -74,7 +91,10 @@ TEST(CanopyLayer, AmongWallsAndTreesThereIsNone) {
     const auto share = [](int percent_tall) {
         return field(20, [=](int k) { return k % 100 < percent_tall ? 1.2f : 0.6f; });
     };
-    EXPECT_LT((tolerated(pixelsAt(share(20))) - 0.7f).abs().maxCoeff(), 2e-3f);
+    const PixelPoints fifth = pixelsAt(share(20));
+    const Image<float> expected_m =
+        (fifth.z_m > 1.0f).select(kBefore_m, Image<float>::Constant(1, fifth.z_m.cols(), 0.7f));
+    EXPECT_LT((tolerated(fifth) - expected_m).abs().maxCoeff(), 2e-3f);
     EXPECT_TRUE((tolerated(pixelsAt(share(21))) == kBefore_m).all());
 }
 
@@ -125,6 +145,7 @@ TEST(CanopyLayer, AgreesWithASearchThroughAllCells) {
     test::Random random(96);
     std::vector<Eigen::Vector3f> points;
     std::map<std::pair<int, int>, float> tops_m;
+    std::map<std::pair<int, int>, std::vector<float>> in_cells_m;
     for (int i = 0; i < 6000; ++i) {  // plants ahead, bare ground behind, up to the border
         const float x_m = random.real(-47, 47), y_m = random.real(-47, 47);
         const bool is_plant = random.chance(x_m > 5 ? 0.5 : 0.05);
@@ -132,6 +153,12 @@ TEST(CanopyLayer, AgreesWithASearchThroughAllCells) {
         float& top_m = tops_m.emplace(std::pair{cellFromSensor(x_m), cellFromSensor(y_m)}, -1.0f)
                            .first->second;
         top_m = std::max(top_m, points.back().z());
+        in_cells_m[{cellFromSensor(x_m), cellFromSensor(y_m)}].push_back(points.back().z());
+    }
+    std::map<std::pair<int, int>, float> seconds_m;  // second highest, or the only one
+    for (auto& [cell, heights_m] : in_cells_m) {
+        std::sort(heights_m.rbegin(), heights_m.rend());
+        seconds_m[cell] = heights_m[heights_m.size() > 1 ? 1 : 0];
     }
     const auto blockOf = [](int cell) { return (cell + 64) / 4; };
     std::map<std::pair<int, int>, float> canopies_m;
@@ -166,7 +193,10 @@ TEST(CanopyLayer, AgreesWithASearchThroughAllCells) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto canopy = canopies_m.find(
             {blockOf(cellFromSensor(points[i].x())), blockOf(cellFromSensor(points[i].y()))});
-        const float expected_m = canopy == canopies_m.end() ? kBefore_m : canopy->second;
+        const float stands_m =
+            seconds_m.at({cellFromSensor(points[i].x()), cellFromSensor(points[i].y())});
+        const bool has_canopy = canopy != canopies_m.end() && stands_m <= canopy->second + 0.1f;
+        const float expected_m = has_canopy ? canopy->second : kBefore_m;
         ASSERT_NEAR(tolerance_m.data()[i], expected_m, 1e-3f);
     }
 }

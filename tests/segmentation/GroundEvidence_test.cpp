@@ -125,6 +125,18 @@ TEST(FindLevelPixels, OneLevelStepIsEnoughForBothOfItsPixels) {
     EXPECT_EQ(levelInColumn({{4, 0, 0}, {4, 0, 0.2f}, {6, 0, 0.2f}}), (std::vector{0, 1, 1}));
 }
 
+TEST(FindLevelPixels, OverAShortWayTheNextButOneMakesTheStep) {
+    // Ranges are 2 cm off: the short steps are steep, the long one is not.
+    EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}}), (std::vector{1, 0, 1}));
+    EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.09f}, {1.1f, 0, 0}}), (std::vector{0, 0, 0}));
+    EXPECT_EQ(levelInColumn({{1, 0, 0}, {1, 0, 0.05f}, {1, 0, 0.1f}}), (std::vector{0, 0, 0}));
+    EXPECT_EQ(levelInColumn({{1.2f, 0, 0}, {1.15f, 0, 0.02f}, {1.1f, 0, 0}}),
+              (std::vector{0, 0, 0}));
+    // Not into the next column.
+    EXPECT_EQ(level({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}, {9, 0, 9}}, 2),
+              (std::vector{0, 0, 0, 0}));
+}
+
 // The table top is 0.75 m up, in the cell from 3 to 3.75 m.
 TEST(FindLevelPixels, ATableOverTheFloorIsNot) {
     const std::vector<Eigen::Vector3f> floor{{3.1f, 0.1f, 0}, {4.6f, 0.1f, 0}};

@@ -84,6 +84,7 @@ void expectNear(const Image<float>& a, const Image<float>& b, float most) {
 }
 
 const HeightTolerance kTolerance;
+constexpr float kSensorHeight_m = 2;
 FilterWorkspace work;  // shared by all tests, as by all scans in a filter
 
 /// All stages from the pixels to the labels.
@@ -106,7 +107,8 @@ Judged judged(const Sight& sight) {
     fitGroundSurface(pixels, work.candidates, j.surface, work.ground_surface);
     heightsAbove(j.surface, pixels, j.height_m);
     findCellTops(pixels, j.height_m, j.tops);
-    toleratedHeights(pixels, j.tops, kTolerance, j.tolerance_m, work.tolerance);
+    toleratedHeights(pixels, j.tops, kTolerance, j.frame.translation().z(), j.tolerance_m,
+                     work.tolerance);
     tolerateCanopy(j.tops, j.tolerance_m, work.canopy);
     requireEvidence(pixels, j.tops.cell, j.height_m, j.is_level, j.tolerance_m, work.evidence);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
@@ -128,7 +130,7 @@ TEST(GroundStages, TheSurfaceIsThatOfAPlainFit) {
     forManySights([](const Sight& sight) {
         Sight in_ground = sight;
         Eigen::Isometry3f up = Eigen::Isometry3f::Identity();
-        up.translation().z() = 2;
+        up.translation().z() = kSensorHeight_m;
         movePixels(up, in_ground.pixels);
         GroundSurface fast, plain;
         fitGroundSurface(in_ground.pixels, in_ground.labels, fast, work.ground_surface);
@@ -148,14 +150,14 @@ TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
     forManySights([&](const Sight& sight) {
         PixelPoints pixels = sight.pixels;
         Eigen::Isometry3f up = Eigen::Isometry3f::Identity();
-        up.translation().z() = 2;
+        up.translation().z() = kSensorHeight_m;
         movePixels(up, pixels);
         const Image<float>& height_m = pixels.z_m;
         CellTops tops;
         Image<float> fast_m, plain_m;
         findCellTops(pixels, height_m, tops);
-        toleratedHeights(pixels, tops, kTolerance, fast_m, work.tolerance);
-        test::plain::toleratedHeights(pixels, height_m, kTolerance, plain_m);
+        toleratedHeights(pixels, tops, kTolerance, kSensorHeight_m, fast_m, work.tolerance);
+        test::plain::toleratedHeights(pixels, height_m, kTolerance, kSensorHeight_m, plain_m);
         expectNear(fast_m, plain_m, 1e-5f);
         const Image<float> before_m = plain_m;
         fast_m = plain_m;
@@ -189,7 +191,7 @@ TEST(GroundStages, EvidenceIsThatOfPlainLoops) {
     forManySights([&](const Sight& sight) {
         PixelPoints pixels = sight.pixels;
         Eigen::Isometry3f up = Eigen::Isometry3f::Identity();
-        up.translation().z() = 2;
+        up.translation().z() = kSensorHeight_m;
         movePixels(up, pixels);
         Image<std::uint8_t> plain;
         test::plain::findLevelPixels(pixels, plain);
@@ -197,7 +199,7 @@ TEST(GroundStages, EvidenceIsThatOfPlainLoops) {
         test::plain::keepLevelRou(sight.labels, plain, candidates);
         const Image<float>& height_m = pixels.z_m;
         Image<float> before_m, plain_m;
-        test::plain::toleratedHeights(pixels, height_m, kTolerance, before_m);
+        test::plain::toleratedHeights(pixels, height_m, kTolerance, kSensorHeight_m, before_m);
         plain_m = before_m;
         test::plain::requireEvidence(pixels, height_m, plain, plain_m);
         withdrawn += (plain_m < 0).any();

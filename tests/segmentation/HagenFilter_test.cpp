@@ -568,7 +568,8 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
                          work.ground_surface);
         heightsAbove(g.surface, g.pixels, g.height_m);
         findCellTops(g.pixels, g.height_m, g.tops);
-        toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.tolerance_m, work.tolerance);
+        toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.from_sensor.translation().z(),
+                         g.tolerance_m, work.tolerance);
         if ((switches & 1) != 0) tolerateCanopy(g.tops, g.tolerance_m, work.canopy);
         if (needs_evidence) {
             requireEvidence(g.pixels, g.tops.cell, g.height_m, g.is_level, g.tolerance_m,

@@ -20,12 +20,13 @@ using test::kEmptyPixel;
 using test::pixelsAt;
 
 /// Over the plane z = 0, so a pixel's height is its z.
-Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {}) {
+Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {},
+                       float sensor_height_m = 1) {
     static ToleranceWorkspace work;  // shared by all tests, as by all scans in a filter
     Image<float> tolerance_m;
     CellTops tops;
     findCellTops(pixels, pixels.z_m, tops);
-    toleratedHeights(pixels, tops, tolerance, tolerance_m, work);
+    toleratedHeights(pixels, tops, tolerance, sensor_height_m, tolerance_m, work);
     return tolerance_m;
 }
 
@@ -46,6 +47,25 @@ TEST(HeightTolerance, BesideWhatIsTallIsLess) {
     EXPECT_FLOAT_EQ(tolerance_m(0, 1), 0.17f + 0.005f * std::hypot(3.8f, 4.0f) - 0.12f);
     EXPECT_FLOAT_EQ(tolerance_m(0, 2), 0.17f + 0.005f * std::hypot(4.6f, 4.0f) - 0.12f);
     EXPECT_FLOAT_EQ(tolerance_m(0, 3), 0.17f + 0.005f * std::hypot(5.3f, 4.0f));
+}
+
+TEST(HeightTolerance, WhatStandsAtACornerOfTheCellIsNotBesideIt) {
+    // The cells of (3, 4): 4 and 5.
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3.8f, 4.6f, 1}}))(0, 0), 0.195f);
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4.6f, 1}}))(0, 0), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 3.7f, 1}}))(0, 0), 0.195f - 0.12f);
+}
+
+TEST(HeightTolerance, BelowTheSensorTheNeighboursDoNotMatter) {
+    const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 1}});
+    const auto fromHeight = [&](float sensor_height_m) {
+        return tolerated(pixels, {}, sensor_height_m)(0, 0);
+    };
+    EXPECT_FLOAT_EQ(fromHeight(0.1f), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(fromHeight(5.0f / 3), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(fromHeight(5), 0.195f - 0.04f);
+    EXPECT_NEAR(fromHeight(5000), 0.195f, 1e-4f);
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}))(0, 0), 0.17f);
 }
 
 TEST(HeightTolerance, MoreThanElevenTenthsOfAMetreIsNoReasonToTolerateLess) {
@@ -81,7 +101,7 @@ TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
         if (random.chance(0.1)) points.back() = kEmptyPixel;
     }
     const HeightTolerance t{0.3f, 0.01f, 0.2f};
-    const Image<float> tolerance_m = tolerated(pixelsAt(points, 4), t);
+    const Image<float> tolerance_m = tolerated(pixelsAt(points, 4), t, 2);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto& p = points[i];
         if (!hasValue(p.x())) continue;
@@ -90,8 +110,10 @@ TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
             if (!hasValue(q.x()) || q.z() >= 1.5f) continue;
             const int u = static_cast<int>(cellFromSensor(q.x()));
             const int v = static_cast<int>(cellFromSensor(q.y()));
-            if (std::abs(static_cast<int>(cellFromSensor(p.x())) - u) > 1) continue;
-            if (std::abs(static_cast<int>(cellFromSensor(p.y())) - v) > 1) continue;
+            if (std::abs(static_cast<int>(cellFromSensor(p.x())) - u) +
+                    std::abs(static_cast<int>(cellFromSensor(p.y())) - v) >
+                1)
+                continue;
             around_m[{u, v}].push_back(q.z());
         }
         float tallest_m = 0;
@@ -100,7 +122,8 @@ TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
             const float top_m = heights_m[heights_m.size() > 1 ? 1 : 0];
             tallest_m = std::max(tallest_m, std::min(top_m, 1.1f));
         }
-        const float expected_m = 0.3f + 0.01f * p.head<2>().norm() - 0.2f * tallest_m;
+        const float distance_m = p.head<2>().norm(), shallow = std::min(distance_m / 6, 1.0f);
+        const float expected_m = 0.3f + 0.01f * distance_m - 0.2f * shallow * tallest_m;
         EXPECT_NEAR(tolerance_m.data()[i], std::max(0.04f, expected_m), 1e-5f);
     }
 }

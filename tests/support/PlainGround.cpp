@@ -284,7 +284,8 @@ constexpr int kLeastVotes = 3;
 }  // namespace
 
 void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
-                      const HeightTolerance& tolerance, Image<float>& tolerance_m) {
+                      const HeightTolerance& tolerance, float sensor_height_m,
+                      Image<float>& tolerance_m) {
     constexpr int kCells = GroundSurface::kCells;
     // With a border.
     Eigen::Array<std::vector<float>, Eigen::Dynamic, Eigen::Dynamic> in_cell_m(kCells + 2,
@@ -312,10 +313,13 @@ void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
         if (!hasValue(height_m.data()[pixel])) continue;
         const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
         const int i = std::clamp(cellOf(x_m), 1, kCells), j = std::clamp(cellOf(y_m), 1, kCells);
-        const float tall_m = tallest_m.block<3, 3>(i - 1, j - 1).maxCoeff();
+        const float tall_m = std::max(tallest_m.block<3, 1>(i - 1, j).maxCoeff(),
+                                      std::max(tallest_m(i, j - 1), tallest_m(i, j + 1)));
+        const float distance_m = std::hypot(x_m, y_m);
+        const float shallow = std::min(distance_m / (3 * sensor_height_m), 1.0f);
         tolerance_m.data()[pixel] =
-            std::max(kLeastTolerance_m, tolerance.near_m + tolerance.per_m * std::hypot(x_m, y_m) -
-                                            tolerance.beside_tall * tall_m);
+            std::max(kLeastTolerance_m, tolerance.near_m + tolerance.per_m * distance_m -
+                                            tolerance.beside_tall * shallow * tall_m);
     }
 }
 
@@ -393,6 +397,7 @@ constexpr float kMostTall = 0.2f;                     // share of higher cells: 
 constexpr float kLeastCells = 30;                     // seen nearby; with fewer, no canopy
 constexpr float kDeviations = 2.0f;
 constexpr float kMargin_m = 0.1f;
+constexpr float kStandsOut_m = 0.1f;
 
 /// The cell of a coordinate, or -1 beyond the grid.
 int cellOf(float coordinate_m) {
@@ -450,13 +455,14 @@ Stands sumsAlong(const Stands& stands) {
 
 void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
                     Image<float>& tolerance_m) {
-    Eigen::ArrayXXf top_m = Eigen::ArrayXXf::Constant(kCells, kCells, kNoValue);
+    Eigen::ArrayXXf top_m = Eigen::ArrayXXf::Constant(kCells, kCells, kNoValue), second_m = top_m;
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
-        const float h_m = height_m.data()[pixel];
+        float h_m = height_m.data()[pixel];
         if (!(h_m < 1.5f)) continue;  // empty or overhead
         const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
         if (i < 0 || j < 0) continue;
-        if (!(top_m(i, j) >= h_m)) top_m(i, j) = h_m;
+        if (!(top_m(i, j) >= h_m)) std::swap(top_m(i, j), h_m);
+        if (!(second_m(i, j) >= h_m)) second_m(i, j) = h_m;
     }
     Stands stands(kBlocks, kBlocks);
     for (int j = 0; j < kCells; ++j) {
@@ -471,7 +477,10 @@ void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
         const int i = cellOf(pixels.x_m.data()[pixel]), j = cellOf(pixels.y_m.data()[pixel]);
         if (i < 0 || j < 0) continue;
         float& tolerated_m = tolerance_m.data()[pixel];
-        tolerated_m = std::max(tolerated_m, around(i / kBlockCells, j / kBlockCells).canopy_m());
+        const float canopy_m = around(i / kBlockCells, j / kBlockCells).canopy_m();
+        const float stands_m = hasValue(second_m(i, j)) ? second_m(i, j) : top_m(i, j);
+        if (stands_m > canopy_m + kStandsOut_m) continue;
+        tolerated_m = std::max(tolerated_m, canopy_m);
     }
 }
 }  // namespace canopy_stage
@@ -485,6 +494,7 @@ constexpr int kBlocks = kCells / kBlockCells;  // along each side, 3 m each
 constexpr int kReach = 4;                      // blocks in each direction
 
 constexpr float kSteepest = 0.3f;  // slope of a level step
+constexpr float kShort_m = 0.08f;  // a step as short as this is too noisy
 constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
 constexpr float kLeastShare = 0.55f;
 
@@ -537,8 +547,17 @@ void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level) {
             const Eigen::Index pixel = column * rows + row;
             const Eigen::Vector3f point = pixels.at(pixel);
             if (!hasValue(point.z())) continue;
-            const bool up = row + 1 < rows && isLevelStep(point, pixels.at(pixel + 1));
-            const bool down = row > 0 && isLevelStep(pixels.at(pixel - 1), point);
+            // Whether the pixels in these rows of the column are a step.
+            const auto isStep = [&](Eigen::Index low, Eigen::Index high) {
+                if (low < 0 || high >= rows) return false;
+                const Eigen::Vector3f below = pixels.at(column * rows + low);
+                const Eigen::Vector3f next = pixels.at(column * rows + low + 1);
+                const Eigen::Vector3f above = pixels.at(column * rows + high);
+                const bool is_short = (next - below).squaredNorm() < kShort_m * kShort_m;
+                return (high == low + 1 || is_short) && isLevelStep(below, above);
+            };
+            const bool up = isStep(row, row + 1) || isStep(row, row + 2);
+            const bool down = isStep(row - 1, row) || isStep(row - 2, row);
             const float low_m = lowest_m(cellOf(point.x()) + 1, cellOf(point.y()) + 1);
             is_level(row, column) = (up || down) && point.z() <= low_m + kDrop_m;
         }
@@ -729,8 +748,9 @@ void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image
     surface_stage::heightsAbove(surface, pixels, height_m);
 }
 void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
-                      const HeightTolerance& tolerance, Image<float>& tolerance_m) {
-    labels_stage::toleratedHeights(pixels, height_m, tolerance, tolerance_m);
+                      const HeightTolerance& tolerance, float sensor_height_m,
+                      Image<float>& tolerance_m) {
+    labels_stage::toleratedHeights(pixels, height_m, tolerance, sensor_height_m, tolerance_m);
 }
 void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
                     Image<float>& tolerance_m) {

@@ -18,7 +18,8 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
                   Image<Label>& candidates);
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);
 void toleratedHeights(const PixelPoints& pixels, const Image<float>& height_m,
-                      const HeightTolerance& tolerance, Image<float>& tolerance_m);
+                      const HeightTolerance& tolerance, float sensor_height_m,
+                      Image<float>& tolerance_m);
 void tolerateCanopy(const PixelPoints& pixels, const Image<float>& height_m,
                     Image<float>& tolerance_m);
 void requireEvidence(const PixelPoints& pixels, const Image<float>& height_m,

@@ -9,9 +9,10 @@ namespace hagen {
 
 /// Workspace of this stage. Reuse it between scans to avoid allocations; it has no state.
 struct GroundEvidenceWorkspace {
-    Image<std::int32_t> cell;         ///< of each pixel, on the grid of CellTops
-    std::vector<float> lowest_m;      ///< per cell
-    std::vector<std::uint8_t> steps;  ///< per pixel: whether a level step leads to the one above
+    Image<std::int32_t> cell;     ///< of each pixel, on the grid of CellTops
+    std::vector<float> lowest_m;  ///< per cell
+    /// Per pixel: 1 if a level step leads to the pixel above, + 2 if one leads to the next but one.
+    std::vector<std::uint8_t> steps;
     std::vector<std::int32_t> close;  ///< per cell: pixels close to the surface; upper half: level
     std::vector<float> least_m;       ///< per cell: 0 with evidence, otherwise minus infinity
 };
@@ -19,8 +20,10 @@ struct GroundEvidenceWorkspace {
 /// Marks the pixels that look like ground (1, otherwise 0), in the ground frame. A pixel and the
 /// one above it in its column are a level step if the upper one is farther out and the slope
 /// between them, against the plane, is less than 0.3. Walls are too steep, and ceilings come closer
-/// with elevation. Both pixels of a step are level, unless another pixel of their cell (0.75 m) is
-/// more than 0.3 m below: there, they are leaves, a table or a roof.
+/// with elevation. Where the pixel above is less than 0.08 m away, the next but one makes a step as
+/// well: over so short a way the noise of ranges is steep. Both pixels of a step are level, unless
+/// another pixel of their cell (0.75 m) is more than 0.3 m below: there, they are leaves, a table
+/// or a roof.
 void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level,
                      GroundEvidenceWorkspace& work);
 
