@@ -11,7 +11,7 @@ namespace hagen {
 namespace {
 
 constexpr float kSteepest = 0.3f;         // maximum slope of visible ground against its plane
-constexpr float kSteepestUnseen = 0.17f;  // and of hidden ground: tall objects hide it, not hills
+constexpr float kSteepestUnseen = 0.15f;  // and of hidden ground: tall objects hide it, not hills
 constexpr float kEnvelope_m = 0.15f;      // maximum height of a cell above the steepest slopes
 
 /// The width of a cell on a grid of kSide x kSide cells.

@@ -35,7 +35,7 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr float kStray_m = 0.4f;  // ground is never this far below its neighbours
 constexpr int kStrayNeighbours = 3;
 constexpr float kSteepest = 0.3f;         // maximum slope of visible ground against its plane
-constexpr float kSteepestUnseen = 0.17f;  // and of hidden ground: tall objects hide it, not hills
+constexpr float kSteepestUnseen = 0.15f;  // and of hidden ground: tall objects hide it, not hills
 constexpr float kEnvelope_m = 0.15f;      // maximum height of a cell above the steepest slopes
 constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // candidates close to the lowest
 constexpr float kSureReturns = 5;  // a mean over this many has full weight

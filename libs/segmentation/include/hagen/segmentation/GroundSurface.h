@@ -34,7 +34,7 @@ struct GroundSurfaceWorkspace {
 ///     lowest of all neighbours (mirror images and stray returns lie below the ground; two adjacent
 ///     ones protect each other);
 ///  2. remove cells whose lowest candidate is more than 0.15 m above the slopes from lower cells:
-///     0.3 over cells with candidates, 0.17 over others (relative to the plane);
+///     0.3 over cells with candidates, 0.15 over others (relative to the plane);
 ///  3. a cell's height is the mean of its candidates close to the lowest, its weight grows with
 ///     their number;
 ///  4. smooth with a weighted 3 x 3 binomial, then fill cells without candidates from increasingly
