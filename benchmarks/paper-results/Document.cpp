@@ -175,8 +175,9 @@ std::string pclNote(const std::vector<Measured>& all) {
 
 std::string headlineSection(const std::vector<Measured>& all) {
     return "## Comparison with other methods\n\n"
-           "`paper` is the filter as published "
-           "(`config/paper.yaml`), `default` is ours (`config/vlp16.yaml`, `hdl32e.yaml` or "
+           "`paper` is the filter as we read the paper "
+           "(`config/paper.yaml`; [paper.md](paper.md) lists other readings), `default` is ours "
+           "(`config/vlp16.yaml`, `hdl32e.yaml` or "
            "`hdl64e.yaml`, depending on the sensor). The other methods are described in "
            "[baselines.md](baselines.md). Their `tuned` rows were tuned on the same real "
            "scans that are scored here, which favours them on these scans. The same is true "
@@ -352,8 +353,9 @@ std::string ablationSection(const std::vector<Measured>& all) {
            "stages, then those of the paper. Bold scores are higher without the stage. If "
            "nearly every row equals that of `default`, as with the stages of the paper, the "
            "ground surface compensates for what was removed.\n\n" +
-           ablationTable(all, "`default`", kDefault, kDefault,
-                         {ownStagesOfSurface(), ownStages(), paperStages()}) +
+           ablationTable(
+               all, "`default`", kDefault, kDefault,
+               {ownStagesOfSurface(), ownStages(), paperStages(), paperStagesUnderSurface()}) +
            "The ground surface relabels every pixel and thus hides the effect of earlier "
            "stages. The same without the surface, and therefore also without canopy layer, "
            "extension of obstacles to the ground, speckle filter and tolerances:\n\n" +
