@@ -249,8 +249,8 @@ std::string literalTable(const std::vector<Measured>& all) {
 std::string paperSection(const std::vector<Measured>& all) {
     return "## The paper's tables\n\n"
            "The paper varies beta and PC of the filter and scores "
-           "the region of interest over fifty hand-labelled camera images. Its scans and "
-           "images are not public, and the cells of its tables are not reproduced here. It "
+           "the region of interest over fifty hand-labelled camera images. We do not have "
+           "these images, and the cells of its tables are not reproduced here. It "
            "reports the best scores at beta = 10 degrees and PC = 5, and 25 ms per scan on a "
            "laptop. The tables below repeat the variation on other data: `real` is "
            "SemanticKITTI at 16 beams, `simulated` are the flights at 1.5, 2.5 and 4 m. W is "
