@@ -24,12 +24,12 @@ observations::Settings settingsOf(const DataSet& set, const std::filesystem::pat
     return settings;
 }
 
-/// Ensures that the row `paper` is the published filter.
+/// Ensures that the row `paper` has the stages of the paper alone.
 void checkPaper(const Options& paper, const std::filesystem::path& file) {
-    const bool is_published = !paper.ground_surface && !paper.level_by_attitude &&
-                              paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
-                              !paper.bridge_dead_beams && paper.context_m <= paper.zone_m;
-    if (is_published) return;
+    const bool has_no_others = !paper.ground_surface && !paper.level_by_attitude &&
+                               paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
+                               !paper.bridge_dead_beams && paper.context_m <= paper.zone_m;
+    if (has_no_others) return;
     throw std::runtime_error(
         file.string() +
         ": has a stage that the paper does not have; switch off ground_surface, "
@@ -41,12 +41,15 @@ void addChanges(const std::string& filter, const observations::Settings& setting
                 const std::vector<Change>& changes, std::vector<labelled_scans::SweepPoint>& rows) {
     for (const Change& change : changes) {
         labelled_scans::SweepPoint row{nameOf(filter, change), settings, "", ""};
-        // "zone" and "W" are placeholders for the values in the settings.
-        const std::string value = change.value == "zone" ? std::to_string(settings.options.zone_m)
-                                  : change.value == "W"
-                                      ? std::to_string(settings.options.window_size)
-                                      : change.value;
-        observations::setOption(change.key, value, row.settings);
+        const auto set = [&](const std::string& key, const std::string& text) {
+            // "zone" and "W" are placeholders for the values in the settings.
+            const std::string value = text == "zone" ? std::to_string(settings.options.zone_m)
+                                      : text == "W"  ? std::to_string(settings.options.window_size)
+                                                     : text;
+            observations::setOption(key, value, row.settings);
+        };
+        set(change.key, change.value);
+        for (const auto& [key, value] : change.also) set(key, value);
         rows.push_back(row);
     }
 }
@@ -54,7 +57,9 @@ void addChanges(const std::string& filter, const observations::Settings& setting
 }  // namespace
 
 std::string nameOf(const std::string& filter, const Change& change) {
-    return filter + ", " + change.key + "=" + change.value;
+    std::string name = filter + ", " + change.key + "=" + change.value;
+    for (const auto& [key, value] : change.also) name += ", " + key + "=" + value;
+    return name;
 }
 
 const std::vector<Change>& betaSweep() {
@@ -94,6 +99,16 @@ const std::vector<Change>& paperStages() {
     return changes;
 }
 
+const std::vector<Change>& paperStagesUnderSurface() {
+    static const std::vector<Change> changes{
+        {"no labelling: all is ROU for the surface", "seeds", "every"},
+        {"no sharpening, no SSA, no labelling",
+         "seeds",
+         "every",
+         {{"persistence_m", "1000"}, {"principal_components", "W"}}}};
+    return changes;
+}
+
 labelled_scans::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
     const observations::Settings ours = settingsOf(set, config / set.preset);
     const observations::Settings paper = settingsOf(set, config / "paper.yaml");
@@ -108,7 +123,8 @@ labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::pat
     for (const auto& changes : {betaSweep(), componentSweep(), {literalSeeds()}}) {
         addChanges(kPaper, paper, changes, all.filter);
     }
-    for (const auto& changes : {ownStagesOfSurface(), ownStages(), paperStages()}) {
+    for (const auto& changes :
+         {ownStagesOfSurface(), ownStages(), paperStages(), paperStagesUnderSurface()}) {
         addChanges(kDefault, ours, changes, all.filter);
     }
     observations::Settings without_surface = ours;

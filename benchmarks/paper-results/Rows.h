@@ -10,9 +10,10 @@
 
 namespace hagen {
 
-/// The filter with one setting changed; `what` describes it in words.
+/// The filter with one setting changed, or several; `what` describes it in words.
 struct Change {
     std::string what, key, value;
+    std::vector<std::pair<std::string, std::string>> also = {};  ///< further keys and their values
 };
 
 /// Names of rows: the two filters, and a filter with a change, for example "paper, beta_deg=5".
@@ -28,6 +29,8 @@ const Change& literalSeeds();
 const std::vector<Change>& ownStages();
 const std::vector<Change>& ownStagesOfSurface();
 const std::vector<Change>& paperStages();
+/// Those that only the ground surface makes up for: without it they leave nothing to score.
+const std::vector<Change>& paperStagesUnderSurface();
 
 /// Returns the rows for a data set, with the settings files in `config`, including the baselines.
 /// Throws std::runtime_error if paper.yaml switches on a stage of ours: its scores would not be the

@@ -24,7 +24,9 @@ Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
     if (text == "lowest") return Seeds::Lowest;
     if (text == "top_and_nearest") return Seeds::TopAndNearest;
-    throw SettingsError(key + " must be 'lowest' or 'top_and_nearest', not '" + text + "'");
+    if (text == "every") return Seeds::Every;
+    throw SettingsError(key + " must be 'lowest', 'top_and_nearest' or 'every', not '" + text +
+                        "'");
 }
 
 bool parseSwitch(const YAML::Node& node, const std::string& key) {

@@ -65,15 +65,20 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     // III-B: local maxima, sharpened
     proximityOf(depth_m, o.zone_m, r.proximity_m);
     findPersistentMaxima(r.proximity_m, o.persistence_m, r.maxima, w.maxima);
-    sharpenMaxima(r.proximity_m, r.maxima, o.sharpening_sigma_px, o.sharpening_sigma_m,
-                  r.sharpened_m);
-    mergeMaxima(depth_m, r.proximity_m, r.sharpened_m, r.maxima, view.sensor.min_range_m,
-                r.merged_m);
+    sharpenMaxima(o.sharpen_proximity ? r.proximity_m : depth_m, r.maxima, o.sharpening_sigma_px,
+                  o.sharpening_sigma_m, r.sharpened_m, o.sharpen_by_neighbours);
+    if (o.sharpen_proximity) {
+        mergeMaxima(depth_m, r.proximity_m, r.sharpened_m, r.maxima, view.sensor.min_range_m,
+                    r.merged_m);
+    } else {
+        mergeDepths(depth_m, r.sharpened_m, r.maxima, r.merged_m);
+    }
 
     // III-C and III-D: range-angle image, smoothed
     rangeAngles(r.merged_m, view.directions, horizon, r.range_angle_rad);
+    if (o.gaps_are_level) levelGaps(r.range_angle_rad);
     smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad, w.ssa);
-    carryAngles(r.smoothed_rad, r.pixel_angle_rad);
+    carryAngles(r.smoothed_rad, r.pixel_angle_rad, o.angle_to_beam_above);
 
     // III-E: labels
     labelRegions(depth_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,

@@ -54,7 +54,7 @@ void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_
     for (int column = 0; column < static_cast<int>(angle_rad.cols()); ++column) {
         int highest = -1, nearest = -1;
         for (int row = 0; row < rows; ++row) {
-            if (!hasValue(angle_rad(row, column))) continue;
+            if (!hasValue(angle_rad(row, column)) || !hasValue(depth_m(row, column))) continue;
             highest = row;
             if (nearest < 0 || depth_m(row, column) < depth_m(nearest, column)) nearest = row;
         }
@@ -194,18 +194,21 @@ void writeLabels(const LabellingWorkspace& w, bool from_ground, Image<Label>* la
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
                   Seeds seeds, float seed_gate_rad, Image<Label>& labels, LabellingWorkspace& w) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
-    const bool from_ground = seeds == Seeds::Lowest;
+    const bool from_ground = seeds != Seeds::TopAndNearest;
     findPresent(depth_m, w.present, w.seam);
     findLinks(pixel_angle_rad, beta_rad, w.angles, w.seam);
     w.reached.resize(w.present.size());
-    if (from_ground) {
+    if (seeds == Seeds::Every) {
+        w.reached = w.angles.present;
+    } else if (seeds == Seeds::Lowest) {
         lowestPixels(w.present, w.angles.present, wordsOf(rows), w.reached);
         if (seed_gate_rad < kNoGate_rad)
             gateLowest(depth_m, pixel_angle_rad, seed_gate_rad, w.seeds, w.reached);
     } else {
         topAndNearestPixels(depth_m, pixel_angle_rad, w.reached);
     }
-    withWordsOf(rows, [&](auto words) { growRegions(words, columns, w.angles, &w); });
+    if (seeds != Seeds::Every)
+        withWordsOf(rows, [&](auto words) { growRegions(words, columns, w.angles, &w); });
     labels.resize(rows, columns);
     writeLabels(w, from_ground, &labels);
 }

@@ -34,14 +34,26 @@ const std::vector<OptionKey>& optionKeys() {
          &Options::sharpening_sigma_px},
         {"sharpening_sigma_m", "m", 0.01, 100, "range Gaussian of the bilateral filter", "g_r",
          &Options::sharpening_sigma_m},
+        {"sharpen_by_neighbours", "", 0, 1,
+         "add the mean of its neighbours to a maximum; false: of itself, as printed", "",
+         &Options::sharpen_by_neighbours},
+        {"sharpen_proximity", "", 0, 1,
+         "sharpening moves maxima nearer; false: works on depth, moves them away", "",
+         &Options::sharpen_proximity},
+        {"angle_to_beam_above", "", 0, 1,
+         "a pixel has the angle to the beam above it; false: to the beam below", "",
+         &Options::angle_to_beam_above},
+        {"gaps_are_level", "", 0, 1,
+         "angles to empty pixels are 0; false: none, and regions do not cross gaps", "",
+         &Options::gaps_are_level},
         {"window_size", "angles", 2, 64, "rows of the trajectory matrix", "W",
          &Options::window_size},
         {"principal_components", "", 1, 64, "leading components kept; equal to W: no smoothing",
          "PC", &Options::principal_components},
         {"beta_deg", "deg", 0, 90, "neighbours whose angles differ by less are one region", "beta",
          &Options::beta_deg},
-        {"seeds", "", 0, 1,
-         "lowest: ground seeds the ROU; top_and_nearest: the paper's literal text", "",
+        {"seeds", "", 0, 2,
+         "lowest: ground seeds ROU; top_and_nearest: RoI (literal); every: all ROU", "",
          &Options::seeds},
         {"seed_gate_deg", "deg", 0, 90,
          "a column's seed is ground only if its angle is less; 90: always", "",
@@ -85,7 +97,14 @@ const std::vector<OptionKey>& optionKeys() {
 
 std::string textOf(const OptionKey& key, const Options& options) {
     if (const auto* seeds = std::get_if<Seeds Options::*>(&key.field)) {
-        return options.*(*seeds) == Seeds::Lowest ? "lowest" : "top_and_nearest";
+        switch (options.*(*seeds)) {
+            case Seeds::Lowest:
+                return "lowest";
+            case Seeds::TopAndNearest:
+                return "top_and_nearest";
+            case Seeds::Every:
+                return "every";
+        }
     }
     if (const auto* yes = std::get_if<bool Options::*>(&key.field)) {
         return options.*(*yes) ? "true" : "false";
@@ -97,7 +116,8 @@ std::string textOf(const OptionKey& key, const Options& options) {
 }
 
 std::string rangeOf(const OptionKey& key) {
-    if (std::holds_alternative<Seeds Options::*>(key.field)) return "lowest, top_and_nearest";
+    if (std::holds_alternative<Seeds Options::*>(key.field))
+        return "lowest, top_and_nearest, every";
     if (std::holds_alternative<bool Options::*>(key.field)) return "true, false";
     return shortest(static_cast<float>(key.least)) + " ... " +
            shortest(static_cast<float>(key.most));

@@ -23,13 +23,12 @@ void columnAngles(const float* depth_m, const float* sine, const float* cosine, 
     });
 }
 
-/// The pixels of one column that have a beam above and one below.
-void columnCarried(const float* angle_rad, int pixels, float* pixel_angle_rad) {
+/// The first angles where there are some, otherwise the second ones.
+void columnCarried(const float* first_rad, const float* second_rad, int pixels,
+                   float* pixel_angle_rad) {
     coverRows(pixels, [=](auto d, int row) HWY_ATTR {
-        const auto with_below = hn::LoadU(d, angle_rad + row);
-        const auto with_above = hn::LoadU(d, angle_rad + row + 1);
-        hn::StoreU(hn::IfThenElse(hn::IsNaN(with_above), with_below, with_above), d,
-                   pixel_angle_rad + row);
+        const auto first = hn::LoadU(d, first_rad + row), second = hn::LoadU(d, second_rad + row);
+        hn::StoreU(hn::IfThenElse(hn::IsNaN(first), second, first), d, pixel_angle_rad + row);
     });
 }
 
@@ -45,13 +44,17 @@ void allAngles(const Image<float>& depth_m, const PixelDirections& directions,
     }
 }
 
-void allCarried(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad) {
+void allCarried(const Image<float>& range_angle_rad, bool to_beam_above,
+                Image<float>& pixel_angle_rad) {
     const Eigen::Index angles = range_angle_rad.rows();
     for (Eigen::Index column = 0; column < range_angle_rad.cols(); ++column) {
         const float* from = range_angle_rad.data() + column * angles;
         float* to = pixel_angle_rad.data() + column * (angles + 1);
         to[0] = from[0];
-        columnCarried(from, static_cast<int>(angles) - 1, to + 1);
+        // The pixels between have a beam above and one below.
+        const float *const below = from, *const above = from + 1;
+        columnCarried(to_beam_above ? above : below, to_beam_above ? below : above,
+                      static_cast<int>(angles) - 1, to + 1);
         to[angles] = from[angles - 1];
     }
 }
@@ -72,13 +75,18 @@ void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
     HWY_DYNAMIC_DISPATCH(allAngles)(depth_m, directions, range_angle_rad);
 }
 
-void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad) {
+void levelGaps(Image<float>& range_angle_rad) {
+    range_angle_rad = range_angle_rad.isNaN().select(0.0f, range_angle_rad);
+}
+
+void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad,
+                 bool to_beam_above) {
     pixel_angle_rad.resize(range_angle_rad.rows() + 1, range_angle_rad.cols());
     if (range_angle_rad.rows() == 0) {
         pixel_angle_rad.setConstant(kNoValue);
         return;
     }
-    HWY_DYNAMIC_DISPATCH(allCarried)(range_angle_rad, pixel_angle_rad);
+    HWY_DYNAMIC_DISPATCH(allCarried)(range_angle_rad, to_beam_above, pixel_angle_rad);
 }
 
 }  // namespace hagen

@@ -71,6 +71,10 @@ TEST_P(ZeroAllocations, WithAKnownAttitudeAndEveryOption) {
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
     options.seeds = Seeds::TopAndNearest;
     options.persistence_m = 0;
+    options.sharpen_proximity = options.sharpen_by_neighbours = options.angle_to_beam_above = false;
+    options.gaps_are_level = true;
+    expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
+    options.seeds = Seeds::Every;
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
 }
 

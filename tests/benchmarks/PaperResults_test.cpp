@@ -64,6 +64,12 @@ TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
     EXPECT_EQ(options("without surface, principal_components=W").principal_components,
               options(kDefault).window_size);
     EXPECT_FALSE(options("without surface, context_m=zone").ground_surface);
+    const Options none =
+        options("default, seeds=every, persistence_m=1000, principal_components=W");
+    EXPECT_EQ(none.seeds, Seeds::Every);
+    EXPECT_EQ(none.persistence_m, 1000);
+    EXPECT_EQ(none.principal_components, none.window_size);
+    EXPECT_EQ(none.ground_surface, options(kDefault).ground_surface);
     EXPECT_EQ(options("default, ground_surface=false").ground_surface,
               options(kWithoutSurface + ", seed_gate_deg=90").ground_surface);
 }

@@ -60,7 +60,7 @@ TEST_F(SettingsTest, OurPresetForTheVlp16IsWhatHoldsWithoutAnyFile) {
     EXPECT_EQ(preset.sensorModel().elevations_rad, Settings().sensorModel().elevations_rad);
 }
 
-TEST_F(SettingsTest, PaperIsThePublishedFilter) {
+TEST_F(SettingsTest, PaperHasTheStagesOfThePaperAlone) {
     Settings paper;
     mergeSettings(kConfig / "paper.yaml", paper);
     EXPECT_EQ(paper.sensorModel().rows(), 16);
@@ -72,6 +72,10 @@ TEST_F(SettingsTest, PaperIsThePublishedFilter) {
     EXPECT_EQ(paper.options.context_m, 20.0f);
     EXPECT_EQ(paper.options.seeds, Seeds::Lowest);
     EXPECT_EQ(paper.options.seed_gate_deg, 90.0f);
+    EXPECT_TRUE(paper.options.sharpen_by_neighbours);
+    EXPECT_TRUE(paper.options.sharpen_proximity);
+    EXPECT_TRUE(paper.options.angle_to_beam_above);
+    EXPECT_FALSE(paper.options.gaps_are_level);
     EXPECT_FALSE(paper.options.level_by_attitude);
     EXPECT_FALSE(paper.options.ground_surface);
 }
@@ -137,9 +141,16 @@ TEST_F(SettingsTest, SwitchesAreTrueOrFalse) {
     }
 }
 
-TEST_F(SettingsTest, SeedsAreOneOfTwoWords) {
+TEST_F(SettingsTest, SeedsAreOneOfThreeWords) {
     EXPECT_EQ(settingsOf("seeds: top_and_nearest").options.seeds, Seeds::TopAndNearest);
     EXPECT_EQ(settingsOf("seeds: lowest").options.seeds, Seeds::Lowest);
+    EXPECT_EQ(settingsOf("seeds: every").options.seeds, Seeds::Every);
+    for (const OptionKey& key : optionKeys()) {
+        if (key.name != "seeds") continue;
+        for (const std::string word : {"lowest", "top_and_nearest", "every"}) {
+            EXPECT_EQ(textOf(key, settingsOf("seeds: " + word).options), word);
+        }
+    }
     EXPECT_TRUE(says(refusalOf("seeds: highest"), "'highest'"));
 }
 

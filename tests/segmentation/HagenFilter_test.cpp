@@ -486,6 +486,10 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
     const Attitude attitude{0.1f, -0.2f};
     for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
         o.seeds = seeds;
+        // the paper's literal text, as far as there is a choice
+        const bool is_literal = seeds == Seeds::TopAndNearest;
+        o.sharpen_proximity = o.sharpen_by_neighbours = o.angle_to_beam_above = !is_literal;
+        o.gaps_are_level = is_literal;
         const Scan scan = randomScan(42, sensor);
         HagenFilter filter(sensor, o);
         const SegmentationResult& r = filter.segment(scan, attitude);
@@ -501,12 +505,18 @@ TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
         repairGaps(image.depth_m, 3.0f, repaired);
         proximityOf(repaired, 15.0f, proximity);
         findPersistentMaxima(proximity, 0.3f, maxima, work.maxima);
-        sharpenMaxima(proximity, maxima, 0.7f, 2.5f, sharpened);
-        mergeMaxima(repaired, proximity, sharpened, maxima, 2.0f, merged);
+        sharpenMaxima(is_literal ? repaired : proximity, maxima, 0.7f, 2.5f, sharpened,
+                      !is_literal);
+        if (is_literal) {
+            mergeDepths(repaired, sharpened, maxima, merged);
+        } else {
+            mergeMaxima(repaired, proximity, sharpened, maxima, 2.0f, merged);
+        }
         rangeAngles(merged, pixelDirections(sensor, static_cast<int>(merged.cols())), attitude,
                     angles);
+        if (is_literal) levelGaps(angles);
         smoothColumns(angles, 10, 3, smoothed, work.ssa);
-        carryAngles(smoothed, carried);
+        carryAngles(smoothed, carried, !is_literal);
         labelRegions(repaired, carried, static_cast<float>(radians(12.0)), seeds,
                      static_cast<float>(radians(50.0)), labels, work.labelling);
         limitToZone(repaired, 15.0f, labels);

@@ -31,7 +31,7 @@ Image<Label> slowLabels(const Image<float>& depth_m, const Image<float>& angle_r
         int lowest = -1, highest = -1, nearest = -1;
         for (int row = rows - 1; row >= 0; --row) {
             if (hasValue(depth_m(row, column))) lowest = row;
-            if (!hasValue(angle_rad(row, column))) continue;
+            if (!hasValue(angle_rad(row, column)) || !hasValue(depth_m(row, column))) continue;
             if (highest < 0) highest = row;
             if (nearest < 0 || depth_m(row, column) <= depth_m(nearest, column)) nearest = row;
         }
@@ -229,6 +229,37 @@ TEST(Labelling, TheLiteralReadingGrowsRoiFromTopAndNearest) {
     EXPECT_TRUE((labels.row(1) == Label::Roi).all());  // the nearest
     EXPECT_TRUE((labels.row(2) == Label::Rou).all());
     EXPECT_TRUE((labels.row(3) == Label::Roi).all());  // the top
+}
+
+TEST(Labelling, RegionsCrossEmptyPixelsThatHaveAnAngle) {
+    test::Random random(31);
+    for (int round = 0; round < 40; ++round) {
+        const int rows = random.whole(1, 70), columns = random.whole(1, 30);
+        const Image<float> depth_m = random.image(rows, columns, 1.0f, 30.0f, 0.4);
+        const Image<float> angle_rad = random.image(rows, columns, 0.0f, 1.0f, 0.0);
+        for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
+            ASSERT_TRUE((labelled(depth_m, angle_rad, 0.2f, seeds) ==
+                         slowLabels(depth_m, angle_rad, 0.2f, seeds))
+                            .all());
+        }
+    }
+    Image<float> depth_m = Image<float>::Constant(3, 1, 10.0f);
+    depth_m(1, 0) = kNoValue;
+    const Image<Label> labels = labelled(depth_m, Image<float>::Zero(3, 1), 0.1f);
+    EXPECT_EQ(labels(0, 0), Label::Rou);
+    EXPECT_EQ(labels(1, 0), Label::Unclassified);
+    EXPECT_EQ(labels(2, 0), Label::Rou);
+}
+
+TEST(Labelling, WithEverySeedAllPixelsWithAnAngleAreRou) {
+    test::Random random(32);
+    for (const int rows : {3, 16, 70}) {
+        const Image<float> depth_m = random.image(rows, 20, 1.0f, 30.0f, 0.2);
+        const Image<float> angle_rad = random.image(rows, 20, 0.0f, 1.5f, 0.2);
+        const Image<Label> labels = labelled(depth_m, angle_rad, 0.1f, Seeds::Every, 0.2f);
+        EXPECT_TRUE(((labels == Label::Unclassified) == depth_m.isNaN()).all());
+        EXPECT_TRUE(((labels == Label::Rou) == (!depth_m.isNaN() && !angle_rad.isNaN())).all());
+    }
 }
 
 TEST(Labelling, AnEmptyImageIsUnclassified) {

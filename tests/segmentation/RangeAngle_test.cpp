@@ -26,14 +26,16 @@ Image<float> plainAngles(const Image<float>& depth_m, const PixelDirections& dir
     return angles_rad;
 }
 
-Image<float> plainCarried(const Image<float>& range_angle_rad) {
+Image<float> plainCarried(const Image<float>& range_angle_rad, bool to_beam_above = true) {
     const Eigen::Index rows = range_angle_rad.rows() + 1;
     Image<float> carried_rad(rows, range_angle_rad.cols());
     for (int column = 0; column < range_angle_rad.cols(); ++column) {
         for (int row = 0; row < rows; ++row) {
             const float with_above = row + 1 < rows ? range_angle_rad(row, column) : kNoValue;
             const float with_below = row > 0 ? range_angle_rad(row - 1, column) : kNoValue;
-            carried_rad(row, column) = hasValue(with_above) ? with_above : with_below;
+            const float first = to_beam_above ? with_above : with_below;
+            const float second = to_beam_above ? with_below : with_above;
+            carried_rad(row, column) = hasValue(first) ? first : second;
         }
     }
     return carried_rad;
@@ -144,8 +146,11 @@ TEST(RangeAngle, IsTheSameOnEveryInstructionSet) {
             Image<float> found;
             rangeAngles(depth_m, directions, found);
             EXPECT_TRUE(test::same(found, expected)) << name << ", rows " << rows;
-            carryAngles(expected, carried);
-            EXPECT_TRUE(test::same(carried, plainCarried(expected))) << name << ", rows " << rows;
+            for (const bool to_beam_above : {true, false}) {
+                carryAngles(expected, carried, to_beam_above);
+                EXPECT_TRUE(test::same(carried, plainCarried(expected, to_beam_above)))
+                    << name << ", rows " << rows;
+            }
         });
     }
 }
@@ -163,6 +168,22 @@ TEST(CarryAngles, ThatWithTheBeamAboveElseThatWithTheBeamBelow) {
     expected << 0.1f, 0.2f, 0.2f, kNoValue, kNoValue;
     carryAngles(range_angle_rad, carried_rad);
     EXPECT_TRUE(test::same(carried_rad, expected));
+}
+
+TEST(CarryAngles, OrThatWithTheBeamBelowElseThatWithTheBeamAbove) {
+    Image<float> range_angle_rad(4, 1), carried_rad, expected(5, 1);
+    range_angle_rad << 0.1f, 0.2f, kNoValue, kNoValue;
+    expected << 0.1f, 0.1f, 0.2f, kNoValue, kNoValue;
+    carryAngles(range_angle_rad, carried_rad, false);
+    EXPECT_TRUE(test::same(carried_rad, expected));
+}
+
+TEST(LevelGaps, GapsBecomeZeroAndNothingElseChanges) {
+    Image<float> range_angle_rad(2, 3), expected(2, 3);
+    range_angle_rad << 0.1f, kNoValue, 0.3f, kNoValue, 0.5f, 0.0f;
+    expected << 0.1f, 0.0f, 0.3f, 0.0f, 0.5f, 0.0f;
+    levelGaps(range_angle_rad);
+    EXPECT_TRUE(test::same(range_angle_rad, expected));
 }
 
 TEST(CarryAngles, TheTopRowCarriesTheAngleBelow) {

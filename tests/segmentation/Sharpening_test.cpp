@@ -27,6 +27,27 @@ TEST(Sharpening, FollowsTheEquationWithTwoNeighbours) {
     EXPECT_NEAR(sharpened_m(1, 2), 6 + (5 * beside + 4 * diagonal) / (beside + diagonal), 1e-5);
 }
 
+TEST(Sharpening, WithItselfUnderTheSumAMaximumDoublesWhateverItsNeighboursAre) {
+    test::Random random(14);
+    for (int round = 0; round < 20; ++round) {
+        Image<float> image_m = random.image(3, 5, 0.5f, 3.0f, 0.3);
+        image_m(1, 2) = 4.0f;
+        image_m(1, 3) = 3.5f;
+        Image<float> sharpened_m;
+        sharpenMaxima(image_m, {{1, 2, 4.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m, false);
+        ASSERT_NEAR(sharpened_m(1, 2), 8.0f, 1e-5f);
+        sharpened_m(1, 2) = 4.0f;
+        ASSERT_TRUE(test::same(sharpened_m, image_m));
+    }
+}
+
+TEST(Sharpening, WithItselfUnderTheSumAMaximumWithoutNeighboursStays) {
+    Image<float> image_m = Image<float>::Constant(3, 5, kNoValue), sharpened_m;
+    image_m(1, 2) = 6.0f;
+    sharpenMaxima(image_m, {{1, 2, 6.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m, false);
+    EXPECT_EQ(sharpened_m(1, 2), 6.0f);
+}
+
 TEST(Sharpening, NeighboursAreFoundAroundTheBack) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 0) = 6.0f;
@@ -69,6 +90,17 @@ TEST(Merge, StopsAtTheSensorsMinimumRange) {
     sharpenMaxima(proximity_m, maxima, 1.2f, 1.3f, sharpened_m);
     mergeMaxima(depth_m, proximity_m, sharpened_m, maxima, 0.5f, merged_m);
     EXPECT_EQ(merged_m(0, 2), 0.5f);
+}
+
+TEST(Merge, OfDepthsMovesAMaximumAwayByHalfOfItsNeighboursDepth) {
+    const Image<float> depth_m = Image<float>::Constant(3, 5, 6.0f);
+    const std::vector<Maximum> maxima{{1, 2, 14.0f, 0.0f}};
+    Image<float> sharpened_m, merged_m;
+    sharpenMaxima(depth_m, maxima, 1.2f, 1.3f, sharpened_m);
+    mergeDepths(depth_m, sharpened_m, maxima, merged_m);
+    EXPECT_NEAR(merged_m(1, 2), 9.0f, 1e-6f);  // (6 + 12) / 2
+    merged_m(1, 2) = 6.0f;
+    EXPECT_TRUE(test::same(merged_m, depth_m));
 }
 
 TEST(SharpeningAndMerge, OnlyMaximaMoveAndOnlyNearer) {

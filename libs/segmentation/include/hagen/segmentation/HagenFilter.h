@@ -24,7 +24,7 @@ struct SegmentationResult {
     Image<float> repaired_m;         ///< stage 2, the depth image without one-pixel gaps
     Image<float> proximity_m;        ///< zone_m - depth, at least 0
     std::vector<Maximum> maxima;     ///< stage 3, with birth, death and persistence
-    Image<float> sharpened_m;        ///< stage 4, proximity
+    Image<float> sharpened_m;        ///< stage 4, proximity or depth
     Image<float> merged_m;           ///< stage 5, depth again
     Image<float> range_angle_rad;    ///< stage 6
     Image<float> smoothed_rad;       ///< stage 7

@@ -3,12 +3,13 @@ namespace hagen {
 
 /// How the labelling interprets section III-E; see Labelling.h.
 enum class Seeds {
-    Lowest,        ///< the lowest pixel of a column is ground; its region is ROU
-    TopAndNearest  ///< the paper's literal text: regions of the top and nearest pixels are RoI
+    Lowest,         ///< the lowest pixel of a column is ground; its region is ROU
+    TopAndNearest,  ///< the paper's literal text: regions of the top and nearest pixels are RoI
+    Every           ///< no labelling: every pixel is ROU, which leaves all to the ground stages
 };
 
 /// All settings of the filter, named as in settings files. The defaults are ours; config/paper.yaml
-/// has the paper's.
+/// is our reading of the paper.
 struct Options {
     /// Radius of the avoidance zone: returns farther away are ROU.
     float zone_m = 20.0f;
@@ -27,6 +28,14 @@ struct Options {
     /// Standard deviations of the bilateral filter: spatial, in pixels, and of range, in metres.
     float sharpening_sigma_px = 1.2f;
     float sharpening_sigma_m = 1.3f;
+    /// Add the weighted mean of its neighbours to a maximum; false: of itself, as printed.
+    bool sharpen_by_neighbours = true;
+    /// Sharpen and merge proximity, which moves maxima nearer; false: depth, which moves them away.
+    bool sharpen_proximity = true;
+    /// A pixel has the angle to the beam above it, otherwise to the one below; false: vice versa.
+    bool angle_to_beam_above = true;
+    /// Angles to empty pixels are 0, so that columns have no gaps; false: there are none.
+    bool gaps_are_level = false;
     /// W, rows of the trajectory matrix of the singular spectrum analysis.
     int window_size = 8;
     /// PC, leading components kept; PC = W: no smoothing.

@@ -14,8 +14,13 @@ namespace hagen {
 void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  Image<float>& range_angle_rad);
 
+/// Sets the angles that are NaN to 0, as if the image of angles had been 0 from the beginning.
+void levelGaps(Image<float>& range_angle_rad);
+
 /// The angle of each of the I_h x I_w pixels: the one to the beam above it; if there is none, the
-/// one to the beam below; NaN if there is neither, or if the pixel is empty.
-void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad);
+/// one to the beam below; NaN if there is neither. An empty pixel has none, unless levelGaps() gave
+/// it some. `to_beam_above` false: the one to the beam below, if there is one.
+void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad,
+                 bool to_beam_above = true);
 
 }  // namespace hagen
