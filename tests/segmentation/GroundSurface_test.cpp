@@ -228,13 +228,13 @@ bool isGround(int cells, float height_m, bool diagonally, bool seen_between) {
 TEST(GroundSurface, HowSteepGroundMayBeIsAsTheHeaderSays) {
     // The last step is into a cell with a candidate, the others are over cells without.
     const float cells = 10, step_m = 0.75f;
-    const float unseen_m = (0.17f * (cells - 1) + 0.3f) * step_m + 0.15f;
+    const float unseen_m = (0.15f * (cells - 1) + 0.3f) * step_m + 0.15f;
     EXPECT_TRUE(isGround(10, unseen_m - 0.01f, false, false));
     EXPECT_FALSE(isGround(10, unseen_m + 0.01f, false, false));
     const float seen_m = 0.3f * cells * step_m + 0.15f;
     EXPECT_TRUE(isGround(10, unseen_m + 0.01f, false, true));
     EXPECT_FALSE(isGround(10, seen_m + 0.01f, false, true));
-    const float across_m = (0.17f * (cells - 1) + 0.3f) * step_m * std::sqrt(2.0f) + 0.15f;
+    const float across_m = (0.15f * (cells - 1) + 0.3f) * step_m * std::sqrt(2.0f) + 0.15f;
     EXPECT_TRUE(isGround(10, across_m - 0.01f, true, false));
     EXPECT_FALSE(isGround(10, across_m + 0.01f, true, false));
 }
