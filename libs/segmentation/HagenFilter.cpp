@@ -1,4 +1,5 @@
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/Clearance.h>
 #include <hagen/segmentation/DeadBeams.h>
 #include <hagen/segmentation/GapRepair.h>
@@ -115,22 +116,23 @@ void HagenFilter::judgeByHeight() {
     Ground& g = result_.ground;
     FilterWorkspace& w = work_;
 
+    findPixelCells(g.pixels, g.cells);
     const Image<Label>* candidates = &labels;
     if (o.ground_evidence) {
-        findLevelPixels(g.pixels, g.is_level, w.evidence);
+        findLevelPixels(g.pixels, g.cells, g.is_level, w.evidence);
         keepLevelRou(labels, g.is_level, w.candidates);
         candidates = &w.candidates;
     }
     fitGroundSurface(g.pixels, *candidates, g.surface, w.ground_surface);
     heightsAbove(g.surface, g.pixels, g.height_m);
-    findCellTops(g.pixels, g.height_m, g.tops);
+    findCellTops(g.cells, g.height_m, g.tops);
     toleratedHeights(
-        g.pixels, g.tops,
+        g.pixels, g.cells, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
         g.tolerance_m, w.tolerance);
-    if (o.canopy_layer) tolerateCanopy(g.tops, g.tolerance_m, w.canopy);
+    if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, g.tolerance_m);
     if (o.ground_evidence) {
-        requireEvidence(g.pixels, g.tops.cell, g.height_m, g.is_level, g.tolerance_m, w.evidence);
+        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m, w.evidence);
     }
     labelByHeight(g.height_m, g.tolerance_m, labels);
 

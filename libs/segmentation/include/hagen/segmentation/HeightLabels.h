@@ -25,7 +25,7 @@ struct ToleranceWorkspace {
 /// tall stands in the same 0.75 m cell or an adjacent one: there, a return slightly above the
 /// ground is more likely the foot of an obstacle than grass. `pixels` in the ground frame, `tops`
 /// of their heights above the surface.
-void toleratedHeights(const PixelPoints& pixels, const CellTops& tops,
+void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, Image<float>& tolerance_m,
                       ToleranceWorkspace& work);
 
