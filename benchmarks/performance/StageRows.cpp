@@ -159,7 +159,7 @@ const std::vector<StageRow>& ownStages() {
          [](Case& c) {
              const Clearance clearance{Eigen::Vector3f::UnitZ(), c.options.ground_is_roi_below_m};
              judgeFartherReturns(c.scan, c.result.range_image, c.result.ground, clearance,
-                                 c.result.own_labels, work().farther_returns);
+                                 c.options.zone_m, c.result.own_labels, work().farther_returns);
          }},
         {"boxes (on demand)", false, false,
          [](Case& c) { boxRoiComponents(c.scan, c.result.returns); }}};

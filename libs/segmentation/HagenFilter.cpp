@@ -106,7 +106,8 @@ void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>&
     // ground that is too close; returns behind the closest one of their pixel
     const Clearance clearance{upwards(g, horizon), options_.ground_is_roi_below_m};
     alarmLowGround(g, clearance, r.labels);
-    judgeFartherReturns(scan, r.range_image, g, clearance, r.own_labels, work_.farther_returns);
+    judgeFartherReturns(scan, r.range_image, g, clearance, options_.zone_m, r.own_labels,
+                        work_.farther_returns);
 }
 
 /// Beyond the paper: labels every pixel by its height above the surface under the ROU.

@@ -585,7 +585,8 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
                                   (switches & 8) != 0 ? 0.0f : 1.2f};
         alarmLowGround(g, clearance, labels);
         g.has_surface = true;
-        judgeFartherReturns(scan, r.range_image, g, clearance, own_labels, work.farther_returns);
+        judgeFartherReturns(scan, r.range_image, g, clearance, 15.0f, own_labels,
+                            work.farther_returns);
         limitToZone(r.repaired_m, 15.0f, labels);
         numberRoiComponents(r.repaired_m, labels, 0.4f, components, work.components);
         extractReturns(scan, {r.range_image, labels, components}, own_labels, {15.0f, 0.4f},
