@@ -4,6 +4,7 @@
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/RangeAngle.h>
 #include <hagen/segmentation/RoiBoxes.h>
@@ -119,11 +120,11 @@ const std::vector<StageRow>& ownStages() {
              static Image<std::uint8_t> is_level;
              static Image<float> tolerance_m;
              Ground& g = c.result.ground;
-             findLevelPixels(g.pixels, is_level, work().evidence);
+             findPixelCells(g.pixels, g.cells);
+             findLevelPixels(g.pixels, g.cells, is_level, work().evidence);
              keepLevelRou(c.result.labels, is_level, work().candidates);
              tolerance_m = g.tolerance_m;
-             requireEvidence(g.pixels, g.tops.cell, g.height_m, is_level, tolerance_m,
-                             work().evidence);
+             requireEvidence(g.pixels, g.cells, g.height_m, is_level, tolerance_m, work().evidence);
          }},
         {"own: ground surface", false, false,
          [](Case& c) {
@@ -136,16 +137,16 @@ const std::vector<StageRow>& ownStages() {
              const Options& o = c.options;
              Ground& g = c.result.ground;
              heightsAbove(g.surface, g.pixels, g.height_m);
-             findCellTops(g.pixels, g.height_m, g.tops);
+             findCellTops(g.cells, g.height_m, g.tops);
              toleratedHeights(
-                 g.pixels, g.tops,
+                 g.pixels, g.cells, g.tops,
                  {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
                  g.from_sensor.translation().z(), g.tolerance_m, work().tolerance);
          }},
         {"own: canopy", false, false,
          [](Case& c) {
              Ground& g = c.result.ground;
-             tolerateCanopy(g.tops, g.tolerance_m, work().canopy);
+             tolerateCanopy(g.cells, g.tops, g.tolerance_m);
          }},
         {"own: labels, feet, specks", false, false,
          [](Case& c) {
@@ -158,7 +159,7 @@ const std::vector<StageRow>& ownStages() {
          [](Case& c) {
              const Clearance clearance{Eigen::Vector3f::UnitZ(), c.options.ground_is_roi_below_m};
              judgeFartherReturns(c.scan, c.result.range_image, c.result.ground, clearance,
-                                 c.result.own_labels, work().farther_returns);
+                                 c.options.zone_m, c.result.own_labels, work().farther_returns);
          }},
         {"boxes (on demand)", false, false,
          [](Case& c) { boxRoiComponents(c.scan, c.result.returns); }}};

@@ -12,6 +12,10 @@ constexpr int kBlocks = GroundSurface::kCells / kBlockCells;  // along each side
 template <class Value>
 using Blocks = std::array<Value, kBlocks * kBlocks>;
 
+/// The same for each pixel's block (PixelCells.h), with a last element for pixels without one.
+template <class Value>
+using BlocksAndNone = std::array<Value, kBlocks * kBlocks + 1>;
+
 /// Sums over `kReach` blocks in each direction along a line of blocks that are `stride` apart. Each
 /// step adds one block and removes one.
 template <int kReach, class Value>

@@ -2,7 +2,8 @@
 #include <hagen/segmentation/GroundSurface.h>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
 
 #include "BlockSums.h"
 
@@ -20,98 +21,125 @@ constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
 constexpr float kStandsOut_m = 0.1f;  // above the canopy: an obstacle in it
 
-/// The plants in the cells of one or more blocks. Sums are double, so that subtracting a block
-/// leaves hardly any rounding error.
-struct Stand {
-    float seen = 0;     ///< cells with returns
-    float tall = 0;     ///< cells whose highest return is higher than plants
-    float plants = 0;   ///< cells whose highest return is that of a low plant
-    double sum_m = 0;   ///< sum of the plants' heights
-    double sum_m2 = 0;  ///< sum of their squares
+/// The cells of one or more blocks, counted.
+struct Census {
+    int seen = 0;    ///< with returns
+    int tall = 0;    ///< whose highest return is higher than plants
+    int plants = 0;  ///< whose highest return is that of a low plant
 
-    void addCell(float top_m) {
-        seen += 1;
-        tall += top_m >= kTallest_m ? 1.0f : 0.0f;
-        if (!(top_m > kLowest_m && top_m < kTallest_m)) return;
-        plants += 1;
-        sum_m += top_m;
-        sum_m2 += static_cast<double>(top_m) * top_m;
-    }
-    void add(const Stand& other) {
+    void add(const Census& other) {
         seen += other.seen;
         tall += other.tall;
         plants += other.plants;
-        sum_m += other.sum_m;
-        sum_m2 += other.sum_m2;
     }
-    void remove(const Stand& other) {
+    void remove(const Census& other) {
         seen -= other.seen;
         tall -= other.tall;
         plants -= other.plants;
+    }
+    bool isCanopy() const {
+        const auto all = static_cast<float>(seen);
+        return all >= kLeastCells && static_cast<float>(plants) >= kLeastShare * all &&
+               static_cast<float>(tall) <= kMostTall * all;
+    }
+};
+
+/// The heights of the plants in the cells of one or more blocks. Sums are double, so that
+/// subtracting a block leaves hardly any rounding error.
+struct Heights {
+    double sum_m = 0;   ///< sum of the plants' heights
+    double sum_m2 = 0;  ///< sum of their squares
+
+    void add(const Heights& other) {
+        sum_m += other.sum_m;
+        sum_m2 += other.sum_m2;
+    }
+    void remove(const Heights& other) {
         sum_m -= other.sum_m;
         sum_m2 -= other.sum_m2;
     }
-    /// The height that plants do not exceed; 0 without a canopy.
-    float canopy_m() const {
-        if (seen < kLeastCells || plants < kLeastShare * seen) return 0;
-        if (tall > kMostTall * seen) return 0;
+    /// The height that this many plants do not exceed.
+    float canopy_m(int plants) const {
         const double mean_m = sum_m / plants;
         const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
         return static_cast<float>(mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m);
     }
 };
-constexpr float kNothing_m[kBlockCells] = {CellTops::kNone_m, CellTops::kNone_m, CellTops::kNone_m,
-                                           CellTops::kNone_m};
 
-void findStands(const CellTops& tops, Blocks<Stand>& stands) {
-    for (int j = 0; j < kCells; ++j) {
-        const float* const column_m = tops.highest_m.col(j + 1).data() + 1;  // without the border
+bool isPlant(float top_m) { return (top_m > kLowest_m) & (top_m < kTallest_m); }
+
+/// The highest return of each cell in a column of the grid, without the border.
+const float* columnOf(const CellTops& tops, int j) { return tops.highest_m.col(j + 1).data() + 1; }
+
+void countCells(const CellTops& tops, Blocks<Census>& blocks) {
+    constexpr std::int32_t kTall = 1 << 8, kPlants = 1 << 16;  // three counts in one number
+    for (int first = 0; first < kCells; first += kBlockCells) {
+        std::int32_t counts[kCells] = {};
+        for (int j = first; j < first + kBlockCells; ++j) {
+            const float* const top_m = columnOf(tops, j);
+            for (int i = 0; i < kCells; ++i) {
+                counts[i] += (top_m[i] != CellTops::kNone_m ? 1 : 0) +
+                             (top_m[i] >= kTallest_m ? kTall : 0) +
+                             (isPlant(top_m[i]) ? kPlants : 0);
+            }
+        }
         for (int block = 0; block < kBlocks; ++block) {
-            const float* const top_m = column_m + block * kBlockCells;
-            // Most blocks are empty. kNone_m is always written as this constant, so bits compare.
-            // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
-            if (std::memcmp(top_m, kNothing_m, sizeof(kNothing_m)) == 0) continue;
-            Stand& stand = stands[j / kBlockCells * kBlocks + block];
-            for (int k = 0; k < kBlockCells; ++k) {
-                if (top_m[k] != CellTops::kNone_m) stand.addCell(top_m[k]);
+            std::int32_t sum = 0;
+            for (int k = 0; k < kBlockCells; ++k) sum += counts[block * kBlockCells + k];
+            blocks[first / kBlockCells * kBlocks + block] = {sum % kTall, sum / kTall % kTall,
+                                                             sum / kPlants};
+        }
+    }
+}
+
+/// `own`: what is in each block. Most have no plants.
+void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>& blocks) {
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        blocks[block] = {};
+        if (own[block].plants == 0) continue;
+        for (int j = 0; j < kBlockCells; ++j) {
+            const float* const column_m = columnOf(tops, block / kBlocks * kBlockCells + j);
+            for (int i = 0; i < kBlockCells; ++i) {
+                const float top_m = column_m[block % kBlocks * kBlockCells + i];
+                if (!isPlant(top_m)) continue;
+                blocks[block].add({top_m, static_cast<double>(top_m) * top_m});
             }
         }
     }
 }
 
-/// Raises the tolerance of each pixel to the canopy of its cell; NaN stays NaN. `of_cells_m` is
-/// workspace.
-void raiseTolerances(const CellTops& tops, const Blocks<float>& canopy_m, Image<float>& tolerance_m,
-                     Eigen::ArrayXXf& of_cells_m) {
-    of_cells_m.setZero(kCells + 2, kCells + 2);  // with a border, as in `tops`
-    for (int block = 0; block < kBlocks * kBlocks; ++block) {
-        of_cells_m.block<kBlockCells, kBlockCells>(
-            1 + block % kBlocks * kBlockCells, 1 + block / kBlocks * kBlockCells) = canopy_m[block];
-    }
-    for (Eigen::Index cell = 0; cell < of_cells_m.size(); ++cell) {
-        float& of_cell_m = of_cells_m.data()[cell];
-        of_cell_m = tops.top_m.data()[cell] > of_cell_m + kStandsOut_m ? 0 : of_cell_m;
-    }
+/// Raises the tolerance of each pixel to the canopy of its block, unless something stands out of it
+/// in its cell; NaN stays NaN.
+void raiseTolerances(const PixelCells& cells, const CellTops& tops,
+                     const BlocksAndNone<float>& canopy_m, Image<float>& tolerance_m) {
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
         float& tolerated_m = tolerance_m.data()[pixel];
-        const float of_cell_m = of_cells_m.data()[tops.cell.data()[pixel]];
-        tolerated_m = of_cell_m > tolerated_m ? of_cell_m : tolerated_m;
+        const float of_block_m = canopy_m[cells.block.data()[pixel]];
+        const float stands_m = tops.top_m.data()[cells.cell.data()[pixel]];
+        const bool is_canopy = stands_m <= of_block_m + kStandsOut_m && of_block_m > tolerated_m;
+        tolerated_m = is_canopy ? of_block_m : tolerated_m;
     }
 }
 
 }  // namespace
 
-void tolerateCanopy(const CellTops& tops, Image<float>& tolerance_m, CanopyWorkspace& work) {
-    Blocks<Stand> stands{};
-    findStands(tops, stands);
-    sumAround<kReach>(stands);
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m) {
+    Blocks<Census> own;
+    countCells(tops, own);
+    Blocks<Census> around = own;
+    sumAround<kReach>(around);
+    const auto isCanopy = [](const Census& census) { return census.isCanopy(); };
+    if (std::none_of(around.begin(), around.end(), isCanopy)) return;  // nearly always
 
-    Blocks<float> canopy_m;
-    for (int block = 0; block < kBlocks * kBlocks; ++block) {
-        canopy_m[block] = stands[block].canopy_m();
+    Blocks<Heights> heights;
+    sumHeights(tops, own, heights);
+    sumAround<kReach>(heights);
+    BlocksAndNone<float> canopy_m{};
+    for (std::size_t block = 0; block < around.size(); ++block) {
+        if (!around[block].isCanopy()) continue;
+        canopy_m[block] = heights[block].canopy_m(around[block].plants);
     }
-    if (*std::max_element(canopy_m.begin(), canopy_m.end()) == 0) return;  // nearly always
-    raiseTolerances(tops, canopy_m, tolerance_m, work.canopy_m);
+    raiseTolerances(cells, tops, canopy_m, tolerance_m);
 }
 
 }  // namespace hagen

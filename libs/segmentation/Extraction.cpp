@@ -47,12 +47,11 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
     const std::size_t lanes = hn::Lanes(d);
     const auto zero = hn::Zero(d), one = hn::Set(d, 1), two = hn::Set(d, 2);
     const auto infinite = hn::Set(df, std::numeric_limits<float>::infinity());
-    const auto zone = hn::Set(df, rules.zone_m), gap = hn::Set(df, rules.component_gap_m);
+    const auto zone = hn::Set(df, rules.zone_m);
     const float* HWY_RESTRICT range_m = in.range_m;
     const std::int32_t* HWY_RESTRICT pixels = in.pixel;
     const std::uint8_t* HWY_RESTRICT own_label = in.own_label;
     const std::int32_t* HWY_RESTRICT verdict_of_pixel = in.verdict_of_pixel;
-    const float* HWY_RESTRICT depth_of_pixel_m = in.depth_of_pixel_m;
     std::uint8_t* HWY_RESTRICT labels = out.label;
     std::int32_t* HWY_RESTRICT components = out.component;
     std::uint32_t *roi = out.roi, *rou = out.rou, *unclassified = out.unclassified;
@@ -68,21 +67,16 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
             const auto is_seen =
                 hn::And(hn::Gt(range, hn::Zero(df)), hn::Lt(range, infinite));  // false for NaN
             auto is_rou = hn::Eq(hn::And(verdict, one), one);
-            auto component = hn::ShiftRight<1>(verdict);
             if (kHasOwnLabel) {
                 const auto own = hn::PromoteTo(d, hn::LoadU(d8, own_label + i));
-                const auto depth = hn::GatherIndex(df, depth_of_pixel_m, hn::Max(pixel, zero));
-                const auto has_none = hn::Eq(own, zero);
-                is_rou = hn::Or(hn::Eq(own, one), hn::And(has_none, is_rou));
-                const auto is_near = hn::RebindMask(d, hn::Lt(hn::Sub(range, depth), gap));
-                component = hn::IfThenElseZero(hn::Or(has_none, is_near), component);
+                is_rou = hn::Or(hn::Eq(own, one), hn::And(hn::Eq(own, zero), is_rou));
             }
             const auto is_far = hn::RebindMask(d, hn::Gt(range, zone));
             const auto seen = hn::RebindMask(d, is_seen);
             const auto is_roi = hn::AndNot(hn::Or(is_far, is_rou), seen);
             const auto label = hn::IfThenElseZero(seen, hn::IfThenElse(is_roi, two, one));
             hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
-            component = hn::IfThenElseZero(is_roi, component);
+            const auto component = hn::IfThenElseZero(is_roi, hn::ShiftRight<1>(verdict));
             most = hn::Max(most, component);
             hn::StoreU(component, d, components + i);
             seen_bits |= BitsOf(d, seen) << n;
@@ -134,8 +128,20 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
     }
 }
 
+/// Takes returns with a label of their own out of their pixel's component if they are far behind
+/// it.
+void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& scan,
+                     const RangeImage& image, float component_gap_m,
+                     std::vector<std::int32_t>& component) {
+    for (const std::int32_t i : own_labelled) {
+        if (component[i] == 0) continue;  // may have no pixel
+        const float behind_m = scan.range_m[i] - image.depth_m.data()[image.depth_mapper[i]];
+        component[i] = behind_m < component_gap_m ? component[i] : 0;
+    }
+}
+
 /// Renumbers components 1, 2, ... in order, skipping those without returns because all their pixels
-/// were repaired. Only RoI returns belong to components.
+/// were repaired. `most`: no number is greater. Only RoI returns belong to components.
 void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
     number.assign(static_cast<std::size_t>(most) + 1, 0);
@@ -194,7 +200,7 @@ void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabel
     const ExtractionInput in{
         scan.range_m.data(), image.range_image.depth_mapper.data(),
         own.empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(own.data()),
-        work.verdict.data() + 1, image.range_image.depth_m.data()};
+        work.verdict.data() + 1};
     ExtractionOutput out{reinterpret_cast<std::uint8_t*>(returns.label.data()),
                          returns.component.data(),
                          work.roi.data(),
@@ -205,6 +211,8 @@ void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabel
     returns.roi.assign(work.roi.data(), out.roi);
     returns.rou.assign(work.rou.data(), out.rou);
     returns.unclassified.assign(work.unclassified.data(), out.unclassified);
+    leaveComponents(own_labels.returns, scan, image.range_image, rules.component_gap_m,
+                    returns.component);
     renumber(out.most_components, returns, work.number);
 }
 

@@ -12,7 +12,6 @@ struct ExtractionInput {
     const std::int32_t* pixel;
     const std::uint8_t* own_label;         ///< or null
     const std::int32_t* verdict_of_pixel;  ///< 2 * component + 1 if ROU; index -1: no pixel
-    const float* depth_of_pixel_m;
 };
 
 struct ExtractionOutput {

@@ -27,9 +27,6 @@ constexpr int kReach = 4;  // blocks in each direction
 /// Level steps that lead to the pixel above, and to the next but one.
 constexpr std::uint8_t kToNext = 1, kToNextButOne = 2;
 
-/// One close pixel that is level, in the units of `close`.
-constexpr std::int32_t kLevel = 1 << 16;
-
 }  // namespace
 }  // namespace hagen
 #endif
@@ -54,12 +51,7 @@ HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
 /// next but one (2). At the top of a column, where these are in another column, the caller corrects
 /// it.
 void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-                  const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps,
-                  std::int32_t* HWY_RESTRICT cell) {
-    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
-        hn::StoreU(gridCells(d, x, y).cell, hn::RebindToSigned<decltype(d)>(), cell + pixel);
-    });
+                  const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps) {
     const auto stepTo = [&](auto d, std::size_t pixel, std::size_t next) HAGEN_INLINE {
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
@@ -94,12 +86,12 @@ void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float
 /// Marks both pixels of each step, unless their cell has something below. `steps` has two more
 /// values before the first.
 void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
-                 const std::int32_t* HWY_RESTRICT cell, const float* HWY_RESTRICT lowest_m,
+                 const std::uint16_t* HWY_RESTRICT cell, const float* HWY_RESTRICT lowest_m,
                  const std::uint8_t* HWY_RESTRICT steps, std::uint8_t* HWY_RESTRICT is_level) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const Bytes<decltype(d)> d8;
-        const auto low_m = hn::GatherIndex(d, lowest_m, hn::LoadU(di, cell + pixel));
+        const auto low_m = gatherAt(d, lowest_m, cell + pixel);
         const auto is_lowest =
             hn::Le(hn::LoadU(d, z_m + pixel), hn::Add(low_m, hn::Set(d, kDrop_m)));
         const auto to_next = hn::And(hn::LoadU(d8, steps + pixel - 1), hn::Set(d8, kToNext));
@@ -112,10 +104,10 @@ void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
     });
 }
 
-/// What each pixel adds to the count of its cell: 0 unless it is close to the surface.
+/// For each pixel: 0 unless it is close to the surface, 1 if it is, 2 if it is level, too.
 void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
              const float* HWY_RESTRICT height_m, const std::uint8_t* HWY_RESTRICT is_level,
-             std::int32_t* HWY_RESTRICT close) {
+             std::uint8_t* HWY_RESTRICT close) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
@@ -123,18 +115,19 @@ void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY
         const auto most_m =
             hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kClose_per_m), distance_m));
         const auto is_close = hn::Lt(hn::Abs(hn::LoadU(d, height_m + pixel)), most_m);
-        const auto level = hn::PromoteTo(di, hn::LoadU(Bytes<decltype(d)>(), is_level + pixel));
-        const auto count = hn::Add(hn::Mul(level, hn::Set(di, kLevel)), hn::Set(di, 1));
-        hn::StoreU(hn::IfThenElseZero(hn::RebindMask(di, is_close), count), di, close + pixel);
+        const Bytes<decltype(d)> d8;
+        const auto level = hn::PromoteTo(di, hn::LoadU(d8, is_level + pixel));
+        const auto kind = hn::Add(level, hn::Set(di, 1));
+        hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hn::RebindMask(di, is_close), kind)), d8,
+                   close + pixel);
     });
 }
 
-/// Lowers the tolerance of each pixel to `least_m` of its cell, if that is minus infinity.
-void WithdrawIn(std::size_t pixels, const std::int32_t* HWY_RESTRICT cell,
+/// Lowers the tolerance of each pixel to `least_m` of its block, if that is minus infinity.
+void WithdrawIn(std::size_t pixels, const std::uint16_t* HWY_RESTRICT block,
                 const float* HWY_RESTRICT least_m, float* HWY_RESTRICT tolerance_m) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const auto least = hn::GatherIndex(d, least_m, hn::LoadU(di, cell + pixel));
+        const auto least = gatherAt(d, least_m, block + pixel);
         // NaN stays NaN.
         hn::StoreU(hn::Add(hn::LoadU(d, tolerance_m + pixel), least), d, tolerance_m + pixel);
     });
@@ -164,31 +157,37 @@ struct Counts {
         return level > 0 && static_cast<float>(level) >= kLeastShare * static_cast<float>(close);
     }
 };
-void sumBlocks(const std::int32_t* close, Blocks<Counts>& blocks) {
-    for (int j = 0; j < kCells; ++j) {
-        const std::int32_t* const column = close + gridColumn(j);
-        for (int i = 0; i < kCells; ++i) {
-            if (column[i] == 0) continue;  // most cells
-            Counts& block = blocks[j / kBlockCells * kBlocks + i / kBlockCells];
-            block.add({column[i] % kLevel, column[i] / kLevel});
-        }
+
+/// Counts the pixels of each block, by what CloseIn() found.
+void countClose(const Image<std::uint16_t>& block, const std::uint8_t* close,
+                Blocks<Counts>& blocks) {
+    // Both counts of a block in one number.
+    constexpr std::uint64_t kClose = 1, kLevelToo = kClose + (std::uint64_t{1} << 32);
+    static constexpr std::uint64_t kOfKind[] = {0, kClose, kLevelToo};
+    BlocksAndNone<std::uint64_t> counts{};
+    const std::uint16_t* const of_pixel = block.data();
+    visitByTurns(
+        static_cast<std::size_t>(block.size()),
+        [ =, &counts ](std::size_t pixel)
+            __attribute__((always_inline)) { counts[of_pixel[pixel]] += kOfKind[close[pixel]]; });
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        blocks[k] = {static_cast<int>(counts[k] & 0xffffffff), static_cast<int>(counts[k] >> 32)};
     }
 }
 
 }  // namespace
 
-void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level,
-                     GroundEvidenceWorkspace& work) {
+void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
+                     Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work) {
     const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
     const auto size = static_cast<std::size_t>(rows * columns);
     is_level.resize(rows, columns);
-    work.cell.resize(rows, columns);
     if (size == 0) return;
     // Steps from two pixels before the first: none.
     work.steps.assign(size + 2, 0);
     std::uint8_t* const steps = work.steps.data() + 2;
     HWY_DYNAMIC_DISPATCH(LevelStepsIn)
-    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), steps, work.cell.data());
+    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), steps);
     for (Eigen::Index top = rows - 1; top < rows * columns; top += rows) {
         if (rows >= 2) steps[top - 1] &= kToNext;
         steps[top] = 0;
@@ -196,7 +195,7 @@ void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level,
 
     work.lowest_m.assign(kGridSize, kNoHeight);
     float* const lowest_m = work.lowest_m.data();
-    const std::int32_t* const cell = work.cell.data();
+    const std::uint16_t* const cell = cells.cell.data();
     const float* const z_m = pixels.z_m.data();
     visitByTurns(
         size, [=](std::size_t pixel) __attribute__((always_inline)) {
@@ -217,37 +216,27 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
     }
 }
 
-void requireEvidence(const PixelPoints& pixels, const Image<std::int32_t>& cell,
+void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
                      Image<float>& tolerance_m, GroundEvidenceWorkspace& work) {
     const auto size = static_cast<std::size_t>(height_m.size());
-    if (size == 0) return;
-    work.cell.resize(height_m.rows(), height_m.cols());
-    std::int32_t* const of_pixel = work.cell.data();
+    work.close.resize(size);
     HWY_DYNAMIC_DISPATCH(CloseIn)
-    (size, pixels.x_m.data(), pixels.y_m.data(), height_m.data(), is_level.data(), of_pixel);
+    (size, pixels.x_m.data(), pixels.y_m.data(), height_m.data(), is_level.data(),
+     work.close.data());
 
-    work.close.assign(kGridSize, 0);
-    std::int32_t* const close = work.close.data();
-    const std::int32_t* const place = cell.data();
-    visitByTurns(
-        size, [=](std::size_t pixel)
-                  __attribute__((always_inline)) { close[place[pixel]] += of_pixel[pixel]; });
-
-    Blocks<Counts> blocks{};
-    sumBlocks(close, blocks);
+    Blocks<Counts> blocks;
+    countClose(cells.block, work.close.data(), blocks);
     sumAround<kReach>(blocks);
 
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
-    work.least_m.assign(kGridSize, kNothing);
-    for (int j = 0; j < kCells; ++j) {
-        float* const column = work.least_m.data() + gridColumn(j);
-        for (int i = 0; i < kCells; ++i) {
-            const Counts& around = blocks[j / kBlockCells * kBlocks + i / kBlockCells];
-            column[i] = around.isGround() ? 0.0f : kNothing;
-        }
+    BlocksAndNone<float> least_m;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        least_m[k] = blocks[k].isGround() ? 0.0f : kNothing;
     }
-    HWY_DYNAMIC_DISPATCH(WithdrawIn)(size, place, work.least_m.data(), tolerance_m.data());
+    least_m.back() = kNothing;
+    HWY_DYNAMIC_DISPATCH(WithdrawIn)
+    (size, cells.block.data(), least_m.data(), tolerance_m.data());
 }
 
 }  // namespace hagen

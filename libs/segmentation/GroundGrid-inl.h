@@ -1,52 +1,12 @@
-// The grid of the ground surface and of CellTops, for many pixels at a time. For files that Highway
-// compiles once per instruction set.
+// The ground grid, for many pixels at a time. For files that Highway compiles once per instruction
+// set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
 #include <hagen/range_image/SetBits.h>
-#include <hagen/segmentation/GroundSurface.h>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
-namespace hagen {
-
-/// The height of a cell without one.
-constexpr float kNoHeight = std::numeric_limits<float>::infinity();
-
-/// The grid has a border of one cell on all sides, so that every cell has eight neighbours. Cells
-/// are stored column by column.
-template <int kSide>
-constexpr int kStride = kSide + 2;
-constexpr int kGridStride = kStride<GroundSurface::kCells>;
-constexpr int kGridSize = kGridStride * kGridStride;
-
-/// The logarithm of the number of cells per side, which is a power of 2.
-template <int kSide>
-constexpr int kLog2 = kLog2<kSide / 2> + 1;
-template <>
-constexpr int kLog2<1> = 0;
-
-/// The index of cell (0, j). Columns -1 and kSide are the border.
-template <int kSide = GroundSurface::kCells>
-constexpr int gridColumn(int j) {
-    return (j + 1) * kStride<kSide> + 1;
-}
-
-/// Calls visit(k) for each k below `size`, alternating between four places: neighbours in an image
-/// are often in the same cell and would stall each other.
-template <class Visit>
-__attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit visit) {
-    const std::size_t quarter = size / 4;
-    for (std::size_t k = 0; k < quarter; ++k) {
-        visit(k);
-        visit(k + quarter);
-        visit(k + 2 * quarter);
-        visit(k + 3 * quarter);
-    }
-    for (std::size_t k = 4 * quarter; k < size; ++k) visit(k);
-}
-
-}  // namespace hagen
+#include "GroundGrid.h"
 #endif
 
 #if defined(HAGEN_GROUND_GRID_INL) == defined(HWY_TARGET_TOGGLE)
@@ -98,10 +58,20 @@ HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& inte
     return hn::CountTrue(d, is_chosen);
 }
 
-/// The cells of points.
+/// The values at these indices.
+template <class D>
+HWY_INLINE hn::Vec<D> gatherAt(D d, const float* HWY_RESTRICT values,
+                               const std::uint16_t* HWY_RESTRICT index) {
+    const hn::Rebind<std::uint16_t, D> d16;
+    return hn::GatherIndex(d, values,
+                           hn::PromoteTo(hn::RebindToSigned<D>(), hn::LoadU(d16, index)));
+}
+
+/// The cells of points; border cells for points that are not on the grid.
 template <class D>
 struct GridCells {
-    hn::Vec<hn::RebindToSigned<D>> cell;  ///< a border cell if a point is not on the grid
+    hn::Vec<hn::RebindToSigned<D>> i, j;  ///< 1 for the first cell, 0 for the border before it
+    hn::Vec<hn::RebindToSigned<D>> cell;
     hn::Mask<D> is_on_grid;
 };
 
@@ -119,9 +89,9 @@ HWY_INLINE GridCells<D> gridCells(D d, V x_m, V y_m) {
     const auto isInside = [&](V cell) HWY_ATTR {
         return hn::And(hn::Ge(cell, hn::Set(d, 1.0f)), hn::Lt(cell, last));
     };
-    const auto j = whole(v);
+    const auto i = whole(u), j = whole(v);
     const auto column = hn::Add(hn::ShiftLeft<kLog2<kSide>>(j), hn::ShiftLeft<1>(j));
-    return {hn::Add(column, whole(u)), hn::And(isInside(u), isInside(v))};
+    return {i, j, hn::Add(column, i), hn::And(isInside(u), isInside(v))};
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/Clearance.h>
 #include <hagen/segmentation/DeadBeams.h>
 #include <hagen/segmentation/GapRepair.h>
@@ -110,7 +111,8 @@ void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>&
     // ground that is too close; returns behind the closest one of their pixel
     const Clearance clearance{upwards(g, horizon), options_.ground_is_roi_below_m};
     alarmLowGround(g, clearance, r.labels);
-    judgeFartherReturns(scan, r.range_image, g, clearance, r.own_labels, work_.farther_returns);
+    judgeFartherReturns(scan, r.range_image, g, clearance, options_.zone_m, r.own_labels,
+                        work_.farther_returns);
 }
 
 /// Beyond the paper: labels every pixel by its height above the surface under the ROU.
@@ -120,22 +122,23 @@ void HagenFilter::judgeByHeight() {
     Ground& g = result_.ground;
     FilterWorkspace& w = work_;
 
+    findPixelCells(g.pixels, g.cells);
     const Image<Label>* candidates = &labels;
     if (o.ground_evidence) {
-        findLevelPixels(g.pixels, g.is_level, w.evidence);
+        findLevelPixels(g.pixels, g.cells, g.is_level, w.evidence);
         keepLevelRou(labels, g.is_level, w.candidates);
         candidates = &w.candidates;
     }
     fitGroundSurface(g.pixels, *candidates, g.surface, w.ground_surface);
     heightsAbove(g.surface, g.pixels, g.height_m);
-    findCellTops(g.pixels, g.height_m, g.tops);
+    findCellTops(g.cells, g.height_m, g.tops);
     toleratedHeights(
-        g.pixels, g.tops,
+        g.pixels, g.cells, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
         g.from_sensor.translation().z(), g.tolerance_m, w.tolerance);
-    if (o.canopy_layer) tolerateCanopy(g.tops, g.tolerance_m, w.canopy);
+    if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, g.tolerance_m);
     if (o.ground_evidence) {
-        requireEvidence(g.pixels, g.tops.cell, g.height_m, g.is_level, g.tolerance_m, w.evidence);
+        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m, w.evidence);
     }
     labelByHeight(g.height_m, g.tolerance_m, labels);
 

@@ -52,15 +52,14 @@ void TallestAroundIn(const float* HWY_RESTRICT top_m, float* HWY_RESTRICT talles
 }
 
 void ToleratedHeightsIn(std::size_t pixels, const float* HWY_RESTRICT x_m,
-                        const float* HWY_RESTRICT y_m, const std::int32_t* HWY_RESTRICT cell,
+                        const float* HWY_RESTRICT y_m, const std::uint16_t* HWY_RESTRICT cell,
                         const float* HWY_RESTRICT tallest_m, const HeightTolerance& tolerance,
                         float sensor_height_m, float* HWY_RESTRICT tolerance_m) {
     const float shallow_per_m = 1 / (kShallow * sensor_height_m);
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-        const auto tall_m = hn::GatherIndex(d, tallest_m, hn::LoadU(di, cell + pixel));
+        const auto tall_m = gatherAt(d, tallest_m, cell + pixel);
         const auto shallow =
             hn::Min(hn::Mul(distance_m, hn::Set(d, shallow_per_m)), hn::Set(d, 1.0f));
         const auto tolerated_m = hn::Sub(
@@ -104,14 +103,14 @@ HWY_EXPORT(LabelByHeightIn);
 
 }  // namespace
 
-void toleratedHeights(const PixelPoints& pixels, const CellTops& tops,
+void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
                       Image<float>& tolerance_m, ToleranceWorkspace& work) {
     work.tallest_m.resize(kGridSize);
     HWY_DYNAMIC_DISPATCH(TallestAroundIn)(tops.top_m.data(), work.tallest_m.data());
-    tolerance_m.resize(tops.cell.rows(), tops.cell.cols());
+    tolerance_m.resize(cells.cell.rows(), cells.cell.cols());
     HWY_DYNAMIC_DISPATCH(ToleratedHeightsIn)
-    (tolerance_m.size(), pixels.x_m.data(), pixels.y_m.data(), tops.cell.data(),
+    (tolerance_m.size(), pixels.x_m.data(), pixels.y_m.data(), cells.cell.data(),
      work.tallest_m.data(), tolerance, sensor_height_m, tolerance_m.data());
 }
 

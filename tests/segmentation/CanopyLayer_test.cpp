@@ -16,15 +16,16 @@ using test::cellFromSensor;
 using test::pixelsAt;
 
 constexpr float kBefore_m = 0.2f;  // tolerance without a canopy
-CanopyWorkspace work;              // shared by all tests, as by all scans in a filter
 
 /// The tolerances over the plane z = 0.
 Image<float> tolerated(const PixelPoints& pixels) {
     Image<float> tolerance_m = pixels.z_m.isNaN().select(
         kNoValue, Image<float>::Constant(pixels.z_m.rows(), pixels.z_m.cols(), kBefore_m));
     CellTops tops;
-    findCellTops(pixels, pixels.z_m, tops);
-    tolerateCanopy(tops, tolerance_m, work);
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    findCellTops(cells, pixels.z_m, tops);
+    tolerateCanopy(cells, tops, tolerance_m);
     return tolerance_m;
 }
 
@@ -131,8 +132,10 @@ TEST(CanopyLayer, NeverToleratesLess) {
     const PixelPoints pixels = pixelsAt(field(20, [](int) { return 0.3f; }));
     Image<float> tolerance_m = Image<float>::Constant(1, pixels.z_m.cols(), 5.0f);
     CellTops tops;
-    findCellTops(pixels, pixels.z_m, tops);
-    tolerateCanopy(tops, tolerance_m, work);
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    findCellTops(cells, pixels.z_m, tops);
+    tolerateCanopy(cells, tops, tolerance_m);
     EXPECT_TRUE((tolerance_m == 5.0f).all());
 }
 

@@ -52,6 +52,14 @@ struct Example {
     }
 };
 
+OwnLabels ownLabels(const std::vector<Label>& label) {
+    OwnLabels own{label, {}};
+    for (std::size_t i = 0; i < label.size(); ++i) {
+        if (label[i] != Label::Unclassified) own.returns.push_back(static_cast<std::int32_t>(i));
+    }
+    return own;
+}
+
 /// The definition, return by return.
 LabelledReturns plainReturns(const Scan& scan, const RangeImage& image, const Image<Label>& labels,
                              const Image<std::int32_t>& components,
@@ -122,8 +130,8 @@ TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
         const auto expected = plainReturns(scan, image, labels, components, own_label, 20.0f, 1.0f);
         forEachInstructionSet([&](const std::string& name) {
             SCOPED_TRACE(name + ", returns: " + std::to_string(size));
-            extractReturns(scan, {image, labels, components}, {own_label}, {20.0f, 1.0f}, returns,
-                           work.extraction);
+            extractReturns(scan, {image, labels, components}, ownLabels(own_label), {20.0f, 1.0f},
+                           returns, work.extraction);
             ASSERT_EQ(returns.label, expected.label);
             ASSERT_EQ(returns.component, expected.component);
             ASSERT_EQ(returns.roi, expected.roi);
@@ -164,7 +172,7 @@ TEST(Extraction, WhatTheImageDoesNotReachIsRoiInTheZone) {
 TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
     Example example;
     const auto extracted = [&](const std::vector<Label>& own_label) {
-        example.extract({own_label});
+        example.extract(ownLabels(own_label));
         return example.returns;
     };
     std::vector<Label> own_label(7, Label::Unclassified);
@@ -185,7 +193,7 @@ TEST(Extraction, WhatIsSeenPastAnObstacleIsOfNoComponent) {
     Example example;  // its second return is 10 m behind the first, which is in component 7
     const std::vector<Label> own_label(7, Label::Roi);
     const auto component = [&](float component_gap_m) {
-        example.extract({own_label}, component_gap_m);
+        example.extract(ownLabels(own_label), component_gap_m);
         EXPECT_EQ(example.returns.label[1], Label::Roi);
         return example.returns.component[1];
     };

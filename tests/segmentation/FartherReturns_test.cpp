@@ -9,6 +9,8 @@
 namespace hagen {
 namespace {
 
+constexpr float kZone_m = 20;
+
 /// Level ground 2 m below a VLP-16, and the labels of returns above it.
 struct TwoMetresUp {
     SensorModel sensor = sensorModel("VLP-16");
@@ -29,9 +31,15 @@ struct TwoMetresUp {
         const Scan scan = test::scanOf(sensor, points_m);
         RangeImage image;
         projectScan(scan, sensor, 870, 48.0f, image, work.projection);
-        OwnLabels own_labels{std::vector<Label>(99, Label::Roi)};  // of an earlier scan
+        OwnLabels own_labels{std::vector<Label>(99, Label::Roi), {7, 8}};  // of an earlier scan
         judgeFartherReturns(scan, image, ground, {Eigen::Vector3f::UnitZ(), least_clearance_m},
-                            own_labels, work.farther_returns);
+                            kZone_m, own_labels, work.farther_returns);
+        std::vector<std::int32_t> labelled;
+        for (std::size_t i = 0; i < own_labels.label.size(); ++i) {
+            if (own_labels.label[i] != Label::Unclassified)
+                labelled.push_back(static_cast<std::int32_t>(i));
+        }
+        EXPECT_EQ(own_labels.returns, labelled);
         return own_labels.label;
     }
     Eigen::Vector3f on(int row, double range_m) const {
@@ -80,6 +88,12 @@ TEST(FartherReturns, TheToleranceIsThePixels) {
     projectScan(scan, example.sensor, 870, 48.0f, image, work);
     example.ground.tolerance_m.data()[image.depth_mapper[0]] = 0.1f;
     EXPECT_EQ(example.judged({example.on(0, 3), example.on(0, 7)})[1], Label::Roi);
+}
+
+TEST(FartherReturns, BeyondTheZoneNoneIsJudged) {
+    const TwoMetresUp example;
+    EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 19.9), example.on(8, 20.1)}),
+              (std::vector<Label>{kAsItsPixel, Label::Roi, kAsItsPixel}));
 }
 
 TEST(FartherReturns, WhatTheImageDoesNotReachIsNotJudged) {

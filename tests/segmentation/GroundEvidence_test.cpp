@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <hagen/segmentation/CellTops.h>
 #include <hagen/segmentation/GroundEvidence.h>
 
 #include <algorithm>
@@ -20,7 +19,9 @@ GroundEvidenceWorkspace work;  // shared by all tests, as by all scans in a filt
 
 std::vector<int> level(const PixelPoints& pixels) {
     Image<std::uint8_t> is_level;
-    findLevelPixels(pixels, is_level, work);
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    findLevelPixels(pixels, cells, is_level, work);
     EXPECT_EQ(is_level.rows(), pixels.x_m.rows());
     EXPECT_EQ(is_level.cols(), pixels.x_m.cols());
     return {is_level.data(), is_level.data() + is_level.size()};
@@ -206,9 +207,9 @@ std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
         is_level.data()[i] = seen[i].is_level;
         tolerance_m.data()[i] = hasValue(seen[i].height_m) ? 0.5f : kNoValue;
     }
-    CellTops tops;
-    findCellTops(pixels, pixels.z_m, tops);
-    requireEvidence(pixels, tops.cell, pixels.z_m, is_level, tolerance_m, work);
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    requireEvidence(pixels, cells, pixels.z_m, is_level, tolerance_m, work);
     return {tolerance_m.data(), tolerance_m.data() + tolerance_m.size()};
 }
 

@@ -1,6 +1,7 @@
 // Compares the vectorised ground stages with simple reference implementations, on every instruction
 // set.
 #include <gtest/gtest.h>
+#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/FilterWorkspace.h>
 
 #include <cmath>
@@ -90,6 +91,7 @@ FilterWorkspace work;  // shared by all tests, as by all scans in a filter
 /// All stages from the pixels to the labels.
 struct Judged {
     Eigen::Isometry3f frame;
+    PixelCells cells;
     Image<std::uint8_t> is_level;
     GroundSurface surface;
     Image<float> height_m, tolerance_m;
@@ -102,15 +104,16 @@ Judged judged(const Sight& sight) {
     PixelPoints pixels = sight.pixels;
     j.frame = fitGroundFrame(pixels, Attitude{0.02f, -0.03f}, work.ground_frame);
     movePixels(j.frame, pixels);
-    findLevelPixels(pixels, j.is_level, work.evidence);
+    findPixelCells(pixels, j.cells);
+    findLevelPixels(pixels, j.cells, j.is_level, work.evidence);
     keepLevelRou(sight.labels, j.is_level, work.candidates);
     fitGroundSurface(pixels, work.candidates, j.surface, work.ground_surface);
     heightsAbove(j.surface, pixels, j.height_m);
-    findCellTops(pixels, j.height_m, j.tops);
-    toleratedHeights(pixels, j.tops, kTolerance, j.frame.translation().z(), j.tolerance_m,
+    findCellTops(j.cells, j.height_m, j.tops);
+    toleratedHeights(pixels, j.cells, j.tops, kTolerance, j.frame.translation().z(), j.tolerance_m,
                      work.tolerance);
-    tolerateCanopy(j.tops, j.tolerance_m, work.canopy);
-    requireEvidence(pixels, j.tops.cell, j.height_m, j.is_level, j.tolerance_m, work.evidence);
+    tolerateCanopy(j.cells, j.tops, j.tolerance_m);
+    requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.tolerance_m, work.evidence);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
     growFeet(pixels, j.height_m, j.labels, work.feet);
     removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels, work.specks);
@@ -135,8 +138,10 @@ TEST(GroundStages, TheSurfaceIsThatOfAPlainFit) {
         GroundSurface fast, plain;
         fitGroundSurface(in_ground.pixels, in_ground.labels, fast, work.ground_surface);
         test::plain::fitGroundSurface(in_ground.pixels, in_ground.labels, plain);
-        // A pixel may be on either side of a limit.
-        expectNear(fast.height_m, plain.height_m, 3e-3f);
+        // A pixel may be on either side of a limit, and changes the cells around it a little.
+        expectNear(fast.height_m, plain.height_m, 2e-2f);
+        const Eigen::ArrayXXf apart_m = (fast.height_m - plain.height_m).abs();
+        EXPECT_LE((apart_m > 1e-3f).count(), apart_m.size() / 20);
 
         Image<float> fast_m, plain_m;
         heightsAbove(plain, in_ground.pixels, fast_m);
@@ -153,15 +158,17 @@ TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
         up.translation().z() = kSensorHeight_m;
         movePixels(up, pixels);
         const Image<float>& height_m = pixels.z_m;
+        PixelCells cells;
         CellTops tops;
         Image<float> fast_m, plain_m;
-        findCellTops(pixels, height_m, tops);
-        toleratedHeights(pixels, tops, kTolerance, kSensorHeight_m, fast_m, work.tolerance);
+        findPixelCells(pixels, cells);
+        findCellTops(cells, height_m, tops);
+        toleratedHeights(pixels, cells, tops, kTolerance, kSensorHeight_m, fast_m, work.tolerance);
         test::plain::toleratedHeights(pixels, height_m, kTolerance, kSensorHeight_m, plain_m);
         expectNear(fast_m, plain_m, 1e-5f);
         const Image<float> before_m = plain_m;
         fast_m = plain_m;
-        tolerateCanopy(tops, fast_m, work.canopy);
+        tolerateCanopy(cells, tops, fast_m);
         test::plain::tolerateCanopy(pixels, height_m, plain_m);
         expectNear(fast_m, plain_m, 1e-3f);
         canopies += !test::same(before_m, plain_m);
@@ -205,16 +212,16 @@ TEST(GroundStages, EvidenceIsThatOfPlainLoops) {
         withdrawn += (plain_m < 0).any();
         kept += (plain_m >= 0).any();
 
-        CellTops tops;
-        findCellTops(pixels, height_m, tops);
+        PixelCells cells;
+        findPixelCells(pixels, cells);
         forEachInstructionSet([&](const std::string& name) {
             Image<std::uint8_t> fast;
-            findLevelPixels(pixels, fast, work.evidence);
+            findLevelPixels(pixels, cells, fast, work.evidence);
             EXPECT_TRUE((fast == plain).all()) << name;
             keepLevelRou(sight.labels, fast, work.candidates);
             EXPECT_TRUE((work.candidates == candidates).all()) << name;
             Image<float> fast_m = before_m;
-            requireEvidence(pixels, tops.cell, height_m, fast, fast_m, work.evidence);
+            requireEvidence(pixels, cells, height_m, fast, fast_m, work.evidence);
             EXPECT_TRUE(test::same(fast_m, plain_m)) << name;
         });
     });
@@ -239,7 +246,8 @@ TEST(GroundStages, AreTheSameToTheLastBitOnEveryInstructionSet) {
             EXPECT_TRUE(test::same(first.height_m, own.height_m)) << name;
             EXPECT_TRUE(test::same(first.tolerance_m, own.tolerance_m)) << name;
             EXPECT_TRUE(sameBits(first.tops.top_m, own.tops.top_m)) << name;
-            EXPECT_TRUE((first.tops.cell == own.tops.cell).all()) << name;
+            EXPECT_TRUE((first.cells.cell == own.cells.cell).all()) << name;
+            EXPECT_TRUE((first.cells.block == own.cells.block).all()) << name;
             EXPECT_TRUE((first.labels == own.labels).all()) << name;
         });
         ASSERT_FALSE(results.empty());

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/Clearance.h>
 #include <hagen/segmentation/GapRepair.h>
 #include <hagen/segmentation/HagenFilter.h>
@@ -571,18 +572,19 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
                      r.range_image, r.repaired_m, g.pixels);
         g.from_sensor = fitGroundFrame(g.pixels, attitude, work.ground_frame);
         movePixels(g.from_sensor, g.pixels);
-        findLevelPixels(g.pixels, g.is_level, work.evidence);
+        findPixelCells(g.pixels, g.cells);
+        findLevelPixels(g.pixels, g.cells, g.is_level, work.evidence);
         keepLevelRou(labels, g.is_level, work.candidates);
         const bool needs_evidence = (switches & 16) != 0;
         fitGroundSurface(g.pixels, needs_evidence ? work.candidates : labels, g.surface,
                          work.ground_surface);
         heightsAbove(g.surface, g.pixels, g.height_m);
-        findCellTops(g.pixels, g.height_m, g.tops);
-        toleratedHeights(g.pixels, g.tops, {0.3f, 0.02f, 0.2f}, g.from_sensor.translation().z(),
-                         g.tolerance_m, work.tolerance);
-        if ((switches & 1) != 0) tolerateCanopy(g.tops, g.tolerance_m, work.canopy);
+        findCellTops(g.cells, g.height_m, g.tops);
+        toleratedHeights(g.pixels, g.cells, g.tops, {0.3f, 0.02f, 0.2f},
+                         g.from_sensor.translation().z(), g.tolerance_m, work.tolerance);
+        if ((switches & 1) != 0) tolerateCanopy(g.cells, g.tops, g.tolerance_m);
         if (needs_evidence) {
-            requireEvidence(g.pixels, g.tops.cell, g.height_m, g.is_level, g.tolerance_m,
+            requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m,
                             work.evidence);
         }
         labelByHeight(g.height_m, g.tolerance_m, labels);
@@ -593,7 +595,8 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
                                   (switches & 8) != 0 ? 0.0f : 1.2f};
         alarmLowGround(g, clearance, labels);
         g.has_surface = true;
-        judgeFartherReturns(scan, r.range_image, g, clearance, own_labels, work.farther_returns);
+        judgeFartherReturns(scan, r.range_image, g, clearance, 15.0f, own_labels,
+                            work.farther_returns);
         limitToZone(r.repaired_m, 15.0f, labels);
         numberRoiComponents(r.repaired_m, labels, 0.4f, components, work.components);
         extractReturns(scan, {r.range_image, labels, components}, own_labels, {15.0f, 0.4f},

@@ -25,8 +25,10 @@ Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& toleran
     static ToleranceWorkspace work;  // shared by all tests, as by all scans in a filter
     Image<float> tolerance_m;
     CellTops tops;
-    findCellTops(pixels, pixels.z_m, tops);
-    toleratedHeights(pixels, tops, tolerance, sensor_height_m, tolerance_m, work);
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    findCellTops(cells, pixels.z_m, tops);
+    toleratedHeights(pixels, cells, tops, tolerance, sensor_height_m, tolerance_m, work);
     return tolerance_m;
 }
 

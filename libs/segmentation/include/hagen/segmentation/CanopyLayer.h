@@ -1,12 +1,8 @@
 #pragma once
 #include <hagen/segmentation/CellTops.h>
+#include <hagen/segmentation/PixelCells.h>
 
 namespace hagen {
-
-/// Workspace of tolerateCanopy(). Reuse it between scans to avoid allocations; it has no state.
-struct CanopyWorkspace {
-    Eigen::ArrayXXf canopy_m;  ///< height of the canopy in each cell of CellTops, 0 for none
-};
 
 /// Raises the tolerance over crops. If plants 0.1 to 1 m high stand in 35 % of all cells (0.75 m)
 /// seen within 18 m, they are a canopy, which is flown over like the ground. Bushes, hedges and
@@ -17,6 +13,6 @@ struct CanopyWorkspace {
 /// what stands out of the plants stands on the ground. These statistics are over 13 x 13 blocks of
 /// 4 x 4 cells; if fewer than 30 of the cells were seen, no canopy is assumed. `tops` are relative
 /// to the surface; tolerances of empty pixels are NaN.
-void tolerateCanopy(const CellTops& tops, Image<float>& tolerance_m, CanopyWorkspace& work);
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m);
 
 }  // namespace hagen

@@ -1,24 +1,24 @@
 #pragma once
-#include <hagen/segmentation/PixelPoints.h>
+#include <hagen/range_image/Image.h>
+#include <hagen/segmentation/PixelCells.h>
 #include <Eigen/Core>
-#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace hagen {
 
 /// How high objects stand in each ground cell: the second-highest point up to 1.5 m above the
 /// surface, or the only one. One return alone may be rain, dust or a mixed pixel, and what is
-/// higher may be the crown of a tree that stands elsewhere. The cells are those of GroundSurface
-/// plus a border of one cell on all sides for all points beyond.
+/// higher may be the crown of a tree that stands elsewhere. Indexed by PixelCells::cell.
 struct CellTops {
     static constexpr float kNone_m = -std::numeric_limits<float>::infinity();
 
-    Image<std::int32_t> cell;   ///< of each pixel, as an index into top_m; 0 if it is empty
     Eigen::ArrayXXf top_m;      ///< height above the surface; kNone_m in cells without pixels
     Eigen::ArrayXXf highest_m;  ///< the highest up to 1.5 m, likewise
+    std::vector<float> two_m;   ///< the highest two of each cell, side by side (workspace)
 };
 
-/// `pixels` in the ground frame, `height_m` above the surface.
-void findCellTops(const PixelPoints& pixels, const Image<float>& height_m, CellTops& tops);
+/// `height_m` above the surface.
+void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops);
 
 }  // namespace hagen

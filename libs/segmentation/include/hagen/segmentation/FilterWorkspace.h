@@ -1,6 +1,5 @@
 #pragma once
 #include <hagen/range_image/RangeImage.h>
-#include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/DeadBeams.h>
 #include <hagen/segmentation/Extraction.h>
 #include <hagen/segmentation/FartherReturns.h>
@@ -32,7 +31,6 @@ struct FilterWorkspace {
     Image<Label> candidates;  // of the ground surface
     GroundSurfaceWorkspace ground_surface;
     ToleranceWorkspace tolerance;
-    CanopyWorkspace canopy;
     FeetWorkspace feet;
     SpeckWorkspace specks;
     FartherReturnsWorkspace farther_returns;

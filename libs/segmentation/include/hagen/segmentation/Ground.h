@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/segmentation/CellTops.h>
 #include <hagen/segmentation/GroundSurface.h>
+#include <hagen/segmentation/PixelCells.h>
 #include <hagen/segmentation/PixelPoints.h>
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -16,6 +17,7 @@ struct Ground {
 
     /// Whether a surface was fitted. If not, the members below are from an older scan.
     bool has_surface = false;
+    PixelCells cells;              ///< of the pixels, on the grid of the surface
     Image<std::uint8_t> is_level;  ///< 1: the pixel looks like ground (GroundEvidence.h)
     GroundSurface surface;         ///< under the ROU
     Image<float> height_m;         ///< of each pixel above the surface

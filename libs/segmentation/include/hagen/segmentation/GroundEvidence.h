@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/Label.h>
+#include <hagen/segmentation/PixelCells.h>
 #include <hagen/segmentation/PixelPoints.h>
 #include <cstdint>
 #include <vector>
@@ -9,12 +10,10 @@ namespace hagen {
 
 /// Workspace of this stage. Reuse it between scans to avoid allocations; it has no state.
 struct GroundEvidenceWorkspace {
-    Image<std::int32_t> cell;     ///< of each pixel, on the grid of CellTops
     std::vector<float> lowest_m;  ///< per cell
     /// Per pixel: 1 if a level step leads to the pixel above, + 2 if one leads to the next but one.
     std::vector<std::uint8_t> steps;
-    std::vector<std::int32_t> close;  ///< per cell: pixels close to the surface; upper half: level
-    std::vector<float> least_m;       ///< per cell: 0 with evidence, otherwise minus infinity
+    std::vector<std::uint8_t> close;  ///< per pixel: 1 if it is close to the surface, 2: and level
 };
 
 /// Marks the pixels that look like ground (1, otherwise 0), in the ground frame. A pixel and the
@@ -24,8 +23,8 @@ struct GroundEvidenceWorkspace {
 /// well: over so short a way the noise of ranges is steep. Both pixels of a step are level, unless
 /// another pixel of their cell (0.75 m) is more than 0.3 m below: there, they are leaves, a table
 /// or a roof.
-void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level,
-                     GroundEvidenceWorkspace& work);
+void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
+                     Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work);
 
 /// The candidates of the first fit of the ground surface: ROU pixels that are level stay ROU, all
 /// others are unclassified.
@@ -35,9 +34,9 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
 /// Withdraws the tolerance (minus infinity: RoI at any height) where nothing shows that the surface
 /// is ground: unless at least 55 % of the pixels close to the surface (0.2 m, plus 0.005 m per
 /// metre of distance) within 9 x 9 blocks of 3 m are level. A surface that passes through walls,
-/// trees or furniture meets them at pixels that are not level. `cell` and `height_m` are of the
-/// pixels, as in CellTops and heightsAbove(); tolerances of empty pixels are NaN.
-void requireEvidence(const PixelPoints& pixels, const Image<std::int32_t>& cell,
+/// trees or furniture meets them at pixels that are not level. `height_m` is that of
+/// heightsAbove(); tolerances of empty pixels are NaN.
+void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
                      Image<float>& tolerance_m, GroundEvidenceWorkspace& work);
 

@@ -27,7 +27,7 @@ struct ToleranceWorkspace {
 /// sensor's height above the ground, this decreases to nothing: seen from above, feet are high
 /// enough to be found without it. `pixels` in the ground frame, `tops` of their heights above the
 /// surface.
-void toleratedHeights(const PixelPoints& pixels, const CellTops& tops,
+void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
                       Image<float>& tolerance_m, ToleranceWorkspace& work);
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/range_image/Label.h>
+#include <cstdint>
 #include <vector>
 
 namespace hagen {
@@ -14,6 +15,7 @@ struct OwnLabels {
     ///     Rou, Roi      the return's own label; overruled only outside the zone (ROU) or the
     ///                   image (RoI)
     std::vector<Label> label;
+    std::vector<std::int32_t> returns;  ///< those with a label of their own, ascending
 };
 
 }  // namespace hagen
