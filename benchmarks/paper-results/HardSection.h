@@ -7,7 +7,7 @@
 
 namespace hagen {
 
-/// Degradations that cost more than this of RoI's F1 are marked, in points of 0.01.
+/// Degradations that cost more than this of F1 are marked, in points of 0.01.
 constexpr double kCostly_points = 1.5;
 
 /// For each set of scans that were degraded, `default` on each degradation, the costliest first.

@@ -97,7 +97,7 @@ void LoadedScans::add(const ScanInputs& inputs) {
 }
 
 evaluation::Method LoadedScans::methodFor(const Kind& kind, const std::vector<Setting>& settings,
-                                          const Choice& choice) const {
+                                          const Choice& choice) {
     observations::Settings chosen = settingsOf(kind.preset, kind.zone_m);
     apply(settings, choice, chosen);
     labelled_scans::MethodSet rows{{{"", chosen, "", ""}}, std::nullopt};

@@ -61,8 +61,8 @@ class LoadedScans {
 
     std::size_t kindOf(const ScanInputs& inputs, bool is_upside_down);
     std::size_t setOf(const ScanSet& set);
-    evaluation::Method methodFor(const Kind& kind, const std::vector<Setting>& settings,
-                                 const Choice& choice) const;
+    static evaluation::Method methodFor(const Kind& kind, const std::vector<Setting>& settings,
+                                        const Choice& choice);
 
     std::vector<ScanSet> sets_;
     std::vector<Kind> kinds_;
