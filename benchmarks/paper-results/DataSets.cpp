@@ -43,7 +43,9 @@ DataSet recording(const fs::path& labelled, const std::string& beams, const std:
             set.folder +
             ": no such folder; set HAGEN_LABELLED_DATA to its parent folder, or leave it unset");
     }
+    set.label_map = "semantic_kitti.yaml";  // the labels of labels/, and classes
     set.is_timed = true;
+    set.is_degraded = true;
     scanFolders(set);  // throws now instead of after minutes of simulation
     return set;
 }
@@ -52,8 +54,10 @@ DataSet withoutVegetation(DataSet set) {
     set.name += ", no vegetation";
     set.about += "; vegetation is not scored";
     set.label_map = "semantic_kitti_without_vegetation.yaml";
+    set.has_vegetation = false;
     set.has_all_rows = false;
     set.is_timed = false;
+    set.is_degraded = false;
     return set;
 }
 
@@ -116,6 +120,7 @@ std::vector<DataSet> dataSets(const fs::path& labelled, const fs::path& data,
         }
         set.is_altitude = altitude_m <= 5;
         set.is_timed = altitude_m == 2.5;
+        set.is_degraded = set.is_altitude;
         sets.push_back(set);
     }
     sets.push_back(flights("field", data / "field", {"field"}, {2.5}, "VLP-16", size));

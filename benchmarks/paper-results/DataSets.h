@@ -18,9 +18,11 @@ struct DataSet {
     std::vector<simulated_logs::SimulatedLog>
         flights;  ///< to be simulated in `folder`; empty: a recording
     float zone_m = 20, max_range_m = 20;
-    bool is_altitude = false;  ///< part of the series over altitudes within the default zone
-    bool has_all_rows = true;  ///< false: only the comparison of methods, no sweeps or ablations
-    bool is_timed = false;     ///< whether run times are measured on it
+    bool is_altitude = false;    ///< part of the series over altitudes within the default zone
+    bool has_all_rows = true;    ///< false: only the comparison of methods, no sweeps or ablations
+    bool is_timed = false;       ///< whether run times are measured on it
+    bool has_vegetation = true;  ///< false: real scans whose vegetation is not scored
+    bool is_degraded = false;    ///< whether `default` is also scored on degraded copies
 };
 
 /// Size of the simulation.

@@ -1,9 +1,11 @@
 // The document generated from the measurements.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "Measurement.h"
+#include "selection/Record.h"
 
 namespace hagen {
 
@@ -12,6 +14,7 @@ struct Provenance {
     std::string revision;  ///< of the project
     std::vector<std::uint64_t> seeds;
     bool is_quick = false;
+    std::optional<selection::Record> selection;  ///< of scripts/select-settings, if there is one
 };
 
 /// Returns the Markdown of docs/results.md. The charts' files are named as by drawResults().

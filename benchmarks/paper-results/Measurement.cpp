@@ -14,11 +14,15 @@
 namespace hagen {
 namespace {
 
+std::optional<evaluation::LabelMap> labelMapOf(const DataSet& set,
+                                               const MeasurementOptions& options) {
+    if (set.label_map.empty()) return std::nullopt;
+    return evaluation::readLabelMap(options.config / set.label_map);
+}
+
 Measured measure(const DataSet& set, const labelled_scans::MethodSet& rows,
                  const MeasurementOptions& options, bool has_camera) {
-    std::optional<evaluation::LabelMap> label_map;
-    if (!set.label_map.empty())
-        label_map = evaluation::readLabelMap(options.config / set.label_map);
+    const std::optional<evaluation::LabelMap> label_map = labelMapOf(set, options);
     evaluation::EvaluationOptions evaluation;
     evaluation.range.max_range_m = set.max_range_m;
     if (has_camera)
@@ -26,7 +30,7 @@ Measured measure(const DataSet& set, const labelled_scans::MethodSet& rows,
     const evaluation::LabelledScanSources sources =
         labelled_scans::sourcesOf(scanFolders(set), rows, label_map);
 
-    Measured measured{set, {}, {}, {}};
+    Measured measured{set, {}, {}, {}, {}};
     for (const auto& source : sources) measured.folders.push_back(source->name());
     measured.methods =
         evaluation::evaluate(sources, evaluation, [&](const evaluation::MethodOutput& view) {
@@ -89,6 +93,34 @@ std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
         std::cerr << "scored: " << set.name << "\n";
     });
     return all;
+}
+
+void measureHardSets(std::vector<Measured>& all, const MeasurementOptions& options) {
+    struct Task {
+        Measured* measured;
+        evaluation::Degradation degradation;
+        labelled_scans::HardSet result;
+    };
+    std::vector<Task> tasks;
+    const auto inputsOf = [&](const DataSet& set) {
+        labelled_scans::MethodSet rows = headlineRowsFor(set, options.config);
+        rows.filter.resize(1);  // `default`
+        rows.baselines.reset();
+        return labelled_scans::LabelledInputs{scanFolders(set), rows, labelMapOf(set, options)};
+    };
+    for (Measured& measured : all) {
+        if (!measured.set.is_degraded) continue;
+        for (const auto& d : labelled_scans::degradationsOf({}, true, inputsOf(measured.set)))
+            tasks.push_back({&measured, d, {}});
+    }
+    inParallel(tasks.size(), options.jobs, [&](std::size_t i) {
+        const DataSet& set = tasks[i].measured->set;
+        tasks[i].result =
+            labelled_scans::scoreHardSets(inputsOf(set), {tasks[i].degradation}, {set.max_range_m})
+                .front();
+    });
+    for (Task& task : tasks) task.measured->hard_sets.push_back(std::move(task.result));
+    if (!tasks.empty()) std::cerr << "scored: hard sets\n";
 }
 
 std::vector<Measured> measureTimes(const std::vector<DataSet>& sets,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <hagen/labelled_scans/HardSets.h>
 #include "DataSets.h"
 
 namespace hagen {
@@ -15,6 +16,8 @@ struct Measured {
     std::vector<std::string> folders;               ///< names of its scan folders
     std::vector<evaluation::MethodScores> methods;  ///< one per row
     std::vector<std::size_t> returns;               ///< of each scan
+    /// `default` alone on degraded copies of the scans; empty unless the set is_degraded.
+    std::vector<labelled_scans::HardSet> hard_sets;
 
     /// Returns the row of this name, or nullptr.
     const evaluation::MethodScores* row(const std::string& name) const;
@@ -26,12 +29,16 @@ struct Measured {
 struct MeasurementOptions {
     std::filesystem::path config;  ///< the folder of settings files, label maps and cameras
     std::string simulation_tag;    ///< see makeFlights()
-    unsigned jobs = 1;             ///< data sets that are scored in parallel
+    unsigned jobs = 1;             ///< data sets, or degradations, that are scored in parallel
 };
 
 /// Simulates missing sets and scores every row on each set.
 std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
                                     const MeasurementOptions& options);
+
+/// Scores `default` on degraded copies of the sets that are meant for it: one task per set and
+/// standard degradation.
+void measureHardSets(std::vector<Measured>& all, const MeasurementOptions& options);
 
 /// Measures run times of the methods on the sets that are meant for it: one set after the other,
 /// nothing in parallel. Its scores are identical to measureScores()'s and not used.

@@ -1,13 +1,17 @@
 // Measures the results in docs/results.md and writes that page. Run by scripts/reproduce-paper.
 #include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
 #include <hagen/labelled_scans/Charts.h>
 #include <fstream>
 #include <iostream>
+#include <iterator>
+#include <optional>
 #include <thread>
 
 #include <hagen/command_line/CommandLine.h>
 #include "Document.h"
 #include "Figures.h"
+#include "ReadmeBlock.h"
 
 namespace {
 
@@ -16,7 +20,8 @@ using namespace hagen::command_line;
 namespace fs = std::filesystem;
 
 struct Flags {
-    std::string labelled, data, config, output, revision = "unknown", simulation = "unknown";
+    std::string labelled, data, config, output, selection, readme;
+    std::string revision = "unknown", simulation = "unknown";
     bool is_quick = false, overwrite = false;
 };
 
@@ -31,6 +36,10 @@ void addFlags(Command& app, Flags& flags) {
         .existingFolder();
     app.option("--labelled", flags.labelled,
                "folder with beams16/ and beams64/: labelled real scans (default: none)");
+    app.option("--selection", flags.selection,
+               "record of scripts/select-settings (default: none, the document says so)")
+        .existingFile();
+    app.option("--readme", flags.readme, "README.md: replaces the results in it").existingFile();
     app.option("--revision", flags.revision, "revision of the project, for the document");
     app.option("--simulation", flags.simulation,
                "version of the simulation; scans of other versions are simulated again");
@@ -38,11 +47,31 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing results");
 }
 
+std::string contentOf(const fs::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// README.md with other results in it.
+std::string readmeOf(const fs::path& file, const std::string& block) {
+    try {
+        return withBlock(contentOf(file), block);
+    } catch (const std::runtime_error& e) {
+        throw std::runtime_error(file.string() + ": " + e.what());
+    }
+}
+
 int run(const Flags& flags) {
     base::OutputPath document(fs::path(flags.output) / "results.md", base::kFile, flags.overwrite);
     base::OutputPath charts(fs::path(flags.output) / "results", labelled_scans::kCharts,
                             flags.overwrite);
-    Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick};
+    std::optional<base::OutputPath> readme;
+    if (!flags.readme.empty()) {
+        readme.emplace(flags.readme, base::kFile, true);
+        readmeOf(flags.readme, "");  // throws now instead of after minutes
+    }
+    Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick, {}};
+    if (!flags.selection.empty()) provenance.selection = selection::readRecord(flags.selection);
     SimulationSize size{provenance.seeds, 4};
     if (flags.is_quick) {
         provenance.seeds = {101};
@@ -51,21 +80,21 @@ int run(const Flags& flags) {
     const std::vector<DataSet> sets = dataSets(flags.labelled, flags.data, size);
     const MeasurementOptions options{flags.config, flags.simulation,
                                      std::max(1u, std::thread::hardware_concurrency())};
-    const std::vector<Measured> scores = measureScores(sets, options);
+    std::vector<Measured> scores = measureScores(sets, options);
+    measureHardSets(scores, options);
     const std::vector<Measured> times = measureTimes(sets, options);
 
     fs::create_directory(charts.temporary());
     drawResults(charts.temporary(), scores, times);
     const std::string text = documentOf(scores, times, provenance);
-    std::ofstream out(document.temporary());
-    out << text;
-    out.close();
-    if (!out) {
-        throw std::runtime_error(document.path().string() +
-                                 ": cannot be written; is the disk full?");
+    base::writeText(text, document.temporary(), document.path());
+    if (readme) {
+        base::writeText(readmeOf(flags.readme, readmeBlock(scores, provenance.selection)),
+                        readme->temporary(), readme->path());
     }
     charts.commit();
     document.commit();
+    if (readme) readme->commit();
     std::cout << text;
     return 0;
 }

@@ -53,6 +53,12 @@ std::string pairCell(double roi, double rou, double best_roi, double best_rou) {
     return one(roi, best_roi) + " / " + one(rou, best_rou);
 }
 
+std::string missedCell(const evaluation::Missed& missed) {
+    if (missed.all == 0) return "-";
+    return std::to_string(missed.missed) + " of " + std::to_string(missed.all) + " (" +
+           cell(100 * missed.share(), 2) + " %)";
+}
+
 std::string pairCell(double roi, double rou) { return pairCell(roi, rou, NAN, NAN); }
 
 }  // namespace hagen

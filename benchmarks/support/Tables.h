@@ -1,6 +1,7 @@
 // Markdown tables, and numbers as their cells.
 #pragma once
 #include <hagen/evaluation/Bootstrap.h>
+#include <hagen/evaluation/DroneScores.h>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,8 @@ std::string pairCell(double roi, double rou, double best_roi, double best_rou);
 std::string pairCell(double roi, double rou);
 /// "0.958"; bold if above `other` as printed.
 std::string boldAbove(double value, double other);
+
+/// "12 of 3456 (0.35 %)"; a dash if there is nothing to miss.
+std::string missedCell(const evaluation::Missed& missed);
 
 }  // namespace hagen

@@ -8,7 +8,11 @@
 
 #include "paper-results/DataSets.h"
 #include "paper-results/Document.h"
+#include "paper-results/HardSection.h"
+#include "paper-results/LeftOutSection.h"
+#include "paper-results/ReadmeBlock.h"
 #include "paper-results/Rows.h"
+#include "paper-results/Sums.h"
 #include "support/ProgramTest.h"
 #include "support/SimpleScene.h"
 #include "support/Tables.h"
@@ -139,6 +143,84 @@ TEST_F(Flights, ThatWereNotFinishedAreMadeAnew) {
     EXPECT_GT(timeOfScan(), made);
 }
 
+evaluation::ScanScores scanOf(std::size_t folder, std::int64_t right, std::int64_t wrong) {
+    evaluation::ScanScores scan;
+    scan.folder = folder;
+    scan.all.roi = {right, wrong, 0};
+    scan.all.rou = {right, 0, wrong};
+    return scan;
+}
+
+/// Two drives, with two scans and one, and two degradations.
+Measured twoDrives() {
+    Measured measured;
+    measured.set.name = "real, 16 beams";
+    measured.folders = {"00", "02"};
+    measured.returns = {100, 100, 100};
+    evaluation::MethodScores method;
+    method.name = kDefault;
+    method.returns = {scanOf(0, 90, 10), scanOf(0, 95, 5), scanOf(1, 99, 1)};
+    measured.methods = {method};
+    for (const auto& [name, right] : {std::pair{"rain=1", 90}, {"dead_beams=3", 60}}) {
+        evaluation::MethodScores degraded;
+        degraded.name = kDefault;
+        degraded.returns = {scanOf(0, right, 100 - right)};
+        measured.hard_sets.push_back({name, {degraded}});
+    }
+    return measured;
+}
+
+TEST(FolderSums, AreTheDrives) {
+    const std::vector<evaluation::Scores> sums = folderSums(twoDrives(), kDefault);
+    ASSERT_EQ(sums.size(), 2u);
+    EXPECT_EQ(sums[0].roi.hits, 185);
+    EXPECT_EQ(sums[1].roi.hits, 99);
+}
+
+TEST(HardSection, PutsTheCostliestFirstAndMarksIt) {
+    const std::string text = hardSection({twoDrives()});
+    EXPECT_LT(text.find("| as recorded"), text.find("**`dead_beams=3`**"));
+    EXPECT_LT(text.rfind("dead_beams=3"), text.rfind("rain=1"));
+    // F1 of the clean scans is 2 * 284 / (2 * 284 + 16).
+    EXPECT_THAT(text, HasSubstr("- `dead_beams=3`: real, 16 beams (-22.26)"));
+    EXPECT_THAT(text, HasSubstr("-2.52"));
+}
+
+selection::Record recordOf(const Measured& measured) {
+    selection::Record record;
+    record.revision = "v1-selected";
+    const std::vector<evaluation::Scores> sums = folderSums(measured, kDefault);
+    for (std::size_t f = 0; f < sums.size(); ++f) {
+        record.scores.push_back(
+            {measured.set.name, measured.folders[f], {sums[f], {}}, {{}}, {{sums[f], {}}}});
+    }
+    record.searches = {{"the presets", {}}};
+    return record;
+}
+
+TEST(LeftOutSection, SaysWhetherItIsMissingOrOutdated) {
+    EXPECT_THAT(leftOutSection({twoDrives()}, std::nullopt),
+                HasSubstr("`scripts/select-settings` was not run"));
+    selection::Record record = recordOf(twoDrives());
+    const std::string current = leftOutSection({twoDrives()}, record);
+    EXPECT_THAT(current, HasSubstr("| drive 02, left out"));
+    EXPECT_THAT(current, Not(HasSubstr("have changed since")));
+    ++record.scores[1].present.scores.roi.misses;
+    EXPECT_THAT(leftOutSection({twoDrives()}, record), HasSubstr("v1-selected. Run"));
+}
+
+TEST(ReadmeBlock, ReplacesWhatIsBetweenTheMarks) {
+    const std::string first = "<!-- results: written -->\n", last = "<!-- end of results -->";
+    EXPECT_EQ(withBlock("a\n" + first + "old\n" + last + "\nb\n", "new\n"),
+              "a\n" + first + "\nnew\n" + last + "\nb\n");
+    for (const std::string& text :
+         {first, last, last + "\n" + first, first + first + last, first + last + last}) {
+        EXPECT_THAT(test::messageOf([&] { withBlock(text, ""); }), HasSubstr("end of results"))
+            << text;
+    }
+    EXPECT_NO_THROW(withBlock(test::readFile(HAGEN_SOURCE_DIR "/README.md"), ""));
+}
+
 class PaperResults : public test::ProgramTest {
  protected:
     test::Outcome run(const std::vector<std::string>& arguments) const override {
@@ -173,6 +255,7 @@ TEST_F(PaperResults, RefusesWrongUsage) {
     expectFailure({}, 2, "--output");
     expectFailure({"-o", (folder_ / "none").string()}, 2, "none");
     expectFailure({"-o", folder_.path(), "--beta", "5"}, 2, "--beta");
+    expectFailure({"-o", folder_.path(), "--selection", path("none.json")}, 2, "none.json");
 }
 
 TEST_F(PaperResults, NamesTheRecordingThatIsMissing) {
@@ -191,6 +274,15 @@ TEST_F(PaperResults, NamesTheSettingsThatAreMissing) {
         {"-o", folder_.path(), "--data", folder_.path(), "--quick", "--config", folder_.path()});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.err, HasSubstr("vlp16.yaml"));
+}
+
+TEST_F(PaperResults, NamesBrokenInputs) {
+    folder_.write("selection.json", "{}");
+    expectFailure({"-o", folder_.path(), "--selection", path("selection.json")}, 1,
+                  "selection.json: is no record of scripts/select-settings");
+    folder_.write("readme.md", "no results");
+    expectFailure({"-o", folder_.path(), "--readme", path("readme.md")}, 1,
+                  "readme.md: needs one line");
 }
 
 TEST_F(PaperResults, ReplacesNothingUnasked) {
@@ -221,7 +313,16 @@ TEST_F(PaperResultsRun, HasEveryTableAndFigure) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string document = test::readFile(folder_ / "results.md");
     EXPECT_EQ(document, outcome.out);
-    for (const std::string words : {"## Comparison with other methods",
+    for (const std::string words : {"## Scores on drives that were left out",
+                                    "was not run",
+                                    "## Comparison with other methods",
+                                    "drives or flights",
+                                    "## What matters to a drone",
+                                    "nothing found",
+                                    "| 5-10 m ",
+                                    "| pole ",
+                                    "## Hard sets",
+                                    "dead_beams=7",
                                     "| real, 16 beams ",
                                     "| simulated, 7 m ",
                                     "| HDL-64E ",

@@ -1,0 +1,119 @@
+#include "HardSection.h"
+
+#include <hagen/labelled_scans/Summary.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "Rows.h"
+#include "Sums.h"
+#include "support/Tables.h"
+
+namespace hagen {
+namespace {
+
+/// `default` on one degradation of one or more sets.
+struct Degraded {
+    std::string name;
+    evaluation::Scores scores;
+    evaluation::Missed missed;
+    double roi_points = NAN, rou_points = NAN;  ///< change of F1
+};
+
+/// The sets whose scans were degraded, by name: simulated ones as one.
+std::vector<std::pair<std::string, Sets>> degradedData(const std::vector<Measured>& all) {
+    std::vector<std::pair<std::string, Sets>> data;
+    for (const auto& [name, sets] : mainData(all)) {
+        if (!sets.front()->hard_sets.empty()) data.push_back({name, sets});
+    }
+    return data;
+}
+
+std::vector<Degraded> degradedOf(const Sets& sets) {
+    const evaluation::Scores clean = sumOf(sets, kDefault);
+    std::vector<Degraded> all;
+    for (std::size_t d = 0; d < sets.front()->hard_sets.size(); ++d) {
+        Degraded one;
+        one.name = sets.front()->hard_sets[d].name;
+        for (const Measured* set : sets) {
+            const evaluation::MethodScores& method = set->hard_sets.at(d).methods.front();
+            for (const evaluation::ScanScores& scan : method.returns) one.scores += scan.all;
+            for (const evaluation::DroneScores& scan : method.drone) one.missed += scan.tall;
+        }
+        one.roi_points = labelled_scans::changeInPoints(one.scores.roi.f1(), clean.roi.f1());
+        one.rou_points = labelled_scans::changeInPoints(one.scores.rou.f1(), clean.rou.f1());
+        all.push_back(one);
+    }
+    const auto order = [](const Degraded& one) {
+        return std::isnan(one.roi_points) ? INFINITY : one.roi_points;
+    };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Degraded& a, const Degraded& b) { return order(a) < order(b); });
+    return all;
+}
+
+bool isCostly(double points) { return points < -kCostly_points; }  // false for NaN
+
+std::string points(double value) {
+    if (std::isnan(value)) return "-";
+    char text[32];
+    std::snprintf(text, sizeof text, "%+.2f", value);
+    return text;
+}
+
+std::string marked(double value) {
+    return isCostly(value) ? "**" + points(value) + "**" : points(value);
+}
+
+std::string hardTable(const std::string& name, const Sets& sets) {
+    const evaluation::Scores clean = sumOf(sets, kDefault);
+    Table table({"`" + name + "`", "F1 of RoI / ROU", "change of RoI", "change of ROU",
+                 "missed above 0.5 m"});
+    table.add({"as recorded", pairCell(clean.roi.f1(), clean.rou.f1()), "", "",
+               missedCell(droneSumOf(sets, kDefault).tall)});
+    for (const Degraded& one : degradedOf(sets)) {
+        const std::string mark = isCostly(one.roi_points) ? "**" : "";
+        table.add({mark + "`" + one.name + "`" + mark,
+                   pairCell(one.scores.roi.f1(), one.scores.rou.f1()), marked(one.roi_points),
+                   marked(one.rou_points), missedCell(one.missed)});
+    }
+    return table.text();
+}
+
+/// "- `rain=3`: real, 16 beams (-2.10); ..." of one class, in the order of the tables.
+std::string costlyList(const std::vector<std::pair<std::string, Sets>>& data,
+                       double Degraded::*change) {
+    std::vector<std::string> order;
+    std::map<std::string, std::string> where;
+    for (const auto& [name, sets] : data) {
+        for (const Degraded& one : degradedOf(sets)) {
+            if (!isCostly(one.*change)) continue;
+            std::string& list = where[one.name];
+            if (list.empty()) order.push_back(one.name);
+            list += (list.empty() ? "" : "; ") + name + " (" + points(one.*change) + ")";
+        }
+    }
+    std::string text;
+    for (const std::string& name : order) text += "- `" + name + "`: " + where[name] + "\n";
+    return (text.empty() ? "- none\n" : text) + "\n";
+}
+
+}  // namespace
+
+std::string hardSection(const std::vector<Measured>& all) {
+    const auto data = degradedData(all);
+    if (data.empty()) return "";
+    std::string text =
+        "## Hard sets\n\n"
+        "`default` on copies of the scans that were degraded together with their ground truth "
+        "([what is done](evaluation.md#hard-sets)); changes of F1 are in points of 0.01. Bold "
+        "marks what costs more than " +
+        cell(kCostly_points, 1) + " points. Of RoI's F1, these do:\n\n" +
+        costlyList(data, &Degraded::roi_points) + "Of ROU's F1, these do:\n\n" +
+        costlyList(data, &Degraded::rou_points);
+    for (const auto& [name, sets] : data) text += hardTable(name, sets);
+    return text;
+}
+
+}  // namespace hagen

@@ -1,0 +1,46 @@
+// What is tried, and on what: config/selection.yaml.
+#pragma once
+#include <hagen/observations/Settings.h>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "Descent.h"
+
+namespace hagen::selection {
+
+struct Plan {
+    int most_rounds = 3;                 ///< of the coordinate descent
+    std::vector<std::string> hard_sets;  ///< as for `--degrade`
+    std::vector<Setting> settings;
+    /// The value of a setting in the plain start, where that is not the presets'.
+    std::map<std::string, std::string> plain;
+};
+
+/// Reads
+///
+///     rounds: 3
+///     hard_sets: [dropout=20]
+///     settings:
+///       ground_tolerance_m: [0.14, 0.17, 0.20]
+///     plain: {ground_tolerance_m: 0.20}
+///
+/// where `settings` is required, and `plain` has one of their values each. Throws
+/// std::runtime_error naming file, line and entry: what is no such file, unknown or repeated keys,
+/// settings and values that the filter does not know, unknown degradations.
+Plan readPlan(const std::filesystem::path& file);
+
+/// The values of the settings at present, which are added to the values to try if they are not
+/// among them. Throws std::runtime_error naming the setting if the presets (files in `config`)
+/// differ in it: it is a matter of the sensor, and cannot be chosen for all.
+Choice presentChoice(const std::vector<std::filesystem::path>& presets, Plan& plan);
+
+/// The plain start: the present choice with the values of Plan::plain.
+Choice plainChoice(const Plan& plan, Choice present);
+
+/// Sets the chosen values.
+void apply(const std::vector<Setting>& settings, const Choice& choice,
+           observations::Settings& target);
+
+}  // namespace hagen::selection
