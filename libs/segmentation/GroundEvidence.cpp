@@ -157,8 +157,9 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
     is_level.resize(rows, columns);
     if (size == 0) return;
     // Steps from one pixel before the first: none.
-    work.steps.assign(size + 1, 0);
+    work.steps.resize(size + 1);
     std::uint8_t* const is_step = work.steps.data() + 1;
+    work.steps.front() = 0;
     HWY_DYNAMIC_DISPATCH(LevelStepsIn)
     (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), is_step);
     for (Eigen::Index top = rows - 1; top < rows * columns; top += rows) is_step[top] = 0;
