@@ -15,10 +15,10 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
     float* const two_m = tops.two_m.data();
     const float* const h_m = height_m.data();
     const std::uint16_t* const cell = cells.cell.data();
+    const float none_m = CellTops::kNone_m;
     const auto raise = [=](std::size_t pixel) __attribute__((always_inline)) {
         float &first_m = two_m[2 * cell[pixel]], &second_m = two_m[2 * cell[pixel] + 1];
-        // NaN: none
-        const float own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : CellTops::kNone_m;
+        const float own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : none_m;  // NaN: none
         second_m = std::max(second_m, std::min(own_m, first_m));
         first_m = std::max(first_m, own_m);
     };

@@ -184,8 +184,9 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
     is_level.resize(rows, columns);
     if (size == 0) return;
     // Steps from two pixels before the first: none.
-    work.steps.assign(size + 2, 0);
+    work.steps.resize(size + 2);
     std::uint8_t* const steps = work.steps.data() + 2;
+    work.steps[0] = work.steps[1] = 0;
     HWY_DYNAMIC_DISPATCH(LevelStepsIn)
     (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), steps);
     for (Eigen::Index top = rows - 1; top < rows * columns; top += rows) {
