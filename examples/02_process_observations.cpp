@@ -16,7 +16,7 @@ void printNearest(const mrpt::obs::CObservation& observation,
     std::printf("%s: %zu RoI points", observation.sensorLabel.c_str(), out.roi->pointcloud->size());
     float nearest_m = -1.0f;
     for (const auto i : out.result->returns.roi) {
-        const float range_m = out.window->range_m[i];
+        const float range_m = out.scan->range_m[i];
         if (nearest_m < 0.0f || range_m < nearest_m) nearest_m = range_m;
     }
     if (nearest_m >= 0.0f) std::printf(", the nearest at %.2f m", static_cast<double>(nearest_m));

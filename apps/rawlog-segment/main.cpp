@@ -37,8 +37,7 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
-                  << ": ignored: only a window (window_scans), --kitti and --octomap need it; "
-                     "angles are "
+                  << ": ignored: only --kitti and --octomap need it; angles are "
                      "gravity-aligned only with timed poses (TUM)\n";
     }
     return report;

@@ -88,12 +88,6 @@ std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
             rows.push_back(row);
         }
     }
-    for (const SweepPoint& row : rows) {
-        if (row.settings.options.window_scans > 1) {
-            throw observations::SettingsError(
-                "window_scans is above 1, but scans are scored one at a time");
-        }
-    }
     return rows;
 }
 

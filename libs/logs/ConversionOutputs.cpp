@@ -59,7 +59,7 @@ std::string ConversionOutputs::writeScan(
         fs::create_directory(folder);
         const std::string title =
             conversion_.input.filename().string() + ", " + sensor_label + ", scan " + own_name;
-        pictures::drawStages({*segmented.window, *segmented.sensor, settings.options,
+        pictures::drawStages({*segmented.scan, *segmented.sensor, settings.options,
                               *segmented.result, title, conversion_.picture_azimuth_deg},
                              folder);
     }

@@ -34,7 +34,6 @@ ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     float nearest_m = std::numeric_limits<float>::infinity();
     std::int32_t obstacles = 0;
     for (const std::uint32_t i : out.result->returns.roi) {
-        if (i >= out.scan->size()) break;  // ascending; the rest are from older scans
         nearest_m = std::min(nearest_m, out.scan->range_m[i]);
         obstacles = std::max(obstacles, out.result->returns.component[i]);
     }
@@ -51,10 +50,9 @@ bool hasTumFile(const Conversion& conversion) {
 
 /// Poses of a rawlog are read only if an output needs them, as they may cost another pass.
 bool needsPoses(const Conversion& conversion) {
-    const Options& options = conversion.settings.options;
-    const bool can_level = options.level_by_attitude && hasTumFile(conversion);
-    return fs::is_directory(conversion.input) || options.window_scans > 1 ||
-           !conversion.folder.empty() || !conversion.octomaps.empty() || can_level;
+    const bool can_level = conversion.settings.options.level_by_attitude && hasTumFile(conversion);
+    return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
+           !conversion.octomaps.empty() || can_level;
 }
 
 }  // namespace
@@ -64,7 +62,6 @@ Converter::Converter(const Conversion& conversion, const ConversionListener& lis
       listener_(listener),
       source_(openRecording(conversion.input, sourceOptions())),
       settings_(source_->settingsFor(conversion.settings)),
-      has_window_(settings_.options.window_scans > 1),
       outputs_(conversion),
       segmenters_(settings_, conversion.cloud_class) {
     report_.settings = settings_;
@@ -118,8 +115,8 @@ void Converter::segment(ScanInConversion& scan) {
     const CObservation& observation = *scan.recorded.observation;
     scan.segmenter = segmenters_.lease();
     try {
-        scan.is_segmented = scan.segmenter->process(observation, scan.segmented, scan.recorded.pose,
-                                                    source_->poses().vehicle);
+        scan.is_segmented =
+            scan.segmenter->process(observation, scan.segmented, scan.recorded.pose);
     } catch (const observations::SettingsError&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -153,7 +150,6 @@ void Converter::serialiseAll(EntryInConversion& entry) const {
 }
 
 void Converter::segment(EntryInConversion& entry) {
-    if (has_window_) return;  // segmented in account(), in the log's order
     try {
         for (ScanInConversion& scan : entry.scans) segment(scan);
         serialiseAll(entry);
@@ -208,11 +204,7 @@ void Converter::account(ScanInConversion& scan) {
 
 void Converter::account(EntryInConversion& entry) {
     if (entry.failure) std::rethrow_exception(entry.failure);
-    for (ScanInConversion& scan : entry.scans) {
-        if (has_window_) segment(scan);
-        account(scan);
-    }
-    if (has_window_) serialiseAll(entry);
+    for (ScanInConversion& scan : entry.scans) account(scan);
     outputs_.gather(entry.bytes, entry.member);
     // The MRPT objects are no longer needed.
     entry.scans.clear();

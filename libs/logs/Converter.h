@@ -64,7 +64,6 @@ class Converter {
     std::mutex listener_mutex_;  ///< the listener is also called by reading, on another thread
     std::unique_ptr<ScanSource> source_;
     const observations::Settings settings_;  ///< with those of the recording's own sensor
-    const bool has_window_;                  ///< a scan's result depends on the scans before it
     ConversionOutputs outputs_;
     SegmenterPool segmenters_;
     ConversionReport report_;

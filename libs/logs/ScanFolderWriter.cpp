@@ -57,11 +57,8 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
         writeSensor(folder_ / "sensor.yaml", sensor, mount_);
         first_time_s_ = time_s;
     }
-    const std::vector<Label> labels(returns.label.begin(), returns.label.begin() + scan.size());
-    const std::vector<std::int32_t> components(returns.component.begin(),
-                                               returns.component.begin() + scan.size());
     writeScan(folder_ / "velodyne" / (name + ".bin"), scan);
-    writeLabels(folder_ / "labels" / (name + ".label"), labels, components);
+    writeLabels(folder_ / "labels" / (name + ".label"), returns.label, returns.component);
     times_s_.push_back(time_s - first_time_s_);
     if (sensor_pose) poses_.push_back({times_s_.back(), *sensor_pose});
     have_horizon_ = have_horizon_ && pose_has_horizon;

@@ -128,12 +128,10 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
 
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
                                     CloudClass cloud_class) {
-    const auto end = std::lower_bound(indices.begin(), indices.end(), scan.size());
-    const auto size = static_cast<std::size_t>(end - indices.begin());
     // Reserve first: appending points one by one costs several times as much.
     const auto fill = [&](auto points, const auto& set_more) {
-        points->setSize(size);
-        for (std::size_t k = 0; k < size; ++k) {
+        points->setSize(indices.size());
+        for (std::size_t k = 0; k < indices.size(); ++k) {
             const std::uint32_t i = indices[k];
             points->setPointFast(k, scan.x_m[i], scan.y_m[i], scan.z_m[i]);
             set_more(*points, k, i);

@@ -49,7 +49,7 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     sensor->setPose(mrpt::poses::CPose3D(observation.sensorPose()));
     sensor->insert(coloured(*segmented.non_roi->pointcloud, kRouColor, kRouPixels));
     sensor->insert(coloured(*segmented.roi->pointcloud, kRoiColor, kRoiPixels));
-    for (const RoiBox& box : boxRoiComponents(*segmented.window, segmented.result->returns)) {
+    for (const RoiBox& box : boxRoiComponents(*segmented.scan, segmented.result->returns)) {
         if (box.returns >= kLeastBoxed) sensor->insert(frameAround(box));
     }
     sensor->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 2.0f));

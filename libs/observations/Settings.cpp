@@ -87,6 +87,16 @@ const OptionKey* findOption(const std::string& name) {
     return nullptr;
 }
 
+/// A key of earlier versions. With the value 1 it changes nothing; old files have it.
+constexpr const char* kRemovedKey = "window_scans";
+
+/// The message for a key that is no option, or no longer one.
+std::string refusalOf(const std::string& key, const std::vector<std::string>& known) {
+    if (key != kRemovedKey) return unknownKey(key, known);
+    return "window_scans was removed: each scan is segmented alone, because windows of several "
+           "scans lowered the scores of the presets (docs/paper.md). Delete this line";
+}
+
 float parseAngle(const YAML::Node& node, const std::string& key, double most_deg) {
     return static_cast<float>(radians(parseNumber<double>(node, key, -most_deg, most_deg)));
 }
@@ -193,8 +203,8 @@ void mergeFile(const fs::path& file, int includes, Settings& settings) {
             } catch (const SettingsError& e) {
                 throw SettingsError(at(file, entry.second) + e.what());
             }
-        } else {
-            throw SettingsError(at(file, entry.first) + unknownKey(name, known));
+        } else if (name != kRemovedKey || entry.second.as<double>(0) != 1) {
+            throw SettingsError(at(file, entry.first) + refusalOf(name, known));
         }
     }
 }
@@ -305,7 +315,7 @@ void setOption(const std::string& key, const std::string& value, Settings& setti
     if (option == nullptr) {
         std::vector<std::string> known;
         for (const OptionKey& k : optionKeys()) known.push_back(k.name);
-        throw SettingsError(unknownKey(key, known));
+        throw SettingsError(refusalOf(key, known));
     }
     parseOption(*option, YAML::Node(value), settings.options);
 }

@@ -102,7 +102,7 @@ bool LoggedScans::next(LoggedScan& scan) {
         if (!recorded->pose.sensor_pose) continue;
         observations::ObservationSegmenter::Output out;
         try {
-            segmenter_.process(*recorded->observation, out, recorded->pose, vehicle);
+            segmenter_.process(*recorded->observation, out, recorded->pose);
         } catch (const observations::SettingsError&) {
             throw;
         } catch (const std::bad_alloc&) {

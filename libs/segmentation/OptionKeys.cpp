@@ -88,10 +88,7 @@ const std::vector<OptionKey>& optionKeys() {
          &Options::ground_is_roi_below_m},
         {"component_gap_m", "m", 0, 1000,
          "adjacent RoI pixels belong to one obstacle if their depths differ by less", "",
-         &Options::component_gap_m},
-        {"window_scans", "scans", 1, 100,
-         "consecutive scans segmented together; above 1 requires poses", "K",
-         &Options::window_scans}};
+         &Options::component_gap_m}};
     return keys;
 }
 

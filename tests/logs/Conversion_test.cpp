@@ -204,53 +204,23 @@ TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
     EXPECT_EQ(written.sensorModel().rows(), 32);
 }
 
-TEST_P(ConversionTest, AWindowOverAScanFolderTakesItsPoses) {
-    // The first scan sees a pole straight ahead, the second only flat ground. Combined, ground that
-    // shares a pixel with the pole is RoI: ahead, or to the side if poses.txt says that the sensor
-    // has moved.
-    const SensorModel sensor = sensorModel("VLP-16");
-    test::SimpleScene scene;
-    scene.poles.push_back({10, 0, 0.5, 6});
+TEST_P(ConversionTest, PosesOfAScanFolderTravelWithItsScans) {
     fs::create_directories(folder_ / "scans/velodyne");
-    writeScan(folder_ / "scans/velodyne/000000.bin",
-              test::scanScene(scene, sensor, 870, {0, 0, 2}).scan);
-    writeScan(folder_ / "scans/velodyne/000001.bin",
-              test::scanScene({}, sensor, 870, {0, 0, 2}).scan);
-    Conversion windowed = nothing();
-    windowed.input = folder_ / "scans";
-    windowed.folder = folder_ / "labels";
-    windowed.overwrite = true;
-    windowed.settings.options.window_scans = 2;
-    windowed.settings.options.ground_surface = false;  // it would separate ground behind the pole
-    std::vector<std::string> remarks;
-    const ConversionListener listener = remarksInto(remarks);
-    // Bearings of the ground returns that share pixels with the pole, as labelled.
-    const auto roiBearings = [&](const std::string& second_pose) {
-        folder_.write("scans/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n" + second_pose);
-        convert(windowed, listener);
-        const auto labels = readLabels(folder_ / "labels/labels/000001.label");
-        Scan scan;
-        readScan(folder_ / "labels/velodyne/000001.bin", scan);
-        std::vector<double> bearings_deg;
-        for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] != 2) continue;
-            bearings_deg.push_back(std::atan2(scan.y_m[i], scan.x_m[i]) * 57.29578);
-        }
-        return bearings_deg;
-    };
-    const auto straight = roiBearings("1 0 0 0 0 1 0 0 0 0 1 0\n");
-    ASSERT_FALSE(straight.empty());
-    for (const double bearing_deg : straight) EXPECT_NEAR(bearing_deg, 0.0, 5.0);
-    const auto aside = roiBearings("1 0 0 0 0 1 0 -5 0 0 1 0\n");  // the pole is 5 m to the left
-    ASSERT_FALSE(aside.empty());
-    for (const double bearing_deg : aside) EXPECT_NEAR(bearing_deg, 26.57, 5.0);
-    for (const std::string& remark : remarks) {
-        EXPECT_THAT(remark, HasSubstr("have no times"));
-    }
-    EXPECT_EQ(readKittiPoses(folder_ / "labels/poses.txt").size(), 2u);
+    const Scan scan = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan;
+    writeScan(folder_ / "scans/velodyne/000000.bin", scan);
+    writeScan(folder_ / "scans/velodyne/000001.bin", scan);
+    folder_.write("scans/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 -5 0 0 1 0\n");
+    Conversion from_folder = nothing();
+    from_folder.input = folder_ / "scans";
+    from_folder.folder = folder_ / "labels";
+    EXPECT_EQ(convert(from_folder).scans_with_pose, 2u);
+    const auto poses = readKittiPoses(folder_ / "labels/poses.txt");
+    ASSERT_EQ(poses.size(), 2u);
+    EXPECT_NEAR(poses[0].norm(), 0.0, 1e-9);
+    EXPECT_NEAR((poses[1] - mrpt::poses::CPose3D(0, -5, 0, 0, 0, 0)).norm(), 0.0, 1e-9);
 }
 
-TEST_P(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
+TEST_P(ConversionTest, PosesOfALogTravelWithItsScans) {
     const auto poseAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationRobotPose::Create();
         observation->sensorLabel = "pose";
@@ -260,26 +230,19 @@ TEST_P(ConversionTest, AWindowOverALogTakesItsRobotPoses) {
     };
     // The second scan's time lies between two poses; the later one comes after the scan in the log.
     writeLog({poseAt(0), scanFrom(0), poseAt(0.05), scanFrom(0.1), poseAt(0.15), poseAt(0.25),
-              scanFrom(3)});
-    Conversion windowed = conversion();
-    windowed.settings.options.window_scans = 3;
+              scanFrom(3), scanFrom(4)});
+    Conversion posed = conversion();
+    posed.folder = folder_ / "scans";
     std::vector<std::string> remarks;
     const ConversionListener listener = remarksInto(remarks);
-    EXPECT_EQ(convert(windowed, listener).scans, 3u);
-    ASSERT_EQ(remarks.size(), 1u);  // for the scan without a pose near its time
-    EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
-}
-
-TEST_P(ConversionTest, AWindowWithoutPosesSaysSoOfEveryScan) {
-    writeLog({scanFrom(0), scanFrom(1)});
-    Conversion windowed = conversion();
-    windowed.settings.options.window_scans = 3;
-    std::vector<std::string> remarks;
-    const ConversionListener listener = remarksInto(remarks);
-    convert(windowed, listener);
+    EXPECT_EQ(convert(posed, listener).scans_with_pose, 2u);
+    const auto poses = readTumPoses(folder_ / "scans/poses.tum");
+    ASSERT_EQ(poses.size(), 2u);
+    EXPECT_NEAR(poses[1].pose.x(), 0.1, 1e-6);
+    // One for each scan without a pose near its time.
     ASSERT_EQ(remarks.size(), 2u);
-    EXPECT_EQ(remarks[1].rfind("entry 1 (lidar): ", 0), 0u) << remarks[1];
-    EXPECT_THAT(remarks[1], HasSubstr("no pose"));
+    EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
+    EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
 }
 
 TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
@@ -564,14 +527,10 @@ TEST(ConversionThreads, NothingThatIsSeenDependsOnTheirNumber) {
     }
     Conversion conversion;
     conversion.input = folder / "in.rawlog";
-    for (const int window_scans : {1, 3}) {
-        conversion.settings.options.window_scans = window_scans;
-        const std::string alone = storyOf(conversion, folder, 1);
-        EXPECT_THAT(alone, HasSubstr("0x99"));
-        for (const std::size_t jobs : {0, 2, 3, 8}) {
-            EXPECT_TRUE(storyOf(conversion, folder, jobs) == alone)
-                << jobs << " threads, a window of " << window_scans;
-        }
+    const std::string alone = storyOf(conversion, folder, 1);
+    EXPECT_THAT(alone, HasSubstr("0x99"));
+    for (const std::size_t jobs : {0, 2, 3, 8}) {
+        EXPECT_TRUE(storyOf(conversion, folder, jobs) == alone) << jobs << " threads";
     }
 }
 

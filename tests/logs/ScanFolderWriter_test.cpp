@@ -84,16 +84,6 @@ TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
     EXPECT_EQ(test::readFile(file).find("mount"), std::string::npos);
 }
 
-TEST(ScanFolderWriter, OfAWindowWritesTheNewestScan) {
-    const test::TemporaryFolder folder;
-    LabelledReturns returns = labels();
-    returns.label.push_back(Label::Roi);
-    returns.component.push_back(9);
-    ScanFolderWriter writer(folder.path());
-    writer.write("000123", threePoints(), returns, sensorModel("VLP-16"), 0.0);
-    EXPECT_EQ(readLabels(folder / "labels/000123.label").size(), 3u);
-}
-
 TEST(ScanFolderWriter, PosesAreInTheMapAndWhereAllAreKnownFromTheFirst) {
     const test::TemporaryFolder folder;
     const mrpt::poses::CPose3D first(5, 6, 7, 1.5, 0.1, -0.2), second(6, 8, 7, 1.0, 0, 0);

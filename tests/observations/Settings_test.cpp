@@ -379,6 +379,23 @@ TEST_F(SettingsTest, TheAirframeOfASimulatedVehicleIsASettingsFile) {
     EXPECT_EQ(settings.airframe.parts.spheres.size(), 1u);
 }
 
+TEST_F(SettingsTest, OldFilesMayHaveAWindowOfOneScanButNotOfSeveral) {
+    for (const std::string one : {"1", "1.0"}) {
+        const Settings settings = settingsOf("window_scans: " + one + "\nbeta_deg: 12.5\n");
+        EXPECT_EQ(settings.options.beta_deg, 12.5f);
+    }
+    for (const std::string other : {"3", "0", "", "many", "[1]", "{1: 1}"}) {
+        const std::string message = refusalOf("beta_deg: 12.5\nwindow_scans: " + other);
+        EXPECT_THAT(message, HasSubstr("refused.yaml:2: window_scans was removed")) << other;
+        EXPECT_THAT(message, HasSubstr("Delete this line"));
+    }
+    EXPECT_THAT(refusalOf("window_scans: 1\nwindow_scans: 1"), HasSubstr("occurs twice"));
+    EXPECT_THAT(refusalOf("window_scan: 1"), HasSubstr("unknown key"));
+    Settings settings;
+    EXPECT_THAT(test::messageOf([&] { setOption("window_scans", "3", settings); }),
+                HasSubstr("was removed"));
+}
+
 TEST_F(SettingsTest, OneOptionFromText) {
     Settings settings;
     setOption("beta_deg", "12.5", settings);
@@ -396,7 +413,7 @@ TEST(Settings, ADumpReadsBackAsTheSameSettings) {
     Settings settings;
     settings.options.zone_m = 12.3456f;
     settings.options.seeds = Seeds::TopAndNearest;
-    settings.options.window_scans = 4;
+    settings.options.window_size = 12;
     settings.sensor.model = "custom";
     settings.sensor.elevations_deg = {-7.25, 0.1, 3};
     settings.sensor.max_range_m = 33.3f;

@@ -94,9 +94,6 @@ struct ConversionListener {
 /// the frame. Each scan of a scan folder becomes one observation. A written scan folder keeps the
 /// names and the point order of an input folder; scans of a rawlog are numbered.
 ///
-/// A window of several scans uses poses from a file or from the log. A scan without a pose is
-/// segmented alone, with a remark.
-///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.
 ///

@@ -24,9 +24,8 @@ class ScanFolderWriter {
     /// vehicle, for sensor.yaml.
     explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {});
 
-    /// Adds a scan with the labels of the first scan.size() returns. `sensor_pose`: sensor pose in
-    /// the map at the scan's time, if known. `pose_has_horizon`: the z axis of that map points
-    /// against gravity.
+    /// Adds a scan with the labels of its returns. `sensor_pose`: sensor pose in the map at the
+    /// scan's time, if known. `pose_has_horizon`: the z axis of that map points against gravity.
     void write(const std::string& name, const Scan& scan, const LabelledReturns& returns,
                const SensorModel& sensor, double time_s,
                const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,

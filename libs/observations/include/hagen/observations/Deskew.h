@@ -7,10 +7,10 @@
 
 namespace hagen::observations {
 
-/// Stage 10, first part: deskews a scan taken in motion. Each return is moved to where the sensor
-/// would have measured it at `start`, the scan's time, using the vehicle's pose at the return's own
-/// time (start + time_s). Range, azimuth and row are recomputed. Without motion, returns do not
-/// change except for rounding.
+/// Deskews a scan taken in motion. Each return is moved to where the sensor would have measured it
+/// at `start`, the scan's time, using the vehicle's pose at the return's own time (start + time_s).
+/// Range, azimuth and row are recomputed. Without motion, returns do not change except for
+/// rounding.
 ///
 /// Requires scan.time_s. Returns false, with the scan unchanged, if the trajectory does not cover
 /// all returns from the first to the last.

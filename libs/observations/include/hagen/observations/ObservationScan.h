@@ -52,8 +52,7 @@ enum class CloudClass {
     WithIntensity  ///< CPointsMapXYZI: coordinates and intensities
 };
 
-/// Returns the returns with these indices (ascending) as an MRPT cloud. Indices beyond the scan are
-/// ignored.
+/// Returns all returns, or those with these indices, as an MRPT cloud.
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, CloudClass cloud_class);
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
                                     CloudClass cloud_class);

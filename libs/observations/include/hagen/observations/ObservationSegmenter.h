@@ -3,12 +3,10 @@
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/ScanPose.h>
 #include <hagen/observations/Settings.h>
-#include <hagen/observations/SlidingWindow.h>
 #include <hagen/observations/Trajectory.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/poses/CPose3D.h>
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/system/COutputLogger.h>
 #include <mrpt/system/CTimeLogger.h>
@@ -16,7 +14,6 @@
 #include <chrono>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace hagen::observations {
@@ -29,7 +26,7 @@ namespace hagen::observations {
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
 /// Accepts every LiDAR scan of a log, also from several sensors: each sensor label has its own
-/// filter and window.
+/// filter. No result depends on the scans before.
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
     DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen::observations)
 
@@ -41,10 +38,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
         /// The scan's returns, and the result of each stage; valid until the next call of
-        /// process(). With a window of several scans, `result` refers to `window`, whose first
-        /// scan->size() returns are the deskewed returns of the scan.
+        /// process().
         const Scan* scan = nullptr;
-        const Scan* window = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
         std::size_t returns_masked = 0;  ///< of the airframe: without a range in `scan`
@@ -63,18 +58,14 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
 
-    /// Applies new settings and forgets all scans. Default: default settings. Throws SettingsError
-    /// if the options do not fit the sensor of the settings.
+    /// Applies new settings and forgets the last attitude. Default: default settings. Throws
+    /// SettingsError if the options do not fit the sensor of the settings.
     void initialize(const Settings& settings);
 
     /// Segments one observation. Returns false and leaves `out` unchanged if it is not a LiDAR
     /// scan.
     ///
-    /// A window of several scans needs the trajectory of the `vehicle`. If returns have times and
-    /// the poses cover the scan, each return is moved with the pose at its own time, otherwise the
-    /// whole scan with the pose at its time. Without a pose it is segmented alone. The remark says
-    /// so.
-    ///
+    /// The pose of the scan is that of `vehicle`, if that covers its time (scanPoseOf()).
     /// The vehicle's attitude is that of the last observation with an attitude (see()), otherwise
     /// that of `vehicle` if it has a horizon. The sensor is mounted on it as the observation's
     /// sensor pose says or, if that is level, as the settings say (Mount.h).
@@ -86,8 +77,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     /// The same for a scan with known pose. If poses are determined in the log's order, scans can
     /// be segmented in any order and by several segmenters concurrently.
-    bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
-                 const Trajectory& vehicle = Trajectory());
+    bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose);
 
     /// Stores the vehicle's attitude if an observation provides it (Horizon.h). process() does this
     /// for observations that are not scans; call it for those in the same sensory frame as a scan.
@@ -100,22 +90,12 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
 
  private:
-    /// The state of one sensor label.
-    struct Lidar {
-        HagenFilter filter;
-        SlidingWindow window;
-    };
-    Lidar& lidarOf(const std::string& label, const SensorModel& sensor);
-    /// The filter's input for the scan in observed_, and a remark if it is not a full window.
-    const Scan& windowOf(const mrpt::obs::CObservation& observation, const Trajectory& vehicle,
-                         const std::optional<mrpt::poses::CPose3D>& sensor_pose, Lidar& lidar,
-                         std::string& remark);
+    HagenFilter& filterOf(const std::string& label, const SensorModel& sensor);
 
     Settings settings_;
-    std::map<std::string, Lidar> lidars_;
+    std::map<std::string, HagenFilter> filters_;  ///< by sensor label
     Horizon horizon_;
     ObservedScan observed_;
-    Scan deskewed_;
 };
 
 /// Registers this project's classes with mrpt::rtti::classFactory(). Automatic in programs that use

@@ -7,8 +7,8 @@ namespace hagen::observations {
 /// Returns a segmented scan as a scene that a stock RawLogViewer shows in true colours: RoI
 /// vermilion, ROU pale blue, what has no range omitted. It contains the
 /// vehicle's frame with coordinate axes at the sensor, a circle of radius `zone_m` around it, and
-/// boxes around obstacles of 30 returns or more (counted over the entire window). Label
-/// `<label>_preview` (which MRPT 2.5 does not write), with the scan's time and sensor pose.
+/// boxes around obstacles of 30 returns or more. Label `<label>_preview` (which MRPT 2.5 does not
+/// write), with the scan's time and sensor pose.
 mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& observation,
                                               const ObservationSegmenter::Output& segmented,
                                               float zone_m);

@@ -14,7 +14,7 @@ namespace hagen::pictures {
 /// A segmented scan to draw: input and result of one call of HagenFilter::segment(). Keeps
 /// references to the caller's objects.
 struct StageView {
-    const Scan& scan;  ///< input of the filter; with a sliding window, all scans of the window
+    const Scan& scan;
     const SensorModel& sensor;
     const Options& options;
     const SegmentationResult& result;

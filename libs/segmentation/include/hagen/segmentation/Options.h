@@ -65,8 +65,6 @@ struct Options {
     float ground_is_roi_below_m = 0.0f;
     /// Adjacent RoI pixels belong to one component if their depths differ by less.
     float component_gap_m = 1.0f;
-    /// K, consecutive scans that are segmented together; above 1 requires poses.
-    int window_scans = 1;
 };
 
 /// Throws std::invalid_argument naming the setting if one is out of range (OptionKeys.h) or if they
