@@ -62,7 +62,8 @@ struct Heights {
     float canopy_m(int plants) const {
         const double mean_m = sum_m / plants;
         const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
-        return static_cast<float>(mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m);
+        const double spread_m = std::min(kDeviations * std::sqrt(variance_m2), mean_m);
+        return static_cast<float>(mean_m + spread_m + kMargin_m);
     }
 };
 

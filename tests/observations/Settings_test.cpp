@@ -92,8 +92,8 @@ TEST_F(SettingsTest, PresetsDifferInGeometryImageSizeAndSmoothingAndOneInToleran
                 key.name == "principal_components") {
                 continue;
             }
-            const bool is_tolerance = key.name == "ground_tolerance_m" ||
-                                      key.name == "ground_tolerance_beside_tall";
+            const bool is_tolerance =
+                key.name == "ground_tolerance_m" || key.name == "ground_tolerance_beside_tall";
             if (file == "mid360.yaml" && is_tolerance) continue;  // docs/without-rings.md
             EXPECT_EQ(textOf(key, preset.options), textOf(key, vlp16.options)) << key.name;
             EXPECT_EQ(textOf(key, preset.options), textOf(key, Options())) << key.name;

@@ -84,6 +84,14 @@ TEST(CanopyLayer, TwoReturnsThatStandOutShowThatThereIsAnObstacle) {
     EXPECT_EQ(toleratedBelow({0.85f, 0.85f}), kBefore_m);
 }
 
+TEST(CanopyLayer, GrassWithTrunksInItIsNoHighCrop) {
+    // Mean 0.288 m, standard deviation 0.256 m: not more than twice the mean.
+    const PixelPoints pixels = pixelsAt(field(20, [](int k) { return k % 5 == 0 ? 0.8f : 0.16f; }));
+    const Image<float> expected_m =
+        (pixels.z_m > 0.7f).select(kBefore_m, Image<float>::Constant(1, pixels.z_m.cols(), 0.676f));
+    EXPECT_LT((tolerated(pixels) - expected_m).abs().maxCoeff(), 2e-3f);
+}
+
 TEST(CanopyLayer, BareGroundStaysAsItWas) {
     EXPECT_TRUE((tolerated(pixelsAt(field(40, [](int) { return 0.05f; }))) == kBefore_m).all());
 }
@@ -186,8 +194,8 @@ TEST(CanopyLayer, AgreesWithASearchThroughAllCells) {
             forAround([&](double top_m) {
                 if (top_m > 0.1 && top_m < 1.0) deviations_m2 += std::pow(top_m - mean_m, 2);
             });
-            canopies_m[{a, b}] =
-                static_cast<float>(mean_m + 2 * std::sqrt(deviations_m2 / plants) + 0.1);
+            canopies_m[{a, b}] = static_cast<float>(
+                mean_m + std::min(2 * std::sqrt(deviations_m2 / plants), mean_m) + 0.1);
         }
     }
     ASSERT_GT(canopies_m.size(), 100u);

@@ -434,7 +434,7 @@ struct Stand {
         if (tall > kMostTall * seen) return 0;
         const float mean_m = sum_m / plants;
         const float variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0f);
-        return mean_m + kDeviations * std::sqrt(variance_m2) + kMargin_m;
+        return mean_m + std::min(kDeviations * std::sqrt(variance_m2), mean_m) + kMargin_m;
     }
 };
 using Stands = Eigen::Array<Stand, Eigen::Dynamic, Eigen::Dynamic>;
