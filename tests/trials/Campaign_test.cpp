@@ -103,8 +103,8 @@ TEST_F(Campaign, ProgressCountsFinishedRuns) {
         seen.push_back(done);
     };
     fly(options, "c");
-    EXPECT_LT(seen.front(),
-              40u);  // on a busy machine some runs are through before the first report
+    // On a busy machine some runs are through before the first report.
+    EXPECT_LT(seen.front(), 40u);
     EXPECT_EQ(seen.back(), 40u);
 }
 
