@@ -130,7 +130,8 @@ TEST(GroundStages, TheFrameIsThatOfAPlainFit) {
 }
 
 TEST(GroundStages, TheSurfaceIsThatOfAPlainFit) {
-    forManySights([](const Sight& sight) {
+    int apart = 0;
+    forManySights([&](const Sight& sight) {
         Sight in_ground = sight;
         Eigen::Isometry3f up = Eigen::Isometry3f::Identity();
         up.translation().z() = kSensorHeight_m;
@@ -138,16 +139,16 @@ TEST(GroundStages, TheSurfaceIsThatOfAPlainFit) {
         GroundSurface fast, plain;
         fitGroundSurface(in_ground.pixels, in_ground.labels, fast, work.ground_surface);
         test::plain::fitGroundSurface(in_ground.pixels, in_ground.labels, plain);
-        // A pixel may be on either side of a limit, and changes the cells around it a little.
         expectNear(fast.height_m, plain.height_m, 5e-2f);
-        const Eigen::ArrayXXf apart_m = (fast.height_m - plain.height_m).abs();
-        EXPECT_LE((apart_m > 1e-3f).count(), apart_m.size() / 20);
+        apart += ((fast.height_m - plain.height_m).abs() > 1e-3f).any();
 
         Image<float> fast_m, plain_m;
         heightsAbove(plain, in_ground.pixels, fast_m);
         test::plain::heightsAbove(plain, in_ground.pixels, plain_m);
         expectNear(fast_m, plain_m, 1e-4f);
     });
+    // A cell on either side of a limit changes those around it; few sights have one.
+    EXPECT_LE(apart, 1);
 }
 
 TEST(GroundStages, TolerancesAndLabelsAreThoseOfPlainLoops) {
