@@ -251,7 +251,7 @@ double filledShare(const Directions& directions, const Span& span, int rows, int
 }
 
 RecoveredBeams virtualRows(const Directions& directions, const std::vector<double>& ascending_deg) {
-    constexpr double kPixelsPerReturn = 0.72, kHeightPerWidth = 1.5, kLeastSpan_deg = 1.0;
+    constexpr double kPixelsPerReturn = 0.43, kHeightPerWidth = 2.5, kLeastSpan_deg = 1.0;
     constexpr double kLeastFilled = 0.75;
     constexpr int kFewestRows = 16, kFewestColumns = 8;
     const std::size_t outside = ascending_deg.size() / 1000;

@@ -1,7 +1,6 @@
 #include <hagen/segmentation/GroundEvidence.h>
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE
@@ -17,6 +16,7 @@ namespace {
 
 constexpr float kSteepest = 0.3f;  // slope of a level step
 constexpr float kShort_m = 0.08f;  // a step as short as this is too noisy
+constexpr float kFar_m = 2.0f;     // no step over other pixels is longer
 constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
 
 constexpr float kClose_m = 0.2f, kClose_per_m = 0.005f;  // to the surface
@@ -24,8 +24,9 @@ constexpr float kLeastShare = 0.55f;                     // of level pixels amon
 constexpr int kCells = GroundSurface::kCells;
 constexpr int kReach = 4;  // blocks in each direction
 
-/// Level steps that lead to the pixel above, and to the next but one.
-constexpr std::uint8_t kToNext = 1, kToNextButOne = 2;
+/// A step leads to one of this many pixels above. The marks of a pixel have a bit for each.
+constexpr int kAbove = 4;
+constexpr std::uint8_t markOf(int above) { return static_cast<std::uint8_t>(1 << (above - 1)); }
 
 }  // namespace
 }  // namespace hagen
@@ -47,43 +48,45 @@ HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
     hn::StoreU(hn::DemoteTo(Bytes<D>(), ones), Bytes<D>(), to);
 }
 
-/// Whether each pixel is a level step with the next in memory (1) and, if that is close, with the
-/// next but one (2). At the top of a column, where these are in another column, the caller corrects
-/// it.
+/// Marks of the level steps from each pixel to those that follow it in memory. At the top of a
+/// column, where these are in another column, the caller corrects it.
 void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                   const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps) {
-    const auto stepTo = [&](auto d, std::size_t pixel, std::size_t next) HAGEN_INLINE {
-        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
-        const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
-        const auto dy = hn::Sub(hn::LoadU(d, y_m + next), y);
-        const auto dz = hn::Sub(hn::LoadU(d, z_m + next), hn::LoadU(d, z_m + pixel));
-        const auto run_m2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), rise_m2 = hn::Mul(dz, dz);
-        const auto outwards = hn::Add(hn::Mul(dx, x), hn::Mul(dy, y));
-        const auto is_level =  // false for NaN
-            hn::And(hn::Lt(rise_m2, hn::Mul(hn::Set(d, kSteepest * kSteepest), run_m2)),
-                    hn::Gt(outwards, hn::Zero(d)));
-        const auto is_short = hn::Lt(hn::Add(run_m2, rise_m2), hn::Set(d, kShort_m * kShort_m));
-        return std::pair{is_level, is_short};
-    };
-    const auto markSteps = [&](auto d, std::size_t pixel, bool has_next_but_one) HAGEN_INLINE {
+    const auto markSteps = [&](auto d, std::size_t pixel, int most_above) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const Bytes<decltype(d)> d8;
-        const auto [is_level, is_short] = stepTo(d, pixel, pixel + 1);
-        auto marks = hn::IfThenElseZero(hn::RebindMask(di, is_level), hn::Set(di, kToNext));
-        if (has_next_but_one && !hn::AllFalse(d, is_short)) {
-            const auto is_long = hn::And(is_short, stepTo(d, pixel, pixel + 2).first);
-            marks = hn::Or(
-                marks, hn::IfThenElseZero(hn::RebindMask(di, is_long), hn::Set(di, kToNextButOne)));
+        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+        const auto z = hn::LoadU(d, z_m + pixel);
+        auto marks = hn::Zero(di);
+        auto is_open = hn::Not(hn::IsNaN(z));  // until a pixel is found that is far enough
+        for (int above = 1; above <= most_above && !hn::AllFalse(d, is_open); ++above) {
+            const std::size_t next = pixel + static_cast<std::size_t>(above);
+            const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
+            const auto dy = hn::Sub(hn::LoadU(d, y_m + next), y);
+            const auto dz = hn::Sub(hn::LoadU(d, z_m + next), z);
+            const auto run_m2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+            const auto rise_m2 = hn::Mul(dz, dz), length_m2 = hn::Add(run_m2, rise_m2);
+            const auto outwards = hn::Add(hn::Mul(dx, x), hn::Mul(dy, y));
+            auto is_level =  // false for NaN
+                hn::And(hn::Lt(rise_m2, hn::Mul(hn::Set(d, kSteepest * kSteepest), run_m2)),
+                        hn::Gt(outwards, hn::Zero(d)));
+            if (above > 1)
+                is_level = hn::And(is_level, hn::Lt(length_m2, hn::Set(d, kFar_m * kFar_m)));
+            marks = hn::Or(marks, hn::IfThenElseZero(hn::RebindMask(di, hn::And(is_open, is_level)),
+                                                     hn::Set(di, markOf(above))));
+            is_open = hn::AndNot(hn::Ge(length_m2, hn::Set(d, kShort_m * kShort_m)), is_open);
         }
         hn::StoreU(hn::DemoteTo(d8, marks), d8, steps + pixel);
     };
-    const std::size_t with_next_but_one = pixels < 2 ? 0 : pixels - 2;
-    forEachVector(with_next_but_one,
-                  [&](auto d, std::size_t pixel) HAGEN_INLINE { markSteps(d, pixel, true); });
-    if (pixels >= 2) markSteps(hn::CappedTag<float, 1>(), pixels - 2, false);
+    const std::size_t whole = pixels - std::min<std::size_t>(pixels, kAbove);
+    forEachVector(whole,
+                  [&](auto d, std::size_t pixel) HAGEN_INLINE { markSteps(d, pixel, kAbove); });
+    for (std::size_t pixel = whole; pixel < pixels; ++pixel) {
+        markSteps(hn::CappedTag<float, 1>(), pixel, static_cast<int>(pixels - 1 - pixel));
+    }
 }
 
-/// Marks both pixels of each step, unless their cell has something below. `steps` has two more
+/// Marks both pixels of each step, unless their cell has something below. `steps` has kAbove more
 /// values before the first.
 void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
                  const std::uint16_t* HWY_RESTRICT cell, const float* HWY_RESTRICT lowest_m,
@@ -94,11 +97,12 @@ void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
         const auto low_m = gatherAt(d, lowest_m, cell + pixel);
         const auto is_lowest =
             hn::Le(hn::LoadU(d, z_m + pixel), hn::Add(low_m, hn::Set(d, kDrop_m)));
-        const auto to_next = hn::And(hn::LoadU(d8, steps + pixel - 1), hn::Set(d8, kToNext));
-        const auto to_next_but_one =
-            hn::And(hn::LoadU(d8, steps + pixel - 2), hn::Set(d8, kToNextButOne));
-        const auto marks = hn::PromoteTo(
-            di, hn::Or(hn::LoadU(d8, steps + pixel), hn::Or(to_next, to_next_but_one)));
+        auto to_or_from = hn::LoadU(d8, steps + pixel);
+        for (int below = 1; below <= kAbove; ++below) {
+            const auto marks = hn::LoadU(d8, steps + pixel - below);
+            to_or_from = hn::Or(to_or_from, hn::And(marks, hn::Set(d8, markOf(below))));
+        }
+        const auto marks = hn::PromoteTo(di, to_or_from);
         storeMask(d, hn::And(is_lowest, hn::RebindMask(d, hn::Gt(marks, hn::Zero(di)))),
                   is_level + pixel);
     });
@@ -183,15 +187,17 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
     const auto size = static_cast<std::size_t>(rows * columns);
     is_level.resize(rows, columns);
     if (size == 0) return;
-    // Steps from two pixels before the first: none.
-    work.steps.resize(size + 2);
-    std::uint8_t* const steps = work.steps.data() + 2;
-    work.steps[0] = work.steps[1] = 0;
+    // Steps from the pixels before the first: none.
+    work.steps.resize(size + kAbove);
+    std::fill_n(work.steps.begin(), kAbove, std::uint8_t{0});
+    std::uint8_t* const steps = work.steps.data() + kAbove;
     HWY_DYNAMIC_DISPATCH(LevelStepsIn)
     (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), steps);
-    for (Eigen::Index top = rows - 1; top < rows * columns; top += rows) {
-        if (rows >= 2) steps[top - 1] &= kToNext;
-        steps[top] = 0;
+    const Eigen::Index last_rows = std::min<Eigen::Index>(rows, kAbove);
+    for (Eigen::Index end = rows; end <= rows * columns; end += rows) {
+        for (int above = 0; above < last_rows; ++above) {  // so many rows are above
+            steps[end - 1 - above] &= static_cast<std::uint8_t>((1 << above) - 1);
+        }
     }
 
     work.lowest_m.assign(kGridSize, kNoHeight);

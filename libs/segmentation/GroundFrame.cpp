@@ -33,7 +33,7 @@ constexpr double kRangeScale_m2 = 400.0;      // 20 m, squared
 // Conditions for ground.
 constexpr float kLeastHeight_m = 0.1f;   // of the sensor above ground
 constexpr float kLeastCosine = 0.7071f;  // of the sensor's tilt, 45 degrees
-constexpr Eigen::Index kLeastPixels = 50;
+constexpr Eigen::Index kLeastPixels = 20;
 
 using Points = GroundFrameWorkspace::Points;
 

@@ -105,7 +105,7 @@ TEST_F(SettingsTest, PresetsFitTheirSensors) {
     for (const auto& [file, name, beams, columns] : {std::tuple{"vlp16.yaml", "VLP-16", 16, 870},
                                                      {"hdl32e.yaml", "HDL-32E", 32, 870},
                                                      {"hdl64e.yaml", "HDL-64E", 64, 870},
-                                                     {"mid360.yaml", "Mid-360", 40, 360},
+                                                     {"mid360.yaml", "Mid-360", 24, 360},
                                                      {"ouster_os0_128.yaml", "OS0-128", 128, 870},
                                                      {"ouster_os1_64.yaml", "OS1-64", 64, 870}}) {
         Settings preset;

@@ -138,6 +138,24 @@ TEST(FindLevelPixels, OverAShortWayTheNextButOneMakesTheStep) {
               (std::vector{0, 0, 0, 0}));
 }
 
+TEST(FindLevelPixels, OverEmptyPixelsTheNextReturnMakesTheStep) {
+    const Eigen::Vector3f low(3, 0, 0), high(4, 0, 0.2f), steep(4, 0, 0.4f), none = kEmptyPixel;
+    EXPECT_EQ(levelInColumn({low, none, high}), (std::vector{1, 0, 1}));
+    EXPECT_EQ(levelInColumn({low, none, none, none, high}), (std::vector{1, 0, 0, 0, 1}));
+    EXPECT_EQ(levelInColumn({low, none, none, none, none, high}),
+              (std::vector{0, 0, 0, 0, 0, 0}));  // too many
+    EXPECT_EQ(levelInColumn({low, none, steep}), (std::vector{0, 0, 0}));
+    // Not over a return that is neither empty nor close: it decides.
+    EXPECT_EQ(levelInColumn({low, {3, 0, 0.3f}, {3.1f, 0, 0.4f}, {4, 0, 0}}),
+              (std::vector{0, 0, 0, 0}));
+    // Not farther than 2 m; to the pixel above, at any distance.
+    EXPECT_EQ(levelInColumn({low, none, {4.99f, 0, 0}}), (std::vector{1, 0, 1}));
+    EXPECT_EQ(levelInColumn({low, none, {5.01f, 0, 0}}), (std::vector{0, 0, 0}));
+    EXPECT_EQ(levelInColumn({low, {9, 0, 0}}), (std::vector{1, 1}));
+    // Not into the next column.
+    EXPECT_EQ(level({none, low, none, high}, 2), (std::vector{0, 0, 0, 0}));
+}
+
 // The table top is 0.75 m up, in the cell from 3 to 3.75 m.
 TEST(FindLevelPixels, ATableOverTheFloorIsNot) {
     const std::vector<Eigen::Vector3f> floor{{3.1f, 0.1f, 0}, {4.6f, 0.1f, 0}};
@@ -166,9 +184,9 @@ TEST(FindLevelPixels, TheTopOfAColumnIsNoStepToTheNextColumn) {
     EXPECT_EQ(level({{4, 0, 0}, {5, 0, 0}, {6, 0, 0}}, 1), (std::vector{0, 0, 0}));  // one beam
 }
 
-TEST(FindLevelPixels, AnEmptyPixelEndsAStep) {
+TEST(FindLevelPixels, EmptyPixelsAreNotLevel) {
     EXPECT_EQ(levelInColumn({{4, 0, 0}, kEmptyPixel, {5, 0, 0}, {6, 0, 0}, kEmptyPixel}),
-              (std::vector{0, 0, 1, 1, 0}));
+              (std::vector{1, 0, 1, 1, 0}));
     EXPECT_EQ(levelInColumn({kEmptyPixel, kEmptyPixel}), (std::vector{0, 0}));
 }
 

@@ -186,7 +186,11 @@ TEST(CanBeGround, IsSaidOfWhatLiesBelowAndIsNotTooSteep) {
     EXPECT_FALSE(canBeGround(frameAt(2, 0), mounted, labels));
     EXPECT_FALSE(canBeGround(frameAt(0.05f, 0), {}, labels));
     EXPECT_FALSE(canBeGround(frameAt(-2, 0), {}, labels));
-    labels.leftCols(1) = Label::Roi;  // 48
+    labels.leftCols(3) = Label::Roi;
+    EXPECT_FALSE(canBeGround(frameAt(2, 0), {}, labels));  // 16 pixels
+    labels.col(9).head(4) = Label::Rou;
+    EXPECT_TRUE(canBeGround(frameAt(2, 0), {}, labels));  // 20
+    labels(0, 9) = Label::Roi;
     EXPECT_FALSE(canBeGround(frameAt(2, 0), {}, labels));
 }
 

@@ -416,10 +416,11 @@ TEST(Mid360, FramesFillEachOthersGapsAndBecomeUniform) {
         for (std::size_t i = 0; i < scan.size(); ++i) {
             const double turned = degrees(static_cast<double>(scan.scan.azimuth_rad[i])) + 180;
             const int column = static_cast<int>(turned) % 360;
-            is_met[static_cast<std::size_t>(scan.scan.row[i] * 360 + column)] = true;
+            const int band =
+                std::clamp(static_cast<int>((elevationOf(scan, i) + 7) / 59 * 40), 0, 39);
+            is_met[static_cast<std::size_t>(band * 360 + column)] = true;
             ++by_azimuth[static_cast<std::size_t>(column / 10)];
-            const int band = static_cast<int>((elevationOf(scan, i) + 7) / 59 * 40);
-            ++by_elevation[static_cast<std::size_t>(std::clamp(band, 0, 39))];
+            ++by_elevation[static_cast<std::size_t>(band)];
         }
         filled.push_back(static_cast<double>(std::count(is_met.begin(), is_met.end(), true)) /
                          static_cast<double>(is_met.size()));

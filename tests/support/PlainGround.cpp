@@ -495,6 +495,8 @@ constexpr int kReach = 4;                      // blocks in each direction
 
 constexpr float kSteepest = 0.3f;  // slope of a level step
 constexpr float kShort_m = 0.08f;  // a step as short as this is too noisy
+constexpr float kFar_m = 2.0f;     // no step over other pixels is longer
+constexpr int kAbove = 4;          // pixels above that a step may lead to
 constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
 constexpr float kLeastShare = 0.55f;
 
@@ -551,15 +553,22 @@ void findLevelPixels(const PixelPoints& pixels, Image<std::uint8_t>& is_level) {
             const auto isStep = [&](Eigen::Index low, Eigen::Index high) {
                 if (low < 0 || high >= rows) return false;
                 const Eigen::Vector3f below = pixels.at(column * rows + low);
-                const Eigen::Vector3f next = pixels.at(column * rows + low + 1);
                 const Eigen::Vector3f above = pixels.at(column * rows + high);
-                const bool is_short = (next - below).squaredNorm() < kShort_m * kShort_m;
-                return (high == low + 1 || is_short) && isLevelStep(below, above);
+                if (high > low + 1 && !((above - below).squaredNorm() < kFar_m * kFar_m)) {
+                    return false;
+                }
+                for (Eigen::Index between = low + 1; between < high; ++between) {
+                    const Eigen::Vector3f other = pixels.at(column * rows + between);
+                    if ((other - below).squaredNorm() >= kShort_m * kShort_m) return false;
+                }
+                return isLevelStep(below, above);
             };
-            const bool up = isStep(row, row + 1) || isStep(row, row + 2);
-            const bool down = isStep(row - 1, row) || isStep(row - 2, row);
+            bool is_on_step = false;
+            for (Eigen::Index k = 1; k <= kAbove; ++k) {
+                is_on_step = is_on_step || isStep(row, row + k) || isStep(row - k, row);
+            }
             const float low_m = lowest_m(cellOf(point.x()) + 1, cellOf(point.y()) + 1);
-            is_level(row, column) = (up || down) && point.z() <= low_m + kDrop_m;
+            is_level(row, column) = is_on_step && point.z() <= low_m + kDrop_m;
         }
     }
 }

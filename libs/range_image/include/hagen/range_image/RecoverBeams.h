@@ -45,8 +45,8 @@ constexpr std::size_t kFewestReturnsForBeams = 400;
 /// quarters of the model's between the lowest and the highest.
 ///
 /// Virtual rows are evenly spaced over the elevations of all but the lowest and highest 0.1 % of
-/// the returns. As in the preset for a Mid-360, pixels are one and a half times as high as wide and
-/// there are 0.72 of them per return, which gives `most_columns` and the most rows, 256 at most.
+/// the returns. As in the preset for a Mid-360, pixels are two and a half times as high as wide and
+/// there are 0.43 of them per return, which gives `most_columns` and the most rows, 256 at most.
 /// Rows are then made fewer, but not fewer than 16, until three quarters of the pixels between
 /// others of their column have returns (gaps of more than four pixels are sky and do not count):
 /// rings that are blurred are much closer in azimuth than in elevation.

@@ -36,7 +36,7 @@ struct SensorModel {
 ///   to report nearer returns, and an OS0 before revision 7 measured from 0.3 m.) A sensor's own
 ///   beams, from its metadata, differ by a few tenths of a degree: customSensorModel().
 /// - Mid-360: Livox Mid-360 User Manual (2023), specifications: 0.1 m (blind zone) to 70 m (80 %
-///   reflectivity), -7 to 52 degrees. It has no rings; 40 virtual beams, 1.5 degrees apart, cover
+///   reflectivity), -7 to 52 degrees. It has no rings; 24 virtual beams, 2.5 degrees apart, cover
 ///   that field of view. Elevations are relative to the sensor's own axes, upside down or not.
 SensorModel sensorModel(const std::string& name);
 

@@ -11,7 +11,7 @@ namespace hagen {
 /// Workspace of this stage. Reuse it between scans to avoid allocations; it has no state.
 struct GroundEvidenceWorkspace {
     std::vector<float> lowest_m;  ///< per cell
-    /// Per pixel: 1 if a level step leads to the pixel above, + 2 if one leads to the next but one.
+    /// Per pixel: whether a level step leads to the pixel above (1), the next (2), ... (4), (8).
     std::vector<std::uint8_t> steps;
     std::vector<std::uint8_t> close;  ///< per pixel: 1 if it is close to the surface, 2: and level
 };
@@ -19,10 +19,11 @@ struct GroundEvidenceWorkspace {
 /// Marks the pixels that look like ground (1, otherwise 0), in the ground frame. A pixel and the
 /// one above it in its column are a level step if the upper one is farther out and the slope
 /// between them, against the plane, is less than 0.3. Walls are too steep, and ceilings come closer
-/// with elevation. Where the pixel above is less than 0.08 m away, the next but one makes a step as
-/// well: over so short a way the noise of ranges is steep. Both pixels of a step are level, unless
-/// another pixel of their cell (0.75 m) is more than 0.3 m below: there, they are leaves, a table
-/// or a roof.
+/// with elevation. Where the pixel above is empty, or less than 0.08 m away (over so short a way
+/// the noise of ranges is steep), the next one that is not makes a step as well, and so do the
+/// short ones before it: up to the fourth pixel above, if it is less than 2 m away. Both pixels of
+/// a step are level, unless another pixel of their cell (0.75 m) is more than 0.3 m below: there,
+/// they are leaves, a table or a roof.
 void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
                      Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work);
 

@@ -40,7 +40,7 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
                                  GroundFrameWorkspace& work);
 
 /// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
-/// against the horizon (against the airframe if the attitude is unknown), and at least 50 pixels
+/// against the horizon (against the airframe if the attitude is unknown), and at least 20 pixels
 /// are labelled ROU. High up next to a tower or tree no ground is visible, and other surfaces must
 /// not be taken for it.
 bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
