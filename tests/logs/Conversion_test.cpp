@@ -204,6 +204,73 @@ TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
     EXPECT_EQ(written.sensorModel().rows(), 32);
 }
 
+/// The scans of these observations as clouds, each without its sensor.
+std::vector<mrpt::serialization::CSerializable::Ptr> cloudsOf(
+    const std::vector<CObservation::Ptr>& scans) {
+    std::vector<mrpt::serialization::CSerializable::Ptr> clouds;
+    observations::ObservedScan observed;
+    for (const auto& scan : scans) {
+        observations::readObservation(*scan, {}, observed);
+        clouds.push_back(
+            observations::observationOf(observed.scan, scan->sensorLabel, scan->timestamp));
+    }
+    return clouds;
+}
+
+TEST_P(ConversionTest, CloudsGetTheLabelsOfTheirPackets) {
+    const std::vector<CObservation::Ptr> scans{scanFrom(0), scanFrom(1), scanFrom(2), scanFrom(3)};
+    writeLog({scans.begin(), scans.end()});
+    Conversion of_packets = conversion();
+    of_packets.folder = folder_ / "of_packets";
+    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", of_packets.settings);
+    convert(of_packets);
+    writeLog(cloudsOf(scans));
+    Conversion of_clouds = conversion();
+    of_clouds.rawlog = folder_ / "of_clouds.rawlog";
+    of_clouds.folder = folder_ / "of_clouds";
+    const ConversionReport report = convert(of_clouds);
+    EXPECT_EQ(report.recovered.at("lidar").beams->sensor.name, "VLP-16");
+    EXPECT_EQ(report.recovered.at("lidar").columns, 870);
+    EXPECT_THAT(report.sensors.at("lidar"), HasSubstr("beams recovered (VLP-16, which has 16)"));
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto expected = readLabels(ScanFolder(of_packets.folder).labelFile(i));
+        const auto found = readLabels(ScanFolder(of_clouds.folder).labelFile(i));
+        ASSERT_EQ(found.size(), expected.size());
+        std::size_t same = 0;
+        for (std::size_t k = 0; k < found.size(); ++k) same += found[k] == expected[k];
+        EXPECT_GE(static_cast<double>(same), 0.99 * static_cast<double>(found.size())) << i;
+    }
+}
+
+TEST(Conversion, CloudsGetTheSameBytesWithAnyNumberOfThreads) {
+    const test::TemporaryFolder folder;
+    std::vector<CObservation::Ptr> scans;
+    for (int i = 0; i < 12; ++i) scans.push_back(scanFrom(0.3 * i, i % 3 == 0 ? "rear" : "front"));
+    auto clouds = cloudsOf(scans);
+    // The first scans of a label are poor, so that the choice of its beams matters.
+    for (const std::size_t poor : {0, 1, 3}) {
+        auto& cloud = dynamic_cast<CObservationPointCloud&>(*clouds[poor]);
+        cloud.pointcloud->resize(poor == 3 ? 100 : 3000);
+    }
+    RawlogWriter writer(folder / "in.rawlog", true);
+    for (const auto& entry : clouds) writer.write(*entry);
+    writer.commit();
+    const auto converted = [&](std::size_t jobs, std::size_t from) {
+        Conversion conversion;
+        conversion.input = folder / "in.rawlog";
+        conversion.rawlog = folder / "out.rawlog";
+        conversion.overwrite = true;
+        conversion.jobs = jobs;
+        conversion.from = from;
+        const ConversionReport report = convert(conversion);
+        EXPECT_EQ(report.recovered.size(), 2u);
+        return std::pair(test::readFile(conversion.rawlog), report.scan_reports.back().roi);
+    };
+    const auto alone = converted(1, 0);
+    EXPECT_EQ(converted(4, 0).first, alone.first);
+    EXPECT_EQ(converted(2, 6).second, alone.second);  // nor do they depend on where it starts
+}
+
 TEST_P(ConversionTest, PosesOfAScanFolderTravelWithItsScans) {
     fs::create_directories(folder_ / "scans/velodyne");
     const Scan scan = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan;
