@@ -167,14 +167,14 @@ TEST_F(ScanSourceTest, NothingIsRecoveredIfTheSettingsNameTheSensor) {
 TEST_F(ScanSourceTest, AScanFolderHasTheBeamsOfItsFirstScans) {
     const fs::path folder = scanFolderOf(3);
     SourceOptions options;
-    options.first_entry = 2;
+    options.first_entry = options.last_entry = 0;
     Scan scan;
     const auto full = spin(0, "", "HDL-32E");
     observations::readCloudPoints(*full, scan);
-    writeScan(folder / "velodyne/000001.bin", scan);
+    writeScan(folder / "velodyne/000002.bin", scan);
     const auto source = openRecording(folder, options);
     source->useSettings({});
-    EXPECT_THAT(beamsPulledFrom(*source), ElementsAre("2:velodyne:HDL-32E"));
+    EXPECT_THAT(beamsPulledFrom(*source), ElementsAre("0:velodyne:HDL-32E"));
     EXPECT_FALSE(source->beamsOf("other"));
 
     std::ofstream(folder / "sensor.yaml") << "sensor: {model: VLP-16}";

@@ -203,6 +203,18 @@ TEST(ObservationSegmenter, RecoversTheSensorOfClouds) {
     EXPECT_GT(out.roi->pointcloud->size(), 50u);
 }
 
+TEST(ObservationSegmenter, AFullerCloudOfTheFirstOnesGetsMoreColumns) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    const auto columnsOf = [&](int columns) {
+        segmenter.process(*cloudFrom(sensorModel("HDL-32E"), columns), out);
+        return out.result->labels.cols();
+    };
+    EXPECT_EQ(columnsOf(300), 300);
+    EXPECT_EQ(columnsOf(600), 600);
+    EXPECT_EQ(columnsOf(300), 600);
+}
+
 TEST(ObservationSegmenter, ANamedSensorIsNotRecovered) {
     Settings settings;
     settings.sensor.model = "HDL-32E";
