@@ -122,9 +122,9 @@ TEST_F(RawlogSegment, SaysWhichSensorItTookAndHowItKnows) {
     EXPECT_EQ(statistics("a.json")["recovered_sensors"], nlohmann::json::object());
 
     fs::remove(path("scans/sensor.yaml"));
-    const auto recovering = run({"-i", path("scans"), "--kitti", path("again"), "--stats",
-                                 path("b.json"), "-c", kConfig + "vlp16.yaml"});
-    EXPECT_THAT(recovering.out, HasSubstr("sensor velodyne: VLP-16, 16 beams\n"));
+    const auto named = run({"-i", path("scans"), "--kitti", path("again"), "--stats",
+                            path("b.json"), "-c", kConfig + "vlp16.yaml"});
+    EXPECT_THAT(named.out, HasSubstr("sensor velodyne: VLP-16, 16 beams\n"));
     const auto outcome = run(
         {"-i", path("scans"), "--kitti", path("again"), "--stats", path("b.json"), "--overwrite"});
     EXPECT_THAT(outcome.out, HasSubstr("sensor velodyne: 16 beams recovered (VLP-16), "));
