@@ -291,6 +291,16 @@ std::string partsOf(const labelled_scans::ScoreTotals& scores) {
     return text;
 }
 
+/// The sensors that nobody named, a line per folder.
+std::string sensorsOf(const labelled_scans::Summary& summary) {
+    std::string text;
+    for (std::size_t f = 0; f < summary.sensor_texts.size(); ++f) {
+        if (summary.sensor_texts[f].empty()) continue;
+        text += "sensor of " + summary.folder_names[f] + ": " + summary.sensor_texts[f] + "\n";
+    }
+    return text.empty() ? "" : text + "\n";
+}
+
 }  // namespace
 
 std::string reportOf(const labelled_scans::Summary& summary) {
@@ -300,6 +310,7 @@ std::string reportOf(const labelled_scans::Summary& summary) {
                summary.folders.size(), summary.folders.size() == 1 ? "" : "s",
                static_cast<double>(summary.range.max_range_m),
                static_cast<long long>(summary.methods.front().returns.all.scores.returns()));
+    text += sensorsOf(summary);
     text += scoreTable(summary, &labelled_scans::MethodTotals::returns);
     if (has_pixels) {
         text += format("\nIn the camera image, one return per pixel: %lld pixels\n",

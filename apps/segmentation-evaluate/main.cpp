@@ -139,7 +139,10 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     }
 
     summary.folders = flags.folders;
-    for (const auto& source : sources) summary.folder_names.push_back(source->name());
+    for (const auto& source : sources) {
+        summary.folder_names.push_back(source->name());
+        summary.sensor_texts.push_back(source->sensorText());
+    }
     summary.range = options.range;
     summary.label_map = flags.label_map;
     summary.camera = flags.camera;

@@ -53,7 +53,8 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return folder_.size(); }
     const evaluation::LabelMap& kinds() const override { return kinds_; }
-    SensorModel sensor() const override { return settings_.sensorModel(); }
+    SensorModel sensor() const override { return settings_.sensorModel(beams_.get()); }
+    std::string sensorText() const override;
     std::vector<evaluation::Method> makeMethods() const override;
 
  private:
@@ -65,9 +66,10 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     MethodSet methods_;
     std::vector<fs::path> label_folders_;  ///< of methods_.labels
     observations::Settings settings_;
-    evaluation::LabelMap kinds_;  ///< from --label-map or the folder; empty: unknown
-    bool has_label_map_;          ///< ground-truth labels are derived with `kinds_`
-    bool has_kind_files_;         ///< folder semantic/ exists
+    observations::SharedBeams beams_;  ///< recovered; null if the settings name the sensor
+    evaluation::LabelMap kinds_;       ///< from --label-map or the folder; empty: unknown
+    bool has_label_map_;               ///< ground-truth labels are derived with `kinds_`
+    bool has_kind_files_;              ///< folder semantic/ exists
     std::vector<double> altitudes_m_;
     observations::ObservedScan observed_;
 };
@@ -79,7 +81,7 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
       folder_(path),
       scans_(logs::openRecording(path)),
       methods_(methods),
-      settings_(scans_->settingsFor(methods.filter.front().settings)),
+      settings_(scans_->useSettings(methods.filter.front().settings)),
       has_label_map_(label_map.has_value()),
       has_kind_files_(fs::is_directory(folder_.path() / "semantic")),
       altitudes_m_(folder_.altitudes()) {
@@ -91,6 +93,7 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
     for (const LabelRow& row : methods_.labels) {
         label_folders_.push_back(labelFilesOf(row, folder_, name_, is_only));
     }
+    if (!settings_.sensor.model) beams_ = scans_->beamsOf(logs::kFolderLabel);
     // Without times, poses cannot be assigned to scans.
     const bool has_poses = fs::exists(folder_.tumFile()) && !folder_.times().empty();
     // A poses.txt is relative to the first scan, which may have been tilted: no attitude.
@@ -98,11 +101,15 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
 }
 
 std::vector<evaluation::Method> LabelledFolder::makeMethods() const {
-    std::vector<evaluation::Method> methods = methodsFor(methods_, folder_.sensorFile());
+    std::vector<evaluation::Method> methods = methodsFor(methods_, folder_.sensorFile(), beams_);
     for (std::size_t row = 0; row < label_folders_.size(); ++row) {
         methods.push_back(labelFileMethod(methods_.labels[row].name, label_folders_[row]));
     }
     return methods;
+}
+
+std::string LabelledFolder::sensorText() const {
+    return settings_.sensor.model ? "" : observations::textOf(beams_);
 }
 
 void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const {
@@ -126,7 +133,7 @@ void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan)
 std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
     const auto recorded = scans_->nextScan();
     if (!recorded) return std::nullopt;
-    observations::readObservation(*recorded->observation, settings_, observed_);
+    observations::readObservation(*recorded->observation, settings_, observed_, beams_);
     evaluation::GroundTruthScan scan;
     scan.name = folder_.scanFile(recorded->entry).string();
     scan.input.name = folder_.name(recorded->entry);

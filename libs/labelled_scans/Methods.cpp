@@ -106,14 +106,16 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
 }
 
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
-                                           const std::filesystem::path& sensor_file) {
+                                           const std::filesystem::path& sensor_file,
+                                           const observations::SharedBeams& beams) {
     const auto sensorOf = [&](const observations::Settings& settings) {
-        const SensorModel sensor = settings.sensorModel();
+        const SensorModel sensor = settings.sensorModel(beams.get());
         return rows.is_upside_down ? evaluation::mirrored(sensor) : sensor;
     };
     std::vector<evaluation::Method> methods;
     for (const SweepPoint& row : rows.filter) {
-        const observations::Settings settings = settingsFor(row.settings, sensor_file);
+        observations::Settings settings = settingsFor(row.settings, sensor_file);
+        settings.options = settings.optionsFor(beams.get());
         methods.push_back(filterMethod(row.name, sensorOf(settings), settings));
     }
     if (!rows.baselines) return methods;

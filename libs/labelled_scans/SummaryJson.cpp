@@ -125,8 +125,9 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
                 {"compiler", __VERSION__},
                 {"command_line", summary.command_line}};
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
-        report["folders"].push_back(
-            {{"name", summary.folder_names[f]}, {"path", summary.folders[f]}});
+        report["folders"].push_back({{"name", summary.folder_names[f]},
+                                     {"path", summary.folders[f]},
+                                     {"recovered_sensor", text(summary.sensor_texts[f])}});
     }
     report["settings"] = json(summary.settings);
     report["label_map"] = text(summary.label_map);

@@ -46,7 +46,9 @@ std::string ConversionOutputs::writeScan(
         if (writer == folder_writers_.end()) {
             writer = folder_writers_
                          .emplace(sensor_label, ScanFolderWriter(folders_->folderOf(sensor_label),
-                                                                 mountOf(*segmented.roi, settings)))
+                                                                 mountOf(*segmented.roi, settings),
+                                                                 !segmented.recovered &&
+                                                                     !segmented.is_sensor_assumed))
                          .first;
         }
         const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
@@ -59,7 +61,7 @@ std::string ConversionOutputs::writeScan(
         fs::create_directory(folder);
         const std::string title =
             conversion_.input.filename().string() + ", " + sensor_label + ", scan " + own_name;
-        pictures::drawStages({*segmented.scan, *segmented.sensor, settings.options,
+        pictures::drawStages({*segmented.scan, *segmented.sensor, *segmented.options,
                               *segmented.result, title, conversion_.picture_azimuth_deg},
                              folder);
     }

@@ -61,7 +61,7 @@ Converter::Converter(const Conversion& conversion, const ConversionListener& lis
     : conversion_(conversion),
       listener_(listener),
       source_(openRecording(conversion.input, sourceOptions())),
-      settings_(source_->settingsFor(conversion.settings)),
+      settings_(source_->useSettings(conversion.settings)),
       outputs_(conversion),
       segmenters_(settings_, conversion.cloud_class) {
     report_.settings = settings_;
@@ -115,8 +115,8 @@ void Converter::segment(ScanInConversion& scan) {
     const CObservation& observation = *scan.recorded.observation;
     scan.segmenter = segmenters_.lease();
     try {
-        scan.is_segmented =
-            scan.segmenter->process(observation, scan.segmented, scan.recorded.pose);
+        scan.is_segmented = scan.segmenter->process(observation, scan.segmented, scan.recorded.pose,
+                                                    scan.recorded.beams);
     } catch (const observations::SettingsError&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -226,9 +226,13 @@ void Converter::count(const observations::ObservationSegmenter::Output& out,
     report_.returns_masked += scan.returns_masked;
     report_.scans_with_pose += out.pose.sensor_pose.has_value();
     report_.scans_with_attitude += out.pose.attitude.has_value();
+    const bool is_known = !out.recovered && !out.is_sensor_assumed;
     report_.sensors[scan.sensor_label] =
-        out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams" +
-        (out.is_sensor_assumed ? " (assumed; set sensor.model to change it)" : "");
+        is_known ? out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams"
+                 : observations::textOf(out.recovered);
+    if (out.recovered) {
+        report_.recovered[scan.sensor_label] = {out.recovered, out.options->columns};
+    }
     report_.scan_reports.push_back(scan);
 }
 

@@ -28,7 +28,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
     options.last_entry = learning.to;
     options.keep_going = listener.keep_going;
     const auto source = openRecording(learning.input, options);
-    const observations::Settings settings = source->settingsFor(learning.settings);
+    const observations::Settings settings = source->useSettings(learning.settings);
     observations::ObservedScan observed;
     std::optional<double> first_s;
     while (const auto scan = source->nextScan()) {
@@ -43,7 +43,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
                                      "'; an airframe is that of one sensor: add --sensor-label");
         }
         try {
-            observations::readObservation(*scan->observation, settings, observed);
+            observations::readObservation(*scan->observation, settings, observed, scan->beams);
         } catch (const observations::SettingsError&) {
             throw;
         } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 #include <hagen/logs/PoseFile.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <memory>
 #include <utility>
 
 namespace hagen::logs {
@@ -69,6 +70,18 @@ LogPoses RawlogSource::readPoses(const std::filesystem::path& file) {
         scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
     }
     return posesOfRawlog(selected, file);
+}
+
+bool RawlogSource::showClouds(observations::CloudSensors& sensors) {
+    if (!ahead_) ahead_ = std::make_unique<RawlogReader>(rawlog_);
+    try {
+        const auto entry = ahead_->next();
+        if (!entry) return false;
+        for (const auto& observation : observationsOf(entry)) sensors.see(*observation);
+        return true;
+    } catch (const BrokenRawlog&) {
+        return false;  // nextEntry() reports the break
+    }
 }
 
 std::map<std::string, std::vector<mrpt::Clock::time_point>> RawlogSource::scanTimes() {

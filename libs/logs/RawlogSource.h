@@ -17,13 +17,15 @@ class RawlogSource : public ScanSource {
 
  protected:
     LogPoses readPoses(const std::filesystem::path& file) override;
+    bool showClouds(observations::CloudSensors& sensors) override;
 
  private:
     const RawlogSurvey& survey();
 
     std::filesystem::path rawlog_;
     RawlogReader reader_;
-    std::optional<RawlogSurvey> survey_;  ///< made on demand
+    std::unique_ptr<RawlogReader> ahead_;  ///< of showClouds(); made on demand
+    std::optional<RawlogSurvey> survey_;   ///< made on demand
 };
 
 }  // namespace hagen::logs

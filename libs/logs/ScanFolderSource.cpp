@@ -39,6 +39,18 @@ LogPoses ScanFolderSource::readPoses(const std::filesystem::path& file) {
     return posesOfScanFolder(folder_, times_s_, file);
 }
 
+bool ScanFolderSource::showClouds(observations::CloudSensors& sensors) {
+    if (next_shown_ >= folder_.size()) return false;
+    Scan cloud;
+    try {
+        readScan(folder_.scanFile(next_shown_++), cloud);
+    } catch (const BrokenScan&) {
+        return false;  // nextEntry() reports it
+    }
+    sensors.see(kFolderLabel, cloud);
+    return true;
+}
+
 std::map<std::string, std::vector<mrpt::Clock::time_point>> ScanFolderSource::scanTimes() {
     std::vector<mrpt::Clock::time_point> times;
     for (const double time_s : times_s_) times.push_back(mrpt::Clock::fromDouble(time_s));

@@ -17,11 +17,13 @@ class ScanFolderSource : public ScanSource {
 
  protected:
     LogPoses readPoses(const std::filesystem::path& file) override;
+    bool showClouds(observations::CloudSensors& sensors) override;
 
  private:
     ScanFolder folder_;
     std::vector<double> times_s_;
     std::size_t next_ = 0;
+    std::size_t next_shown_ = 0;  ///< of showClouds()
     Scan scan_;
 };
 

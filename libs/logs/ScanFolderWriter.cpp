@@ -14,8 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void writeSensor(const fs::path& file, const SensorModel& sensor, const Attitude& mount) {
-    std::ofstream out(file);
+void writeBeams(const SensorModel& sensor, std::ostream& out) {
     if (sensor.has_rings) {
         out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
             << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
@@ -28,7 +27,19 @@ void writeSensor(const fs::path& file, const SensorModel& sensor, const Attitude
     }
     out << "  min_range_m: " << sensor.min_range_m << "\n  max_range_m: " << sensor.max_range_m
         << "\n";
-    if (mount.roll_rad != 0 || mount.pitch_rad != 0) {
+}
+
+/// `sensor`: null if it is not known.
+void writeSensor(const fs::path& file, const SensorModel* sensor, const Attitude& mount) {
+    const bool is_tilted = mount.roll_rad != 0 || mount.pitch_rad != 0;
+    std::ofstream out(file);
+    if (sensor != nullptr) {
+        writeBeams(*sensor, out);
+    } else {
+        out << "# Nobody named the sensor; its beams are recovered from the scans.\n"
+            << (is_tilted ? "sensor:\n" : "");
+    }
+    if (is_tilted) {
         out << "  mount_roll_deg: " << observations::degreesText(mount.roll_rad) << "\n"
             << "  mount_pitch_deg: " << observations::degreesText(mount.pitch_rad) << "\n";
     }
@@ -43,8 +54,8 @@ std::string scanName(std::size_t scan) {
     return name;
 }
 
-ScanFolderWriter::ScanFolderWriter(fs::path folder, const Attitude& mount)
-    : folder_(std::move(folder)), mount_(mount) {
+ScanFolderWriter::ScanFolderWriter(fs::path folder, const Attitude& mount, bool is_sensor_known)
+    : folder_(std::move(folder)), mount_(mount), is_sensor_known_(is_sensor_known) {
     fs::create_directory(folder_ / "velodyne");
     fs::create_directory(folder_ / "labels");
 }
@@ -54,7 +65,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
                              double time_s, const std::optional<mrpt::poses::CPose3D>& sensor_pose,
                              bool pose_has_horizon) {
     if (times_s_.empty()) {
-        writeSensor(folder_ / "sensor.yaml", sensor, mount_);
+        writeSensor(folder_ / "sensor.yaml", is_sensor_known_ ? &sensor : nullptr, mount_);
         first_time_s_ = time_s;
     }
     writeScan(folder_ / "velodyne" / (name + ".bin"), scan);

@@ -25,6 +25,22 @@ void ScanSource::usePoses(const std::filesystem::path& file) {
     is_levelled_by_file_ = !file.empty() && poses_.vehicle.has_horizon;
 }
 
+observations::Settings ScanSource::useSettings(const observations::Settings& settings) {
+    observations::Settings merged = settingsFor(settings);
+    recovers_beams_ = !merged.sensor.model;
+    return merged;
+}
+
+const observations::SharedBeams& ScanSource::beamsOf(const std::string& sensor_label) {
+    const auto known = beams_.find(sensor_label);
+    if (known != beams_.end()) return known->second;
+    while (!sensors_.isSettled(sensor_label)) {
+        checkInterruption();
+        if (!showClouds(sensors_)) break;
+    }
+    return beams_[sensor_label] = sensors_.beamsOf(sensor_label);
+}
+
 observations::Settings ScanSource::settingsFor(const observations::Settings& settings) const {
     return settings;
 }
@@ -57,7 +73,10 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
     }
     entry.scans.push_back({observation,
                            observations::scanPoseOf(*observation, poses_.vehicle, horizon_),
-                           entry.number, name});
+                           entry.number, name, nullptr});
+    if (recovers_beams_ && observations::isCloud(*observation)) {
+        entry.scans.back().beams = beamsOf(observation->sensorLabel);
+    }
 }
 
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,

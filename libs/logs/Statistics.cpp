@@ -34,6 +34,20 @@ Json settingsOf(const observations::Settings& settings) {
     return json;
 }
 
+Json recoveredOf(const ConversionReport& report) {
+    Json sensors = Json::object();
+    for (const auto& [label, recovered] : report.recovered) {
+        const SensorModel& sensor = recovered.beams->sensor;
+        sensors[label] = {{"name", sensor.name},
+                          {"beams", sensor.rows()},
+                          {"beams_seen", recovered.beams->seen_rad.size()},
+                          {"share", std::round(1e4 * recovered.beams->share) / 1e4},
+                          {"has_rings", sensor.has_rings},
+                          {"columns", recovered.columns}};
+    }
+    return sensors;
+}
+
 Json latencyOf(const std::vector<ScanReport>& scans) {
     if (scans.empty()) return nullptr;
     std::vector<double> latencies_ms;
@@ -85,6 +99,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
         json["outputs"]["octomaps"].push_back(path.string());
     json["settings"] = settingsOf(report.settings);
     json["sensors"] = report.sensors;
+    json["recovered_sensors"] = recoveredOf(report);
     json["poses"] = {{"source", report.poses}, {"scans_with_pose", report.scans_with_pose}};
     if (!conversion.octomaps.empty()) json["scans_in_map"] = report.scans_in_map;
     json["entries"] = report.entries;

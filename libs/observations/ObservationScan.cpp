@@ -43,35 +43,45 @@ bool isSame(const Settings::Sensor& a, const Settings::Sensor& b) {
            a.min_range_m == b.min_range_m && a.max_range_m == b.max_range_m;
 }
 
-/// Returns the sensor of the settings; rebuilds it, which allocates, only if they changed.
-void takeConfiguredSensor(const Settings& settings, ObservedScan& observed) {
+/// Takes the sensor of a cloud; rebuilds it, which allocates, only if it changed.
+void takeCloudSensor(const Settings& settings, const SharedBeams& beams, ObservedScan& observed) {
     ObservedScan::Workspace& work = observed.work;
-    if (!work.settings || !isSame(*work.settings, settings.sensor)) {
+    if (!work.settings || !isSame(*work.settings, settings.sensor) || work.beams != beams) {
         work.settings.reset();
-        work.sensor_of_settings = settings.sensorModel();
+        work.sensor_of_settings = settings.sensorModel(beams.get());
         work.settings = settings.sensor;
+        work.beams = beams;
     }
     observed.sensor = work.sensor_of_settings;
-    observed.is_sensor_assumed = !settings.sensor.model;
+    if (!settings.sensor.model) observed.recovered = beams;
+    observed.is_sensor_assumed = !settings.sensor.model && !beams;
 }
 
-void readVelodyneScan(const CObservationVelodyneScan& observation, const Settings& settings,
-                      ObservedScan& observed) {
-    if (observation.scan_packets.empty()) {
-        const auto& cloud = observation.point_cloud;
-        for (const std::size_t size : {cloud.y.size(), cloud.z.size(), cloud.intensity.size()}) {
-            if (size == cloud.x.size()) continue;
-            throw std::runtime_error("the arrays of its point cloud differ in size");
-        }
-        takeConfiguredSensor(settings, observed);
-        assignPoints(cloud.x, cloud.y, cloud.z, observed.scan);
-        std::transform(
-            cloud.intensity.begin(), cloud.intensity.end(), observed.scan.intensity.begin(),
-            [](std::uint8_t intensity) { return static_cast<float>(intensity) / 255.0f; });
-        locateBeams(observed.sensor, observed.scan);
-        observed.remark = cloud.size() == 0 ? "the scan has no packets" : "";
-        return;
+void readPoints(const CObservationVelodyneScan& observation, Scan& scan) {
+    const auto& cloud = observation.point_cloud;
+    for (const std::size_t size : {cloud.y.size(), cloud.z.size(), cloud.intensity.size()}) {
+        if (size == cloud.x.size()) continue;
+        throw std::runtime_error("the arrays of its point cloud differ in size");
     }
+    assignPoints(cloud.x, cloud.y, cloud.z, scan);
+    std::transform(cloud.intensity.begin(), cloud.intensity.end(), scan.intensity.begin(),
+                   [](std::uint8_t intensity) { return static_cast<float>(intensity) / 255.0f; });
+}
+
+void readPoints(const CObservationPointCloud& observation, Scan& scan) {
+    observation.load();
+    if (!observation.pointcloud)
+        throw std::runtime_error("the observation contains no point cloud");
+    const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
+    assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
+                 cloud.getPointsBufferRef_z(), scan);
+    if (const auto* with_intensity = dynamic_cast<const IntensityCloud*>(&cloud)) {
+        assignIntensities(with_intensity->getPointsBufferRef_intensity(), scan);
+    }
+}
+
+void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,
+                 ObservedScan& observed) {
     sensorOf(observation, observed.sensor);
     // The recording's range limits are those of its driver; all returns are in the packets.
     SensorModel& sensor = observed.sensor;
@@ -90,21 +100,6 @@ void readVelodyneScan(const CObservationVelodyneScan& observation, const Setting
     }
 }
 
-void readCloud(const CObservationPointCloud& observation, const Settings& settings,
-               ObservedScan& observed) {
-    observation.load();
-    if (!observation.pointcloud)
-        throw std::runtime_error("the observation contains no point cloud");
-    const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
-    takeConfiguredSensor(settings, observed);
-    assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
-                 cloud.getPointsBufferRef_z(), observed.scan);
-    if (const auto* with_intensity = dynamic_cast<const IntensityCloud*>(&cloud)) {
-        assignIntensities(with_intensity->getPointsBufferRef_intensity(), observed.scan);
-    }
-    locateBeams(observed.sensor, observed.scan);
-}
-
 }  // namespace
 
 bool isLidarScan(const mrpt::obs::CObservation& observation) {
@@ -113,17 +108,42 @@ bool isLidarScan(const mrpt::obs::CObservation& observation) {
            dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
 }
 
+bool isCloud(const mrpt::obs::CObservation& observation) {
+    if (!isLidarScan(observation)) return false;
+    const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation);
+    return velodyne == nullptr || velodyne->scan_packets.empty();
+}
+
+bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan) {
+    if (!isCloud(observation)) return false;
+    if (const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+        readPoints(*velodyne, scan);
+    } else {
+        readPoints(dynamic_cast<const CObservationPointCloud&>(observation), scan);
+    }
+    return true;
+}
+
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
-                     ObservedScan& observed) {
+                     ObservedScan& observed, const SharedBeams& beams) {
     observed.remark.clear();
+    observed.recovered.reset();
     observed.is_sensor_assumed = false;
-    if (const auto* packets = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
-        readVelodyneScan(*packets, settings, observed);
+    const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation);
+    if (velodyne != nullptr && !velodyne->scan_packets.empty()) {
+        readPackets(*velodyne, settings, observed);
+        return;
+    }
+    if (velodyne != nullptr) {
+        readPoints(*velodyne, observed.scan);
+        if (velodyne->point_cloud.size() == 0) observed.remark = "the scan has no packets";
     } else if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
-        readCloud(*cloud, settings, observed);
+        readPoints(*cloud, observed.scan);
     } else {
         throw std::runtime_error("not a LiDAR scan");
     }
+    takeCloudSensor(settings, beams, observed);
+    locateBeams(observed.sensor, observed.scan);
 }
 
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,

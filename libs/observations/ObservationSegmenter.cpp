@@ -26,7 +26,13 @@ using mrpt::obs::CObservationPointCloud;
 
 bool isSameSensor(const SensorModel& a, const SensorModel& b) {
     return a.elevations_rad == b.elevations_rad && a.min_range_m == b.min_range_m &&
-           a.max_range_m == b.max_range_m;
+           a.max_range_m == b.max_range_m && a.has_rings == b.has_rings;
+}
+
+/// Whether two options are the same, if only the sensor changed.
+bool areSameFor(const Options& a, const Options& b) {
+    return a.columns == b.columns && a.window_size == b.window_size &&
+           a.principal_components == b.principal_components;
 }
 
 CObservationPointCloud::Ptr partOf(const mrpt::obs::CObservation& observation,
@@ -47,15 +53,27 @@ void ObservationSegmenter::initialize(const Settings& settings) {
     settings_ = settings;
     filters_.clear();
     horizon_ = {};
+    sensors_ = {};
 }
 
-HagenFilter& ObservationSegmenter::filterOf(const std::string& label, const SensorModel& sensor) {
+SharedBeams ObservationSegmenter::beamsOf(const mrpt::obs::CObservation& observation) {
+    if (settings_.sensor.model) return nullptr;
+    sensors_.see(observation);
+    return sensors_.beamsOf(observation.sensorLabel);
+}
+
+/// The filter for the scan that was read last.
+HagenFilter& ObservationSegmenter::filterOf(const std::string& label) {
+    const SensorModel& sensor = observed_.sensor;
+    const Options options = settings_.optionsFor(observed_.recovered.get());
     const auto known = filters_.find(label);
     if (known != filters_.end()) {
-        if (isSameSensor(known->second.sensor(), sensor)) return known->second;
+        const HagenFilter& filter = known->second;
+        if (isSameSensor(filter.sensor(), sensor) && areSameFor(filter.options(), options))
+            return known->second;
         filters_.erase(known);  // another sensor with the same label
     }
-    return filters_.emplace(label, filterFor(sensor, settings_.options)).first->second;
+    return filters_.emplace(label, filterFor(sensor, options)).first->second;
 }
 
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
@@ -68,17 +86,17 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
 }
 
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
-                                   const ScanPose& pose) {
+                                   const ScanPose& pose, const SharedBeams& beams) {
     const auto start = std::chrono::steady_clock::now();
     if (!isLidarScan(observation)) return false;
     const mrpt::system::CTimeLoggerEntry whole(profiler, "process");
     {
         const mrpt::system::CTimeLoggerEntry part(profiler, "process.read");
-        readObservation(observation, settings_, observed_);
+        readObservation(observation, settings_, observed_, beams ? beams : beamsOf(observation));
     }
     const std::size_t returns_masked = maskAirframe(settings_.airframe.parts, observed_.scan);
     const Scan& scan = observed_.scan;
-    HagenFilter& filter = filterOf(observation.sensorLabel, observed_.sensor);
+    HagenFilter& filter = filterOf(observation.sensorLabel);
 
     const std::optional<Attitude> tilt =
         sensorTilt(pose, mrpt::poses::CPose3D(observation.sensorPose()), settings_.mount);
@@ -100,6 +118,8 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.scan = &scan;
     out.result = &result;
     out.sensor = &filter.sensor();
+    out.options = &filter.options();
+    out.recovered = observed_.recovered;
     out.is_sensor_assumed = observed_.is_sensor_assumed;
     out.pose = pose;
     out.pose.attitude = tilt;

@@ -8,8 +8,18 @@ RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
                                          const mrpt::poses::CPose3D& sensor_pose)
     : sensor_pose_(sensor_pose),
       tilt_(sensorTilt({}, sensor_pose, settings.mount)),
-      filter_(filterFor(settings.sensorModel(), settings.options)),
-      airframe_(settings.airframe.parts) {}
+      settings_(settings),
+      filter_(filterFor(settings.sensorModel(), settings.options)) {}
+
+/// Adapts the filter to the sensor that the clouds have shown so far.
+void RoiPointCloudFilter::recoverSensor() {
+    if (settings_.sensor.model) return;
+    sensors_.see("", scan_);
+    const SharedBeams beams = sensors_.beamsOf("");
+    if (beams == beams_) return;
+    filter_ = filterFor(settings_.sensorModel(beams.get()), settings_.optionsFor(beams.get()));
+    beams_ = beams;
+}
 
 void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
                                  mrpt::system::TTimeStamp /*pc_timestamp*/,
@@ -25,8 +35,9 @@ void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
         scan_.z_m.push_back(static_cast<float>(seen.z));
     }
     scan_.intensity.assign(scan_.size(), 0.0f);
+    recoverSensor();
     locateBeams(filter_.sensor(), scan_);
-    maskAirframe(airframe_, scan_);
+    maskAirframe(settings_.airframe.parts, scan_);
 
     std::vector<bool> deleted(scan_.size(), true);
     for (const std::uint32_t i : filter_.segment(scan_, tilt_).returns.roi) deleted[i] = false;

@@ -56,10 +56,14 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 
 constexpr double kMostRange_m = 1000;
 
+// The least that optionKeys() allows.
+constexpr int kFewestColumns = 8, kSmallestWindow = 2;
+
 /// The keys of the section `sensor:`.
 const std::vector<SettingsKey>& sensorKeys() {
     static const std::vector<SettingsKey> keys{
-        {"model", "", "VLP-16", joined(knownSensorModels(), ", ") + ", custom",
+        {"model", "", kRecoveredName,
+         joined(knownSensorModels(), ", ") + ", custom, " + kRecoveredName,
          "the sensor of point clouds; packets identify their own", ""},
         {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
          "the beams of a custom sensor, lowest first", ""},
@@ -101,6 +105,16 @@ float parseAngle(const YAML::Node& node, const std::string& key, double most_deg
     return static_cast<float>(radians(parseNumber<double>(node, key, -most_deg, most_deg)));
 }
 
+/// Throws std::invalid_argument unless a sensor has this name.
+void checkModel(const std::string& name) {
+    try {
+        hagen::sensorModel(name);
+    } catch (const std::invalid_argument& e) {
+        throw std::invalid_argument(std::string(e.what()) + "; '" + kRecoveredName +
+                                    "' recovers its beams from the clouds");
+    }
+}
+
 void parseSensor(const fs::path& file, const YAML::Node& section, Settings& settings) {
     Settings::Sensor& sensor = settings.sensor;
     if (!section.IsMap()) {
@@ -118,8 +132,9 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings& sett
         try {
             if (key == "model") {
                 if (!value.IsScalar()) throw SettingsError("sensor.model must be a name");
-                sensor.model = value.Scalar();
-                if (sensor.model != "custom") hagen::sensorModel(*sensor.model);
+                const std::string& name = value.Scalar();
+                if (name != "custom" && name != kRecoveredName) checkModel(name);
+                if (name != kRecoveredName) sensor.model = name;
             } else if (key == "elevations_deg") {
                 if (!value.IsSequence()) {
                     throw SettingsError("sensor.elevations_deg must be a list, lowest beam first");
@@ -152,6 +167,14 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings& sett
             at(file, section) +
             "sensor.elevations_deg goes with 'model: custom'; a known model has its own");
     }
+}
+
+/// Whether an option is adapted to a recovered sensor.
+bool isAdapted(const std::string& name, const Settings& settings) {
+    if (settings.sensor.model || settings.given.count(name) > 0) return false;
+    if (name != "columns" && name != "window_size" && name != "principal_components") return false;
+    const OptionKey& key = *findOption(name);
+    return textOf(key, settings.options) == textOf(key, Options());
 }
 
 void mergeFile(const fs::path& file, int includes, Settings& settings);
@@ -200,6 +223,7 @@ void mergeFile(const fs::path& file, int includes, Settings& settings) {
         } else if (const OptionKey* key = findOption(name)) {
             try {
                 parseOption(*key, entry.second, settings.options);
+                settings.given.insert(name);
             } catch (const SettingsError& e) {
                 throw SettingsError(at(file, entry.second) + e.what());
             }
@@ -211,12 +235,13 @@ void mergeFile(const fs::path& file, int includes, Settings& settings) {
 
 }  // namespace
 
-SensorModel Settings::sensorModel() const {
+SensorModel Settings::sensorModel(const RecoveredBeams* recovered) const {
     if (sensor.model == "custom" && sensor.elevations_deg.empty()) {
         throw SettingsError("sensor.model is 'custom', but there is no sensor.elevations_deg");
     }
-    SensorModel model = sensor.model == "custom"
-                            ? customSensorModel(sensor.elevations_deg)
+    SensorModel model = sensor.model == "custom" ? customSensorModel(sensor.elevations_deg)
+                        : !sensor.model && recovered != nullptr
+                            ? recovered->sensor
                             : hagen::sensorModel(sensor.model.value_or("VLP-16"));
     model.min_range_m = sensor.min_range_m.value_or(model.min_range_m);
     model.max_range_m = sensor.max_range_m.value_or(model.max_range_m);
@@ -226,6 +251,26 @@ SensorModel Settings::sensorModel() const {
                             base::shortestText(model.max_range_m) + ")");
     }
     return model;
+}
+
+Options Settings::optionsFor(const RecoveredBeams* recovered) const {
+    if (sensor.model || recovered == nullptr) return options;
+    const Options standard;
+    Options fitting = options;
+    if (isAdapted("columns", *this)) {
+        fitting.columns = std::clamp(recovered->most_columns, kFewestColumns, options.columns);
+    }
+    if (isAdapted("window_size", *this)) {
+        const int half = recovered->sensor.rows() / 2;
+        fitting.window_size = std::clamp(half, kSmallestWindow, options.window_size);
+    }
+    if (isAdapted("principal_components", *this)) {
+        const double share = static_cast<double>(standard.principal_components) /
+                             static_cast<double>(standard.window_size);
+        const int components = static_cast<int>(std::lround(share * fitting.window_size));
+        fitting.principal_components = std::min(components, options.principal_components);
+    }
+    return fitting;
 }
 
 HagenFilter filterFor(const SensorModel& sensor, const Options& options) {
@@ -260,12 +305,14 @@ std::string dumpSettings(const Settings& settings) {
              << (k.symbol.empty() ? "" : " (the paper's " + k.symbol + ")") << "\n";
     };
     for (const OptionKey& key : optionKeys()) {
-        line(key.name, textOf(key, settings.options),
+        // Given in a file, it would hold as it is.
+        const std::string comment = isAdapted(key.name, settings) ? "# " : "";
+        line(comment + key.name, textOf(key, settings.options),
              {key.name, key.unit, "", "", key.what, key.symbol});
     }
     const Settings::Sensor& sensor = settings.sensor;
     std::map<std::string, std::string> values;
-    if (sensor.model) values["model"] = *sensor.model;
+    values["model"] = sensor.model.value_or(kRecoveredName);
     std::vector<std::string> elevations;
     for (const double elevation : sensor.elevations_deg)
         elevations.push_back(base::shortestText(elevation));
@@ -281,14 +328,10 @@ std::string dumpSettings(const Settings& settings) {
     if (settings.mount.pitch_rad != 0) {
         values["mount_pitch_deg"] = degreesText(settings.mount.pitch_rad);
     }
-    if (values.empty()) {
-        text << "# sensor: from the recording; otherwise a VLP-16\n";
-    } else {
-        text << "sensor:\n";
-        for (const SettingsKey& key : sensorKeys()) {
-            const auto value = values.find(key.name);
-            if (value != values.end()) line("  " + key.name, value->second, key);
-        }
+    text << "sensor:\n";
+    for (const SettingsKey& key : sensorKeys()) {
+        const auto value = values.find(key.name);
+        if (value != values.end()) line("  " + key.name, value->second, key);
     }
     text << airframeText(settings.airframe);
     return text.str();
@@ -318,6 +361,7 @@ void setOption(const std::string& key, const std::string& value, Settings& setti
         throw SettingsError(refusalOf(key, known));
     }
     parseOption(*option, YAML::Node(value), settings.options);
+    settings.given.insert(key);
 }
 
 }  // namespace hagen::observations

@@ -73,7 +73,7 @@ LoggedScans::LoggedScans(const LogSource& source) : own_reach_m_(source.own_reac
     }
     placeAll(times, name);
     segmenter_.setMinLoggingLevel(mrpt::system::LVL_ERROR);
-    segmenter_.initialize(source_->settingsFor(source.settings));
+    segmenter_.initialize(source_->useSettings(source.settings));
 }
 
 /// Looks up where each scan was taken. Throws std::runtime_error if most have no pose.
@@ -102,7 +102,7 @@ bool LoggedScans::next(LoggedScan& scan) {
         if (!recorded->pose.sensor_pose) continue;
         observations::ObservationSegmenter::Output out;
         try {
-            segmenter_.process(*recorded->observation, out, recorded->pose);
+            segmenter_.process(*recorded->observation, out, recorded->pose, recorded->beams);
         } catch (const observations::SettingsError&) {
             throw;
         } catch (const std::bad_alloc&) {

@@ -11,6 +11,7 @@
 #include <mrpt/obs/CRawlog.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -18,21 +19,27 @@
 
 #include "support/PolesAndWall.h"
 #include "support/ProgramTest.h"
+#include "support/Random.h"
 
 namespace hagen {
 namespace {
 
 using testing::AnyOf;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace fs = std::filesystem;
 const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
-const std::string kPaper = HAGEN_SOURCE_DIR "/config/paper.yaml";
+const std::string kConfig = HAGEN_SOURCE_DIR "/config/";
+const std::string kPaper = kConfig + "paper.yaml";
 
 class RawlogSegment : public test::ProgramTest {
  protected:
     test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
+    }
+    nlohmann::json statistics(const std::string& file) const {
+        return nlohmann::json::parse(test::readFile(path(file)));
     }
 };
 
@@ -109,12 +116,87 @@ TEST_F(RawlogSegment, LaterSettingsOverrideEarlierOnes) {
     EXPECT_THAT(outcome.out, HasSubstr("  0    0.0 %  region of interest"));
 }
 
-TEST_F(RawlogSegment, SaysWhichSensorItTookAndWhetherItHadToGuess) {
-    EXPECT_THAT(run({"-i", kRecording, "--kitti", path("scans")}).out,
+TEST_F(RawlogSegment, SaysWhichSensorItTookAndHowItKnows) {
+    EXPECT_THAT(run({"-i", kRecording, "--kitti", path("scans"), "--stats", path("a.json")}).out,
                 HasSubstr("sensor lidar: VLP-16, 16 beams\n"));
+    EXPECT_EQ(statistics("a.json")["recovered_sensors"], nlohmann::json::object());
+
     fs::remove(path("scans/sensor.yaml"));
-    EXPECT_THAT(run({"-i", path("scans"), "--kitti", path("again")}).out,
-                HasSubstr("16 beams (assumed"));
+    const auto named = run({"-i", path("scans"), "--kitti", path("again"), "--stats",
+                            path("b.json"), "-c", kConfig + "vlp16.yaml"});
+    EXPECT_THAT(named.out, HasSubstr("sensor velodyne: VLP-16, 16 beams\n"));
+    const auto outcome = run(
+        {"-i", path("scans"), "--kitti", path("again"), "--stats", path("b.json"), "--overwrite"});
+    EXPECT_THAT(outcome.out, HasSubstr("sensor velodyne: 16 beams recovered (VLP-16), "));
+    EXPECT_THAT(outcome.out, HasSubstr(" % of the returns lie on them\n"));
+    const auto sensor = statistics("b.json")["recovered_sensors"]["velodyne"];
+    EXPECT_EQ(sensor["name"], "VLP-16");
+    EXPECT_EQ(sensor["beams"], 16);
+    EXPECT_EQ(sensor["beams_seen"], 16);
+    EXPECT_GT(sensor["share"], 0.99);
+    EXPECT_LE(sensor["share"], 1.0);
+    EXPECT_EQ(sensor["has_rings"], true);
+    EXPECT_EQ(sensor["columns"], 870);
+    EXPECT_THAT(test::readFile(path("again/sensor.yaml")), Not(HasSubstr("elevations_deg")));
+}
+
+TEST_F(RawlogSegment, SaysThatACloudHasNoBeamsOrTooFewReturns) {
+    test::Random random(1);
+    Scan scan;
+    for (int i = 0; i < 5000; ++i) {
+        scan.x_m.push_back(random.real(2, 9));
+        scan.y_m.push_back(random.real(-9, 9));
+        scan.z_m.push_back(random.real(-2, 2));
+    }
+    scan.intensity.assign(scan.size(), 0.5f);
+    fs::create_directories(path("scans/velodyne"));
+    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    const auto none = run({"-i", path("scans"), "--stats", path("a.json")});
+    EXPECT_THAT(none.out, HasSubstr("sensor velodyne: no beams found: "));
+    EXPECT_THAT(none.out, HasSubstr(" virtual rows\n"));
+    EXPECT_EQ(statistics("a.json")["recovered_sensors"]["velodyne"]["has_rings"], false);
+
+    for (auto* coordinate : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity})
+        coordinate->resize(399);
+    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    const auto few = run({"-i", path("scans"), "--stats", path("b.json")});
+    EXPECT_EQ(few.exit_code, 0) << few.err;
+    EXPECT_THAT(few.out, HasSubstr("sensor velodyne: too few returns"));
+    EXPECT_THAT(few.out, HasSubstr("VLP-16 assumed"));
+}
+
+TEST_F(RawlogSegment, PacketsKnowTheirSensorEvenIfSettingsWantItRecovered) {
+    const auto recover = folder_.write("recover.yaml", "sensor: {model: recovered}\n");
+    const auto outcome = run({"-i", kRecording, "-o", path("out"), "-c", recover});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_THAT(outcome.out, HasSubstr("sensor lidar: VLP-16, 16 beams\n"));
+}
+
+TEST_F(RawlogSegment, FailsWhereRecoveredBeamsDoNotFitTheSettings) {
+    Scan scan;
+    for (int column = 0; column < 400; ++column) {
+        for (const float slope : {-0.3f, -0.2f, -0.1f, 0.1f}) {
+            const float azimuth_rad = 0.0157f * static_cast<float>(column);
+            scan.x_m.push_back(9 * std::cos(azimuth_rad));
+            scan.y_m.push_back(9 * std::sin(azimuth_rad));
+            scan.z_m.push_back(9 * slope);
+        }
+    }
+    scan.intensity.assign(scan.size(), 0.5f);
+    fs::create_directories(path("scans/velodyne"));
+    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    EXPECT_THAT(run({"-i", path("scans"), "--stats", path("a.json")}).out,
+                HasSubstr("4 beams recovered, "));
+    const auto window = folder_.write("window.yaml", "window_size: 8\n");
+    const auto outcome = run({"-i", path("scans"), "--stats", path("b.json"), "-c", window});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("window_size (8)"));
+    EXPECT_FALSE(fs::exists(path("b.json")));
+    const auto limits = folder_.write("limits.yaml", "sensor: {min_range_m: 1000}\n");
+    const auto empty = run({"-i", path("scans"), "--stats", path("b.json"), "-c", limits});
+    EXPECT_EQ(empty.exit_code, 2);
+    EXPECT_THAT(empty.err, HasSubstr("min_range_m"));
 }
 
 TEST_F(RawlogSegment, ARemarkThatComesWithEveryScanIsPrintedOnce) {

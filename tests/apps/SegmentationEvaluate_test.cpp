@@ -105,6 +105,40 @@ TEST_F(SegmentationEvaluate, APoleOnFlatGroundIsFoundWhole) {
     EXPECT_EQ(row(outcome.out, "hagen"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
 }
 
+TEST_F(SegmentationEvaluate, RecoversASensorThatNobodyNamed) {
+    const std::string pole = labelledPole(), other = labelledPole("other");
+    EXPECT_THAT(run({"-i", pole}).out, testing::Not(HasSubstr("recovered")));
+    const auto named = json({"-i", pole});
+    EXPECT_TRUE(named["folders"][0]["recovered_sensor"].is_null());
+    fs::remove(folder_ / "pole/sensor.yaml");
+    const auto outcome = run({"-i", pole, other, "--baselines", "--sweep", "beta_deg=5,10"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out,
+                HasSubstr("\nsensor of pole: 8 beams recovered (VLP-16, which has 16), "));
+    EXPECT_THAT(outcome.out, testing::Not(HasSubstr("sensor of other")));
+    EXPECT_EQ(row(outcome.out, "beta_deg=10"), (std::vector<double>{1, 1, 1, 1, 1, 1}));
+    EXPECT_THAT(json({"-i", pole})["folders"][0]["recovered_sensor"].get<std::string>(),
+                HasSubstr("8 beams recovered"));
+    // Degraded copies are of the same sensor, mirrored if it is upside down.
+    for (const std::string degradation : {"upside_down", "dead_beams=3"}) {
+        const auto degraded = run({"-i", pole, "--degrade", degradation});
+        EXPECT_EQ(degraded.exit_code, 0) << degraded.err;
+        EXPECT_THAT(degraded.out, HasSubstr("\n" + degradation)) << degraded.out;
+    }
+    // Settings that name the sensor hold.
+    EXPECT_THAT(run({"-i", pole, "-c", kConfig + "vlp16.yaml"}).out,
+                testing::Not(HasSubstr("recovered")));
+}
+
+TEST_F(SegmentationEvaluate, FailsWhereARecoveredSensorDoesNotFitTheSettings) {
+    const std::string pole = labelledPole();
+    fs::remove(folder_ / "pole/sensor.yaml");
+    const auto window = folder_.write("window.yaml", "window_size: 20\n");
+    const auto outcome = run({"-i", pole, "-c", window});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("window_size (20)"));
+}
+
 TEST_F(SegmentationEvaluate, ASweepHasARowForEachValue) {
     const auto outcome =
         run({"-i", labelledPole(), "--sweep", "zone_m=5,20", "--sweep", "beta_deg=10"});

@@ -14,6 +14,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "support/Program.h"
@@ -202,6 +203,84 @@ TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
     observations::Settings written;
     observations::mergeSettings(folder_ / "labels/sensor.yaml", written);
     EXPECT_EQ(written.sensorModel().rows(), 32);
+}
+
+/// The scans of these observations as clouds, each without its sensor.
+std::vector<mrpt::serialization::CSerializable::Ptr> cloudsOf(
+    const std::vector<CObservation::Ptr>& scans) {
+    std::vector<mrpt::serialization::CSerializable::Ptr> clouds;
+    observations::ObservedScan observed;
+    for (const auto& scan : scans) {
+        observations::readObservation(*scan, {}, observed);
+        clouds.push_back(
+            observations::observationOf(observed.scan, scan->sensorLabel, scan->timestamp));
+    }
+    return clouds;
+}
+
+TEST_P(ConversionTest, CloudsGetTheLabelsOfTheirPackets) {
+    const std::vector<CObservation::Ptr> scans{scanFrom(0), scanFrom(1), scanFrom(2), scanFrom(3)};
+    writeLog({scans.begin(), scans.end()});
+    Conversion of_packets = conversion();
+    of_packets.folder = folder_ / "of_packets";
+    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", of_packets.settings);
+    convert(of_packets);
+    writeLog(cloudsOf(scans));
+    Conversion of_clouds = conversion();
+    of_clouds.rawlog = folder_ / "of_clouds.rawlog";
+    of_clouds.folder = folder_ / "of_clouds";
+    const ConversionReport report = convert(of_clouds);
+    EXPECT_EQ(report.recovered.at("lidar").beams->sensor.name, "VLP-16");
+    EXPECT_EQ(report.recovered.at("lidar").columns, 870);
+    EXPECT_THAT(report.sensors.at("lidar"), HasSubstr("beams recovered (VLP-16, which has 16)"));
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto expected = readLabels(ScanFolder(of_packets.folder).labelFile(i));
+        const auto found = readLabels(ScanFolder(of_clouds.folder).labelFile(i));
+        ASSERT_EQ(found.size(), expected.size());
+        std::size_t same = 0;
+        for (std::size_t k = 0; k < found.size(); ++k) same += found[k] == expected[k];
+        EXPECT_GE(static_cast<double>(same), 0.99 * static_cast<double>(found.size())) << i;
+    }
+}
+
+TEST(Conversion, CloudsGetTheSameBytesWithAnyNumberOfThreads) {
+    const test::TemporaryFolder folder;
+    std::vector<CObservation::Ptr> scans;
+    for (int i = 0; i < 12; ++i) scans.push_back(scanFrom(0.3 * i, i % 3 == 0 ? "rear" : "front"));
+    auto clouds = cloudsOf(scans);
+    // The first cloud of each label has three beams only: fewer than show a model.
+    for (const std::size_t first : {0, 1}) {
+        auto& points = *dynamic_cast<CObservationPointCloud&>(*clouds[first]).pointcloud;
+        std::vector<bool> is_deleted;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            float x = 0, y = 0, z = 0;
+            points.getPoint(i, x, y, z);
+            is_deleted.push_back(z > -0.18f * std::hypot(x, y));
+        }
+        points.applyDeletionMask(is_deleted);
+    }
+    RawlogWriter writer(folder / "in.rawlog", true);
+    for (const auto& entry : clouds) writer.write(*entry);
+    writer.commit();
+    const auto converted = [&](std::size_t jobs, std::size_t from, std::size_t to) {
+        Conversion conversion;
+        conversion.input = folder / "in.rawlog";
+        conversion.rawlog = folder / "out.rawlog";
+        conversion.overwrite = true;
+        conversion.jobs = jobs;
+        conversion.from = from;
+        conversion.to = to;
+        const ConversionReport report = convert(conversion);
+        for (const auto& [label, recovered] : report.recovered) {
+            EXPECT_EQ(recovered.beams->sensor.name, "VLP-16") << label;
+        }
+        return std::pair(test::readFile(conversion.rawlog), report.scan_reports);
+    };
+    const auto alone = converted(1, 0, 11);
+    EXPECT_EQ(converted(4, 0, 11).first, alone.first);
+    // Nor do they depend on the part that is converted.
+    EXPECT_EQ(converted(2, 0, 0).second.front().roi, alone.second.front().roi);
+    EXPECT_EQ(converted(2, 6, 11).second.back().roi, alone.second.back().roi);
 }
 
 TEST_P(ConversionTest, PosesOfAScanFolderTravelWithItsScans) {

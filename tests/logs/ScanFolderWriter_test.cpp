@@ -84,6 +84,21 @@ TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
     EXPECT_EQ(test::readFile(file).find("mount"), std::string::npos);
 }
 
+TEST(ScanFolderWriter, ASensorThatIsNotKnownIsLeftOut) {
+    for (const Attitude mount : {Attitude{}, Attitude{2.5f, -0.4f}}) {
+        const test::TemporaryFolder folder;
+        ScanFolderWriter writer(folder.path(), mount, false);
+        writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
+        writer.finish();
+        observations::Settings settings;
+        observations::mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
+        EXPECT_FALSE(settings.sensor.model);
+        EXPECT_FALSE(settings.sensor.max_range_m);
+        EXPECT_EQ(settings.mount.roll_rad, mount.roll_rad);
+        EXPECT_EQ(settings.mount.pitch_rad, mount.pitch_rad);
+    }
+}
+
 TEST(ScanFolderWriter, PosesAreInTheMapAndWhereAllAreKnownFromTheFirst) {
     const test::TemporaryFolder folder;
     const mrpt::poses::CPose3D first(5, 6, 7, 1.5, 0.1, -0.2), second(6, 8, 7, 1.0, 0, 0);

@@ -14,6 +14,8 @@
 #include <stdexcept>
 
 #include "support/Program.h"
+#include "support/SimpleFirings.h"
+#include "support/SimpleScene.h"
 
 namespace hagen::logs {
 namespace {
@@ -101,6 +103,114 @@ TEST_F(ScanSourceTest, ScansOfARawlogInOrder) {
                 ElementsAre("0:front:1", "2:front:3", "2:rear:4", "3:rear:5", "4:front:6"));
     EXPECT_FALSE(source->nextScan());
     EXPECT_EQ(source->entriesKnown(), 5u);
+}
+
+/// A cloud of these beams, some of which see the sky in front.
+mrpt::obs::CObservationPointCloud::Ptr spin(double seconds, const std::string& label,
+                                            const std::string& model, int columns = 500) {
+    const test::SimpleScene scene{{{{-30, -30, -9}, {30, 30, 30}}}, {}, {}, true};
+    const Scan scan = test::scanScene(scene, sensorModel(model), columns, {0, 0, 2}).scan;
+    return observations::observationOf(scan, label, at(seconds));
+}
+
+/// "entry:label:sensor" of every scan, and "-" where no beams are known.
+std::vector<std::string> beamsPulledFrom(ScanSource& source) {
+    std::vector<std::string> pulled;
+    while (const auto scan = source.nextScan()) {
+        pulled.push_back(std::to_string(scan->entry) + ":" + scan->observation->sensorLabel + ":" +
+                         (scan->beams ? scan->beams->sensor.name : "-"));
+    }
+    return pulled;
+}
+
+TEST_F(ScanSourceTest, CloudsComeWithTheBeamsOfTheirLabel) {
+    const auto source = openRecording(rawlogOf(
+        {cloud(1, "front"), frameOf({spin(2, "front", "VLP-16"), spin(2, "rear", "HDL-32E")}),
+         spin(3, "front", "VLP-16"), cloud(4, "top"), test::poleScanFrom(5, "packets"),
+         spin(6, "late", "HDL-64E")}));
+    source->useSettings({});
+    EXPECT_THAT(beamsPulledFrom(*source),
+                ElementsAre("0:front:VLP-16", "1:front:VLP-16", "1:rear:HDL-32E", "2:front:VLP-16",
+                            "3:top:-", "4:packets:-", "5:late:HDL-64E"));
+}
+
+TEST_F(ScanSourceTest, BeamsAreTheSameForEveryPartOfARecording) {
+    const fs::path rawlog =
+        rawlogOf({spin(1, "a", "VLP-16", 900), spin(2, "a", "HDL-32E"), spin(3, "a", "HDL-32E"),
+                  spin(4, "a", "VLP-16"), spin(5, "a", "VLP-16"), spin(6, "a", "HDL-64E", 900)});
+    // The fullest of the first five; the sixth comes too late.
+    const auto whole = openRecording(rawlog);
+    const int most_columns = whole->beamsOf("a")->most_columns;
+    EXPECT_EQ(whole->beamsOf("a")->sensor.name, "HDL-32E");
+    for (const std::size_t first : {0, 4, 5}) {
+        SourceOptions options;
+        options.first_entry = first;
+        const auto part = openRecording(rawlog, options);
+        part->useSettings({});
+        const auto scan = part->nextScan();
+        ASSERT_TRUE(scan && scan->beams);
+        EXPECT_EQ(scan->beams->sensor.name, "HDL-32E");
+        EXPECT_EQ(scan->beams->most_columns, most_columns);
+    }
+}
+
+TEST_F(ScanSourceTest, NothingIsRecoveredIfTheSettingsNameTheSensor) {
+    const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16")});
+    observations::Settings settings;
+    settings.sensor.model = "VLP-16";
+    const auto named = openRecording(rawlog), unused = openRecording(rawlog);
+    EXPECT_EQ(named->useSettings(settings).sensor.model, "VLP-16");
+    EXPECT_THAT(beamsPulledFrom(*named), ElementsAre("0:a:-"));
+    EXPECT_THAT(beamsPulledFrom(*unused), ElementsAre("0:a:-"));
+}
+
+TEST_F(ScanSourceTest, AScanFolderHasTheBeamsOfItsFirstScans) {
+    const fs::path folder = scanFolderOf(3);
+    SourceOptions options;
+    options.first_entry = options.last_entry = 0;
+    Scan scan;
+    const auto full = spin(0, "", "HDL-32E");
+    observations::readCloudPoints(*full, scan);
+    writeScan(folder / "velodyne/000002.bin", scan);
+    const auto source = openRecording(folder, options);
+    source->useSettings({});
+    EXPECT_THAT(beamsPulledFrom(*source), ElementsAre("0:velodyne:HDL-32E"));
+    EXPECT_FALSE(source->beamsOf("other"));
+
+    std::ofstream(folder / "sensor.yaml") << "sensor: {model: VLP-16}";
+    const auto named = openRecording(folder);
+    named->useSettings({});
+    EXPECT_THAT(beamsPulledFrom(*named),
+                ElementsAre("0:velodyne:-", "1:velodyne:-", "2:velodyne:-"));
+}
+
+TEST_F(ScanSourceTest, ABreakEndsTheRecoveryAndIsReportedWhereItIs) {
+    const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16"), spin(2, "a", "VLP-16")});
+    const std::string bytes = test::readFile(rawlog);
+    std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 100);
+    const auto source = openRecording(rawlog);
+    source->useSettings({});
+    const auto scan = source->nextScan();
+    ASSERT_TRUE(scan && scan->beams);
+    EXPECT_EQ(scan->beams->sensor.name, "VLP-16");
+    EXPECT_THROW(source->nextScan(), BrokenRawlog);
+
+    const fs::path folder = scanFolderOf(2);
+    std::ofstream(folder / "velodyne/000001.bin") << "cut";
+    const auto scans = openRecording(folder);
+    scans->useSettings({});
+    EXPECT_TRUE(scans->nextScan());
+    EXPECT_THROW(scans->nextScan(), BrokenScan);
+}
+
+TEST_F(ScanSourceTest, TheRecoveryCanBeInterrupted) {
+    int asked = 0;
+    SourceOptions options;
+    options.keep_going = [&] { return ++asked <= 3; };
+    const auto source = openRecording(rawlogOf(Entries(20, cloud(1, "a"))), options);
+    source->useSettings({});
+    EXPECT_THROW(source->nextScan(), Interrupted);
+    EXPECT_EQ(asked, 4);
 }
 
 TEST_F(ScanSourceTest, EveryEntryOfARawlogComesOut) {

@@ -99,6 +99,35 @@ TEST(ObservationScan, CloudsTakeTheSensorOfTheSettingsThatTheyAreReadWith) {
     EXPECT_EQ(rowsWith(Settings()), 16);
 }
 
+TEST(ObservationScan, RecoveredBeamsAreThoseOfACloudThatNobodyNamed) {
+    RecoveredBeams recovered{customSensorModel({-5, 0, 5}), 1.0f, {}, 300};
+    const auto beams = std::make_shared<const RecoveredBeams>(recovered);
+    ObservedScan observed;
+    const auto rowsWith = [&](const Settings& settings, const SharedBeams& with) {
+        readObservation(*cloud({{3, 0, 0.3f, 0}}), settings, observed, with);
+        return observed.sensor.rows();
+    };
+    EXPECT_EQ(rowsWith({}, nullptr), 16);
+    EXPECT_EQ(observed.recovered, nullptr);
+    EXPECT_EQ(rowsWith({}, beams), 3);
+    EXPECT_EQ(observed.scan.row[0], 2);
+    EXPECT_EQ(observed.recovered, beams);
+    EXPECT_FALSE(observed.is_sensor_assumed);
+    Settings settings;
+    settings.sensor.model = "HDL-64E";
+    EXPECT_EQ(rowsWith(settings, beams), 64);
+    EXPECT_EQ(observed.recovered, nullptr);
+    settings.sensor.model.reset();
+    settings.sensor.max_range_m = 2.0f;
+    EXPECT_EQ(rowsWith(settings, beams), 3);
+    EXPECT_EQ(observed.sensor.max_range_m, 2.0f);
+    recovered.sensor = customSensorModel({-5, 5});
+    EXPECT_EQ(rowsWith(settings, std::make_shared<const RecoveredBeams>(recovered)), 2);
+    readObservation(*velodyneScan(), settings, observed, beams);  // packets know their sensor
+    EXPECT_EQ(observed.sensor.name, "HDL-32E");
+    EXPECT_EQ(observed.recovered, nullptr);
+}
+
 TEST(ObservationScan, IntensitiesThatCountTo255AreScaled) {
     ObservedScan observed;
     readObservation(*cloud({{3, 0, 0, 51.0f}, {0, 4, 0, 255.0f}}), Settings(), observed);

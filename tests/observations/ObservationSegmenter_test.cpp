@@ -177,6 +177,100 @@ TEST(ObservationSegmenter, AnotherSensorUnderTheSameLabelGetsAnotherFilter) {
     EXPECT_EQ(out.result->labels.rows(), 32);
 }
 
+/// A pole at (12, 2) on flat ground, without its sensor.
+mrpt::obs::CObservationPointCloud::Ptr cloudFrom(const SensorModel& sensor, int columns) {
+    test::SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    return observationOf(test::scanScene(scene, sensor, columns, {0, 0, 2}).scan, "front",
+                         mrpt::Clock::fromDouble(100));
+}
+
+TEST(ObservationSegmenter, RecoversTheSensorOfClouds) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    const auto cloud = cloudFrom(sensorModel("HDL-64E"), 600);
+    for (int i = 0; i < 3; ++i) {
+        const SegmentationResult* before = out.result;
+        ASSERT_TRUE(segmenter.process(*cloud, out));
+        EXPECT_EQ(out.sensor->name, "HDL-64E");
+        EXPECT_EQ(out.result->labels.rows(), 64);
+        EXPECT_EQ(out.result->labels.cols(), 600);
+        EXPECT_EQ(out.options->columns, 600);
+        ASSERT_TRUE(out.recovered);
+        EXPECT_FALSE(out.is_sensor_assumed);
+        EXPECT_TRUE(i == 0 || out.result == before);  // of the same filter
+    }
+    EXPECT_GT(out.roi->pointcloud->size(), 50u);
+}
+
+TEST(ObservationSegmenter, AFullerCloudOfTheFirstOnesGetsMoreColumns) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    const auto columnsOf = [&](int columns) {
+        segmenter.process(*cloudFrom(sensorModel("HDL-32E"), columns), out);
+        return out.result->labels.cols();
+    };
+    EXPECT_EQ(columnsOf(300), 300);
+    EXPECT_EQ(columnsOf(600), 600);
+    EXPECT_EQ(columnsOf(300), 600);
+}
+
+TEST(ObservationSegmenter, ANamedSensorIsNotRecovered) {
+    Settings settings;
+    settings.sensor.model = "HDL-32E";
+    ObservationSegmenter segmenter;
+    segmenter.initialize(settings);
+    ObservationSegmenter::Output out;
+    segmenter.process(*cloudFrom(sensorModel("HDL-64E"), 600), out);
+    EXPECT_EQ(out.result->labels.rows(), 32);
+    EXPECT_EQ(out.result->labels.cols(), 870);
+    EXPECT_FALSE(out.recovered);
+    segmenter.initialize({});
+    segmenter.process(*cloudFrom(sensorModel("HDL-64E"), 600), out);
+    EXPECT_EQ(out.result->labels.rows(), 64);
+}
+
+TEST(ObservationSegmenter, ATinyCloudIsTakenForThatOfAVlp16UntilAnotherShowsBeams) {
+    ObservationSegmenter segmenter;
+    ObservationSegmenter::Output out;
+    segmenter.process(*cloudFrom(sensorModel("HDL-32E"), 10), out);
+    EXPECT_TRUE(out.is_sensor_assumed);
+    EXPECT_EQ(out.sensor->name, "VLP-16");
+    segmenter.process(*cloudFrom(sensorModel("HDL-32E"), 500), out);
+    EXPECT_EQ(out.sensor->name, "HDL-32E");
+    segmenter.process(*cloudFrom(sensorModel("HDL-32E"), 10), out);
+    EXPECT_EQ(out.sensor->name, "HDL-32E");
+}
+
+TEST(ObservationSegmenter, GivenBeamsMakeACloudIndependentOfThoseBefore) {
+    CloudSensors sensors;
+    const auto cloud = cloudFrom(sensorModel("HDL-32E"), 500);
+    sensors.see(*cloud);
+    const SharedBeams beams = sensors.beamsOf("front");
+    ObservationSegmenter fresh, used;
+    ObservationSegmenter::Output expected, out;
+    for (int i = 0; i < 5; ++i) used.process(*cloudFrom(sensorModel("VLP-16"), 900), out);
+    EXPECT_EQ(out.sensor->name, "VLP-16");
+    fresh.process(*cloudFrom(sensorModel("HDL-32E"), 10), expected, ScanPose(), beams);
+    used.process(*cloudFrom(sensorModel("HDL-32E"), 10), out, ScanPose(), beams);
+    EXPECT_EQ(out.sensor->name, "HDL-32E");
+    EXPECT_EQ(out.recovered, beams);
+    EXPECT_EQ(out.result->returns.label, expected.result->returns.label);
+}
+
+TEST(ObservationSegmenter, RefusesAWindowOfTheSettingsThatARecoveredSensorHasNoRowsFor) {
+    Settings settings;
+    settings.options.window_size = 12;
+    ObservationSegmenter segmenter;
+    segmenter.initialize(settings);
+    ObservationSegmenter::Output out;
+    const SensorModel few = customSensorModel({-30, -25, -20, -15, -10, -5, 0, 5});
+    EXPECT_THROW(segmenter.process(*cloudFrom(few, 500), out), SettingsError);
+    segmenter.initialize({});
+    EXPECT_TRUE(segmenter.process(*cloudFrom(few, 500), out));
+    EXPECT_LE(out.options->window_size, 4);
+}
+
 TEST(ObservationSegmenter, RefusesOptionsThatDoNotFitTheSensorAsSoonAsItIsKnown) {
     Settings settings;
     settings.options.window_size = 20;

@@ -39,6 +39,24 @@ TEST(RoiPointCloudFilter, KeepsTheRoiPoints) {
     for (const float x_m : example.cloud.getPointsBufferRef_x()) EXPECT_NEAR(x_m, 12.0f, 0.2f);
 }
 
+TEST(RoiPointCloudFilter, RecoversASensorThatTheSettingsDoNotName) {
+    test::SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const SensorModel sensor = sensorModel("HDL-64E");
+    const Scan scan = test::scanScene(scene, sensor, 600, {0, 0, 2}).scan;
+    Options options;
+    options.columns = 600;
+    HagenFilter expected(sensor, options);
+    mrpt::maps::CSimplePointsMap cloud;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        cloud.insertPoint(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+    }
+    RoiPointCloudFilter filter{Settings()};
+    filter.filter(&cloud, mrpt::Clock::now(), CPose3D());
+    EXPECT_EQ(cloud.size(), expected.segment(scan).returns.roi.size());
+    EXPECT_GT(cloud.size(), 50u);
+}
+
 TEST(RoiPointCloudFilter, MarksWithoutDeletingWhereAskedTo) {
     Example example;
     RoiPointCloudFilter filter{Settings()};

@@ -241,7 +241,65 @@ TEST_F(SettingsTest, ARecordingsBeamsReplaceAPresetsModelAndTheOtherWayRound) {
     EXPECT_EQ(settings.sensorModel().rows(), 32);
 }
 
+TEST_F(SettingsTest, ARecoveredSensorReplacesAPresetsModelAndTheOtherWayRound) {
+    Settings settings;
+    mergeSettings(kConfig / "mid360.yaml", settings);
+    mergeSettings(folder_.write("a.yaml", "sensor: {model: recovered, min_range_m: 2}"), settings);
+    EXPECT_FALSE(settings.sensor.model);
+    RecoveredBeams recovered{customSensorModel({-5, 0, 5}), 1.0f, {}, 300};
+    recovered.sensor.min_range_m = 0;
+    recovered.sensor.max_range_m = 1000;
+    EXPECT_EQ(settings.sensorModel(&recovered).rows(), 3);
+    EXPECT_EQ(settings.sensorModel(&recovered).min_range_m, 2.0f);
+    EXPECT_EQ(settings.sensorModel(&recovered).max_range_m, 1000.0f);
+    settings.sensor.max_range_m = 1.0f;
+    EXPECT_THROW(settings.sensorModel(&recovered), SettingsError);
+    mergeSettings(kConfig / "hdl32e.yaml", settings);
+    EXPECT_EQ(settings.sensorModel(&recovered).rows(), 32);
+}
+
+/// Columns, window size and components for a sensor with this number of rows.
+std::vector<int> fitted(const Settings& settings, int rows, int most_columns) {
+    RecoveredBeams recovered;
+    recovered.sensor.elevations_rad.assign(rows, 0.0f);
+    recovered.most_columns = most_columns;
+    const Options options = settings.optionsFor(&recovered);
+    return {options.columns, options.window_size, options.principal_components};
+}
+
+TEST_F(SettingsTest, WhatNobodyGaveIsFittedToARecoveredSensor) {
+    const Settings none = settingsOf("zone_m: 10");
+    EXPECT_EQ(fitted(none, 16, 1800), (std::vector{870, 8, 5}));  // as the presets
+    EXPECT_EQ(fitted(none, 128, 512), (std::vector{512, 8, 5}));
+    EXPECT_EQ(fitted(none, 8, 100), (std::vector{100, 4, 3}));
+    EXPECT_EQ(fitted(none, 3, 0), (std::vector{8, 2, 1}));
+    for (int rows = 3; rows <= 20; ++rows) {
+        RecoveredBeams recovered;
+        recovered.sensor.elevations_rad.assign(rows, 0.0f);
+        EXPECT_NO_THROW(checkOptions(none.optionsFor(&recovered), rows)) << rows;
+    }
+}
+
+TEST_F(SettingsTest, WhatASettingsFileGivesHoldsForARecoveredSensor) {
+    EXPECT_EQ(fitted(settingsOf("columns: 870"), 8, 100), (std::vector{870, 4, 3}));
+    EXPECT_EQ(fitted(settingsOf("window_size: 8"), 8, 100), (std::vector{100, 8, 5}));
+    EXPECT_EQ(fitted(settingsOf("{window_size: 6, principal_components: 5}"), 8, 100),
+              (std::vector{100, 6, 5}));
+    EXPECT_EQ(fitted(settingsOf("{columns: 870, sensor: {model: VLP-16}}"), 8, 100),
+              (std::vector{870, 8, 5}));
+    EXPECT_EQ(fitted(settingsOf("sensor: {model: VLP-16}"), 8, 100), (std::vector{870, 8, 5}));
+    Settings settings;
+    setOption("columns", "870", settings);
+    EXPECT_EQ(fitted(settings, 16, 100)[0], 870);
+    settings = Settings();
+    settings.options.columns = 500;
+    EXPECT_EQ(fitted(settings, 16, 100)[0], 500);
+}
+
 TEST_F(SettingsTest, SensorsThatMakeNoSenseAreRefused) {
+    EXPECT_TRUE(says(refusalOf("sensor: {model: recover}"), "'recovered'"));
+    EXPECT_TRUE(says(refusalOf("sensor: {model: recovered, elevations_deg: [1, 2]}"), "custom"));
+
     EXPECT_TRUE(says(refusalOf("sensor: {model: VLP-61}"), "VLP-61"));
     EXPECT_TRUE(says(refusalOf("sensor: VLP-16"), "sensor must contain keys"));
     EXPECT_TRUE(says(refusalOf("sensor: {elevations_deg: [1, 2]}"), "model: custom"));
@@ -447,6 +505,9 @@ TEST(Settings, ADumpReadsBackAsTheSameSettings) {
     EXPECT_THAT(dumpSettings(settings), HasSubstr("mount_pitch_deg: -12.345 "));
     mergeSettings(folder.write("none.yaml", dumpSettings(Settings())), again = Settings());
     EXPECT_FALSE(again.sensor.model);
+    EXPECT_TRUE(again.given.count("zone_m"));
+    EXPECT_FALSE(again.given.count("columns"));  // it would no longer be fitted to the sensor
+    EXPECT_THAT(dumpSettings(Settings()), HasSubstr("model: recovered"));
     EXPECT_TRUE(again.airframe.parts.isEmpty());
 }
 

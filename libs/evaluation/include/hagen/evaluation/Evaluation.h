@@ -23,6 +23,8 @@ class LabelledScanSource {
     virtual std::size_t size() const = 0;         ///< number of scans
     virtual const LabelMap& kinds() const = 0;    ///< the object classes of its scans
     virtual SensorModel sensor() const = 0;       ///< that its scans are located for
+    /// How certain its sensor is, for the user; empty if the recording or the settings name it.
+    virtual std::string sensorText() const { return ""; }
     /// Creates the methods for its sensor; every source must return the same names in the same
     /// order.
     virtual std::vector<Method> makeMethods() const = 0;

@@ -1,6 +1,7 @@
 // The scored methods: the filter with each of its settings, and the baselines.
 #pragma once
 #include <hagen/evaluation/Method.h>
+#include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/Settings.h>
 #include <filesystem>
 #include <optional>
@@ -36,11 +37,13 @@ struct MethodSet {
 void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
 
 /// Returns the filter's and baselines' methods for a recording. Settings in `sensor_file`, if that
-/// exists, are merged into those of each row. Includes PCL's baselines if the program was built
+/// exists, are merged into those of each row. If these name no sensor, it has the recovered `beams`
+/// (ScanSource::beamsOf()). Includes PCL's baselines if the program was built
 /// with PCL. The filter masks the airframe of its settings first, where it is in the sensor frame
 /// of the scan: in a scan that was turned (tilted, upside down), it is elsewhere. Throws
 /// SettingsError if settings and sensor are inconsistent.
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
-                                           const std::filesystem::path& sensor_file);
+                                           const std::filesystem::path& sensor_file,
+                                           const observations::SharedBeams& beams = nullptr);
 
 }  // namespace hagen::labelled_scans

@@ -59,8 +59,15 @@ struct ConversionReport {
     std::size_t returns_masked = 0;    ///< of the unclassified: those of the airframe
     std::size_t unreadable_scans = 0;  ///< kept but not segmented; each was reported
     std::size_t left_out_before = 0;   ///< entries skipped before `from`
-    /// Description of the sensor by sensor label: "VLP-16, 16 beams".
+    /// Description of the sensor by sensor label: "VLP-16, 16 beams", or how it was recovered
+    /// (CloudSensors.h).
     std::map<std::string, std::string> sensors;
+    /// The sensors that neither the log nor the settings name, and the columns of their images.
+    struct Recovered {
+        observations::SharedBeams beams;
+        int columns = 0;
+    };
+    std::map<std::string, Recovered> recovered;  ///< by sensor label
     std::string poses;  ///< source of the poses; empty: not needed or not available
     std::size_t scans_with_pose = 0;
     std::size_t scans_in_map = 0;         ///< scans in the OctoMap: those with a pose

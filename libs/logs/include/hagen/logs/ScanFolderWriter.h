@@ -21,8 +21,10 @@ std::string scanName(std::size_t scan);
 class ScanFolderWriter {
  public:
     /// Creates velodyne/ and labels/ in an existing folder. `mount`: the sensor's tilt on the level
-    /// vehicle, for sensor.yaml.
-    explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {});
+    /// vehicle, for sensor.yaml. `is_sensor_known`: false leaves the beams out of it, so that a
+    /// guess is not taken for a fact.
+    explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {},
+                              bool is_sensor_known = true);
 
     /// Adds a scan with the labels of its returns. `sensor_pose`: sensor pose in the map at the
     /// scan's time, if known. `pose_has_horizon`: the z axis of that map points against gravity.
@@ -38,6 +40,7 @@ class ScanFolderWriter {
  private:
     std::filesystem::path folder_;
     Attitude mount_;
+    bool is_sensor_known_;
     double first_time_s_ = 0;
     std::vector<double> times_s_;  ///< since the first scan
     std::vector<TimedPose> poses_;

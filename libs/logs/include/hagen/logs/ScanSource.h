@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/logs/LogPoses.h>
+#include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/ScanPose.h>
 #include <hagen/observations/Settings.h>
@@ -27,6 +28,8 @@ struct RecordedScan {
     observations::ScanPose pose;
     std::size_t entry = 0;  ///< index of its entry in the recording
     std::string name;       ///< file name in a scan folder; empty for a rawlog
+    /// The recovered beams of a cloud whose sensor nobody named; null otherwise (useSettings()).
+    observations::SharedBeams beams;
 };
 
 /// An entry of a recording: an object of a rawlog, or a scan of a scan folder.
@@ -62,7 +65,9 @@ constexpr const char* kFolderLabel = "velodyne";
 ///
 ///     const auto source = openRecording("flight.rawlog");
 ///     source->usePoses("flight.tum");
-///     while (const auto scan = source->nextScan()) segmenter.process(*scan->observation, ...);
+///     segmenter.initialize(source->useSettings(settings));
+///     while (const auto scan = source->nextScan())
+///         segmenter.process(*scan->observation, out, scan->pose, scan->beams);
 class ScanSource {
  public:
     virtual ~ScanSource() = default;
@@ -85,6 +90,16 @@ class ScanSource {
     /// a call before usePoses() saves it another reading. Throws Interrupted.
     virtual std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() = 0;
 
+    /// Returns settingsFor(settings). If these name no sensor, each cloud comes with the beams that
+    /// beamsOf() recovers. Call it before the first entry is read.
+    observations::Settings useSettings(const observations::Settings& settings);
+
+    /// The beams of a LiDAR's clouds, recovered from the first ones in the recording, also if these
+    /// are not selected (CloudSensors): the same for all parts of a recording. Null if none of its
+    /// clouds has enough returns. The recording is read in advance as far as this takes. Throws
+    /// Interrupted; ends silently where the recording breaks off.
+    const observations::SharedBeams& beamsOf(const std::string& sensor_label);
+
     /// The settings, with those of the recording's own sensor merged in.
     virtual observations::Settings settingsFor(const observations::Settings& settings) const;
 
@@ -98,6 +113,10 @@ class ScanSource {
     explicit ScanSource(const SourceOptions& options) : options_(options) {}
 
     virtual LogPoses readPoses(const std::filesystem::path& file) = 0;
+
+    /// Shows `sensors` the next clouds of the recording from its start, in order: each call goes on
+    /// after those before. Returns false at the end, and where the recording breaks off.
+    virtual bool showClouds(observations::CloudSensors& sensors) = 0;
 
     /// Call it before reading an entry. Throws Interrupted.
     void checkInterruption() const;
@@ -118,6 +137,9 @@ class ScanSource {
     observations::Horizon horizon_;
     std::size_t entries_skipped_ = 0;
     std::set<std::string> other_labels_;
+    bool recovers_beams_ = false;
+    observations::CloudSensors sensors_;  ///< of the clouds read in advance
+    std::map<std::string, observations::SharedBeams> beams_;
     std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
 };
 

@@ -7,7 +7,13 @@ namespace hagen::logs {
 /// Writes the results of a conversion as JSON:
 ///
 ///     {"hagen": version, "input": ..., "outputs": {...}, "settings": {key: value, ...},
-///      "sensors": {label: text}, "poses": {"source": ..., "scans_with_pose": n},
+///      "sensors": {label: text},
+///      "recovered_sensors": {label: {"name": a model or "recovered", "beams": n (rows of the
+///      image),
+///                                    "beams_seen": n, "share": 0 ... 1 (of the returns, on a
+///                                    beam), "has_rings": false if the rows are virtual,
+///                                    "columns": n (of the image)}},
+///      "poses": {"source": ..., "scans_with_pose": n},
 ///      "scans_in_map": n (only with an OctoMap),
 ///      "entries": n, "unreadable_scans": n, "left_out_before": n,
 ///      "returns": {"all": n, "roi": n, "rou": n, "unclassified": n},

@@ -12,8 +12,13 @@ namespace hagen::observations {
 /// Registers every class of mrpt-obs and mrpt-maps so that it can be read from a rawlog. Linking
 /// the libraries is not enough: the linker drops a library without referenced symbols.
 inline void registerMrptClasses() {
-    mrpt::obs::registerAllClasses_mrpt_obs();
-    mrpt::maps::registerAllClasses_mrpt_maps();
+    // Once: a later call, for another rawlog, must not touch the registry while threads use it.
+    static const bool is_done = [] {
+        mrpt::obs::registerAllClasses_mrpt_obs();
+        mrpt::maps::registerAllClasses_mrpt_maps();
+        return true;
+    }();
+    static_cast<void>(is_done);
 }
 
 /// The cloud class that every MRPT from 2.5 to 3 can read.

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Scan.h>
@@ -19,11 +20,17 @@ namespace hagen::observations {
 /// CObservationPointCloud whose label does not end in `_roi` or `_non_roi` (those are results).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
+/// True if it is such a scan without packets: one that does not identify its sensor.
+bool isCloud(const mrpt::obs::CObservation& observation);
+
 /// A LiDAR scan read from an observation.
 struct ObservedScan {
     Scan scan;
     SensorModel sensor;
-    bool is_sensor_assumed = false;  ///< neither the recording nor the settings name the sensor
+    /// Beams of a cloud whose sensor neither the recording nor the settings name; `sensor` is made
+    /// of them. Null otherwise.
+    SharedBeams recovered;
+    bool is_sensor_assumed = false;  ///< nobody names the sensor, and no beams are known: VLP-16
     /// Warnings for the user: skipped packet blocks, or settings that the recording overrides.
     /// Empty: none.
     std::string remark;
@@ -31,20 +38,26 @@ struct ObservedScan {
     /// Buffers of readObservation(), reused across scans.
     struct Workspace {
         DecoderWorkspace decoder;
-        /// The sensor of these settings; rebuilt only if they change.
+        /// The sensor of these settings and beams; rebuilt only if they change.
         std::optional<Settings::Sensor> settings;
+        SharedBeams beams;
         SensorModel sensor_of_settings;
     };
     Workspace work;
 };
 
 /// Reads a scan in its sensor's frame. The sensor is the recording's own if the recording names one
-/// (packets), otherwise that of the settings (clouds). A Velodyne scan without packets but with a
-/// stored cloud returns that cloud. Throws std::runtime_error if packets cannot be decoded or the
-/// cloud is missing; the message says why. Reuses the memory of `observed`, so that reading many
-/// scans allocates little.
+/// (packets), otherwise that of the settings (clouds), otherwise the one with the beams that were
+/// recovered from such clouds (`beams`), otherwise a VLP-16. A Velodyne scan without packets but
+/// with a stored cloud returns that cloud. Throws std::runtime_error if packets cannot be decoded
+/// or the cloud is missing; the message says why. Reuses the memory of `observed`, so that reading
+/// many scans allocates little.
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
-                     ObservedScan& observed);
+                     ObservedScan& observed, const SharedBeams& beams = nullptr);
+
+/// Reads the coordinates of a cloud, and its intensities. Returns false if it is none
+/// (isCloud()). Throws like readObservation().
+bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan);
 
 /// Point type of a cloud.
 enum class CloudClass {

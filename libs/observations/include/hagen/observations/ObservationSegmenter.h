@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/Horizon.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/ScanPose.h>
@@ -26,7 +27,9 @@ namespace hagen::observations {
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
 /// Accepts every LiDAR scan of a log, also from several sensors: each sensor label has its own
-/// filter. No result depends on the scans before.
+/// filter. No result depends on the scans before, except for clouds whose sensor neither the
+/// recording nor the settings name: its beams are those of the first clouds of their label
+/// (CloudSensors.h).
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
     DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen::observations)
 
@@ -42,8 +45,12 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         const Scan* scan = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
-        std::size_t returns_masked = 0;  ///< of the airframe: without a range in `scan`
-        bool is_sensor_assumed = false;  ///< VLP-16, as neither recording nor settings name it
+        std::size_t returns_masked = 0;    ///< of the airframe: without a range in `scan`
+        const Options* options = nullptr;  ///< of the filter: those of the settings, fitted to it
+        /// The beams of `sensor`, if neither the recording nor the settings name it; or not even
+        /// these are known, so that it is taken to be a VLP-16.
+        SharedBeams recovered;
+        bool is_sensor_assumed = false;
         /// Pose of the sensor. If its attitude is known, angles are relative to the horizon.
         ScanPose pose;
 
@@ -58,8 +65,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
 
-    /// Applies new settings and forgets the last attitude. Default: default settings. Throws
-    /// SettingsError if the options do not fit the sensor of the settings.
+    /// Applies new settings and forgets the last attitude and recovered sensors. Default: default
+    /// settings. Throws SettingsError if the options do not fit the sensor of the settings.
     void initialize(const Settings& settings);
 
     /// Segments one observation. Returns false and leaves `out` unchanged if it is not a LiDAR
@@ -76,8 +83,10 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
                  const Trajectory& vehicle = Trajectory());
 
     /// The same for a scan with known pose. If poses are determined in the log's order, scans can
-    /// be segmented in any order and by several segmenters concurrently.
-    bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose);
+    /// be segmented in any order and by several segmenters concurrently; so can clouds whose sensor
+    /// nobody names if their beams are given. Null: recovers them from the clouds it has seen.
+    bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
+                 const SharedBeams& beams = nullptr);
 
     /// Stores the vehicle's attitude if an observation provides it (Horizon.h). process() does this
     /// for observations that are not scans; call it for those in the same sensory frame as a scan.
@@ -90,10 +99,12 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
 
  private:
-    HagenFilter& filterOf(const std::string& label, const SensorModel& sensor);
+    SharedBeams beamsOf(const mrpt::obs::CObservation& observation);
+    HagenFilter& filterOf(const std::string& label);
 
     Settings settings_;
     std::map<std::string, HagenFilter> filters_;  ///< by sensor label
+    CloudSensors sensors_;
     Horizon horizon_;
     ObservedScan observed_;
 };

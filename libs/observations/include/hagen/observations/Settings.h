@@ -1,11 +1,13 @@
 #pragma once
 #include <hagen/range_image/Airframe.h>
+#include <hagen/range_image/RecoverBeams.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/Options.h>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,10 +23,13 @@ struct SettingsError : std::runtime_error {
 /// The content of settings files: the filter's options, the sensor and the airframe.
 struct Settings {
     Options options;
+    /// The keys of `options` that a file or setOption() gave. These hold as they are, also for a
+    /// recovered sensor, like options that differ from their default.
+    std::set<std::string> given;
 
     /// The section `sensor:` of a settings file. Defaults come from the model.
     struct Sensor {
-        std::optional<std::string> model;
+        std::optional<std::string> model;    ///< none, "recovered" in files: see sensorModel()
         std::vector<double> elevations_deg;  ///< of model `custom`, lowest beam first
         std::optional<float> min_range_m, max_range_m;
     };
@@ -43,9 +48,16 @@ struct Settings {
     };
     AirframeMask airframe;
 
-    /// Returns the sensor described by these settings; default: VLP-16. Throws SettingsError for
-    /// `custom` without elevations.
-    SensorModel sensorModel() const;
+    /// Returns the sensor of a cloud: the model that the settings name, otherwise the one that was
+    /// recovered from such clouds (CloudSensors), otherwise a VLP-16. Range limits of the settings
+    /// hold for all of them. Throws SettingsError for `custom` without elevations, and for limits
+    /// that contradict each other.
+    SensorModel sensorModel(const RecoveredBeams* recovered = nullptr) const;
+
+    /// Returns the options for the sensor that sensorModel() returns. For a recovered sensor, what
+    /// nobody gave is adapted to it: `columns` are at most those that its returns fill,
+    /// `window_size` is at most half of its rows, `principal_components` are the same share of it.
+    Options optionsFor(const RecoveredBeams* recovered) const;
 };
 
 /// Returns the filter for a sensor. Throws SettingsError if the options do not fit it.
