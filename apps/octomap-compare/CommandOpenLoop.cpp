@@ -23,10 +23,13 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// All models; the oracle only if the scene is known.
+/// All models; in a recording nothing is known of the future, and the oracle only if the scene is.
 std::vector<std::string> standardModels(bool has_scene) {
     std::vector<std::string> models = avoidance::worldModelNames();
-    if (!has_scene) models.erase(std::find(models.begin(), models.end(), "oracle"));
+    const auto isMissing = [=](const std::string& model) {
+        return model == "oracle+motion" || (avoidance::needsTruth(model) && !has_scene);
+    };
+    models.erase(std::remove_if(models.begin(), models.end(), isMissing), models.end());
     return models;
 }
 

@@ -26,19 +26,36 @@ void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, doub
 }
 
 std::optional<float> freeClearance(const WorldModel& world,
-                                   const std::vector<Eigen::Vector3f>& path_m,
+                                   const std::vector<Eigen::Vector3f>& path_m, double start_after_s,
                                    double clearance_radius_m) {
+    const float approach_m = world.fastest_m_s() * static_cast<float>(kControlStep_s);
     float least_m = WorldModel::kReach_m, needed_m = 0, free_m = 0;
     for (std::size_t i = 0; i < path_m.size(); ++i) {
         // Points within the sphere of the last clearance need no query.
-        if (i > 0) free_m -= (path_m[i] - path_m[i - 1]).norm();
+        if (i > 0) free_m -= (path_m[i] - path_m[i - 1]).norm() + approach_m;
         if (free_m > 0) continue;
-        const float clearance_m = world.clearance_m(path_m[i]);
+        const double after_s = start_after_s + kControlStep_s * static_cast<double>(i);
+        const float clearance_m = world.clearanceAfter_m(path_m[i], after_s);
         if (clearance_m < needed_m) return std::nullopt;
         const auto room = static_cast<float>(clearance_radius_m);
         needed_m = clearance_m >= room ? room : clearance_m;
         least_m = std::min(least_m, clearance_m);
         free_m = std::max(clearance_m - needed_m, kCheckStep_m);
+    }
+    return least_m;
+}
+
+float leastClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
+                       double start_after_s) {
+    const float approach_m = world.fastest_m_s() * static_cast<float>(kControlStep_s);
+    float least_m = WorldModel::kReach_m, spare_m = 0;  // above the least so far
+    for (std::size_t i = 0; i < path_m.size(); ++i) {
+        if (i > 0) spare_m -= (path_m[i] - path_m[i - 1]).norm() + approach_m;
+        if (spare_m > 0) continue;
+        const double after_s = start_after_s + kControlStep_s * static_cast<double>(i);
+        const float clearance_m = world.clearanceAfter_m(path_m[i], after_s);
+        least_m = std::min(least_m, clearance_m);
+        spare_m = std::max(clearance_m - least_m, kCheckStep_m);
     }
     return least_m;
 }
@@ -54,10 +71,10 @@ std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& t
         return std::nullopt;
     }
     const std::optional<float> soon_m =
-        freeClearance(world, broken_off_m, task.limits.clearance_radius_m());
+        freeClearance(world, broken_off_m, task.start_after_s, task.limits.clearance_radius_m());
     if (!soon_m) return std::nullopt;
     const std::optional<float> later_m =
-        freeClearance(world, path_m, task.limits.clearance_radius_m());
+        freeClearance(world, path_m, task.start_after_s, task.limits.clearance_radius_m());
     if (!later_m) return std::nullopt;
     const bool is_near = *later_m < static_cast<float>(task.limits.clearance_radius_m());
     if (is_near && !(world.clearance_m(path_m.back()) > *later_m)) return std::nullopt;

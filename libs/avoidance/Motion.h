@@ -13,11 +13,16 @@ constexpr double kLookAhead_s = 1.2;
 void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, double hold_s,
              const VehicleLimits& limits, std::vector<Eigen::Vector3f>& path_m);
 
-/// The minimum clearance along a path, or nothing if it is below `clearance_radius_m` somewhere. A
-/// path that starts closer than that must not come closer.
+/// The minimum clearance along a path of rollOut() that starts `start_after_s` after the model's
+/// last scan, or nothing if it is below `clearance_radius_m` somewhere. A path that starts closer
+/// than that must not come closer.
 std::optional<float> freeClearance(const WorldModel& world,
-                                   const std::vector<Eigen::Vector3f>& path_m,
+                                   const std::vector<Eigen::Vector3f>& path_m, double start_after_s,
                                    double clearance_radius_m);
+
+/// The minimum clearance along such a path, whatever it is, at most that at its start.
+float leastClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
+                       double start_after_s);
 
 /// The paths of a command: held and then braking, and interrupted after one period.
 struct CommandPaths {

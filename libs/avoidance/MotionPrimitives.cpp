@@ -117,9 +117,8 @@ double proximityCost(double clearance_m, const VehicleLimits& limits) {
            std::clamp(short_m / (kComfortable_m - limits.clearance_radius_m()), 0.0, 1.0);
 }
 
-}  // namespace
-
-Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) const {
+/// The cheapest free command, or an emergency.
+Plan cheapestFree(const WorldModel& world, const PlanningTask& task) {
     Plan plan;
     plan.is_emergency = true;
     if (mustStop(world, task)) return plan;
@@ -140,6 +139,33 @@ Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) c
             plan.command_m_s = candidate.command_m_s;
             plan.is_emergency = false;
         }
+    }
+    return plan;
+}
+
+/// Where nothing is free among obstacles that move, standing still is no way out: the command that
+/// keeps the largest clearance, the cheapest of equal ones.
+Eigen::Vector3d evadingCommand(const WorldModel& world, const PlanningTask& task) {
+    float best_m = -1;
+    Eigen::Vector3d best_m_s = Eigen::Vector3d::Zero();
+    std::vector<Eigen::Vector3f> path_m;
+    for (const Candidate& candidate : rankedCandidates(task)) {
+        rollOut(task.start, candidate.command_m_s, kLookAhead_s, task.limits, path_m);
+        const float clearance_m = leastClearance_m(world, path_m, task.start_after_s);
+        if (clearance_m > best_m) {
+            best_m = clearance_m;
+            best_m_s = candidate.command_m_s;
+        }
+    }
+    return best_m_s;
+}
+
+}  // namespace
+
+Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) const {
+    Plan plan = cheapestFree(world, task);
+    if (plan.is_emergency && world.fastest_m_s() > 0) {
+        plan.command_m_s = evadingCommand(world, task);
     }
     return plan;
 }

@@ -42,7 +42,7 @@ struct WindowModel::PastScans {
     }
 };
 
-WindowModel::WindowModel(bool roi_only) : roi_only_(roi_only) {}
+WindowModel::WindowModel(bool roi_only, WindowSize size) : roi_only_(roi_only), size_(size) {}
 WindowModel::~WindowModel() = default;
 
 void WindowModel::update(const mapping::MappedScan& scan) {
@@ -53,7 +53,7 @@ void WindowModel::update(const mapping::MappedScan& scan) {
         const Eigen::Vector3f ray = scan.points_m[i] - scan.origin_m;
         view.seen.see(ray);
         const bool counts = !roi_only_ || scan.labels[i] == Label::Roi;
-        if (counts && ray.squaredNorm() <= kRadius_m * kRadius_m) {
+        if (counts && ray.squaredNorm() <= size_.radius_m * size_.radius_m) {
             past->points.at_m.push_back(scan.points_m[i]);
         }
     }
@@ -66,7 +66,7 @@ void WindowModel::update(const mapping::MappedScan& scan) {
     }
     past->build();
     past_.push_front(std::move(past));
-    if (++scans_ > kScans) forgetOldest();
+    if (++scans_ > size_.scans) forgetOldest();
 }
 
 /// Its points stay in the shared tree, but no longer count.
@@ -95,7 +95,9 @@ bool WindowModel::isKnown(const Eigen::Vector3f& point_m) const {
     for (const auto& past : past_) {
         for (const View& view : past->views) {
             const Eigen::Vector3f ray = point_m - view.origin_m;
-            if (ray.squaredNorm() <= kRadius_m * kRadius_m && view.seen.isSeen(ray)) return true;
+            if (ray.squaredNorm() <= size_.radius_m * size_.radius_m && view.seen.isSeen(ray)) {
+                return true;
+            }
         }
     }
     return false;

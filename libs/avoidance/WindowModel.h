@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/avoidance/WindowSize.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <deque>
 #include <memory>
@@ -10,11 +11,9 @@ namespace hagen::avoidance {
 /// thinning, a nearby wall would fill a scan with points much denser than the measurement noise.
 class WindowModel : public WorldModel {
  public:
-    static constexpr std::size_t kScans = 10;
-    static constexpr float kRadius_m = 15;  ///< points farther from their scan's origin are dropped
     static constexpr float kThinning_m = 0.1f;
 
-    explicit WindowModel(bool roi_only);
+    WindowModel(bool roi_only, WindowSize size);
     ~WindowModel() override;
 
     void update(const mapping::MappedScan& scan) override;
@@ -29,6 +28,7 @@ class WindowModel : public WorldModel {
     void forgetOldest();
 
     bool roi_only_;
+    WindowSize size_;
     std::size_t scans_ = 0;
     std::deque<std::unique_ptr<PastScans>> past_;  ///< newest first
 };

@@ -12,37 +12,52 @@ namespace hagen::avoidance {
 
 namespace {
 
+using TrueClearance = std::function<float(const Eigen::Vector3f&, double)>;
+
 /// Queries the true scene.
 class OracleModel : public WorldModel {
  public:
-    explicit OracleModel(std::function<float(const Eigen::Vector3f&)> true_clearance_m)
+    explicit OracleModel(TrueClearance true_clearance_m)
         : true_clearance_m_(std::move(true_clearance_m)) {
         if (!true_clearance_m_) throw std::invalid_argument("the oracle needs the true clearance");
     }
 
     void update(const mapping::MappedScan&) override {}
-    float clearance_m(const Eigen::Vector3f& point_m) const override {
-        return std::clamp(true_clearance_m_(point_m), 0.0f, kReach_m);
-    }
+    float clearance_m(const Eigen::Vector3f& point_m) const override { return at(point_m, 0); }
     bool isKnown(const Eigen::Vector3f&) const override { return true; }
     std::size_t bytes() const override { return 0; }
     Obstacles obstacles() const override { return {}; }
 
+ protected:
+    float at(const Eigen::Vector3f& point_m, double after_s) const {
+        return std::clamp(true_clearance_m_(point_m, after_s), 0.0f, kReach_m);
+    }
+
  private:
-    std::function<float(const Eigen::Vector3f&)> true_clearance_m_;
+    TrueClearance true_clearance_m_;
+};
+
+/// Knows the future, too.
+class OracleOfMotion : public OracleModel {
+ public:
+    using OracleModel::OracleModel;
+    float clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const override {
+        return at(point_m, after_s);
+    }
+    float fastest_m_s() const override { return 5; }  // of any scenario's obstacles
 };
 
 using Factory = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
 
 struct Entry {
     std::string name, display_name;
-    bool needs_labels;
+    enum { AllPoints, Labels, Truth } needs;
     Factory make;
 };
 
 template <bool kRoiOnly>
-std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting&) {
-    return std::make_unique<WindowModel>(kRoiOnly);
+std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting& setting) {
+    return std::make_unique<WindowModel>(kRoiOnly, windowSizeFor(setting.pace));
 }
 
 template <mapping::MapContent kContent, int kResolution_cm>
@@ -54,24 +69,26 @@ std::unique_ptr<WorldModel> makeGrid(const WorldModelSetting& setting) {
     return std::make_unique<GridModel>(0.2f, setting.bounds_m);
 }
 
+template <class Oracle>
 std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
-    return std::make_unique<OracleModel>(setting.true_clearance_m);
+    return std::make_unique<Oracle>(setting.true_clearance_m);
 }
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
-        {"W-RoI", "RoI window", true, makeWindow<true>},
-        {"W-Full", "full window", false, makeWindow<false>},
-        {"O-Full-0.2", "OctoMap 0.2 m", false, makeOctoMap<mapping::MapContent::Full, 20>},
-        {"O-Full-0.4", "OctoMap 0.4 m", false, makeOctoMap<mapping::MapContent::Full, 40>},
-        {"O-RoI-0.2", "RoI OctoMap 0.2 m", true, makeOctoMap<mapping::MapContent::Roi, 20>},
-        {"O-RoI-0.4", "RoI OctoMap 0.4 m", true, makeOctoMap<mapping::MapContent::Roi, 40>},
-        {"O-RoI+rays-0.2", "RoI OctoMap with all rays 0.2 m", true,
+        {"W-RoI", "RoI window", Entry::Labels, makeWindow<true>},
+        {"W-Full", "full window", Entry::AllPoints, makeWindow<false>},
+        {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints, makeOctoMap<mapping::MapContent::Full, 20>},
+        {"O-Full-0.4", "OctoMap 0.4 m", Entry::AllPoints, makeOctoMap<mapping::MapContent::Full, 40>},
+        {"O-RoI-0.2", "RoI OctoMap 0.2 m", Entry::Labels, makeOctoMap<mapping::MapContent::Roi, 20>},
+        {"O-RoI-0.4", "RoI OctoMap 0.4 m", Entry::Labels, makeOctoMap<mapping::MapContent::Roi, 40>},
+        {"O-RoI+rays-0.2", "RoI OctoMap with all rays 0.2 m", Entry::Labels,
          makeOctoMap<mapping::MapContent::RoiAndRays, 20>},
-        {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", true,
+        {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", Entry::Labels,
          makeOctoMap<mapping::MapContent::RoiAndRays, 40>},
-        {"G-Full", "occupancy grid 0.2 m", false, makeGrid},
-        {"oracle", "true scene", false, makeOracle},
+        {"G-Full", "occupancy grid 0.2 m", Entry::AllPoints, makeGrid},
+        {"oracle", "true scene", Entry::Truth, makeOracle<OracleModel>},
+        {"oracle+motion", "true scene with motion", Entry::Truth, makeOracle<OracleOfMotion>},
     };
     return entries;
 }
@@ -124,7 +141,13 @@ std::string worldModelList() {
     return list;
 }
 
-bool needsLabels(const std::string& model) { return entryOf(model).needs_labels; }
+bool needsLabels(const std::string& model) { return entryOf(model).needs == Entry::Labels; }
+
+bool needsTruth(const std::string& model) {
+    return std::any_of(entries().begin(), entries().end(), [&](const Entry& entry) {
+        return entry.name == model && entry.needs == Entry::Truth;
+    });
+}
 
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting) {

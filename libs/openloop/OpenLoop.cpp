@@ -163,7 +163,7 @@ void Run::prepareModels(const LoggedScan& scan) {
     avoidance::WorldModelSetting setting;
     setting.bounds_m = box_m_;
     if (truth_) {
-        setting.true_clearance_m = [this](const auto& point_m) {
+        setting.true_clearance_m = [this](const auto& point_m, double) {
             return truth_->clearance_m(point_m);
         };
     }
@@ -315,7 +315,7 @@ void checkOpenLoop(const OpenLoop& open_loop) {
         if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
             throw std::invalid_argument("world model '" + model + "' is listed twice");
         }
-        if (model == "oracle" && !open_loop.scene) {
+        if (avoidance::needsTruth(model) && !open_loop.scene) {
             throw std::invalid_argument(
                 "the true scene (oracle) needs the scenario that the log was simulated in "
                 "(--truth-scenario, --truth-seed)");

@@ -142,7 +142,7 @@ std::vector<trials::Run> worstRuns(const std::vector<trials::Run>& runs, std::si
     std::vector<trials::Run> worst;
     for (const trials::Run& run : ranked) {
         if (worst.size() == count) break;
-        if (run.setup.model == "oracle") continue;
+        if (avoidance::needsTruth(run.setup.model)) continue;
         if (!shown.insert({run.scenario, run.setup.model, run.setup.guidance}).second) continue;
         worst.push_back(run);
     }

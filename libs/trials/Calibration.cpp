@@ -119,7 +119,7 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m)
     avoidance::WorldModelSetting setting;
     setting.bounds_m = course.bounds_m.cast<float>();
     setting.bounds_m.max().x() += static_cast<float>(path_m);
-    setting.true_clearance_m = [](const Eigen::Vector3f&) {
+    setting.true_clearance_m = [](const Eigen::Vector3f&, double) {
         return avoidance::WorldModel::kReach_m;
     };
     const double before = base::heapBytes();

@@ -80,9 +80,10 @@ class TrialFlight {
           trace_(state_) {
         avoidance::WorldModelSetting world;
         world.bounds_m = course.bounds_m.cast<float>();
-        world.true_clearance_m = [this](const Eigen::Vector3f& believed_m) {
-            return course_.distance.at(believed_m - scan_offset_m_, scan_s_);
+        world.true_clearance_m = [this](const Eigen::Vector3f& believed_m, double after_s) {
+            return course_.distance.at(believed_m - scan_offset_m_, scan_s_ + after_s);
         };
+        world.pace = {setup.speed_m_s, TrialSensor::kTurn_s, setup.limits};
         stopwatch_.weigh("", 0, [&] { world_ = avoidance::makeWorldModel(setup.model, world); });
     }
 
@@ -146,7 +147,7 @@ class TrialFlight {
             return guidance_->carrot(*world_, guidanceTask(then, ground_m));
         });
         const avoidance::Plan plan = stopwatch_.time(
-            planner, [&] { return planner_->plan(*world_, planningTask(then, carrot, ground_m)); });
+            planner, [&] { return planner_->plan(*world_, planningTask(then, followed_s - scan_s_, carrot, ground_m)); });
         commands_.add(free_s_ + setup_.limits.actuation_delay_s, plan.command_m_s);
         note(plan, now, start_s);
         if (listener_.step) {
@@ -188,10 +189,11 @@ class TrialFlight {
         return task;
     }
 
-    avoidance::PlanningTask planningTask(const avoidance::VehicleState& state,
+    avoidance::PlanningTask planningTask(const avoidance::VehicleState& state, double after_s,
                                          const avoidance::Carrot& carrot, double ground_m) const {
         avoidance::PlanningTask task;
         task.start = state;
+        task.start_after_s = after_s;
         task.carrot_m = carrot.at_m;
         task.beyond_carrot_m = carrot.beyond_m;
         task.speed_m_s = setup_.speed_m_s;

@@ -31,12 +31,12 @@ const Eigen::AlignedBox3f kBounds(Eigen::Vector3f(-6, -6, -2), Eigen::Vector3f(1
 const Eigen::Vector3f kOrigin(0.03f, 0.05f, 1.07f);
 
 avoidance::WorldModelSetting setting() {
-    return {kBounds, [](const Eigen::Vector3f& p) { return std::abs(5 - p.x()); }};
+    return {kBounds, [](const Eigen::Vector3f& p, double after_s) { return std::abs(5 - p.x() - static_cast<float>(after_s)); }, {}};
 }
 
 std::vector<std::string> modelsThatLearn() {
     std::vector<std::string> names = avoidance::worldModelNames();
-    names.erase(std::find(names.begin(), names.end(), "oracle"));
+    names.erase(std::remove_if(names.begin(), names.end(), avoidance::needsTruth), names.end());
     return names;
 }
 
@@ -230,7 +230,7 @@ TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
     std::vector<Eigen::Vector3f> far_off;
     for (float y = -12; y <= 12; y += 0.2f) far_off.emplace_back(25.0f, y, 1.3f);
     for (const std::string& name : modelsThatLearn()) {
-        const auto model = avoidance::makeWorldModel(name, {wide, nullptr});
+        const auto model = avoidance::makeWorldModel(name, {wide, nullptr, {}});
         model->update(scanOf(far_off));
         EXPECT_TRUE(model->obstacles().centre_m.empty()) << name;
         EXPECT_EQ(model->clearance_m({20, 0.1f, 1.3f}), avoidance::WorldModel::kReach_m) << name;
@@ -368,7 +368,20 @@ TEST(WorldModel, TheOracleTellsTheTruth) {
     EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({-20, 0, 0}));
     EXPECT_TRUE(model->isKnown({-20, 0, 0}));
     EXPECT_EQ(0u, model->bytes());
-    EXPECT_THROW(avoidance::makeWorldModel("oracle", {kBounds, nullptr}), std::invalid_argument);
+    EXPECT_THROW(avoidance::makeWorldModel("oracle", {kBounds, nullptr, {}}),
+                 std::invalid_argument);
+    // It takes the world to stand still.
+    EXPECT_FLOAT_EQ(1.5f, model->clearanceAfter_m({3.5f, 0, 0}, 1));
+    EXPECT_EQ(0, model->fastest_m_s());
+}
+
+// The wall at x = 5 m comes closer at 1 m/s.
+TEST(WorldModel, TheOracleOfMotionTellsTheFuture) {
+    const auto model = avoidance::makeWorldModel("oracle+motion", setting());
+    EXPECT_FLOAT_EQ(1.5f, model->clearance_m({3.5f, 0, 0}));
+    EXPECT_FLOAT_EQ(1.5f, model->clearanceAfter_m({3.5f, 0, 0}, 0));
+    EXPECT_FLOAT_EQ(0.5f, model->clearanceAfter_m({3.5f, 0, 0}, 1));
+    EXPECT_GE(model->fastest_m_s(), 1);
 }
 
 TEST(WorldModel, NamesTheKnownOnesForAnother) {

@@ -11,6 +11,7 @@ namespace hagen::avoidance {
 /// The input of a local planner.
 struct PlanningTask {
     VehicleState start;          ///< predicted for when a command given now takes effect
+    double start_after_s = 0;    ///< time from the model's last scan to then
     Eigen::Vector3d carrot_m;    ///< lookahead point of the guidance
     double beyond_carrot_m = 0;  ///< remaining path length from there; 0: the carrot is the goal
     double speed_m_s = 4;        ///< maximum

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/avoidance/WindowSize.h>
 #include <hagen/mapping/MappedScan.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -33,6 +34,14 @@ class WorldModel {
         return std::min(clearance_m(point_m), limit_m);
     }
 
+    /// clearance_m() a time after the last scan, for models that predict motion. All others take the
+    /// world to stand still.
+    virtual float clearanceAfter_m(const Eigen::Vector3f& point_m, double /*after_s*/) const {
+        return clearance_m(point_m);
+    }
+    /// The clearance of a point changes by at most this much per second. 0: nothing moves.
+    virtual float fastest_m_s() const { return 0; }
+
     /// Whether a point was observed, as free or occupied.
     virtual bool isKnown(const Eigen::Vector3f& point_m) const = 0;
 
@@ -50,15 +59,17 @@ class WorldModel {
 /// Parameters of a world model that are known before the flight.
 struct WorldModelSetting {
     Eigen::AlignedBox3f bounds_m;  ///< of the flight; maps extend 3 m beyond
-    /// The true distance to the nearest obstacle at the time of the last scan. Only the oracle
-    /// needs it.
-    std::function<float(const Eigen::Vector3f&)> true_clearance_m;
+    /// The true distance to the nearest obstacle, a time after the last scan. Only the oracles need
+    /// it.
+    std::function<float(const Eigen::Vector3f& point_m, double after_s)> true_clearance_m;
+    FlightPace pace;  ///< windows are as large as it needs
 };
 
 /// Names of all world models. The first is the key in flags, files and hashes, the second is what
 /// people read (displayName()):
 ///
-///     W-RoI           RoI window: RoI points of 10 scans within 15 m, one per 10 cm cube
+///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
+///                     (windowSizeFor())
 ///     W-Full          full window: the same with all points
 ///     O-Full-0.2      OctoMap 0.2 m: all points
 ///     O-Full-0.4      OctoMap 0.4 m
@@ -67,7 +78,8 @@ struct WorldModelSetting {
 ///     O-RoI+rays-0.2  RoI OctoMap with all rays 0.2 m: RoI points are hits, all rays clear
 ///     O-RoI+rays-0.4  RoI OctoMap with all rays 0.4 m
 ///     G-Full          occupancy grid 0.2 m: MRPT's COccupancyGridMap3D of all points
-///     oracle          true scene
+///     oracle          true scene: as it is at the time of the last scan
+///     oracle+motion   true scene with motion: as it will be
 const std::vector<std::string>& worldModelNames();
 
 /// The name of a model for people, such as "RoI window" for W-RoI. A name that is not in
@@ -85,7 +97,10 @@ std::string worldModelList();
 /// std::invalid_argument for unknown names.
 bool needsLabels(const std::string& model);
 
-/// Throws std::invalid_argument for unknown names and lists the known ones; also if the oracle gets
+/// Whether a model knows the true scene: an oracle. False for unknown names.
+bool needsTruth(const std::string& model);
+
+/// Throws std::invalid_argument for unknown names and lists the known ones; also if an oracle gets
 /// no true clearance.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
