@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,11 +27,17 @@ class Nearest {
  public:
     explicit Nearest(float limit_m) : least_m2_(limit_m * limit_m) {}
 
-    /// Only the first `points` points of the next tree count.
-    void consider(std::size_t points) { counting_ = points; }
+    /// Of the next tree, only the first `points` points count, and none that is hidden (1; null:
+    /// none is).
+    void consider(std::size_t points, const std::uint8_t* is_hidden = nullptr) {
+        counting_ = points;
+        is_hidden_ = is_hidden;
+    }
 
     bool addPoint(float distance_m2, std::uint32_t point) {
-        if (point < counting_) least_m2_ = std::min(least_m2_, distance_m2);
+        if (point < counting_ && distance_m2 < least_m2_ && !(is_hidden_ && is_hidden_[point])) {
+            least_m2_ = distance_m2;
+        }
         return true;
     }
     float worstDist() const { return least_m2_; }
@@ -41,6 +46,7 @@ class Nearest {
 
  private:
     float least_m2_;
+    const std::uint8_t* is_hidden_ = nullptr;
     std::size_t counting_ = std::numeric_limits<std::size_t>::max();
 };
 

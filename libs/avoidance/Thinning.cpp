@@ -22,8 +22,8 @@ std::uint32_t placeOnCurve(const Eigen::Array3f& at_cubes) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_m,
-                                     const Eigen::Vector3f& origin_m, float edge_m) {
+std::vector<std::uint32_t> thinnedIndices(const std::vector<Eigen::Vector3f>& points_m,
+                                          const Eigen::Vector3f& origin_m, float edge_m) {
     std::vector<std::uint64_t> cubes_and_points;  // sort like pairs, but faster
     cubes_and_points.reserve(points_m.size());
     for (std::size_t i = 0; i < points_m.size(); ++i) {
@@ -32,17 +32,29 @@ std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_
     }
     std::sort(cubes_and_points.begin(), cubes_and_points.end());
 
-    std::vector<Eigen::Vector3f> kept_m;
-    kept_m.reserve(points_m.size());
+    const auto distance_m2 = [&](std::uint32_t i) {
+        return (points_m[i] - origin_m).squaredNorm();
+    };
+    std::vector<std::uint32_t> kept;
+    kept.reserve(points_m.size());
     std::uint64_t last = ~std::uint64_t{0};
     for (const std::uint64_t cube_and_point : cubes_and_points) {
-        const Eigen::Vector3f& point_m = points_m[cube_and_point & 0xffffffff];
+        const auto point = static_cast<std::uint32_t>(cube_and_point & 0xffffffff);
         if (cube_and_point >> 32 != last) {
-            kept_m.push_back(point_m);
-        } else if ((point_m - origin_m).squaredNorm() < (kept_m.back() - origin_m).squaredNorm()) {
-            kept_m.back() = point_m;
+            kept.push_back(point);
+        } else if (distance_m2(point) < distance_m2(kept.back())) {
+            kept.back() = point;
         }
         last = cube_and_point >> 32;
+    }
+    return kept;
+}
+
+std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_m,
+                                     const Eigen::Vector3f& origin_m, float edge_m) {
+    std::vector<Eigen::Vector3f> kept_m;
+    for (const std::uint32_t i : thinnedIndices(points_m, origin_m, edge_m)) {
+        kept_m.push_back(points_m[i]);
     }
     return kept_m;
 }

@@ -1,5 +1,6 @@
 #include "WindowModel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
 
@@ -26,14 +27,17 @@ struct View {
 }  // namespace
 
 struct WindowModel::PastScans {
-    std::vector<View> views;  ///< newest first
-    TreePoints points;        ///< in the order of the views; includes dropped scans
+    std::vector<View> views;              ///< newest first
+    TreePoints points;                    ///< in the order of the views; includes dropped scans
+    std::vector<std::uint32_t> track;     ///< per point; 0: none
+    std::vector<std::uint8_t> is_hidden;  ///< per point; empty: none is
     std::size_t in_window = 0;
     std::unique_ptr<Tree> tree;
 
     void add(const PastScans& older) {
         views.insert(views.end(), older.views.begin(), older.views.end());
         points.at_m.insert(points.at_m.end(), older.points.at_m.begin(), older.points.at_m.end());
+        track.insert(track.end(), older.track.begin(), older.track.end());
     }
     void build() {
         points.at_m.shrink_to_fit();
@@ -45,19 +49,31 @@ struct WindowModel::PastScans {
 WindowModel::WindowModel(bool roi_only, WindowSize size) : roi_only_(roi_only), size_(size) {}
 WindowModel::~WindowModel() = default;
 
-void WindowModel::update(const mapping::MappedScan& scan) {
+void WindowModel::update(const mapping::MappedScan& scan,
+                         const std::vector<std::uint32_t>& track_of_obstacle) {
     auto past = std::make_unique<PastScans>();
     View view;
     view.origin_m = scan.origin_m;
+    std::vector<Eigen::Vector3f> points_m;
+    std::vector<std::uint32_t> tracks;
+    const auto trackOf = [&](std::size_t i) {
+        const auto obstacle =
+            scan.obstacles.empty() ? 0 : static_cast<std::size_t>(scan.obstacles[i]);
+        return obstacle < track_of_obstacle.size() ? track_of_obstacle[obstacle] : 0;
+    };
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         const Eigen::Vector3f ray = scan.points_m[i] - scan.origin_m;
         view.seen.see(ray);
         const bool counts = !roi_only_ || scan.labels[i] == Label::Roi;
         if (counts && ray.squaredNorm() <= size_.radius_m * size_.radius_m) {
-            past->points.at_m.push_back(scan.points_m[i]);
+            points_m.push_back(scan.points_m[i]);
+            tracks.push_back(trackOf(i));
         }
     }
-    past->points.at_m = thinned(past->points.at_m, scan.origin_m, kThinning_m);
+    for (const std::uint32_t i : thinnedIndices(points_m, scan.origin_m, kThinning_m)) {
+        past->points.at_m.push_back(points_m[i]);
+        past->track.push_back(tracks[i]);
+    }
     view.points = past->points.at_m.size();
     past->views.push_back(std::move(view));
     if (!past_.empty() && past_.front()->views.size() < kScansPerTree) {
@@ -67,6 +83,16 @@ void WindowModel::update(const mapping::MappedScan& scan) {
     past->build();
     past_.push_front(std::move(past));
     if (++scans_ > size_.scans) forgetOldest();
+}
+
+void WindowModel::hide(const std::vector<std::uint32_t>& tracks) {
+    for (const auto& past : past_) {
+        past->is_hidden.assign(tracks.empty() ? 0 : past->track.size(), 0);
+        for (std::size_t i = 0; i < past->is_hidden.size(); ++i) {
+            past->is_hidden[i] =
+                std::find(tracks.begin(), tracks.end(), past->track[i]) != tracks.end();
+        }
+    }
 }
 
 /// Its points stay in the shared tree, but no longer count.
@@ -85,7 +111,8 @@ float WindowModel::clearance_m(const Eigen::Vector3f& point_m) const {
 float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     Nearest nearest(std::min(limit_m, kReach_m));
     for (const auto& past : past_) {
-        nearest.consider(past->in_window);
+        nearest.consider(past->in_window,
+                         past->is_hidden.empty() ? nullptr : past->is_hidden.data());
         past->tree->findNeighbors(nearest, point_m.data(), {});
     }
     return std::sqrt(nearest.worstDist());
@@ -108,6 +135,7 @@ std::size_t WindowModel::bytes() const {
     for (const auto& past : past_) {
         bytes += sizeof(PastScans) + sizeof(Tree) +
                  past->points.at_m.capacity() * sizeof(Eigen::Vector3f) +
+                 past->track.capacity() * sizeof(std::uint32_t) + past->is_hidden.capacity() +
                  past->tree->usedMemory(*past->tree);
         for (const View& view : past->views) bytes += sizeof(View) + view.seen.bytes();
     }
@@ -117,9 +145,10 @@ std::size_t WindowModel::bytes() const {
 WorldModel::Obstacles WindowModel::obstacles() const {
     Obstacles obstacles;
     for (const auto& past : past_) {
-        const auto first = past->points.at_m.begin();
-        obstacles.centre_m.insert(obstacles.centre_m.end(), first,
-                                  first + static_cast<std::ptrdiff_t>(past->in_window));
+        for (std::size_t i = 0; i < past->in_window; ++i) {
+            if (!past->is_hidden.empty() && past->is_hidden[i]) continue;
+            obstacles.centre_m.push_back(past->points.at_m[i]);
+        }
     }
     return obstacles;
 }

@@ -1,8 +1,10 @@
 #pragma once
 #include <hagen/avoidance/WindowSize.h>
 #include <hagen/avoidance/WorldModel.h>
+#include <cstdint>
 #include <deque>
 #include <memory>
+#include <vector>
 
 namespace hagen::avoidance {
 
@@ -16,7 +18,13 @@ class WindowModel : public WorldModel {
     WindowModel(bool roi_only, WindowSize size);
     ~WindowModel() override;
 
-    void update(const mapping::MappedScan& scan) override;
+    void update(const mapping::MappedScan& scan) override { update(scan, {}); }
+    /// The same, and notes which track the points of each obstacle belong to, by its number; 0:
+    /// none.
+    void update(const mapping::MappedScan& scan,
+                const std::vector<std::uint32_t>& track_of_obstacle);
+    /// Points of these tracks no longer count, until the next call.
+    void hide(const std::vector<std::uint32_t>& tracks);
     float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;

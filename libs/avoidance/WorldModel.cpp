@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "GridModel.h"
+#include "MotionWindow.h"
 #include "OctoMapModel.h"
 #include "WindowModel.h"
 
@@ -60,6 +61,10 @@ std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting& setting) {
     return std::make_unique<WindowModel>(kRoiOnly, windowSizeFor(setting.pace));
 }
 
+std::unique_ptr<WorldModel> makeMotionWindow(const WorldModelSetting& setting) {
+    return std::make_unique<MotionWindow>(windowSizeFor(setting.pace));
+}
+
 template <mapping::MapContent kContent, int kResolution_cm>
 std::unique_ptr<WorldModel> makeOctoMap(const WorldModelSetting& setting) {
     return std::make_unique<OctoMapModel>(kContent, kResolution_cm / 100.0, setting.bounds_m);
@@ -77,11 +82,16 @@ std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
         {"W-RoI", "RoI window", Entry::Labels, makeWindow<true>},
+        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMotionWindow},
         {"W-Full", "full window", Entry::AllPoints, makeWindow<false>},
-        {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints, makeOctoMap<mapping::MapContent::Full, 20>},
-        {"O-Full-0.4", "OctoMap 0.4 m", Entry::AllPoints, makeOctoMap<mapping::MapContent::Full, 40>},
-        {"O-RoI-0.2", "RoI OctoMap 0.2 m", Entry::Labels, makeOctoMap<mapping::MapContent::Roi, 20>},
-        {"O-RoI-0.4", "RoI OctoMap 0.4 m", Entry::Labels, makeOctoMap<mapping::MapContent::Roi, 40>},
+        {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints,
+         makeOctoMap<mapping::MapContent::Full, 20>},
+        {"O-Full-0.4", "OctoMap 0.4 m", Entry::AllPoints,
+         makeOctoMap<mapping::MapContent::Full, 40>},
+        {"O-RoI-0.2", "RoI OctoMap 0.2 m", Entry::Labels,
+         makeOctoMap<mapping::MapContent::Roi, 20>},
+        {"O-RoI-0.4", "RoI OctoMap 0.4 m", Entry::Labels,
+         makeOctoMap<mapping::MapContent::Roi, 40>},
         {"O-RoI+rays-0.2", "RoI OctoMap with all rays 0.2 m", Entry::Labels,
          makeOctoMap<mapping::MapContent::RoiAndRays, 20>},
         {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", Entry::Labels,

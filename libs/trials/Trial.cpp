@@ -123,11 +123,10 @@ class TrialFlight {
         latency_ms_.push_back(1e3 * (free_s_ - arrived_s));
 
         const simulation::SimulatedScan measured = sensor_.measure(turn, trace_);
-        const auto& labels = stopwatch_.time(
-            "filter", [&]() -> const auto& {
-                return sensor_.segment(turn, measured, trace_, belief_);
-            });
-        const mapping::MappedScan scan = sensor_.place(turn, measured, labels, trace_, belief_);
+        const LabelledReturns& returns = stopwatch_.time("filter", [&]() -> const LabelledReturns& {
+            return sensor_.segment(turn, measured, trace_, belief_);
+        });
+        const mapping::MappedScan scan = sensor_.place(turn, measured, returns, trace_, belief_);
         scan_s_ = scan.time_s;
         scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
         const std::string prefix = setup_.model + "/";
@@ -146,8 +145,10 @@ class TrialFlight {
         const avoidance::Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
             return guidance_->carrot(*world_, guidanceTask(then, ground_m));
         });
-        const avoidance::Plan plan = stopwatch_.time(
-            planner, [&] { return planner_->plan(*world_, planningTask(then, followed_s - scan_s_, carrot, ground_m)); });
+        const avoidance::Plan plan = stopwatch_.time(planner, [&] {
+            return planner_->plan(*world_,
+                                  planningTask(then, followed_s - scan_s_, carrot, ground_m));
+        });
         commands_.add(free_s_ + setup_.limits.actuation_delay_s, plan.command_m_s);
         note(plan, now, start_s);
         if (listener_.step) {

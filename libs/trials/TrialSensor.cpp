@@ -60,15 +60,14 @@ simulation::SimulatedScan TrialSensor::measure(int number, const FlightTrace& tr
                                     random, trialErrorModel());
 }
 
-const std::vector<Label>& TrialSensor::segment(int number,
-                                               const simulation::SimulatedScan& measured,
-                                               const FlightTrace& trace, PoseBelief& belief) {
+const LabelledReturns& TrialSensor::segment(int number, const simulation::SimulatedScan& measured,
+                                            const FlightTrace& trace, PoseBelief& belief) {
     const simulation::SensorPose middle = belief.at(trace, kTurn_s * (number + 0.5));
-    return filter_.segment(measured.scan, tiltOf(middle.attitude)).returns.label;
+    return filter_.segment(measured.scan, tiltOf(middle.attitude)).returns;
 }
 
 mapping::MappedScan TrialSensor::place(int number, const simulation::SimulatedScan& measured,
-                                       const std::vector<Label>& labels, const FlightTrace& trace,
+                                       const LabelledReturns& returns, const FlightTrace& trace,
                                        PoseBelief& belief) {
     const double start_s = kTurn_s * number;
     const TurnTransforms transforms(start_s, trace, belief);
@@ -78,11 +77,15 @@ mapping::MappedScan TrialSensor::place(int number, const simulation::SimulatedSc
     placed.origin_m = belief.at(trace, start_s + 0.5 * kTurn_s).position_m.cast<float>();
     placed.points_m.reserve(scan.size());
     placed.labels.reserve(scan.size());
+    placed.obstacles.reserve(scan.size());
+    placed.age_s.reserve(scan.size());
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (labels[i] == Label::Unclassified) continue;
+        if (returns.label[i] == Label::Unclassified) continue;
         placed.points_m.push_back(
             transforms.place({scan.x_m[i], scan.y_m[i], scan.z_m[i]}, scan.time_s[i]));
-        placed.labels.push_back(labels[i]);
+        placed.labels.push_back(returns.label[i]);
+        placed.obstacles.push_back(returns.component[i]);
+        placed.age_s.push_back(static_cast<float>(kTurn_s) - scan.time_s[i]);
     }
     return placed;
 }

@@ -52,8 +52,7 @@ TEST(WindowSize, ReachesAsFarAsAPlanAndItsClearance) {
         const double planned_m = speed_m_s * (pace.reaction_s() + kLookAhead_s) +
                                  brakingFrom(speed_m_s).way_m +
                                  static_cast<double>(WorldModel::kReach_m);
-        EXPECT_NEAR(static_cast<double>(windowSizeFor(pace).radius_m), planned_m, 0.3)
-            << speed_m_s;
+        EXPECT_NEAR(static_cast<double>(windowSizeFor(pace).radius_m), planned_m, 0.3) << speed_m_s;
     }
 }
 

@@ -31,7 +31,11 @@ const Eigen::AlignedBox3f kBounds(Eigen::Vector3f(-6, -6, -2), Eigen::Vector3f(1
 const Eigen::Vector3f kOrigin(0.03f, 0.05f, 1.07f);
 
 avoidance::WorldModelSetting setting() {
-    return {kBounds, [](const Eigen::Vector3f& p, double after_s) { return std::abs(5 - p.x() - static_cast<float>(after_s)); }, {}};
+    return {kBounds,
+            [](const Eigen::Vector3f& p, double after_s) {
+                return std::abs(5 - p.x() - static_cast<float>(after_s));
+            },
+            {}};
 }
 
 std::vector<std::string> modelsThatLearn() {

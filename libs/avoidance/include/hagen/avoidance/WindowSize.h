@@ -6,8 +6,8 @@ namespace hagen::avoidance {
 
 /// How a vehicle flies.
 struct FlightPace {
-    double speed_m_s = 4;       ///< maximum
-    double scan_period_s = 0.1; ///< of the sensor
+    double speed_m_s = 4;        ///< maximum
+    double scan_period_s = 0.1;  ///< of the sensor
     VehicleLimits limits;
 
     /// From a return to the response of the vehicle, at the longest: a scan that it waits in, one

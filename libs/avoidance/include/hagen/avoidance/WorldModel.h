@@ -34,8 +34,8 @@ class WorldModel {
         return std::min(clearance_m(point_m), limit_m);
     }
 
-    /// clearance_m() a time after the last scan, for models that predict motion. All others take the
-    /// world to stand still.
+    /// clearance_m() a time after the last scan, for models that predict motion. All others take
+    /// the world to stand still.
     virtual float clearanceAfter_m(const Eigen::Vector3f& point_m, double /*after_s*/) const {
         return clearance_m(point_m);
     }
@@ -70,6 +70,8 @@ struct WorldModelSetting {
 ///
 ///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
 ///                     (windowSizeFor())
+///     W-RoI+motion    RoI window with motion: the same, with obstacles that move where they will
+///                     be (ObstacleTracks)
 ///     W-Full          full window: the same with all points
 ///     O-Full-0.2      OctoMap 0.2 m: all points
 ///     O-Full-0.4      OctoMap 0.4 m

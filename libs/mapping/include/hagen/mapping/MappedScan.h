@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/range_image/Label.h>
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 namespace hagen::mapping {
@@ -12,6 +13,9 @@ struct MappedScan {
     Eigen::Vector3f origin_m{0, 0, 0};      ///< the sensor, halfway through the revolution
     std::vector<Eigen::Vector3f> points_m;  ///< all returns within the sensor's range limits
     std::vector<Label> labels;              ///< one entry per point: Rou or Roi
+    /// The filter's number of each point's obstacle, 0: none. Empty: not known.
+    std::vector<std::int32_t> obstacles;
+    std::vector<float> age_s;  ///< from each return to `time_s`. Empty: not known.
 };
 
 }  // namespace hagen::mapping

@@ -21,12 +21,12 @@ class TrialSensor {
     simulation::SimulatedScan measure(int number, const FlightTrace& trace) const;
 
     /// Segments a turn, with the horizon of the believed attitude. Valid until the next call.
-    const std::vector<Label>& segment(int number, const simulation::SimulatedScan& measured,
-                                      const FlightTrace& trace, PoseBelief& belief);
+    const LabelledReturns& segment(int number, const simulation::SimulatedScan& measured,
+                                   const FlightTrace& trace, PoseBelief& belief);
 
     /// Places each return with a range by the believed pose at its own time.
     static mapping::MappedScan place(int number, const simulation::SimulatedScan& measured,
-                                     const std::vector<Label>& labels, const FlightTrace& trace,
+                                     const LabelledReturns& returns, const FlightTrace& trace,
                                      PoseBelief& belief);
 
  private:

@@ -1,0 +1,56 @@
+#pragma once
+#include <hagen/mapping/MappedScan.h>
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace hagen::avoidance {
+
+/// An obstacle that is followed from scan to scan.
+struct ObstacleTrack {
+    /// Its points in one scan.
+    struct Sight {
+        double time_s;                          ///< mean time of its returns
+        std::vector<Eigen::Vector3f> points_m;  ///< one per 10 cm cube
+    };
+
+    std::uint32_t number;                      ///< from 1; no later track has it
+    Eigen::Vector2d at_m, velocity_m_s{0, 0};  ///< of its middle seen from above
+    Eigen::Matrix2d covariance;                ///< of place and velocity, the same along x and y
+    double time_s;                             ///< of the state
+    int seen_scans = 1, missed_scans = 0;      ///< missed: since the last that it was seen in
+    bool is_moving = false;
+    std::deque<Sight> sights;  ///< newest first, of 0.6 s
+
+    /// Standard deviation of the velocity along each axis.
+    double velocitySigma_m_s() const;
+};
+
+/// Velocities of the obstacles that the filter numbers: nearest neighbours are matched from scan to
+/// scan, and a Kalman filter with constant velocity (per axis, in the plane) follows each.
+///
+/// An obstacle counts as moving if it was seen in three scans or more, its speed is above 0.5 m/s
+/// and three standard deviations, and its points of up to 0.6 s ago, moved along at its velocity,
+/// fit its points of now clearly better than where they were. (The visible part of a standing
+/// obstacle changes as the vehicle passes, which moves its middle, but not its points.)
+///
+/// Obstacles wider than 6 m, with less than three points, or farther than 25 m are not followed.
+class ObstacleTracks {
+ public:
+    /// Takes in the next scan; its `obstacles` must be numbered.
+    void update(const mapping::MappedScan& scan);
+
+    const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
+    /// The number of the track that each obstacle of the last scan belongs to, by the obstacle's
+    /// number; 0: none.
+    const std::vector<std::uint32_t>& trackOfObstacle() const { return track_of_obstacle_; }
+    std::size_t bytes() const;
+
+ private:
+    std::vector<ObstacleTrack> tracks_;
+    std::vector<std::uint32_t> track_of_obstacle_;
+    std::uint32_t tracks_begun_ = 0;
+};
+
+}  // namespace hagen::avoidance

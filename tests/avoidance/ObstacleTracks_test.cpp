@@ -1,0 +1,277 @@
+#include <gtest/gtest.h>
+#include <hagen/avoidance/ObstacleTracks.h>
+#include <hagen/avoidance/Planner.h>
+#include <hagen/avoidance/WorldModel.h>
+#include <hagen/simulation/Random.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagen::avoidance {
+namespace {
+
+/// An upright cylinder, of which a sensor at the origin sees the near half.
+struct Pillar {
+    Eigen::Vector2d at_m;
+    double radius_m = 0.25;
+};
+
+constexpr double kTurn_s = 0.1;
+constexpr double kNoise_m = 0.02;
+
+void addReturns(const Pillar& pillar, std::int32_t obstacle, double age_s,
+                simulation::Random& random, mapping::MappedScan& scan) {
+    const double towards_rad = std::atan2(-pillar.at_m.y(), -pillar.at_m.x());
+    for (double height_m = 0.1; height_m < 1.8; height_m += 0.3) {
+        for (double side_rad = -1.4; side_rad <= 1.4; side_rad += 0.35) {
+            const double radius_m = pillar.radius_m + kNoise_m * random.normal();
+            const Eigen::Vector2d at_m =
+                pillar.at_m + radius_m * Eigen::Vector2d(std::cos(towards_rad + side_rad),
+                                                         std::sin(towards_rad + side_rad));
+            scan.points_m.emplace_back(Eigen::Vector3d(at_m.x(), at_m.y(), height_m).cast<float>());
+            scan.labels.push_back(Label::Roi);
+            scan.obstacles.push_back(obstacle);
+            scan.age_s.push_back(static_cast<float>(age_s));
+        }
+    }
+}
+
+mapping::MappedScan scanAt(int number) {
+    mapping::MappedScan scan;
+    scan.time_s = kTurn_s * (number + 1);
+    scan.origin_m = {0, 0, 1};
+    return scan;
+}
+
+/// Where a pillar with a constant velocity is.
+Pillar moved(const Pillar& pillar, const Eigen::Vector2d& velocity_m_s, double time_s) {
+    return {pillar.at_m + time_s * velocity_m_s, pillar.radius_m};
+}
+
+const Pillar kWalker{{6, -3}};
+const Eigen::Vector2d kWalk_m_s(0.3, 1.5);
+
+/// Scans of one pillar that moves, and one that stands.
+std::vector<mapping::MappedScan> walkerAndPost(int scans, double age_s = 0.04) {
+    simulation::Random random(1);
+    std::vector<mapping::MappedScan> all;
+    for (int number = 0; number < scans; ++number) {
+        mapping::MappedScan scan = scanAt(number);
+        // Numbers change from scan to scan: the nearest obstacle is 1.
+        const bool is_swapped = number % 2 == 1;
+        addReturns(moved(kWalker, kWalk_m_s, scan.time_s - age_s), is_swapped ? 2 : 1, age_s,
+                   random, scan);
+        addReturns({{4, 4}}, is_swapped ? 1 : 2, 0.07, random, scan);
+        all.push_back(std::move(scan));
+    }
+    return all;
+}
+
+const ObstacleTrack& trackNear(const ObstacleTracks& tracks, const Eigen::Vector2d& at_m) {
+    return *std::min_element(tracks.tracks().begin(), tracks.tracks().end(),
+                             [&](const auto& a, const auto& b) {
+                                 return (a.at_m - at_m).norm() < (b.at_m - at_m).norm();
+                             });
+}
+
+TEST(ObstacleTracks, FollowThroughChangingNumbers) {
+    ObstacleTracks tracks;
+    for (const auto& scan : walkerAndPost(10)) tracks.update(scan);
+    ASSERT_EQ(tracks.tracks().size(), 2u);
+    for (const ObstacleTrack& track : tracks.tracks()) EXPECT_EQ(track.seen_scans, 10);
+    // In the tenth scan, numbers are swapped.
+    EXPECT_EQ(tracks.trackOfObstacle(), (std::vector<std::uint32_t>{0, 2, 1}));
+}
+
+TEST(ObstacleTracks, TellVelocityAndWhatStands) {
+    ObstacleTracks tracks;
+    for (const auto& scan : walkerAndPost(12)) tracks.update(scan);
+    const ObstacleTrack& walker = trackNear(tracks, moved(kWalker, kWalk_m_s, 1.2).at_m);
+    EXPECT_TRUE(walker.is_moving);
+    EXPECT_LT((walker.velocity_m_s - kWalk_m_s).norm(), 0.25);
+    EXPECT_NEAR(walker.time_s, 1.2 - 0.04, 1e-6);  // when its returns were measured
+    const ObstacleTrack& post = trackNear(tracks, {4, 4});
+    EXPECT_FALSE(post.is_moving);
+    EXPECT_LT(post.velocity_m_s.norm(), 0.2);
+}
+
+// A wall is seen more and more as the vehicle passes: its middle moves at 3 m/s, its points do not.
+TEST(ObstacleTracks, AWallOfWhichMoreIsSeenDoesNotMove) {
+    ObstacleTracks tracks;
+    simulation::Random random(2);
+    for (int number = 0; number < 10; ++number) {
+        mapping::MappedScan scan = scanAt(number);
+        for (float x_m = 2; x_m < 2.5f + 0.6f * static_cast<float>(number); x_m += 0.1f) {
+            for (float z_m = 0.5f; z_m < 2; z_m += 0.5f) {
+                scan.points_m.emplace_back(x_m, 3 + static_cast<float>(kNoise_m * random.normal()),
+                                           z_m);
+                scan.labels.push_back(Label::Roi);
+                scan.obstacles.push_back(1);
+                scan.age_s.push_back(0);
+            }
+        }
+        tracks.update(scan);
+        for (const ObstacleTrack& track : tracks.tracks()) EXPECT_FALSE(track.is_moving) << number;
+    }
+}
+
+TEST(ObstacleTracks, NoiseMakesNothingMove) {
+    simulation::Random random(3);
+    ObstacleTracks tracks;
+    int moving = 0;
+    for (int number = 0; number < 100; ++number) {
+        mapping::MappedScan scan = scanAt(number);
+        for (int post = 0; post < 20; ++post) {
+            const double angle_rad = 0.3 * post;
+            addReturns({{8 * std::cos(angle_rad), 8 * std::sin(angle_rad)}}, post + 1, 0.05, random,
+                       scan);
+        }
+        tracks.update(scan);
+        for (const ObstacleTrack& track : tracks.tracks()) moving += track.is_moving;
+    }
+    EXPECT_EQ(tracks.tracks().size(), 20u);
+    EXPECT_EQ(moving, 0);  // of 2000
+}
+
+TEST(ObstacleTracks, AnObstacleThatIsHiddenForHalfASecondIsTheSame) {
+    ObstacleTracks tracks;
+    const auto scans = walkerAndPost(16);
+    for (int number = 0; number < 16; ++number) {
+        mapping::MappedScan scan = scans[static_cast<std::size_t>(number)];
+        const bool is_hidden = number >= 8 && number < 13;
+        if (is_hidden) scan.obstacles.assign(scan.obstacles.size(), 0);
+        tracks.update(scan);
+    }
+    EXPECT_EQ(tracks.tracks().size(), 2u);
+    EXPECT_TRUE(trackNear(tracks, moved(kWalker, kWalk_m_s, 1.6).at_m).is_moving);
+    // Longer, and it is forgotten.
+    for (int number = 16; number < 23; ++number) tracks.update(scanAt(number));
+    EXPECT_TRUE(tracks.tracks().empty());
+}
+
+TEST(ObstacleTracks, WithoutNumbersThereAreNone) {
+    ObstacleTracks tracks;
+    mapping::MappedScan scan = walkerAndPost(1)[0];
+    scan.obstacles.clear();
+    tracks.update(scan);
+    tracks.update(mapping::MappedScan{});
+    EXPECT_TRUE(tracks.tracks().empty());
+    EXPECT_EQ(tracks.trackOfObstacle(), (std::vector<std::uint32_t>{0}));
+}
+
+// The window with motion.
+
+std::unique_ptr<WorldModel> modelOf(const std::string& name,
+                                    const std::vector<mapping::MappedScan>& scans) {
+    auto model = makeWorldModel(
+        name,
+        {Eigen::AlignedBox3f(Eigen::Vector3f(-9, -9, -2), Eigen::Vector3f(9, 9, 5)), nullptr, {}});
+    for (const mapping::MappedScan& scan : scans) model->update(scan);
+    return model;
+}
+
+TEST(MotionWindow, MoversAreWhereTheyWillBeAndLeaveNoTrail) {
+    const auto scans = walkerAndPost(12);
+    const auto moving = modelOf("W-RoI+motion", scans), standing = modelOf("W-RoI", scans);
+    const auto placeAfter = [&](double after_s) {
+        const Eigen::Vector2d at_m = moved(kWalker, kWalk_m_s, 1.2 + after_s).at_m;
+        return Eigen::Vector3d(at_m.x(), at_m.y(), 1).cast<float>().eval();
+    };
+    EXPECT_GT(moving->fastest_m_s(), 1.5f);
+    for (const double after_s : {0.0, 0.5, 1.0}) {
+        EXPECT_LT(moving->clearanceAfter_m(placeAfter(after_s), after_s), 0.3f) << after_s;
+    }
+    EXPECT_GT(moving->clearanceAfter_m(placeAfter(0), 1.0), 0.8f);
+    EXPECT_FLOAT_EQ(moving->clearance_m(placeAfter(0)), moving->clearanceAfter_m(placeAfter(0), 0));
+    // Where it was 0.8 s ago.
+    EXPECT_GT(moving->clearance_m(placeAfter(-0.8)), 0.6f);
+    EXPECT_LT(standing->clearance_m(placeAfter(-0.8)), 0.3f);
+    EXPECT_EQ(standing->fastest_m_s(), 0);
+}
+
+TEST(MotionWindow, WhereNothingMovesItIsTheWindow) {
+    std::vector<mapping::MappedScan> scans;
+    simulation::Random random(4);
+    for (int number = 0; number < 10; ++number) {
+        scans.push_back(scanAt(number));
+        addReturns({{4, 1}}, 1, 0, random, scans.back());
+        addReturns({{-3, 2}, 0.6}, 2, 0, random, scans.back());
+    }
+    const auto moving = modelOf("W-RoI+motion", scans), standing = modelOf("W-RoI", scans);
+    EXPECT_EQ(moving->fastest_m_s(), 0);
+    for (int i = 0; i < 500; ++i) {
+        const Eigen::Vector3f at_m(static_cast<float>(random.uniform(-6, 6)),
+                                   static_cast<float>(random.uniform(-6, 6)),
+                                   static_cast<float>(random.uniform(0, 3)));
+        EXPECT_EQ(moving->clearance_m(at_m), standing->clearance_m(at_m));
+        EXPECT_EQ(moving->clearanceAfter_m(at_m, 0.7), standing->clearance_m(at_m));
+    }
+}
+
+// The planner.
+
+/// A ball that comes along the x axis from the right.
+class BallModel : public WorldModel {
+ public:
+    static constexpr float kFirst_m = 6, kSpeed_m_s = 3, kRadius_m = 0.5f;
+    explicit BallModel(bool knows_motion) : knows_motion_(knows_motion) {}
+
+    void update(const mapping::MappedScan&) override {}
+    float clearance_m(const Eigen::Vector3f& p) const override { return clearanceAfter_m(p, 0); }
+    float clearanceAfter_m(const Eigen::Vector3f& p, double after_s) const override {
+        const float passed_s = knows_motion_ ? static_cast<float>(after_s) : 0;
+        const Eigen::Vector3f ball_m(kFirst_m - kSpeed_m_s * passed_s, 0, 2);
+        return std::clamp((p - ball_m).norm() - kRadius_m, 0.0f, kReach_m);
+    }
+    float fastest_m_s() const override { return knows_motion_ ? kSpeed_m_s : 0; }
+    bool isKnown(const Eigen::Vector3f&) const override { return true; }
+    std::size_t bytes() const override { return 0; }
+    Obstacles obstacles() const override { return {}; }
+
+ private:
+    bool knows_motion_;
+};
+
+/// The least distance from the ball's surface along a command, held for 2 s.
+double nearestWay_m(const Eigen::Vector3d& command_m_s, double ball_first_m) {
+    VehicleState state{{0, 0, 2}, {0, 0, 0}};
+    double least_m = 1e9;
+    for (double time_s = 0; time_s < 2; time_s += kControlStep_s) {
+        const Eigen::Vector3d ball_m(ball_first_m - 3 * time_s, 0, 2);
+        least_m = std::min(least_m, (state.position_m - ball_m).norm() - 0.5);
+        state = advance(state, command_m_s, kControlStep_s, {});
+    }
+    return least_m;
+}
+
+PlanningTask hovering() {
+    PlanningTask task;
+    task.start.position_m = {0, 0, 2};
+    task.carrot_m = {0, 0, 2};
+    return task;
+}
+
+TEST(MotionPrimitives, LeaveTheWayOfWhatComes) {
+    const auto planner = makePlanner("primitives");
+    const Plan still = planner->plan(BallModel(false), hovering());
+    EXPECT_LT(nearestWay_m(still.command_m_s, 6), 0.3);
+    const Plan plan = planner->plan(BallModel(true), hovering());
+    EXPECT_GT(nearestWay_m(plan.command_m_s, 6), 0.6);
+}
+
+TEST(MotionPrimitives, EvadeWhereNothingIsFree) {
+    PlanningTask task = hovering();
+    task.start_after_s = 1.45;  // the ball's surface is 1.15 m away, and 0.4 s later here
+    const Plan plan = makePlanner("primitives")->plan(BallModel(true), task);
+    EXPECT_TRUE(plan.is_emergency);
+    EXPECT_GT(plan.command_m_s.norm(), 1);
+    const double first_m = 6 - 3 * 1.45;
+    EXPECT_GT(nearestWay_m(plan.command_m_s, first_m), nearestWay_m({0, 0, 0}, first_m) + 0.2);
+    // A world that stands still asks for standing still.
+    task.start.position_m.x() = 5;
+    const Plan brakes = makePlanner("primitives")->plan(BallModel(false), task);
+    EXPECT_TRUE(!brakes.is_emergency || brakes.command_m_s.isZero());
+}
+
+}  // namespace
+}  // namespace hagen::avoidance
