@@ -437,6 +437,37 @@ TEST(Oracle, IsInEveryTableOfSuccessAndCollision) {
     EXPECT_THAT(table.verdict(), Contains("True scene with A*: no collision in 200 runs."));
 }
 
+TEST(Tables, ShowWhatIsSaturated) {
+    Table table;
+    table.add("gap", "G-Full", {80, 0, 10, 10}).add("orchard", "G-Full", {100, 0, 0, 0});
+    table.add("orchard", "G-Full", {80, 3, 10, 7}, 8).add("street", "G-Full", {100, 0, 0, 0});
+    reports::Report report;
+    report.summary = reports::summarize(table.runs);
+    const std::string text = reports::reportMarkdown(report);
+    for (const char* row : {
+             "| gap | RoI window, A* | 1 model | 0 | differs | 4 m/s |\n",
+             "| orchard | RoI window, A* | 1 model | 1 | saturated | 8 m/s |\n",
+             "| street | RoI window, A* | 1 model | 1 | saturated | no speed flown |\n",
+             // a total, with the scenarios without a difference
+             "| all | 4 m/s | RoI window, A* | occupancy grid 0.2 m, A* | 300 | 2 of 3 | 0 | 10 |",
+             "\nAt 8 m/s, for RoI window with A*, the only scenario is not saturated.\n",
+         }) {
+        EXPECT_THAT(text, HasSubstr(row));
+    }
+    // Single comparisons only where there is a difference; all of them on the page.
+    const std::string saturated = "orchard | 4 m/s | RoI window, A* | occupancy grid 0.2 m, A* | ";
+    EXPECT_THAT(text, Not(HasSubstr(saturated)));
+    EXPECT_THAT(text,
+                HasSubstr("| orchard | 8 m/s | RoI window, A* | occupancy grid 0.2 m, A* | "));
+    EXPECT_THAT(reports::reportPage(report), HasSubstr("All paired comparisons in each scenario"));
+    const std::string json = reports::summaryJson(report.summary, {});
+    EXPECT_THAT(json, HasSubstr("\"scenarios_without_difference\": 2"));
+    EXPECT_THAT(json, HasSubstr("\"saturated\": true"));
+    table = Table{}.add("gap", "G-Full", {100, 0, 0, 0});
+    report.summary = reports::summarize(table.runs);
+    EXPECT_THAT(reports::reportMarkdown(report), HasSubstr("\nAll are saturated.\n"));
+}
+
 TEST(LossesSentence, CountsChanceByTheInterval) {
     Table table;
     table.add("gap", "G-Full", {60, 0, 40, 0});     // both exclude zero
