@@ -76,28 +76,11 @@ void addOutcomes(const Report& report, std::vector<Section>& sections) {
     }
 }
 
-/// Where the models differ; the rest is folded.
-void addScenarioPairings(const Summary& summary, std::vector<Section>& sections) {
-    const std::string margin = pages::figure(100 * kMargin, 0);
-    Section section{
-        "Paired comparisons in each scenario",
-        {"Difference: success rate of the first contender minus that of the second on the courses "
-         "that both flew, with Newcombe's 95 % interval. p (Holm): McNemar's exact test with "
-         "Holm's correction over all comparisons in single scenarios; \"-\": too few courses "
-         "differ for the test to be "
-         "significant, so the comparison is left out. \"Saturated\": the two differ on no "
-         "course, or both succeed on at least " +
-             std::to_string(kCeilingPercent) +
-             " %. \"Not inferior\": the interval excludes a loss of " + margin +
-             " points. \"Inferior\": it contains only larger losses. \"Undecided\": it contains "
-             "a loss of " +
-             margin +
-             " points. Only p (Holm) is corrected for the number of comparisons. The intervals, "
-             "and with them \"not inferior\", and the p of collisions are not.",
-         leftOutSentence(summary)},
-        {}};
+/// Adds a section with the table of the pairings that are not saturated, and one with all of them.
+void addUnsaturated(Section section, const std::vector<Pairing>& pairings,
+                    std::vector<Section>& sections) {
     std::vector<Pairing> unsaturated;
-    std::copy_if(summary.pairings.begin(), summary.pairings.end(), std::back_inserter(unsaturated),
+    std::copy_if(pairings.begin(), pairings.end(), std::back_inserter(unsaturated),
                  [](const Pairing& pairing) { return answerOf(pairing) != Answer::Saturated; });
     if (unsaturated.empty()) {
         section.paragraphs.push_back("All are saturated.");
@@ -106,24 +89,53 @@ void addScenarioPairings(const Summary& summary, std::vector<Section>& sections)
         section.tables.push_back(pairingTable(unsaturated));
     }
     sections.push_back(section);
-    Section all{"All paired comparisons in each scenario", {}, {pairingTable(summary.pairings)}};
+    Section all{section.title + ", with those that are saturated", {}, {pairingTable(pairings)}};
     all.is_long = true;
     sections.push_back(all);
+}
+
+void addScenarioPairings(const Summary& summary, std::vector<Section>& sections) {
+    const std::string margin = pages::figure(100 * kMargin, 0);
+    Section section{
+        "Paired comparisons in each scenario",
+        {"Difference: success rate of the first contender minus that of the second on the courses "
+         "that both flew, with Newcombe's 95 % interval. p (Holm): McNemar's exact test with "
+         "Holm's correction over all comparisons in single scenarios; \"-\": too few courses "
+         "differ for the test to be significant, so the comparison is left out. \"Saturated\": "
+         "the two differ on no course, or both succeed on at least " +
+             std::to_string(kCeilingPercent) +
+             " %. \"Not inferior\": the interval excludes a loss of " + margin +
+             " points. \"Inferior\": it contains only larger losses. \"Undecided\": it contains "
+             "a loss of " +
+             margin +
+             " points. Only p (Holm) is corrected for the number of comparisons. The intervals, "
+             "and with them \"not inferior\", and the p of collisions are not.",
+         leftOutSentence(summary.pairings, "in single scenarios")},
+        {}};
+    addUnsaturated(section, summary.pairings, sections);
 }
 
 /// How far the models are from the true scene.
 void addGaps(const Summary& summary, std::vector<Section>& sections) {
     if (summary.to_oracle.empty()) return;
-    sections.push_back({"Gap to the true scene",
-                        {"Each model (first) against the true scene (second) under the same "
-                         "guidance. What the true scene does not reach is lost by planner and "
-                         "guidance, the difference by the model. p (Holm) is corrected over this "
-                         "table."},
-                        {pairingTable(summary.to_oracle)}});
+    addUnsaturated({"Gap to the true scene",
+                    {"Each model (first) against the true scene (second) with the same guidance. "
+                     "What the true scene does not reach is lost by planner and guidance, the "
+                     "difference by the model. p (Holm) is corrected over these comparisons.",
+                     leftOutSentence(summary.to_oracle, "with the true scene")},
+                    {}},
+                   summary.to_oracle, sections);
 }
 
 void addPairings(const Report& report, std::vector<Section>& sections) {
     const Summary& summary = report.summary;
+    if (summary.pairings.empty()) {
+        sections.push_back({"Paired comparisons in each scenario",
+                            {"No two models to compare flew the same course."},
+                            {}});
+        addGaps(summary, sections);
+        return;
+    }
     addScenarioPairings(summary, sections);
     sections.push_back(
         {"Paired comparisons over all scenarios",

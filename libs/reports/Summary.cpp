@@ -75,12 +75,14 @@ std::vector<Comparison> comparisonsOf(const std::set<trials::Contender>& contend
     return comparisons;
 }
 
-/// Every model against the true scene.
-std::vector<Comparison> gapsOf(const std::set<trials::Contender>& contenders) {
+/// Every model that flew under one condition against the true scene, in the order given.
+std::vector<Comparison> gapsOf(const std::vector<trials::Contender>& order,
+                               const std::set<trials::Contender>& present) {
     std::vector<Comparison> gaps;
-    for (const trials::Contender& contender : contenders) {
+    for (const trials::Contender& contender : order) {
         const trials::Contender oracle{kOracle, contender.guidance};
-        if (contender.model != kOracle && contenders.count(oracle) > 0) {
+        if (contender.model != kOracle && present.count(contender) > 0 &&
+            present.count(oracle) > 0) {
             gaps.push_back({contender, oracle});
         }
     }
@@ -172,7 +174,7 @@ void addPairings(const Flights& flights, Summary& summary) {
                 summary.without_wires.push_back(sumOf(others, kAllButWires));
             }
         }
-        for (const Comparison& gap : gapsOf(present)) {
+        for (const Comparison& gap : gapsOf(summary.contenders, present)) {
             const std::vector<Pairing> each = pairingsOf(flights, condition, gap);
             summary.to_oracle.insert(summary.to_oracle.end(), each.begin(), each.end());
         }

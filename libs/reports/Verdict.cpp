@@ -160,22 +160,18 @@ std::string lossesSentence(const Summary& summary) {
     return text + ". Largest loss first.";
 }
 
-std::string leftOutSentence(const Summary& summary) {
+std::string leftOutSentence(const std::vector<Pairing>& pairings, const std::string& which) {
     int least = 0;
     while (trials::leastMcNemar(least) >= kLevel) ++least;
-    const auto sentence = [&](const std::vector<Pairing>& pairings, const std::string& where) {
-        const auto left_out =
-            std::count_if(pairings.begin(), pairings.end(),
-                          [](const Pairing& pairing) { return std::isnan(pairing.p_holm); });
-        if (left_out == 0) return "No comparison " + where + " is left out of the correction.";
-        return std::to_string(left_out) + " of " +
-               counted(static_cast<int>(pairings.size()), "comparison") + " " + where +
-               " could not be significant, because fewer than " + std::to_string(least) +
-               " courses differ, and " + (left_out == 1 ? "is" : "are") +
-               " left out of the correction.";
-    };
-    return sentence(summary.pairings, "in single scenarios") + " " +
-           sentence(summary.overall, "over all scenarios");
+    const auto left_out =
+        std::count_if(pairings.begin(), pairings.end(),
+                      [](const Pairing& pairing) { return std::isnan(pairing.p_holm); });
+    if (left_out == 0) return "No comparison " + which + " is left out of the correction.";
+    return std::to_string(left_out) + " of " +
+           counted(static_cast<int>(pairings.size()), "comparison") + " " + which +
+           " could not be significant, because fewer than " + std::to_string(least) +
+           " courses differ, and " + (left_out == 1 ? "is" : "are") +
+           " left out of the correction.";
 }
 
 std::vector<std::string> verdictOf(const Summary& summary) {
@@ -192,7 +188,8 @@ std::vector<std::string> verdictOf(const Summary& summary) {
              "Saturated: two contenders differ on no course, or both succeed on at least " +
                  std::to_string(kCeilingPercent) +
                  " %. Such a scenario does not say which is better.",
-             leftOutSentence(summary)});
+             leftOutSentence(summary.pairings, "in single scenarios") + " " +
+                 leftOutSentence(summary.overall, "over all scenarios")});
     }
     append(oracleSentences(summary, reference));
     std::vector<Pairing> pooled = pooledPairings(summary, reference);

@@ -194,6 +194,9 @@ TEST(GuidanceSentence, IsApartFromTheModels) {
     EXPECT_THAT(verdict[1],
                 StartsWith("In u-trap at 4 m/s, RoI window with A* succeeds more often than RoI "
                            "window with straight guidance (100.0 % vs. 0.0 % of 100 courses"));
+    table.add("gap", "W-Full", {80, 0, 20, 0});
+    table.add("gap", "W-RoI", {0, 80, 0, 20}, 4, "W-RoI", "astar", "straight");
+    EXPECT_THAT(table.first(), AllOf(HasSubstr("than full window ("), Not(HasSubstr("straight"))));
     table = Table{};
     table.add("u-trap", "W-RoI", {100, 0, 0, 0}, 4, "W-RoI", "astar", "straight");
     EXPECT_EQ(
@@ -203,28 +206,25 @@ TEST(GuidanceSentence, IsApartFromTheModels) {
 }
 
 TEST(LeftOutSentence, CountsWhatCouldNotBeSignificant) {
+    const auto sentence = [](const Table& table) {
+        return reports::leftOutSentence(reports::summarize(table.runs).pairings, "of these");
+    };
     Table table;
     table.add("gap", "G-Full", {90, 0, 5, 5});
     table.add("orchard", "G-Full", {90, 0, 0, 10});
     table.add("street", "G-Full", {90, 3, 3, 4});
-    EXPECT_EQ(reports::leftOutSentence(reports::summarize(table.runs)),
-              "2 of 3 comparisons in single scenarios could not be significant, because fewer than "
-              "6 courses differ, and are left out of the correction. No comparison over all "
-              "scenarios is left out of the correction.");
-    EXPECT_THAT(table.verdict(), Contains(StartsWith("2 of 3 comparisons in single scenarios")));
-    table = Table{}.add("street", "G-Full", {90, 2, 3, 5}).add("gap", "G-Full", {90, 3, 3, 4});
-    EXPECT_EQ(reports::leftOutSentence(reports::summarize(table.runs))
-                  .find("1 of 2 comparisons in "
-                        "single scenarios could not be significant, because fewer than 6 courses "
-                        "differ, and "
-                        "is left out of"),
-              0u);
-    table = Table{}.add("street", "G-Full", {90, 3, 2, 5});
-    EXPECT_THAT(reports::leftOutSentence(reports::summarize(table.runs)),
-                HasSubstr(" 1 of 1 comparison over all scenarios could not be significant"));
-    table = Table{}.add("street", "G-Full", {90, 3, 3, 4});
-    EXPECT_THAT(reports::leftOutSentence(reports::summarize(table.runs)),
-                StartsWith("No comparison in single scenarios is left out of the correction. "));
+    EXPECT_EQ(sentence(table),
+              "2 of 3 comparisons of these could not be significant, because fewer than 6 courses "
+              "differ, and are left out of the correction.");
+    EXPECT_THAT(table.verdict(),
+                Contains(AllOf(StartsWith("2 of 3 comparisons in single scenarios could not be "),
+                               testing::EndsWith(" No comparison over all scenarios is left out "
+                                                 "of the correction."))));
+    EXPECT_EQ(sentence(Table{}.add("gap", "G-Full", {90, 2, 3, 5})),
+              "1 of 1 comparison of these could not be significant, because fewer than 6 courses "
+              "differ, and is left out of the correction.");
+    EXPECT_EQ(sentence(Table{}.add("gap", "G-Full", {90, 3, 3, 4})),
+              "No comparison of these is left out of the correction.");
 }
 
 /// What is left out does not make the others harder to find.
@@ -407,6 +407,12 @@ TEST(Oracle, IsACeilingAndNoRival) {
     for (const std::string& sentence : table.verdict()) {
         EXPECT_THAT(sentence, Not(HasSubstr("than true scene")));
     }
+    EXPECT_THAT(table.verdict(),
+                Contains(AllOf(StartsWith("In gap at 4 m/s, the true scene with straight guidance "
+                                          "succeeds on 60.0 % of 100 courses: the other 40.0 "
+                                          "points are lost by planner and guidance. The model "
+                                          "loses more: RoI window (0.0 % vs. 60.0 % of 100 "),
+                               Not(HasSubstr("full window")))));
 }
 
 TEST(Oracle, IsInEveryTableOfSuccessAndCollision) {
@@ -433,6 +439,7 @@ TEST(Oracle, IsInEveryTableOfSuccessAndCollision) {
     EXPECT_EQ(tables, 6);  // success at two speeds, collisions, wires, guidance, highest speed
     EXPECT_THAT(text, HasSubstr("| wires | true scene | 90.0 (82.6 to 94.5; 100) |  |"));
     EXPECT_THAT(text, HasSubstr("\n## Gap to the true scene\n"));
+    EXPECT_THAT(text, HasSubstr("comparisons with the true scene could not be significant"));
     EXPECT_THAT(page, HasSubstr("<td>true scene, A*</td>"));
     EXPECT_THAT(table.verdict(), Contains("True scene with A*: no collision in 200 runs."));
 }
@@ -459,13 +466,26 @@ TEST(Tables, ShowWhatIsSaturated) {
     EXPECT_THAT(text, Not(HasSubstr(saturated)));
     EXPECT_THAT(text,
                 HasSubstr("| orchard | 8 m/s | RoI window, A* | occupancy grid 0.2 m, A* | "));
-    EXPECT_THAT(reports::reportPage(report), HasSubstr("All paired comparisons in each scenario"));
+    EXPECT_THAT(reports::reportPage(report),
+                HasSubstr("Paired comparisons in each scenario, with those that are saturated"));
     const std::string json = reports::summaryJson(report.summary, {});
     EXPECT_THAT(json, HasSubstr("\"scenarios_without_difference\": 2"));
     EXPECT_THAT(json, HasSubstr("\"saturated\": true"));
     table = Table{}.add("gap", "G-Full", {100, 0, 0, 0});
     report.summary = reports::summarize(table.runs);
-    EXPECT_THAT(reports::reportMarkdown(report), HasSubstr("\nAll are saturated.\n"));
+    EXPECT_THAT(reports::reportMarkdown(report),
+                AllOf(HasSubstr("\nAll are saturated.\n"), HasSubstr(" | - | saturated | ")));
+}
+
+TEST(Tables, OfASingleModelSayThatThereIsNothingToCompare) {
+    reports::Report report;
+    report.summary = reports::summarize({test::runOf("gap", 0, "W-RoI", "astar", kWon)});
+    const std::string text = reports::reportMarkdown(report);
+    EXPECT_THAT(text, HasSubstr("No two models to compare flew the same course."));
+    EXPECT_THAT(text, Not(HasSubstr("aturated")));
+    report.summary = reports::summarize(Table{}.add("gap", "oracle", {60, 0, 30, 10}).runs);
+    EXPECT_THAT(reports::reportMarkdown(report),
+                AllOf(HasSubstr("No two models"), HasSubstr("\n## Gap to the true scene\n")));
 }
 
 TEST(LossesSentence, CountsChanceByTheInterval) {

@@ -22,8 +22,9 @@ std::vector<Pairing> lossesOf(const Summary& summary);
 /// scenarios are without a difference.
 std::string differenceText(const Pairing& pairing);
 
-/// How many comparisons could not be significant and are left out of Holm's correction.
-std::string leftOutSentence(const Summary& summary);
+/// How many comparisons could not be significant and are left out of Holm's correction. `which`
+/// follows the word, such as "in single scenarios".
+std::string leftOutSentence(const std::vector<Pairing>& pairings, const std::string& which);
 
 /// In how many of the scenarios W-RoI succeeds less often, and in how many of them that is
 /// significant or may be chance.
