@@ -69,7 +69,7 @@ std::string guidanceText(const std::string& guidance) {
 std::vector<std::string> oracleSentences(const Summary& summary,
                                          const trials::Condition& reference) {
     std::vector<std::string> sentences;
-    for (trials::Condition condition : summary.conditions) {
+    for (const trials::Condition& condition : summary.conditions) {
         trials::Condition at_reference = condition;
         at_reference.speed_m_s = reference.speed_m_s;
         if (!(at_reference == reference)) continue;
