@@ -4,12 +4,14 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/pages/Page.h>
+#include <hagen/reports/Answer.h>
 #include <hagen/reports/Report.h>
 #include <hagen/reports/ReportSentences.h>
 #include <hagen/reports/SharedCourses.h>
 #include <hagen/reports/Verdict.h>
 #include "ReportTables.h"
 #include "ReportTexts.h"
+#include "ScenarioSentences.h"
 #include "SummaryJson.h"
 
 namespace hagen::reports {
@@ -30,9 +32,13 @@ struct Section {
 };
 
 Section conditionSection(const Summary& summary, const trials::Condition& condition) {
-    return {"Success at " + nameOf(condition),
-            {"Success rate in percent (95 % Wilson interval; number of runs)."},
-            {successTable(summary, condition)}};
+    Section section{"Success at " + nameOf(condition),
+                    {"Success rate in percent (95 % Wilson interval; number of runs)."},
+                    {successTable(summary, condition)}};
+    for (const std::string& sentence : saturationSentences(summary, condition)) {
+        section.paragraphs.push_back(sentence);
+    }
+    return section;
 }
 
 void addOutcomes(const Report& report, std::vector<Section>& sections) {
@@ -46,6 +52,17 @@ void addOutcomes(const Report& report, std::vector<Section>& sections) {
          {"Collision rate in percent (95 % Wilson interval; number of runs). A collision is a true "
           "clearance below 0.30 m."},
          {collisionTable(summary, reference)}});
+    const pages::Table saturation = saturationTable(summary, reference);
+    if (!saturation.rows.empty()) {
+        sections.push_back(
+            {"Scenarios that tell world models apart",
+             {"A scenario is saturated for a contender if it and each other model differ on no "
+              "course, or both succeed on at least " +
+              std::to_string(kCeilingPercent) +
+              " % of the courses that both flew. It then says nothing about the models. Last "
+              "column: the lowest speed flown at which it is not saturated."},
+             {saturation}});
+    }
     for (std::size_t c = 1; c < summary.conditions.size(); ++c) {
         sections.push_back(conditionSection(summary, summary.conditions[c]));
     }
@@ -59,25 +76,74 @@ void addOutcomes(const Report& report, std::vector<Section>& sections) {
     }
 }
 
+/// Adds a section with the table of the pairings that are not saturated, and one with all of them.
+void addUnsaturated(Section section, const std::vector<Pairing>& pairings,
+                    std::vector<Section>& sections) {
+    std::vector<Pairing> unsaturated;
+    std::copy_if(pairings.begin(), pairings.end(), std::back_inserter(unsaturated),
+                 [](const Pairing& pairing) { return answerOf(pairing) != Answer::Saturated; });
+    if (unsaturated.empty()) {
+        section.paragraphs.push_back("All are saturated.");
+    } else {
+        section.paragraphs.push_back("The table has those that are not saturated.");
+        section.tables.push_back(pairingTable(unsaturated));
+    }
+    sections.push_back(section);
+    Section all{section.title + ", with those that are saturated", {}, {pairingTable(pairings)}};
+    all.is_long = true;
+    sections.push_back(all);
+}
+
+void addScenarioPairings(const Summary& summary, std::vector<Section>& sections) {
+    const std::string margin = pages::figure(100 * kMargin, 0);
+    Section section{
+        "Paired comparisons in each scenario",
+        {"Difference: success rate of the first contender minus that of the second on the courses "
+         "that both flew, with Newcombe's 95 % interval. p (Holm): McNemar's exact test with "
+         "Holm's correction over all comparisons in single scenarios; \"-\": too few courses "
+         "differ for the test to be significant, so the comparison is left out. \"Saturated\": "
+         "the two differ on no course, or both succeed on at least " +
+             std::to_string(kCeilingPercent) +
+             " %. \"Not inferior\": the interval excludes a loss of " + margin +
+             " points. \"Inferior\": it contains only larger losses. \"Undecided\": it contains "
+             "a loss of " +
+             margin +
+             " points. Only p (Holm) is corrected for the number of comparisons. The intervals, "
+             "and with them \"not inferior\", and the p of collisions are not.",
+         leftOutSentence(summary.pairings, "in single scenarios")},
+        {}};
+    addUnsaturated(section, summary.pairings, sections);
+}
+
+/// How far the models are from the true scene.
+void addGaps(const Summary& summary, std::vector<Section>& sections) {
+    if (summary.to_oracle.empty()) return;
+    addUnsaturated({"Gap to the true scene",
+                    {"Each model (first) against the true scene (second) with the same guidance. "
+                     "What the true scene does not reach is lost by planner and guidance, the "
+                     "difference by the model. p (Holm) is corrected over these comparisons.",
+                     leftOutSentence(summary.to_oracle, "with the true scene")},
+                    {}},
+                   summary.to_oracle, sections);
+}
+
 void addPairings(const Report& report, std::vector<Section>& sections) {
     const Summary& summary = report.summary;
-    const std::string margin = pages::figure(100 * kMargin, 0);
+    if (summary.pairings.empty()) {
+        sections.push_back({"Paired comparisons in each scenario",
+                            {"No two models to compare flew the same course."},
+                            {}});
+        addGaps(summary, sections);
+        return;
+    }
+    addScenarioPairings(summary, sections);
     sections.push_back(
-        {"Paired comparisons on the same courses",
-         {"Difference: success rate of the first contender minus that of the second on the courses "
-          "that both flew, with Newcombe's 95 % interval. p (Holm): McNemar's exact test with "
-          "Holm's correction. \"Not inferior\": the interval excludes a loss of " +
-          margin +
-          " points. \"Inferior\": it contains only larger losses. \"Undecided\": it "
-          "contains a loss of " +
-          margin +
-          " points. \"All\": all scenarios that both flew. Only p (Holm) is corrected for the "
-          "number of comparisons. The intervals, and with them \"not inferior\", and the p of "
-          "collisions are not."},
-         {pairingTable(summary.overall)}});
-    Section each{"Paired comparisons in each scenario", {}, {pairingTable(summary.pairings)}};
-    each.is_long = true;
-    sections.push_back(each);
+        {"Paired comparisons over all scenarios",
+         {"As above, over all scenarios that both flew. A total says little about the scenarios "
+          "without a difference: their number is given, and \"not inferior\" holds only together "
+          "with it."},
+         {pooledTable(summary.overall)}});
+    addGaps(summary, sections);
     const pages::Table square = squareTable(summary, summary.conditions.front());
     if (!square.rows.empty() && square.header.size() > 3) {
         sections.push_back({"World model by guidance",
@@ -87,18 +153,7 @@ void addPairings(const Report& report, std::vector<Section>& sections) {
                             {square}});
     }
     const std::vector<Pairing> losses = lossesOf(summary);
-    const auto significant = std::count_if(
-        losses.begin(), losses.end(), [](const Pairing& pairing) { return pairing.p_holm < 0.05; });
-    const auto compared =
-        std::count_if(summary.pairings.begin(), summary.pairings.end(),
-                      [](const Pairing& pairing) { return pairing.second.model != "oracle"; });
-    Section loses{
-        "Where the RoI window succeeds less often",
-        {"Of " + std::to_string(compared) +
-         " comparisons in single scenarios, the RoI window succeeds less often in " +
-         std::to_string(losses.size()) + "; significant after Holm's correction (p < 0.05): " +
-         std::to_string(significant) + ". The others may be chance. Largest loss first."},
-        {}};
+    Section loses{"Where the RoI window succeeds less often", {lossesSentence(summary)}, {}};
     if (!losses.empty()) loses.tables.push_back(pairingTable(losses));
     sections.push_back(loses);
 }

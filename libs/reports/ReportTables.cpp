@@ -7,7 +7,9 @@
 #include <cmath>
 #include <set>
 
+#include <hagen/reports/Answer.h>
 #include <hagen/reports/Figures.h>
+#include <hagen/reports/Saturation.h>
 #include "Phrases.h"
 
 namespace hagen::reports {
@@ -74,11 +76,40 @@ pages::Table pairingTable(const std::vector<Pairing>& pairings) {
              std::to_string(pairing.only_first), std::to_string(pairing.only_second),
              points(pairing.difference) + " (" + pointsOf(pairing.interval) + ")",
              pText(pairing.p_holm),
-             pairing.verdict == Verdict::Open ? "undecided" : nameOf(pairing.verdict),
+             answerOf(pairing) == Answer::Saturated ? nameOf(Answer::Saturated)
+             : pairing.verdict == Verdict::Open     ? "undecided"
+                                                    : nameOf(pairing.verdict),
              std::to_string(pairing.only_first_collided) + " / " +
                  std::to_string(pairing.only_second_collided) + " (" +
                  pText(trials::mcNemar(pairing.only_first_collided, pairing.only_second_collided)) +
                  ")"});
+    }
+    return table;
+}
+
+pages::Table pooledTable(const std::vector<Pairing>& pairings) {
+    pages::Table table = pairingTable(pairings);
+    const std::size_t place = 5;  // after "pairs"
+    table.header.insert(table.header.begin() + place, "scenarios without a difference");
+    for (std::size_t i = 0; i < pairings.size(); ++i) {
+        table.rows[i].insert(table.rows[i].begin() + place,
+                             std::to_string(pairings[i].alike_scenarios) + " of " +
+                                 std::to_string(pairings[i].scenarios));
+    }
+    return table;
+}
+
+pages::Table saturationTable(const Summary& summary, const trials::Condition& condition) {
+    pages::Table table{{"scenario", "contender", "compared with", "without a difference",
+                        "at " + nameOf(condition), "not saturated at"},
+                       {}};
+    const std::vector<Saturation> all = saturationsOf(summary);
+    for (const Saturation& one : all) {
+        if (!(one.condition == condition)) continue;
+        const std::optional<Saturation> other = unsaturated(all, one);
+        table.rows.push_back({one.scenario, nameOf(one.first), counted(one.comparisons, "model"),
+                              std::to_string(one.alike), one.is_saturated ? "saturated" : "differs",
+                              other ? nameOf(other->condition) : "no speed flown"});
     }
     return table;
 }
@@ -104,6 +135,8 @@ pages::Table squareTable(const Summary& summary, const trials::Condition& condit
     for (const Cell& cell : summary.cells) {
         if (!(cell.condition == condition) || cell.scenario.empty()) continue;
         guidances.insert(cell.contender.guidance);
+        // The true scene is the ceiling of the others, even if it flew with A* only.
+        if (cell.contender.model == kOracle) models.insert(cell.contender.model);
         if (cell.contender.guidance == "astar") continue;
         models.insert(cell.contender.model);
         scenarios.insert(cell.scenario);
@@ -119,8 +152,10 @@ pages::Table squareTable(const Summary& summary, const trials::Condition& condit
                 const Cell* cell = find(summary, scenario, condition, {model, guidance});
                 row.push_back(cell == nullptr ? "" : percentOfRuns(cell->successes, cell->runs));
             }
-            // A row with a single figure compares nothing.
-            if (std::count(row.begin(), row.end(), "") + 2 < static_cast<long>(row.size()) - 1) {
+            // A row with a single figure compares nothing, unless it is the ceiling.
+            const long figures =
+                static_cast<long>(row.size()) - 2 - std::count(row.begin() + 2, row.end(), "");
+            if (figures > (model == kOracle ? 0 : 1)) {
                 table.rows.push_back(row);
             }
         }

@@ -15,6 +15,10 @@ pages::Table outcomeTable(const Summary& summary,
                           const trials::Condition& condition);  ///< one row per cell
 
 pages::Table pairingTable(const std::vector<Pairing>& pairings);
+/// The same for totals, with the number of scenarios without a difference.
+pages::Table pooledTable(const std::vector<Pairing>& pairings);
+/// Which scenarios tell the contenders of the condition from other models, and at which speed.
+pages::Table saturationTable(const Summary& summary, const trials::Condition& condition);
 pages::Table speedTable(const Summary& summary);
 pages::Table squareTable(const Summary& summary,
                          const trials::Condition& condition);  ///< model x guidance

@@ -61,6 +61,7 @@ std::vector<Comparison> comparisonsOf(const std::set<trials::Contender>& contend
     for (const trials::Contender& first : contenders) {
         if (first.model != kMappingFree) continue;
         for (const trials::Contender& second : contenders) {
+            if (second.model == kOracle) continue;
             const bool same_guidance = second.guidance == first.guidance;
             const bool is_itself = second == first;
             const bool is_map_with_search = first.guidance == "straight" &&
@@ -74,6 +75,20 @@ std::vector<Comparison> comparisonsOf(const std::set<trials::Contender>& contend
     return comparisons;
 }
 
+/// Every model that flew under one condition against the true scene, in the order given.
+std::vector<Comparison> gapsOf(const std::vector<trials::Contender>& order,
+                               const std::set<trials::Contender>& present) {
+    std::vector<Comparison> gaps;
+    for (const trials::Contender& contender : order) {
+        const trials::Contender oracle{kOracle, contender.guidance};
+        if (contender.model != kOracle && present.count(contender) > 0 &&
+            present.count(oracle) > 0) {
+            gaps.push_back({contender, oracle});
+        }
+    }
+    return gaps;
+}
+
 void count(const trials::Run& first, const trials::Run& second, Pairing& pairing) {
     const bool a = first.result.outcome == trials::Outcome::Success;
     const bool b = second.result.outcome == trials::Outcome::Success;
@@ -84,9 +99,44 @@ void count(const trials::Run& first, const trials::Run& second, Pairing& pairing
     if (hit_b && !hit_a) ++pairing.only_second_collided;
 }
 
+Pairing sumOf(const std::vector<Pairing>& parts, const std::string& name) {
+    Pairing sum{name, parts.front().condition, parts.front().first, parts.front().second};
+    sum.scenarios = static_cast<int>(parts.size());
+    for (const Pairing& part : parts) {
+        sum.both += part.both;
+        sum.only_first += part.only_first;
+        sum.only_second += part.only_second;
+        sum.neither += part.neither;
+        sum.only_first_collided += part.only_first_collided;
+        sum.only_second_collided += part.only_second_collided;
+        sum.alike_scenarios += part.alike_scenarios;
+    }
+    return sum;
+}
+
+/// By scenario, of the courses that both flew.
+std::vector<Pairing> pairingsOf(const Flights& flights, const trials::Condition& condition,
+                                const Comparison& comparison) {
+    const auto& second = flights.at({condition, comparison.second});
+    std::map<std::string, Pairing> by_scenario;
+    for (const auto& [course, run] : flights.at({condition, comparison.first})) {
+        const auto other = second.find(course);
+        if (other == second.end()) continue;
+        const Pairing none{run->scenario, condition, comparison.first, comparison.second};
+        count(*run, *other->second, by_scenario.try_emplace(run->scenario, none).first->second);
+    }
+    std::vector<Pairing> pairings;
+    for (auto& [scenario, pairing] : by_scenario) {
+        pairing.alike_scenarios = pairing.discordant() == 0 ? 1 : 0;
+        pairings.push_back(pairing);
+    }
+    return pairings;
+}
+
 void judge(Pairing& pairing) {
     const double n = pairing.pairs();
     pairing.p = trials::mcNemar(pairing.only_first, pairing.only_second);
+    pairing.least_p = trials::leastMcNemar(pairing.discordant());
     pairing.difference = (pairing.only_first - pairing.only_second) / n;
     pairing.interval = trials::pairedDifferenceInterval(pairing.both, pairing.only_first,
                                                         pairing.only_second, pairing.neither);
@@ -96,10 +146,12 @@ void judge(Pairing& pairing) {
 }
 
 void correct(std::vector<Pairing>& pairings) {
-    std::vector<double> p;
-    p.reserve(pairings.size());
-    for (const Pairing& pairing : pairings) p.push_back(pairing.p);
-    const std::vector<double> adjusted = trials::holm(p);
+    std::vector<double> p, least_p;
+    for (const Pairing& pairing : pairings) {
+        p.push_back(pairing.p);
+        least_p.push_back(pairing.least_p);
+    }
+    const std::vector<double> adjusted = trials::holmOfAttainable(p, least_p, kLevel);
     for (std::size_t i = 0; i < p.size(); ++i) pairings[i].p_holm = adjusted[i];
 }
 
@@ -110,34 +162,25 @@ void addPairings(const Flights& flights, Summary& summary) {
             if (key.first == condition) present.insert(key.second);
         }
         for (const Comparison& comparison : comparisonsOf(present)) {
-            const auto& first = flights.at({condition, comparison.first});
-            const auto& second = flights.at({condition, comparison.second});
-            Pairing all{"", condition, comparison.first, comparison.second};
-            Pairing without_wires{kAllButWires, condition, comparison.first, comparison.second};
-            std::map<std::string, Pairing> by_scenario;
-            for (const auto& [course, run] : first) {
-                const auto other = second.find(course);
-                if (other == second.end()) continue;
-                Pairing& one =
-                    by_scenario
-                        .try_emplace(run->scenario, Pairing{run->scenario, condition,
-                                                            comparison.first, comparison.second})
-                        .first->second;
-                count(*run, *other->second, one);
-                count(*run, *other->second, all);
-                if (run->scenario != kWires) count(*run, *other->second, without_wires);
-            }
-            if (all.pairs() > 0) summary.overall.push_back(all);
-            for (const auto& [scenario, one] : by_scenario) summary.pairings.push_back(one);
+            const std::vector<Pairing> each = pairingsOf(flights, condition, comparison);
+            if (each.empty()) continue;
+            summary.overall.push_back(sumOf(each, ""));
+            summary.pairings.insert(summary.pairings.end(), each.begin(), each.end());
+            std::vector<Pairing> others;
+            std::copy_if(each.begin(), each.end(), std::back_inserter(others),
+                         [](const Pairing& one) { return one.scenario != kWires; });
             const bool is_full_window = comparison.second.model == "W-Full";
-            const int others = without_wires.pairs();
-            if (is_full_window && others > 0 && others < all.pairs()) {
-                summary.without_wires.push_back(without_wires);
+            if (is_full_window && !others.empty() && others.size() < each.size()) {
+                summary.without_wires.push_back(sumOf(others, kAllButWires));
             }
+        }
+        for (const Comparison& gap : gapsOf(summary.contenders, present)) {
+            const std::vector<Pairing> each = pairingsOf(flights, condition, gap);
+            summary.to_oracle.insert(summary.to_oracle.end(), each.begin(), each.end());
         }
     }
     for (std::vector<Pairing>* pairings :
-         {&summary.overall, &summary.pairings, &summary.without_wires}) {
+         {&summary.overall, &summary.pairings, &summary.without_wires, &summary.to_oracle}) {
         for (Pairing& pairing : *pairings) judge(pairing);
         correct(*pairings);
     }
@@ -223,7 +266,7 @@ void addNames(const std::vector<trials::Run>& runs, Summary& summary) {
     summary.contenders = listOf(contenders);
     const auto rank = [](const trials::Contender& contender) {
         const std::string& model = contender.model;
-        return std::make_tuple(contender.guidance, model == "oracle",
+        return std::make_tuple(contender.guidance, model == kOracle,
                                model == kMappingFree ? 0
                                : model == "W-Full"   ? 1
                                                      : 2,

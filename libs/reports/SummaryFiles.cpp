@@ -1,6 +1,8 @@
 #include <hagen/reports/SummaryFiles.h>
 
+#include <hagen/reports/Answer.h>
 #include <hagen/reports/Figures.h>
+#include <hagen/reports/Saturation.h>
 #include <cmath>
 #include "SummaryJson.h"
 
@@ -79,9 +81,20 @@ Json json(const Pairing& pairing) {
             {"only_second_collided", pairing.only_second_collided},
             {"difference", number(pairing.difference)},
             {"interval", json(pairing.interval)},
+            {"scenarios", pairing.scenarios},
+            {"scenarios_without_difference", pairing.alike_scenarios},
             {"p", number(pairing.p)},
+            {"least_p", number(pairing.least_p)},
             {"p_holm", number(pairing.p_holm)},
-            {"verdict", nameOf(pairing.verdict)}};
+            {"verdict", nameOf(pairing.verdict)},
+            {"answer", nameOf(answerOf(pairing))}};
+}
+
+Json json(const Saturation& one) {
+    return {{"scenario", one.scenario},       {"condition", json(one.condition)},
+            {"model", one.first.model},       {"guidance", one.first.guidance},
+            {"comparisons", one.comparisons}, {"comparisons_without_difference", one.alike},
+            {"saturated", one.is_saturated}};
 }
 
 Json json(const SpeedLimit& limit) {
@@ -143,6 +156,8 @@ Json jsonOf(const Summary& summary) {
             {"overall", list(summary.overall)},
             {"without_wires", list(summary.without_wires)},
             {"pairings", list(summary.pairings)},
+            {"to_oracle", list(summary.to_oracle)},
+            {"saturation", list(saturationsOf(summary))},
             {"speed_limits", list(summary.speed_limits)}};
 }
 

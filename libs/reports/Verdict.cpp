@@ -1,55 +1,17 @@
-#include <hagen/avoidance/WorldModel.h>
+#include <hagen/reports/Answer.h>
 #include <hagen/reports/Verdict.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <hagen/reports/Figures.h>
+#include "OracleSentences.h"
 #include "Phrases.h"
+#include "ScenarioSentences.h"
 
 namespace hagen::reports {
 namespace {
-
-std::string placeOf(const std::string& scenario) {
-    if (scenario == kAllButWires) return "without wires";
-    return scenario == kWires ? "on wires" : scenario.empty() ? "" : "in " + scenario;
-}
-
-enum Answer { MoreOften, LessByMargin, LessOften, LessWithinMargin, WithinMargin, Undecided };
-
-/// "More" and "less" only if the interval and McNemar's corrected test agree.
-Answer answerOf(const Pairing& pairing) {
-    if (pairing.p_holm < 0.05) {
-        if (pairing.interval.low > 0) return MoreOften;
-        if (pairing.interval.high < -kMargin) return LessByMargin;
-        if (pairing.interval.high < 0) {
-            return pairing.interval.low > -kMargin ? LessWithinMargin : LessOften;
-        }
-    }
-    return pairing.verdict == Verdict::NotInferior ? WithinMargin : Undecided;
-}
-
-std::string differenceOf(const Pairing& pairing) {
-    const double n = pairing.pairs();
-    const bool same_guidance = pairing.first.guidance == pairing.second.guidance;
-    std::string who = withGuidance(pairing.first) + " vs. " +
-                      (same_guidance ? avoidance::displayName(pairing.second.model)
-                                     : withGuidance(pairing.second));
-    const std::string place = placeOf(pairing.scenario);
-    return capital(place) + (place.empty() ? "" : ", ") + who + ": success " +
-           percent((pairing.both + pairing.only_first) / n) + " % vs. " +
-           percent((pairing.both + pairing.only_second) / n) + " % on the same " +
-           counted(pairing.pairs(), "course") + ", " + points(pairing.difference) +
-           " points (95 % interval " + pointsOf(pairing.interval) + "; Holm-corrected p " +
-           pText(pairing.p_holm) + ")";
-}
-
-std::string marginText() { return pages::figure(100 * kMargin, 0) + " points"; }
-
-/// Whether both compare the same two contenders under one condition, in any scenario.
-bool isSameContest(const Pairing& a, const Pairing& b) {
-    return a.condition == b.condition && a.first == b.first && a.second == b.second;
-}
 
 /// The scenarios that both flew, if not all of the condition: "u-trap and gap".
 std::string scopeOf(const Summary& summary, const Pairing& overall) {
@@ -66,84 +28,36 @@ std::string scopeOf(const Summary& summary, const Pairing& overall) {
     return names.size() < flown.size() ? listed(names) : "";
 }
 
-/// The pairings of the verdict: all scenarios together, but W-RoI against W-Full split by wires.
-std::vector<Pairing> reportedPairings(const Summary& summary, const trials::Condition& condition) {
-    std::vector<Pairing> all;
+/// The pairings of the verdict over several scenarios; W-RoI against W-Full without wires. What
+/// both flew in a single scenario is told there.
+std::vector<Pairing> pooledPairings(const Summary& summary, const trials::Condition& condition) {
+    std::vector<Pairing> pooled;
     for (const Pairing& pairing : summary.overall) {
         if (!(pairing.condition == condition)) continue;
         const std::vector<Pairing> apart = splitByWires(summary, pairing);
-        if (apart.empty()) {
-            all.push_back(pairing);
-            all.back().scenario = scopeOf(summary, pairing);
-        } else {
-            all.insert(all.end(), apart.begin(), apart.end());
-        }
+        Pairing one = apart.empty() ? pairing : apart.front();
+        if (one.scenarios < 2) continue;
+        if (one.scenario.empty()) one.scenario = scopeOf(summary, one);
+        pooled.push_back(one);
     }
-    return all;
+    return pooled;
 }
 
-/// Losses in single scenarios that the reported pairings, of more scenarios, do not show.
-std::vector<Pairing> hiddenBy(const std::vector<Pairing>& reported, const Summary& summary) {
-    std::vector<Pairing> hidden;
-    for (const Pairing& loss : lossesOf(summary)) {
-        if (loss.interval.high >= 0) continue;
-        bool is_reported = false, is_hidden = false;
-        for (const Pairing& one : reported) {
-            if (!isSameContest(one, loss)) continue;
-            is_reported = is_reported || one.scenario == loss.scenario;
-            // A reported loss of this size in the total need not be repeated for its parts.
-            is_hidden = is_hidden || (one.pairs() > loss.pairs() && answerOf(one) != LessByMargin);
-        }
-        if (is_hidden && !is_reported) hidden.push_back(loss);
+/// How much of a total is saturated.
+std::string alikeText(const Pairing& pooled) {
+    if (pooled.alike_scenarios == 0) {
+        return "In each of the " + std::to_string(pooled.scenarios) +
+               " scenarios there are courses on which the two differ.";
     }
-    return hidden;
+    return std::to_string(pooled.alike_scenarios) + " of " + std::to_string(pooled.scenarios) +
+           " scenarios " + (pooled.alike_scenarios == 1 ? "has" : "have") +
+           " no course on which the two differ.";
 }
 
-/// The second contender and where: "occupancy grid 0.2 m (in movers)".
-std::string rivalOf(const Pairing& pairing) {
-    const bool same_guidance = pairing.second.guidance == pairing.first.guidance;
-    const std::string place = placeOf(pairing.scenario);
-    return (same_guidance ? avoidance::displayName(pairing.second.model)
-                          : withGuidance(pairing.second)) +
-           (place.empty() ? "" : " (" + place + ")");
-}
-
-/// The answer, without figures.
-std::string headlineOf(const std::vector<Pairing>& pairings, const std::vector<Pairing>& hidden,
-                       const trials::Condition& reference, const std::string& guidance) {
-    std::vector<std::string> of[Undecided + 1], but;
-    bool covers_all = false;
-    for (const Pairing& pairing : pairings) {
-        if (pairing.first.guidance != guidance || pairing.second.model == pairing.first.model ||
-            pairing.second.model == "oracle") {
-            continue;
-        }
-        of[answerOf(pairing)].push_back(rivalOf(pairing));
-        covers_all = covers_all || pairing.scenario.empty();
-    }
-    for (const Pairing& loss : hidden) {
-        if (loss.first.guidance == guidance && answerOf(loss) != Undecided) {
-            but.push_back(rivalOf(loss));
-        }
-    }
-    const std::string margin = marginText();
-    const std::string before[] = {"succeeds more often than ", "succeeds less often than ",
-                                  "succeeds less often than ", "succeeds less often than ",
-                                  "is not inferior, with a margin of " + margin + ", to "};
-    const std::string after[] = {"", ", by more than " + margin,
-                                 ", but whether by more than " + margin + " is undecided",
-                                 ", by less than " + margin, ""};
-    const std::string subject = withGuidance({"W-RoI", guidance}) + " at " + nameOf(reference);
-    std::string text;
-    for (int answer = MoreOften; answer < Undecided; ++answer) {
-        if (of[answer].empty()) continue;
-        text += (text.empty() ? subject + (covers_all ? ", over all scenarios," : "") : " It") +
-                " " + before[answer] + listed(of[answer]) + after[answer] + ".";
-    }
-    if (text.empty() && !of[Undecided].empty()) text = subject + ": no comparison is decided yet.";
-    if (!but.empty()) text += " But it succeeds less often than " + listed(but) + ".";
-    if (!of[Undecided].empty()) text += " Undecided: " + join(of[Undecided], ", ") + ".";
-    return text;
+std::string saturatedText(const Pairing& pairing) {
+    return pairing.discordant() == 0 ? "Saturated: they differ on no course."
+                                     : "Saturated: both succeed on at least " +
+                                           std::to_string(kCeilingPercent) + " % of the courses.";
 }
 
 /// With counts by scenario, since scenarios are not equally hard.
@@ -186,7 +100,7 @@ std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall
 std::vector<Pairing> lossesOf(const Summary& summary) {
     std::vector<Pairing> losses;
     for (const Pairing& pairing : summary.pairings) {
-        if (pairing.difference < 0 && pairing.second.model != "oracle") losses.push_back(pairing);
+        if (pairing.difference < 0) losses.push_back(pairing);
     }
     std::stable_sort(losses.begin(), losses.end(), [](const Pairing& a, const Pairing& b) {
         return a.difference < b.difference;
@@ -195,46 +109,109 @@ std::vector<Pairing> lossesOf(const Summary& summary) {
 }
 
 std::string differenceText(const Pairing& pairing) {
-    switch (answerOf(pairing)) {
-        case WithinMargin:
-            return differenceOf(pairing) + ". Not inferior: the interval excludes a loss of " +
-                   marginText() + ".";
-        case Undecided:
-            return "Undecided: " + differenceOf(pairing) +
-                   (pairing.verdict == Verdict::Inferior
-                        ? ". With this many comparisons, the difference may be chance."
-                        : ".");
-        default:
-            return differenceOf(pairing) + ".";
+    const Answer answer = answerOf(pairing);
+    const double n = pairing.pairs();
+    std::string text =
+        "at " + nameOf(pairing.condition) + ", " + withGuidance(pairing.first) + " vs. " +
+        rivalOf(pairing) + ": success " + percent((pairing.both + pairing.only_first) / n) +
+        " % vs. " + percent((pairing.both + pairing.only_second) / n) + " % on the same " +
+        counted(pairing.pairs(), "course") + ", " + points(pairing.difference) +
+        " points (95 % interval " + pointsOf(pairing.interval) + "; " +
+        (std::isnan(pairing.p_holm) ? "" : "Holm-corrected ") + testText(pairing) + ").";
+    const std::string place = placeOf(pairing.scenario);
+    if (!place.empty())
+        text = place + " " + text;
+    else if (pairing.scenarios > 1)
+        text = "over all scenarios " + text;
+    text = (answer == Answer::Undecided ? "Undecided: " : "") + capital(text);
+    if (pairing.scenarios > 1) text += " " + alikeText(pairing);
+    if (answer == Answer::Saturated) text += " " + saturatedText(pairing);
+    if (answer == Answer::NotInferior) {
+        text += std::string(" Not inferior") + (pairing.scenarios > 1 ? " in total" : "") +
+                ": the interval excludes a loss of " + marginText() + ".";
     }
+    const std::string disagreement = disagreementText(pairing);
+    if (!disagreement.empty()) return text + " " + capital(disagreement) + ".";
+    if (answer == Answer::Undecided) {
+        text += " The interval contains zero, so the difference may be chance.";
+    }
+    return text;
+}
+
+std::string lossesSentence(const Summary& summary) {
+    const std::vector<Pairing> losses = lossesOf(summary);
+    int significant = 0, disputed = 0, chance = 0;
+    for (const Pairing& loss : losses) {
+        ++(!excludesZero(loss) ? chance : isSignificant(loss) ? significant : disputed);
+    }
+    std::string text = "Of " + counted(static_cast<int>(summary.pairings.size()), "comparison") +
+                       " in single scenarios, the RoI window succeeds less often in " +
+                       std::to_string(losses.size()) + ".";
+    if (losses.empty()) return text;
+    text += " Interval and corrected test exclude a difference of zero (p < 0.05) in " +
+            std::to_string(significant) + " of them";
+    if (disputed > 0) {
+        text += ", in " + std::to_string(disputed) +
+                " the interval does and the corrected test does not";
+    }
+    if (chance > 0) {
+        text += "; " + std::to_string(chance) + " may be chance, the interval contains zero";
+    }
+    return text + ". Largest loss first.";
+}
+
+std::string leftOutSentence(const std::vector<Pairing>& pairings, const std::string& which) {
+    int least = 0;
+    while (trials::leastMcNemar(least) >= kLevel) ++least;
+    const auto left_out =
+        std::count_if(pairings.begin(), pairings.end(),
+                      [](const Pairing& pairing) { return std::isnan(pairing.p_holm); });
+    if (left_out == 0) return "No comparison " + which + " is left out of the correction.";
+    return std::to_string(left_out) + " of " +
+           counted(static_cast<int>(pairings.size()), "comparison") + " " + which +
+           " could not be significant, because fewer than " + std::to_string(least) +
+           " courses differ, and " + (left_out == 1 ? "is" : "are") +
+           " left out of the correction.";
 }
 
 std::vector<std::string> verdictOf(const Summary& summary) {
     if (summary.conditions.empty()) return {"There are no runs."};
     const trials::Condition& reference = summary.conditions.front();
-    std::vector<Pairing> pairings = reportedPairings(summary, reference);
-    const std::vector<Pairing> hidden = hiddenBy(pairings, summary);
-    std::vector<std::string> sentences;
-    for (const char* guidance : {"astar", "straight"}) {
-        const std::string headline = headlineOf(pairings, hidden, reference, guidance);
-        if (!headline.empty()) sentences.push_back(headline);
+    std::vector<std::string> sentences = scenarioSentences(summary, reference);
+    const auto append = [&](const std::vector<std::string>& more) {
+        sentences.insert(sentences.end(), more.begin(), more.end());
+    };
+    if (!summary.pairings.empty()) {
+        append(
+            {"In brackets: success on the courses that both flew; the difference and its 95 % "
+             "interval; McNemar's exact p with Holm's correction.",
+             "Saturated: two contenders differ on no course, or both succeed on at least " +
+                 std::to_string(kCeilingPercent) +
+                 " %. Such a scenario does not say which is better.",
+             leftOutSentence(summary.pairings, "in single scenarios") + " " +
+                 leftOutSentence(summary.overall, "over all scenarios")});
     }
-    std::stable_partition(pairings.begin(), pairings.end(),
-                          [](const Pairing& pairing) { return answerOf(pairing) != Undecided; });
-    pairings.insert(pairings.end(), hidden.begin(), hidden.end());
-    for (const Pairing& pairing : pairings) sentences.push_back(differenceText(pairing));
-    if (std::any_of(pairings.begin(), pairings.end(),
-                    [](const Pairing& pairing) { return answerOf(pairing) == Undecided; })) {
-        sentences.push_back("Undecided comparisons need more courses.");
+    append(oracleSentences(summary, reference));
+    std::vector<Pairing> pooled = pooledPairings(summary, reference);
+    std::stable_partition(pooled.begin(), pooled.end(), [](const Pairing& pairing) {
+        return answerOf(pairing) != Answer::Undecided;
+    });
+    for (const Pairing& pairing : pooled) append({differenceText(pairing)});
+    const auto hasUndecided = [](const std::vector<Pairing>& pairings) {
+        return std::any_of(pairings.begin(), pairings.end(), [](const Pairing& pairing) {
+            return answerOf(pairing) == Answer::Undecided;
+        });
+    };
+    if (hasUndecided(summary.pairings) || hasUndecided(summary.to_oracle) || hasUndecided(pooled)) {
+        append({"Undecided comparisons need more courses."});
     }
     for (const trials::Contender& contender : contendersUnder(summary, reference)) {
-        sentences.push_back(collisionSentence(summary, *find(summary, "", reference, contender)));
+        append({collisionSentence(summary, *find(summary, "", reference, contender))});
     }
     const int runs = mostRuns(summary, reference);
-    sentences.push_back("This does not prove safety: after 0 collisions in " +
-                        counted(runs, "run") +
-                        " of a scenario, the true collision rate can still be up to " +
-                        percent(trials::wilsonInterval(0, runs).high) + " % (Wilson, 95 %).");
+    append({"This does not prove safety: after 0 collisions in " + counted(runs, "run") +
+            " of a scenario, the true collision rate can still be up to " +
+            percent(trials::wilsonInterval(0, runs).high) + " % (Wilson, 95 %)."});
     return sentences;
 }
 

@@ -64,6 +64,8 @@ double mcNemar(int only_first, int only_second) {
     return std::min(1.0, 2 * tail);
 }
 
+double leastMcNemar(int discordant) { return std::min(1.0, std::ldexp(1.0, 1 - discordant)); }
+
 Bounds pairedDifferenceInterval(int both, int only_first, int only_second, int neither,
                                 double level) {
     const int n = both + only_first + only_second + neither;
@@ -92,6 +94,29 @@ std::vector<double> holm(const std::vector<double>& p) {
         so_far = std::max(so_far, static_cast<double>(p.size() - rank) * p[order[rank]]);
         adjusted[order[rank]] = std::min(1.0, so_far);
     }
+    return adjusted;
+}
+
+std::vector<double> holmOfAttainable(const std::vector<double>& p,
+                                     const std::vector<double>& least_p, double level) {
+    if (p.size() != least_p.size()) {
+        throw std::invalid_argument(std::to_string(p.size()) + " values of p but " +
+                                    std::to_string(least_p.size()) + " least values");
+    }
+    // A comparison that can never be rejected adds nothing to the chance of a false rejection, so
+    // it need not be paid for (Tarone 1990). The choice looks only at the number of discordant
+    // pairs. The exact test is conditional on that number, which under no difference says nothing
+    // about the side they fall on, so the choice leaves every p valid.
+    std::vector<std::size_t> kept;
+    std::vector<double> p_of_kept;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (!(least_p[i] < level)) continue;
+        kept.push_back(i);
+        p_of_kept.push_back(p[i]);
+    }
+    const std::vector<double> adjusted_of_kept = holm(p_of_kept);
+    std::vector<double> adjusted(p.size(), NAN);
+    for (std::size_t k = 0; k < kept.size(); ++k) adjusted[kept[k]] = adjusted_of_kept[k];
     return adjusted;
 }
 

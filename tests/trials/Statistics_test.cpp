@@ -164,6 +164,54 @@ TEST(Holm, RejectsWhatTheStepDownRuleRejects) {
     EXPECT_EQ(holm({0.9, 0.9}), (std::vector<double>{1, 1}));
 }
 
+TEST(McNemar, AttainsItsLeastPIfAllDiscordantPairsFallOnOneSide) {
+    for (int n = 0; n <= 40; ++n) {
+        double least = 1;
+        for (int k = 0; k <= n; ++k) least = std::min(least, mcNemar(k, n - k));
+        EXPECT_NEAR(leastMcNemar(n), least, 1e-12 * least) << n;
+    }
+    EXPECT_EQ(leastMcNemar(0), 1);
+    EXPECT_GE(leastMcNemar(5), 0.05);  // 0.0625
+    EXPECT_LT(leastMcNemar(6), 0.05);  // 0.03125
+}
+
+TEST(HolmOfAttainable, LeavesOutWhatCannotBeSignificant) {
+    const std::vector<double> adjusted =
+        holmOfAttainable({0.01, 1, 0.02, 0.0625, 0.05}, {0.001, 1, 0.01, 0.0625, 0.05});
+    EXPECT_NEAR(adjusted[0], 0.02, 1e-12);  // of two, not of five
+    EXPECT_TRUE(std::isnan(adjusted[1]));
+    EXPECT_NEAR(adjusted[2], 0.02, 1e-12);
+    EXPECT_TRUE(std::isnan(adjusted[3]));
+    EXPECT_TRUE(std::isnan(adjusted[4]));  // not below the level
+    EXPECT_FALSE(std::isnan(holmOfAttainable({0.05}, {0.05}, 0.1)[0]));
+    EXPECT_TRUE(holmOfAttainable({}, {}).empty());
+    EXPECT_THROW(holmOfAttainable({0.1}, {}), std::invalid_argument);
+}
+
+/// Without any difference, a family of 30 comparisons must not give a false finding more often than
+/// in 5 % of the campaigns, although it is chosen by the same data.
+TEST(HolmOfAttainable, KeepsTheErrorOfTheFamily) {
+    simulation::Random random(6);
+    int campaigns_with_findings = 0;
+    const int campaigns = 4000;
+    for (int c = 0; c < campaigns; ++c) {
+        std::vector<double> p, least_p;
+        for (int k = 0; k < 30; ++k) {
+            const int discordant = random.uniformInt(14);
+            int on_one_side = 0;
+            for (int i = 0; i < discordant; ++i) on_one_side += random.uniformInt(2);
+            p.push_back(mcNemar(on_one_side, discordant - on_one_side));
+            least_p.push_back(leastMcNemar(discordant));
+        }
+        const std::vector<double> adjusted = holmOfAttainable(p, least_p);
+        if (std::any_of(adjusted.begin(), adjusted.end(), [](double q) { return q < 0.05; })) {
+            ++campaigns_with_findings;
+        }
+    }
+    EXPECT_LE(campaigns_with_findings, 0.05 * campaigns);
+    EXPECT_GT(campaigns_with_findings, 0);
+}
+
 TEST(Quantile, LiesBetweenRanks) {
     EXPECT_EQ(base::quantile({3, 1, 2}, 0.5), 2);
     EXPECT_EQ(base::quantile({4, 1, 2, 3}, 0.5), 2.5);

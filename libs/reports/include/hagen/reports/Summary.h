@@ -43,17 +43,30 @@ struct Pairing {
     trials::Contender first, second;
     int both = 0, only_first = 0, only_second = 0, neither = 0;  ///< succeeded
     int only_first_collided = 0, only_second_collided = 0;
-    double p = 1,
-           p_holm = 1;      ///< McNemar's test; with Holm's correction over all pairings of a list
-    double difference = 0;  ///< of success, first - second
+    int scenarios = 1;        ///< that both flew
+    int alike_scenarios = 0;  ///< of these, scenarios without a discordant pair
+    double p = 1;             ///< McNemar's test
+    double least_p = 1;       ///< that the test can give for this many discordant pairs
+    /// With Holm's correction over the pairings of a list that could be significant; NaN if this
+    /// one could not: least_p is not below kLevel.
+    double p_holm = NAN;
+    double difference = 0;            ///< of success, first - second
     trials::Bounds interval{-1, 1};   ///< Newcombe's, 95 %
     Verdict verdict = Verdict::Open;  ///< with margin kMargin
 
     int pairs() const { return both + only_first + only_second + neither; }
+    /// Courses on which only one of the two succeeded.
+    int discordant() const { return only_first + only_second; }
 };
 
 /// Margin of non-inferiority: 3 percentage points of success.
 constexpr double kMargin = 0.03;
+
+/// Level of significance.
+constexpr double kLevel = 0.05;
+
+/// The model with the true scene. It is a ceiling, not a rival.
+constexpr const char* kOracle = "oracle";
 
 /// The success of a contender at several speeds under otherwise equal conditions.
 struct SpeedLimit {
@@ -75,6 +88,8 @@ struct Summary {
     /// W-RoI against W-Full in all scenarios except wires. Empty if wires were not flown; `overall`
     /// says the same then.
     std::vector<Pairing> without_wires;
+    /// Every model against the true scene with the same guidance, in each scenario.
+    std::vector<Pairing> to_oracle;
     std::vector<SpeedLimit> speed_limits;
     std::vector<std::string> settings, versions;  ///< of the runs; normally one of each
     int runs = 0;
@@ -82,7 +97,7 @@ struct Summary {
 
 /// Counts, quantiles and paired tests. Under each condition, W-RoI is compared with every other
 /// model with the same guidance, with itself with the other guidance, and W-RoI with straight
-/// guidance with maps with A*.
+/// guidance with maps with A*. The true scene is apart, in `to_oracle`.
 Summary summarize(const std::vector<trials::Run>& runs);
 
 /// Counts and quantiles of the runs, at least one, of one contender under one condition.

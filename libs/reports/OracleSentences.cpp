@@ -1,0 +1,107 @@
+#include "OracleSentences.h"
+
+#include <hagen/avoidance/WorldModel.h>
+#include <hagen/reports/Answer.h>
+
+#include <algorithm>
+
+#include <hagen/reports/Figures.h>
+#include "Phrases.h"
+
+namespace hagen::reports {
+namespace {
+
+/// What the true scene does not reach is lost by the planner and the guidance, whatever the model.
+std::string ceilingText(const Cell& oracle) {
+    const std::string who = capital(placeOf(oracle.scenario)) + " at " + nameOf(oracle.condition) +
+                            ", the " + withGuidance(oracle.contender) + " succeeds on ";
+    if (oracle.successes == oracle.runs) {
+        return who + "all " + counted(oracle.runs, "course") + ": planner and guidance lose none.";
+    }
+    const double share = static_cast<double>(oracle.successes) / oracle.runs;
+    return who + percent(share) + " % of " + counted(oracle.runs, "course") + ": the other " +
+           percent(1 - share) + " points are lost by planner and guidance.";
+}
+
+std::string gapText(const Cell& oracle, const std::vector<Pairing>& gaps) {
+    std::vector<std::string> below, above, undecided, chance, close, alike;
+    for (const Pairing& gap : gaps) {
+        const std::string text =
+            avoidance::displayName(gap.first.model) + " (" + figuresOf(gap) + ")";
+        switch (answerOf(gap)) {
+            case Answer::MoreOften:
+                above.push_back(text);
+                break;
+            case Answer::LessByMargin:
+            case Answer::LessOften:
+            case Answer::LessWithinMargin:
+                below.push_back(text);
+                break;
+            case Answer::Saturated:
+                alike.push_back(text);
+                break;
+            case Answer::NotInferior:
+                close.push_back(text);
+                break;
+            default:
+                (excludesZero(gap) ? undecided : chance).push_back(text);
+        }
+    }
+    std::string text = ceilingText(oracle);
+    const auto append = [&](const std::string& what, const std::vector<std::string>& who) {
+        if (!who.empty()) text += " " + what + ": " + listed(who) + ".";
+    };
+    append("The model loses more", below);
+    append("Better than the true scene", above);
+    append("Not inferior to the true scene, with a margin of " + marginText(), close);
+    append("Undecided", undecided);
+    append("Undecided, may be chance", chance);
+    append("No gap", alike);
+    return text;
+}
+
+std::string guidanceText(const std::string& guidance) {
+    return guidance == "astar" ? "with A*" : "with " + guidance + " guidance";
+}
+
+}  // namespace
+
+std::vector<std::string> oracleSentences(const Summary& summary,
+                                         const trials::Condition& reference) {
+    std::vector<std::string> sentences;
+    for (const trials::Condition& condition : summary.conditions) {
+        trials::Condition at_reference = condition;
+        at_reference.speed_m_s = reference.speed_m_s;
+        if (!(at_reference == reference)) continue;
+        for (const trials::Contender& contender : contendersUnder(summary, condition)) {
+            if (contender.model != kOracle) continue;
+            std::vector<std::string> without_gap;
+            for (const std::string& scenario : summary.scenarios) {
+                std::vector<Pairing> gaps;
+                for (const Pairing& gap : summary.to_oracle) {
+                    if (gap.scenario == scenario && gap.condition == condition &&
+                        gap.second == contender) {
+                        gaps.push_back(gap);
+                    }
+                }
+                if (gaps.empty()) continue;
+                if (std::all_of(gaps.begin(), gaps.end(), [](const Pairing& gap) {
+                        return answerOf(gap) == Answer::Saturated;
+                    })) {
+                    without_gap.push_back(scenario);
+                } else {
+                    sentences.push_back(
+                        gapText(*find(summary, scenario, condition, contender), gaps));
+                }
+            }
+            if (!without_gap.empty()) {
+                sentences.push_back(
+                    "At " + nameOf(condition) + " " + guidanceText(contender.guidance) +
+                    ", no gap to the true scene shows in " + listed(without_gap) + ".");
+            }
+        }
+    }
+    return sentences;
+}
+
+}  // namespace hagen::reports

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <hagen/reports/Summary.h>
+
+namespace hagen::reports {
+
+/// Per scenario and guidance what the true scene reaches, which is the planner's ceiling, and how
+/// far the models are from it; at the reference condition and at other speeds. Scenarios without
+/// a gap share a sentence. Empty if the true scene was not flown.
+std::vector<std::string> oracleSentences(const Summary& summary,
+                                         const trials::Condition& reference);
+
+}  // namespace hagen::reports
