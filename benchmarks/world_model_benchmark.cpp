@@ -67,8 +67,8 @@ void measure(const std::string& name, const std::vector<mapping::MappedScan>& sc
     const Eigen::Vector3f around(10, 10, 2);
     bounds = {bounds.min() - around, bounds.max() + around};
     const double before_MB = heap_MB();
-    const auto model =
-        avoidance::makeWorldModel(name, {bounds, [](const Eigen::Vector3f&) { return 3.0f; }});
+    const auto model = avoidance::makeWorldModel(
+        name, {bounds, [](const Eigen::Vector3f&, double) { return 3.0f; }, {}});
     simulation::Random random(2);
     std::vector<double> update_ms, query_us;
     float sum = 0;

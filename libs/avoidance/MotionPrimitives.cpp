@@ -144,8 +144,10 @@ Plan cheapestFree(const WorldModel& world, const PlanningTask& task) {
 }
 
 /// Where nothing is free among obstacles that move, standing still is no way out: the command that
-/// keeps the largest clearance, the cheapest of equal ones.
-Eigen::Vector3d evadingCommand(const WorldModel& world, const PlanningTask& task) {
+/// keeps the largest clearance, the cheapest of equal ones. At full speed, even near the goal.
+Eigen::Vector3d evadingCommand(const WorldModel& world, PlanningTask task) {
+    constexpr double kFarOff_m = 1000;
+    task.beyond_carrot_m += kFarOff_m;
     float best_m = -1;
     Eigen::Vector3d best_m_s = Eigen::Vector3d::Zero();
     std::vector<Eigen::Vector3f> path_m;

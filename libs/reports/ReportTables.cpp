@@ -136,7 +136,7 @@ pages::Table squareTable(const Summary& summary, const trials::Condition& condit
         if (!(cell.condition == condition) || cell.scenario.empty()) continue;
         guidances.insert(cell.contender.guidance);
         // The true scene is the ceiling of the others, even if it flew with A* only.
-        if (cell.contender.model == kOracle) models.insert(cell.contender.model);
+        if (avoidance::needsTruth(cell.contender.model)) models.insert(cell.contender.model);
         if (cell.contender.guidance == "astar") continue;
         models.insert(cell.contender.model);
         scenarios.insert(cell.scenario);
@@ -155,7 +155,7 @@ pages::Table squareTable(const Summary& summary, const trials::Condition& condit
             // A row with a single figure compares nothing, unless it is the ceiling.
             const long figures =
                 static_cast<long>(row.size()) - 2 - std::count(row.begin() + 2, row.end(), "");
-            if (figures > (model == kOracle ? 0 : 1)) {
+            if (figures > (avoidance::needsTruth(model) ? 0 : 1)) {
                 table.rows.push_back(row);
             }
         }

@@ -1,3 +1,4 @@
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/reports/Summary.h>
 
@@ -59,15 +60,18 @@ struct Comparison {
 std::vector<Comparison> comparisonsOf(const std::set<trials::Contender>& contenders) {
     std::vector<Comparison> comparisons;
     for (const trials::Contender& first : contenders) {
-        if (first.model != kMappingFree) continue;
+        if (first.model != kMappingFree && first.model != kMappingFreeWithMotion) continue;
         for (const trials::Contender& second : contenders) {
-            if (second.model == kOracle) continue;
+            // Pairs of these two once, the one with motion first.
+            if (avoidance::needsTruth(second.model) || second.model == kMappingFreeWithMotion) {
+                continue;
+            }
             const bool same_guidance = second.guidance == first.guidance;
             const bool is_itself = second == first;
             const bool is_map_with_search = first.guidance == "straight" &&
                                             second.guidance != "straight" && isMap(second.model);
-            const bool other_guidance =
-                first.guidance != "straight" && second.model == kMappingFree;
+            const bool other_guidance = first.guidance != "straight" &&
+                                        second.model == kMappingFree && first.model == kMappingFree;
             if (is_itself || !(same_guidance || is_map_with_search || other_guidance)) continue;
             comparisons.push_back({first, second});
         }
@@ -81,7 +85,7 @@ std::vector<Comparison> gapsOf(const std::vector<trials::Contender>& order,
     std::vector<Comparison> gaps;
     for (const trials::Contender& contender : order) {
         const trials::Contender oracle{kOracle, contender.guidance};
-        if (contender.model != kOracle && present.count(contender) > 0 &&
+        if (!avoidance::needsTruth(contender.model) && present.count(contender) > 0 &&
             present.count(oracle) > 0) {
             gaps.push_back({contender, oracle});
         }
@@ -266,10 +270,11 @@ void addNames(const std::vector<trials::Run>& runs, Summary& summary) {
     summary.contenders = listOf(contenders);
     const auto rank = [](const trials::Contender& contender) {
         const std::string& model = contender.model;
-        return std::make_tuple(contender.guidance, model == kOracle,
-                               model == kMappingFree ? 0
-                               : model == "W-Full"   ? 1
-                                                     : 2,
+        return std::make_tuple(contender.guidance, avoidance::needsTruth(model),
+                               model == kMappingFree             ? 0
+                               : model == kMappingFreeWithMotion ? 1
+                               : model == "W-Full"               ? 2
+                                                                 : 3,
                                model);
     };
     std::sort(

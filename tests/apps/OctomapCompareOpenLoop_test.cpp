@@ -127,7 +127,8 @@ TEST_F(OpenLoopCommand, RefusesWrongUsage) {
     expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
     expectFailure(
         with(orchard, {"--models", "W-Roy"}), 2,
-        "unknown world model 'W-Roy'; known are W-RoI (RoI window), W-Full (full window), ");
+        "unknown world model 'W-Roy'; known are W-RoI (RoI window), W-RoI+motion (RoI window with "
+        "motion), W-Full (full window), ");
     expectFailure(with(orchard, {"--models", "oracle"}), 2, "--truth-scenario");
     expectFailure(with(orchard, {"--truth-scenario", "jungle"}), 2, "known are");
     expectFailure(with(orchard, {"--sensor-label", "roof"}), 1,

@@ -232,44 +232,52 @@ class BallModel : public WorldModel {
     bool knows_motion_;
 };
 
-/// The least distance from the ball's surface along a command, held for 2 s.
+/// The least distance from the ball's surface in 2 s, of which a command is held for 1.2 s.
 double nearestWay_m(const Eigen::Vector3d& command_m_s, double ball_first_m) {
     VehicleState state{{0, 0, 2}, {0, 0, 0}};
     double least_m = 1e9;
     for (double time_s = 0; time_s < 2; time_s += kControlStep_s) {
         const Eigen::Vector3d ball_m(ball_first_m - 3 * time_s, 0, 2);
         least_m = std::min(least_m, (state.position_m - ball_m).norm() - 0.5);
-        state = advance(state, command_m_s, kControlStep_s, {});
+        const Eigen::Vector3d held_m_s = time_s < 1.2 ? command_m_s : Eigen::Vector3d::Zero();
+        state = advance(state, held_m_s, kControlStep_s, {});
     }
     return least_m;
 }
 
-PlanningTask hovering() {
+PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) {
     PlanningTask task;
     task.start.position_m = {0, 0, 2};
-    task.carrot_m = {0, 0, 2};
+    task.carrot_m = carrot_m;
+    task.start_after_s = start_after_s;
     return task;
 }
 
+// Straight ahead there is room for the way until the vehicle stops, but the ball comes.
 TEST(MotionPrimitives, LeaveTheWayOfWhatComes) {
+    const PlanningTask task = taskTowards({12, 0, 2}, 0.3);
+    const double ball_m = 6 - 3 * 0.3;
     const auto planner = makePlanner("primitives");
-    const Plan still = planner->plan(BallModel(false), hovering());
-    EXPECT_LT(nearestWay_m(still.command_m_s, 6), 0.3);
-    const Plan plan = planner->plan(BallModel(true), hovering());
-    EXPECT_GT(nearestWay_m(plan.command_m_s, 6), 0.6);
+    const Plan still = planner->plan(BallModel(false), task);
+    const Plan plan = planner->plan(BallModel(true), task);
+    EXPECT_FALSE(plan.is_emergency);
+    EXPECT_GT(nearestWay_m(plan.command_m_s, ball_m), 0.6);
+    EXPECT_LT(nearestWay_m(still.command_m_s, ball_m), 0.3);
 }
 
 TEST(MotionPrimitives, EvadeWhereNothingIsFree) {
-    PlanningTask task = hovering();
-    task.start_after_s = 1.45;  // the ball's surface is 1.15 m away, and 0.4 s later here
+    // Hovering at the goal; the ball's surface is 1.15 m away, and here 0.4 s later.
+    const PlanningTask task = taskTowards({0, 0, 2}, 1.45);
+    const double ball_m = 6 - 3 * 1.45;
     const Plan plan = makePlanner("primitives")->plan(BallModel(true), task);
     EXPECT_TRUE(plan.is_emergency);
-    EXPECT_GT(plan.command_m_s.norm(), 1);
-    const double first_m = 6 - 3 * 1.45;
-    EXPECT_GT(nearestWay_m(plan.command_m_s, first_m), nearestWay_m({0, 0, 0}, first_m) + 0.2);
-    // A world that stands still asks for standing still.
-    task.start.position_m.x() = 5;
-    const Plan brakes = makePlanner("primitives")->plan(BallModel(false), task);
+    EXPECT_GT(plan.command_m_s.norm(), 3);
+    EXPECT_GT(nearestWay_m(plan.command_m_s, ball_m), nearestWay_m({0, 0, 0}, ball_m) + 0.2);
+    // In a world that stands still, standing still is safe.
+    PlanningTask near = task;
+    near.start.position_m.x() = 5.2;
+    near.start_after_s = 0;
+    const Plan brakes = makePlanner("primitives")->plan(BallModel(false), near);
     EXPECT_TRUE(!brakes.is_emergency || brakes.command_m_s.isZero());
 }
 

@@ -51,7 +51,7 @@ float edgeOf(const std::string& name) {
 }
 
 mapping::MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi) {
-    return {0, kOrigin, points, std::vector<Label>(points.size(), label)};
+    return {0, kOrigin, points, std::vector<Label>(points.size(), label), {}, {}};
 }
 
 /// A wall at x = 5.1 m, dense.
@@ -216,15 +216,15 @@ TEST(WorldModel, OnlyRoiCountsWhereOnlyRoiShall) {
     }
 }
 
-TEST(WorldModel, AWindowForgetsAfterTenScans) {
+TEST(WorldModel, AWindowForgetsAfterElevenScansAtFourMetresPerSecond) {
     for (const std::string name : {"W-RoI", "W-Full"}) {
         const auto model = avoidance::makeWorldModel(name, setting());
         model->update(scanOf(wall()));
-        for (int i = 1; i < 10; ++i) model->update(scanOf({{-4, 0, 1}}));
+        for (int i = 1; i < 11; ++i) model->update(scanOf({{-4, 0, 1}}));
         EXPECT_NEAR(1.1f, model->clearance_m({4, 0.1f, 1.1f}), 0.05f);
         model->update(scanOf({{-4, 0, 1}}));
         EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({4, 0.1f, 1.1f}));
-        EXPECT_EQ(10u, model->obstacles().centre_m.size());
+        EXPECT_EQ(11u, model->obstacles().centre_m.size());
     }
 }
 
@@ -298,7 +298,7 @@ TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
 }
 
 /// Three scans share a tree; the oldest is forgotten by itself, whichever it shares with.
-TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
+TEST(WorldModel, AWindowHoldsTheLastScansAlways) {
     simulation::Random random(9);
     const auto model = avoidance::makeWorldModel("W-Full", setting());
     std::vector<std::vector<Eigen::Vector3f>> past;
@@ -306,7 +306,7 @@ TEST(WorldModel, AWindowHoldsTheLastTenScansAlways) {
         past.push_back(sparsePoints(random, 5));
         model->update(scanOf(past.back()));
         std::vector<Eigen::Vector3f> kept;
-        for (std::size_t i = past.size() > 10 ? past.size() - 10 : 0; i < past.size(); ++i) {
+        for (std::size_t i = past.size() > 11 ? past.size() - 11 : 0; i < past.size(); ++i) {
             kept.insert(kept.end(), past[i].begin(), past[i].end());
         }
         EXPECT_EQ(model->obstacles().centre_m.size(), kept.size());

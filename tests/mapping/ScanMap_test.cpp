@@ -47,7 +47,7 @@ double lengthIn(const Voxel& v, const Eigen::Vector3d& from, const Eigen::Vector
 
 mapping::MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi,
                            const Eigen::Vector3f& origin = {0.03f, 0.05f, 0.07f}) {
-    return {0, origin, points, std::vector<Label>(points.size(), label)};
+    return {0, origin, points, std::vector<Label>(points.size(), label), {}, {}};
 }
 
 constexpr double kBarely_m = 1e-4;

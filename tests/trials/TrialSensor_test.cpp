@@ -65,7 +65,7 @@ TEST(TrialSensor, AWallIsOfInterestAndTheGroundIsNot) {
     TrialSensor sensor(course);
     PoseBelief belief(PoseError::None, 3);
     const simulation::SimulatedScan measured = sensor.measure(5, trace);
-    const auto labels = sensor.segment(5, measured, trace, belief);
+    const std::vector<Label> labels = sensor.segment(5, measured, trace, belief).label;
     int right = 0, all = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] == Label::Unclassified || measured.scan.range_m[i] > 19) continue;

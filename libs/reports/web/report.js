@@ -6,11 +6,11 @@ const summary = data.summary;
 
 // Okabe and Ito's colours, each with a mark, so that nothing depends on colour alone.
 const looks = {
-  'W-RoI': ['#0072B2', 'circle'], 'W-Full': ['#56B4E9', 'rect'], 'G-Full': ['#009E73', 'triangle'],
+  'W-RoI+motion': ['#0B3D66', 'rectRounded'], 'W-RoI': ['#0072B2', 'circle'], 'W-Full': ['#56B4E9', 'rect'], 'G-Full': ['#009E73', 'triangle'],
   'O-Full-0.2': ['#D55E00', 'rectRot'], 'O-Full-0.4': ['#E69F00', 'rectRot'],
   'O-RoI-0.2': ['#CC79A7', 'star'], 'O-RoI-0.4': ['#A0527F', 'star'],
   'O-RoI+rays-0.2': ['#7A6A00', 'cross'], 'O-RoI+rays-0.4': ['#B3A000', 'cross'],
-  'oracle': ['#333333', 'crossRot']
+  'oracle': ['#333333', 'crossRot'], 'oracle+motion': ['#777777', 'star']
 };
 const look = who => {
   const [color, mark] = looks[who.model] || ['#777777', 'circle'];
