@@ -23,11 +23,13 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// All models; in a recording nothing is known of the future, and the oracle only if the scene is.
+/// All models but those with motion, as open loop asks for clearances at the time of a scan only;
+/// the oracle only if the scene is known.
 std::vector<std::string> standardModels(bool has_scene) {
     std::vector<std::string> models = avoidance::worldModelNames();
     const auto isMissing = [=](const std::string& model) {
-        return model == "oracle+motion" || (avoidance::needsTruth(model) && !has_scene);
+        return model == "W-RoI+motion" || model == "oracle+motion" ||
+               (avoidance::needsTruth(model) && !has_scene);
     };
     models.erase(std::remove_if(models.begin(), models.end(), isMissing), models.end());
     return models;

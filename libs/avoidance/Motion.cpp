@@ -77,7 +77,9 @@ std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& t
         freeClearance(world, path_m, task.start_after_s, task.limits.clearance_radius_m());
     if (!later_m) return std::nullopt;
     const bool is_near = *later_m < static_cast<float>(task.limits.clearance_radius_m());
-    if (is_near && !(world.clearance_m(path_m.back()) > *later_m)) return std::nullopt;
+    const double end_s =
+        task.start_after_s + kControlStep_s * static_cast<double>(path_m.size() - 1);
+    if (is_near && !(world.clearanceAfter_m(path_m.back(), end_s) > *later_m)) return std::nullopt;
     return std::min(*soon_m, *later_m);
 }
 

@@ -143,8 +143,17 @@ Plan cheapestFree(const WorldModel& world, const PlanningTask& task) {
     return plan;
 }
 
+/// Whether something comes too close even if the vehicle brakes.
+bool isBrakingUnsafe(const WorldModel& world, const PlanningTask& task) {
+    std::vector<Eigen::Vector3f> path_m;
+    rollOut(task.start, Eigen::Vector3d::Zero(), kLookAhead_s, task.limits, path_m);
+    return static_cast<double>(leastClearance_m(world, path_m, task.start_after_s)) <
+           task.limits.radius_m;
+}
+
 /// Where nothing is free among obstacles that move, standing still is no way out: the command that
-/// keeps the largest clearance, the cheapest of equal ones. At full speed, even near the goal.
+/// keeps the largest clearance, the cheapest of equal ones, within the limits of altitude. At full
+/// speed, even near the goal.
 Eigen::Vector3d evadingCommand(const WorldModel& world, PlanningTask task) {
     constexpr double kFarOff_m = 1000;
     task.beyond_carrot_m += kFarOff_m;
@@ -153,6 +162,9 @@ Eigen::Vector3d evadingCommand(const WorldModel& world, PlanningTask task) {
     std::vector<Eigen::Vector3f> path_m;
     for (const Candidate& candidate : rankedCandidates(task)) {
         rollOut(task.start, candidate.command_m_s, kLookAhead_s, task.limits, path_m);
+        const auto end_m = static_cast<double>(path_m.back().z());
+        if (outOfAltitudes(end_m, task) > outOfAltitudes(task.start.position_m.z(), task)) continue;
+        if (task.brakes_in_known_space && !world.isKnown(path_m.back())) continue;
         const float clearance_m = leastClearance_m(world, path_m, task.start_after_s);
         if (clearance_m > best_m) {
             best_m = clearance_m;
@@ -166,7 +178,7 @@ Eigen::Vector3d evadingCommand(const WorldModel& world, PlanningTask task) {
 
 Plan MotionPrimitives::plan(const WorldModel& world, const PlanningTask& task) const {
     Plan plan = cheapestFree(world, task);
-    if (plan.is_emergency && world.fastest_m_s() > 0) {
+    if (plan.is_emergency && world.fastest_m_s() > 0 && isBrakingUnsafe(world, task)) {
         plan.command_m_s = evadingCommand(world, task);
     }
     return plan;

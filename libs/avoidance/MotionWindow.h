@@ -6,7 +6,8 @@ namespace hagen::avoidance {
 
 /// A window of RoI points in which obstacles that move are where they will be: the points of the
 /// last scan that saw one, moved along at its velocity. Its older points, where it no longer is, do
-/// not count. What does not move, or not certainly, is as in the window.
+/// not count while it is followed and moves; then they do again, for where it went is not known.
+/// What does not move, or not certainly, is as in the window.
 class MotionWindow : public WorldModel {
  public:
     explicit MotionWindow(WindowSize size) : window_(true, size) {}

@@ -58,16 +58,16 @@ std::vector<Seen> seenIn(const mapping::MappedScan& scan) {
     struct Points {
         std::vector<Eigen::Vector3f> at_m;
         double age_s = 0;
+        bool is_far = false;
     };
     std::vector<Points> by_obstacle;
     for (std::size_t i = 0; i < scan.obstacles.size(); ++i) {
         const auto obstacle = static_cast<std::size_t>(scan.obstacles[i]);
-        if (obstacle == 0 ||
-            (scan.points_m[i] - scan.origin_m).squaredNorm() > kFarthest_m * kFarthest_m) {
-            continue;
-        }
+        if (obstacle == 0) continue;
         if (by_obstacle.size() <= obstacle) by_obstacle.resize(obstacle + 1);
         by_obstacle[obstacle].at_m.push_back(scan.points_m[i]);
+        by_obstacle[obstacle].is_far |=
+            (scan.points_m[i] - scan.origin_m).squaredNorm() > kFarthest_m * kFarthest_m;
         if (!scan.age_s.empty()) {
             by_obstacle[obstacle].age_s += static_cast<double>(scan.age_s[i]);
         }
@@ -75,7 +75,7 @@ std::vector<Seen> seenIn(const mapping::MappedScan& scan) {
     std::vector<Seen> all;
     for (std::size_t obstacle = 1; obstacle < by_obstacle.size(); ++obstacle) {
         const Points& points = by_obstacle[obstacle];
-        if (points.at_m.size() < kFewestPoints) continue;
+        if (points.at_m.size() < kFewestPoints || points.is_far) continue;
         const float width_m = widthOf(points.at_m);
         if (width_m > kWidest_m) continue;
         const double age_s = points.age_s / static_cast<double>(points.at_m.size());

@@ -45,7 +45,7 @@ bool ScanFolderSource::showClouds(observations::CloudSensors& sensors) {
     try {
         readScan(folder_.scanFile(next_shown_++), cloud);
     } catch (const BrokenScan&) {
-        return false;  // nextEntry() reports it
+        return true;  // nextEntry() reports it
     }
     sensors.see(kFolderLabel, cloud);
     return true;

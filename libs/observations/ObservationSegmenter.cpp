@@ -86,13 +86,13 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
 }
 
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
-                                   const ScanPose& pose, const SharedBeams& beams) {
+                                   const ScanPose& pose, const std::optional<SharedBeams>& beams) {
     const auto start = std::chrono::steady_clock::now();
     if (!isLidarScan(observation)) return false;
     const mrpt::system::CTimeLoggerEntry whole(profiler, "process");
     {
         const mrpt::system::CTimeLoggerEntry part(profiler, "process.read");
-        readObservation(observation, settings_, observed_, beams ? beams : beamsOf(observation));
+        readObservation(observation, settings_, observed_, beams ? *beams : beamsOf(observation));
     }
     const std::size_t returns_masked = maskAirframe(settings_.airframe.parts, observed_.scan);
     const Scan& scan = observed_.scan;

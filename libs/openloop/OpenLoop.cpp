@@ -315,6 +315,10 @@ void checkOpenLoop(const OpenLoop& open_loop) {
         if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
             throw std::invalid_argument("world model '" + model + "' is listed twice");
         }
+        if (model == "W-RoI+motion" || model == "oracle+motion") {
+            throw std::invalid_argument("'" + model +
+                                        "' predicts motion, which open loop does not ask for");
+        }
         if (avoidance::needsTruth(model) && !open_loop.scene) {
             throw std::invalid_argument(
                 "the true scene (oracle) needs the scenario that the log was simulated in "

@@ -20,7 +20,9 @@ std::string ceilingText(const Cell& oracle) {
     }
     const double share = static_cast<double>(oracle.successes) / oracle.runs;
     return who + percent(share) + " % of " + counted(oracle.runs, "course") + ": the other " +
-           percent(1 - share) + " points are lost by planner and guidance.";
+           percent(1 - share) +
+           " points are lost by planner and guidance, "
+           "which take the world to stand still.";
 }
 
 std::string gapText(const Cell& oracle, const std::vector<Pairing>& gaps) {

@@ -120,7 +120,8 @@ void addGaps(const Summary& summary, std::vector<Section>& sections) {
     if (summary.to_oracle.empty()) return;
     addUnsaturated({"Gap to the true scene",
                     {"Each model (first) against the true scene (second) with the same guidance. "
-                     "What the true scene does not reach is lost by planner and guidance, the "
+                     "What the true scene does not reach is lost by planner and guidance, which "
+                     "take the world to stand still, the "
                      "difference by the model. p (Holm) is corrected over these comparisons.",
                      leftOutSentence(summary.to_oracle, "with the true scene")},
                     {}},

@@ -356,7 +356,8 @@ TEST(OracleSentence, SeparatesThePlannersCeilingFromTheModelsLoss) {
         flownByTheTrueScene().verdict(),
         Contains(AllOf(
             StartsWith("In gap at 4 m/s, the true scene with A* succeeds on 90.0 % of 100 "
-                       "courses: the other 10.0 points are lost by planner and guidance. The model "
+                       "courses: the other 10.0 points are lost by planner and guidance, "
+                       "which take the world to stand still. The model "
                        "loses more: RoI window (60.0 % vs. 90.0 % of 100 courses; -30.0 points, "),
             HasSubstr(". Better than the true scene: OctoMap 0.4 m (100.0 % vs. 90.0 % of 100 "
                       "courses; +10.0 points, "),
@@ -371,7 +372,7 @@ TEST(OracleSentence, SaysWhatIsOpenOrWithinTheMargin) {
     Table table;
     table.add("gap", "oracle", {20, 4, 5, 11});
     EXPECT_THAT(table.verdict(),
-                Contains(HasSubstr("guidance. Undecided, may be chance: RoI window (60.0 % vs.")));
+                Contains(HasSubstr("still. Undecided, may be chance: RoI window (60.0 % vs.")));
     table = Table{}.add("gap", "oracle", {394, 0, 6, 0});
     EXPECT_THAT(table.verdict(),
                 Contains(HasSubstr("succeeds on all 400 courses: planner and guidance lose none. "
@@ -410,7 +411,8 @@ TEST(Oracle, IsACeilingAndNoRival) {
     EXPECT_THAT(table.verdict(),
                 Contains(AllOf(StartsWith("In gap at 4 m/s, the true scene with straight guidance "
                                           "succeeds on 60.0 % of 100 courses: the other 40.0 "
-                                          "points are lost by planner and guidance. The model "
+                                          "points are lost by planner and guidance, "
+                                          "which take the world to stand still. The model "
                                           "loses more: RoI window (0.0 % vs. 60.0 % of 100 "),
                                Not(HasSubstr("full window")))));
 }

@@ -35,7 +35,8 @@ struct ObstacleTrack {
 /// fit its points of now clearly better than where they were. (The visible part of a standing
 /// obstacle changes as the vehicle passes, which moves its middle, but not its points.)
 ///
-/// Obstacles wider than 6 m, with less than three points, or farther than 25 m are not followed.
+/// Obstacles wider than 6 m, with less than three points, or with one farther than 25 m are not
+/// followed.
 class ObstacleTracks {
  public:
     /// Takes in the next scan; its `obstacles` must be numbered.

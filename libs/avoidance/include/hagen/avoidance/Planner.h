@@ -33,7 +33,7 @@ struct CandidateMotion {
 
 struct Plan {
     Eigen::Vector3d command_m_s{0, 0, 0};  ///< velocity to fly
-    bool is_emergency = false;             ///< no motion is free or contact is near: brake
+    bool is_emergency = false;             ///< no motion is free or contact is near
     std::vector<CandidateMotion> candidates;
 };
 
@@ -46,8 +46,9 @@ class Planner {
 /// "primitives": motion primitives of 36 azimuths x 5 elevations x 4 speeds, up, down and hovering,
 /// each followed by braking.
 /// "3dvfh": polar histogram with 6 degree cells (3DVFH+).
-/// Both brake if contact is near (mustStop). makePlanner() throws std::invalid_argument for other
-/// names.
+/// Both brake if no motion is free or contact is near (mustStop); where obstacles move and braking
+/// is not safe, "primitives" evades instead, and "3dvfh" ranks directions by the world as it is at
+/// the time of the scan. makePlanner() throws std::invalid_argument for other names.
 const std::vector<std::string>& plannerNames();
 std::unique_ptr<Planner> makePlanner(const std::string& name);
 

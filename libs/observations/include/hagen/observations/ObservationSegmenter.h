@@ -84,9 +84,10 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     /// The same for a scan with known pose. If poses are determined in the log's order, scans can
     /// be segmented in any order and by several segmenters concurrently; so can clouds whose sensor
-    /// nobody names if their beams are given. Null: recovers them from the clouds it has seen.
+    /// nobody names if their beams are given. Null: none
+    /// were found. Not given: recovers them from the clouds it has seen.
     bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
-                 const SharedBeams& beams = nullptr);
+                 const std::optional<SharedBeams>& beams = std::nullopt);
 
     /// Stores the vehicle's attitude if an observation provides it (Horizon.h). process() does this
     /// for observations that are not scans; call it for those in the same sensory frame as a scan.
