@@ -28,8 +28,7 @@ struct Flags {
 std::vector<std::string> standardModels(bool has_scene) {
     std::vector<std::string> models = avoidance::worldModelNames();
     const auto isMissing = [=](const std::string& model) {
-        return model == "W-RoI+motion" || model == "oracle+motion" ||
-               (avoidance::needsTruth(model) && !has_scene);
+        return avoidance::predictsMotion(model) || (avoidance::needsTruth(model) && !has_scene);
     };
     models.erase(std::remove_if(models.begin(), models.end(), isMissing), models.end());
     return models;

@@ -54,6 +54,7 @@ struct Entry {
     std::string name, display_name;
     enum { AllPoints, Labels, Truth } needs;
     Factory make;
+    bool predicts_motion = false;
 };
 
 template <bool kRoiOnly>
@@ -82,7 +83,7 @@ std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
         {"W-RoI", "RoI window", Entry::Labels, makeWindow<true>},
-        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMotionWindow},
+        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMotionWindow, true},
         {"W-Full", "full window", Entry::AllPoints, makeWindow<false>},
         {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints,
          makeOctoMap<mapping::MapContent::Full, 20>},
@@ -98,15 +99,19 @@ const std::vector<Entry>& entries() {
          makeOctoMap<mapping::MapContent::RoiAndRays, 40>},
         {"G-Full", "occupancy grid 0.2 m", Entry::AllPoints, makeGrid},
         {"oracle", "true scene", Entry::Truth, makeOracle<OracleModel>},
-        {"oracle+motion", "true scene with motion", Entry::Truth, makeOracle<OracleOfMotion>},
+        {"oracle+motion", "true scene with motion", Entry::Truth, makeOracle<OracleOfMotion>, true},
     };
     return entries;
 }
 
+const Entry* findEntry(const std::string& name) {
+    const auto found = std::find_if(entries().begin(), entries().end(),
+                                    [&](const Entry& entry) { return entry.name == name; });
+    return found == entries().end() ? nullptr : &*found;
+}
+
 const Entry& entryOf(const std::string& name) {
-    for (const Entry& entry : entries()) {
-        if (entry.name == name) return entry;
-    }
+    if (const Entry* entry = findEntry(name)) return *entry;
     throw std::invalid_argument("unknown world model '" + name + "'; known are " +
                                 worldModelList());
 }
@@ -130,10 +135,8 @@ const std::vector<std::string>& worldModelNames() {
 }
 
 std::string displayName(const std::string& model) {
-    for (const Entry& entry : entries()) {
-        if (entry.name == model) return entry.display_name;
-    }
-    return model;
+    const Entry* entry = findEntry(model);
+    return entry == nullptr ? model : entry->display_name;
 }
 
 std::string worldModelFrom(const std::string& text) {
@@ -154,9 +157,13 @@ std::string worldModelList() {
 bool needsLabels(const std::string& model) { return entryOf(model).needs == Entry::Labels; }
 
 bool needsTruth(const std::string& model) {
-    return std::any_of(entries().begin(), entries().end(), [&](const Entry& entry) {
-        return entry.name == model && entry.needs == Entry::Truth;
-    });
+    const Entry* entry = findEntry(model);
+    return entry != nullptr && entry->needs == Entry::Truth;
+}
+
+bool predictsMotion(const std::string& model) {
+    const Entry* entry = findEntry(model);
+    return entry != nullptr && entry->predicts_motion;
 }
 
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,

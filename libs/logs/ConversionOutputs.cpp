@@ -44,12 +44,13 @@ std::string ConversionOutputs::writeScan(
     if (folders_) {
         auto writer = folder_writers_.find(sensor_label);
         if (writer == folder_writers_.end()) {
-            writer = folder_writers_
-                         .emplace(sensor_label, ScanFolderWriter(folders_->folderOf(sensor_label),
-                                                                 mountOf(*segmented.roi, settings),
-                                                                 !segmented.recovered &&
-                                                                     !segmented.is_sensor_assumed))
-                         .first;
+            std::optional<GivenLimits> unnamed;
+            if (segmented.recovered || segmented.is_sensor_assumed) {
+                unnamed = {settings.sensor.min_range_m, settings.sensor.max_range_m};
+            }
+            ScanFolderWriter to_folder(folders_->folderOf(sensor_label),
+                                       mountOf(*segmented.roi, settings), unnamed);
+            writer = folder_writers_.emplace(sensor_label, std::move(to_folder)).first;
         }
         const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
         writer->second.write(own_name, *segmented.scan, segmented.result->returns,

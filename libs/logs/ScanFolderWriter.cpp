@@ -29,15 +29,18 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
         << "\n";
 }
 
-/// `sensor`: null if it is not known.
-void writeSensor(const fs::path& file, const SensorModel* sensor, const Attitude& mount) {
+void writeSensor(const fs::path& file, const SensorModel& sensor,
+                 const std::optional<GivenLimits>& unnamed, const Attitude& mount) {
     const bool is_tilted = mount.roll_rad != 0 || mount.pitch_rad != 0;
     std::ofstream out(file);
-    if (sensor != nullptr) {
-        writeBeams(*sensor, out);
+    if (!unnamed) {
+        writeBeams(sensor, out);
     } else {
+        const bool has_keys = is_tilted || unnamed->min_range_m || unnamed->max_range_m;
         out << "# Nobody named the sensor; its beams are recovered from the scans.\n"
-            << (is_tilted ? "sensor:\n" : "");
+            << (has_keys ? "sensor:\n" : "") << std::setprecision(9);
+        if (unnamed->min_range_m) out << "  min_range_m: " << *unnamed->min_range_m << "\n";
+        if (unnamed->max_range_m) out << "  max_range_m: " << *unnamed->max_range_m << "\n";
     }
     if (is_tilted) {
         out << "  mount_roll_deg: " << observations::degreesText(mount.roll_rad) << "\n"
@@ -54,8 +57,9 @@ std::string scanName(std::size_t scan) {
     return name;
 }
 
-ScanFolderWriter::ScanFolderWriter(fs::path folder, const Attitude& mount, bool is_sensor_known)
-    : folder_(std::move(folder)), mount_(mount), is_sensor_known_(is_sensor_known) {
+ScanFolderWriter::ScanFolderWriter(fs::path folder, const Attitude& mount,
+                                   const std::optional<GivenLimits>& unnamed)
+    : folder_(std::move(folder)), mount_(mount), unnamed_(unnamed) {
     fs::create_directory(folder_ / "velodyne");
     fs::create_directory(folder_ / "labels");
 }
@@ -65,7 +69,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
                              double time_s, const std::optional<mrpt::poses::CPose3D>& sensor_pose,
                              bool pose_has_horizon) {
     if (times_s_.empty()) {
-        writeSensor(folder_ / "sensor.yaml", is_sensor_known_ ? &sensor : nullptr, mount_);
+        writeSensor(folder_ / "sensor.yaml", sensor, unnamed_, mount_);
         first_time_s_ = time_s;
     }
     writeScan(folder_ / "velodyne" / (name + ".bin"), scan);

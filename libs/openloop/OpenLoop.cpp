@@ -315,7 +315,7 @@ void checkOpenLoop(const OpenLoop& open_loop) {
         if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
             throw std::invalid_argument("world model '" + model + "' is listed twice");
         }
-        if (model == "W-RoI+motion" || model == "oracle+motion") {
+        if (avoidance::predictsMotion(model)) {
             throw std::invalid_argument("'" + model +
                                         "' predicts motion, which open loop does not ask for");
         }

@@ -12,8 +12,6 @@
 namespace hagen::reports {
 namespace {
 
-constexpr const char* kMappingFree = "W-RoI";
-
 bool isMap(const std::string& model) {
     return model.compare(0, 2, "O-") == 0 || model.compare(0, 2, "G-") == 0;
 }

@@ -100,7 +100,8 @@ std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall
 std::vector<Pairing> lossesOf(const Summary& summary) {
     std::vector<Pairing> losses;
     for (const Pairing& pairing : summary.pairings) {
-        if (pairing.difference < 0) losses.push_back(pairing);
+        const bool is_of_roi_window = pairing.first.model == kMappingFree;
+        if (is_of_roi_window && pairing.difference < 0) losses.push_back(pairing);
     }
     std::stable_sort(losses.begin(), losses.end(), [](const Pairing& a, const Pairing& b) {
         return a.difference < b.difference;
@@ -144,7 +145,10 @@ std::string lossesSentence(const Summary& summary) {
     for (const Pairing& loss : losses) {
         ++(!excludesZero(loss) ? chance : isSignificant(loss) ? significant : disputed);
     }
-    std::string text = "Of " + counted(static_cast<int>(summary.pairings.size()), "comparison") +
+    const auto comparisons =
+        std::count_if(summary.pairings.begin(), summary.pairings.end(),
+                      [](const Pairing& p) { return p.first.model == kMappingFree; });
+    std::string text = "Of " + counted(static_cast<int>(comparisons), "comparison") +
                        " in single scenarios, the RoI window succeeds less often in " +
                        std::to_string(losses.size()) + ".";
     if (losses.empty()) return text;

@@ -57,7 +57,9 @@ RecordedScans recordFlight(const Course& course) {
     return recorded;
 }
 
-void moveAlongX(mapping::MappedScan& scan, float by_m) {
+/// The scan of the next lap.
+void moveOn(mapping::MappedScan& scan, float by_m, double by_s) {
+    scan.time_s += by_s;
     scan.origin_m.x() += by_m;
     for (Eigen::Vector3f& point : scan.points_m) point.x() += by_m;
 }
@@ -126,6 +128,7 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m)
     const auto world = avoidance::makeWorldModel(model, setting);
     std::vector<HeapSample> samples{{0, base::heapBytes() - before}};
     double held = samples[0].bytes;
+    const double lap_s = recorded.scans.back().time_s;  // the first scan ends a turn after 0
     for (double lap_m = 0; lap_m < path_m; lap_m += recorded.length_m) {
         for (std::size_t i = 0; i < recorded.scans.size(); ++i) {
             const double at_m = lap_m + recorded.path_m[i], heap = base::heapBytes();
@@ -134,7 +137,7 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m)
             if (at_m <= path_m && at_m >= samples.back().path_m + kEvery_m) {
                 samples.push_back({at_m, held});
             }
-            moveAlongX(recorded.scans[i], static_cast<float>(recorded.length_m));
+            moveOn(recorded.scans[i], static_cast<float>(recorded.length_m), lap_s);
         }
     }
     return samples;

@@ -281,5 +281,26 @@ TEST(MotionPrimitives, EvadeWhereNothingIsFree) {
     EXPECT_TRUE(!brakes.is_emergency || brakes.command_m_s.isZero());
 }
 
+TEST(MotionPrimitives, EvadeWithinTheAltitudesAndWithinKnownSpace) {
+    PlanningTask task = taskTowards({0, 0, 2}, 1.45);
+    const auto heightOf = [](const Plan& plan) { return plan.command_m_s.z(); };
+    const auto planner = makePlanner("primitives");
+    // The ball's middle is above: down is away from it, if the altitude allows.
+    task.start.position_m.z() = 1.9;
+    EXPECT_LT(heightOf(planner->plan(BallModel(true), task)), 0);
+    task.lowest_m = 1.9;
+    EXPECT_GE(heightOf(planner->plan(BallModel(true), task)), 0);
+    task.lowest_m = 1;
+    // Nothing is known: it brakes.
+    class UnknownSpace : public BallModel {
+     public:
+        using BallModel::BallModel;
+        bool isKnown(const Eigen::Vector3f&) const override { return false; }
+    };
+    task.brakes_in_known_space = true;
+    EXPECT_TRUE(planner->plan(UnknownSpace(true), task).command_m_s.isZero());
+    EXPECT_FALSE(planner->plan(BallModel(true), task).command_m_s.isZero());
+}
+
 }  // namespace
 }  // namespace hagen::avoidance

@@ -379,6 +379,15 @@ TEST(WorldModel, TheOracleTellsTheTruth) {
     EXPECT_EQ(0, model->fastest_m_s());
 }
 
+TEST(WorldModel, OnlyModelsWithMotionPredictIt) {
+    for (const std::string& name : avoidance::worldModelNames()) {
+        const bool has_motion = name.find("+motion") != std::string::npos;
+        EXPECT_EQ(avoidance::predictsMotion(name), has_motion) << name;
+    }
+    EXPECT_FALSE(avoidance::predictsMotion("X+motion"));
+    EXPECT_FALSE(avoidance::needsTruth("X"));
+}
+
 // The wall at x = 5 m comes closer at 1 m/s.
 TEST(WorldModel, TheOracleOfMotionTellsTheFuture) {
     const auto model = avoidance::makeWorldModel("oracle+motion", setting());

@@ -87,16 +87,29 @@ TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
 TEST(ScanFolderWriter, ASensorThatIsNotKnownIsLeftOut) {
     for (const Attitude mount : {Attitude{}, Attitude{2.5f, -0.4f}}) {
         const test::TemporaryFolder folder;
-        ScanFolderWriter writer(folder.path(), mount, false);
+        ScanFolderWriter writer(folder.path(), mount, GivenLimits{});
         writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
         writer.finish();
         observations::Settings settings;
         observations::mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
         EXPECT_FALSE(settings.sensor.model);
+        EXPECT_FALSE(settings.sensor.min_range_m);
         EXPECT_FALSE(settings.sensor.max_range_m);
         EXPECT_EQ(settings.mount.roll_rad, mount.roll_rad);
         EXPECT_EQ(settings.mount.pitch_rad, mount.pitch_rad);
     }
+}
+
+TEST(ScanFolderWriter, GivenLimitsOfASensorThatIsNotKnownAreKept) {
+    const test::TemporaryFolder folder;
+    ScanFolderWriter writer(folder.path(), {}, GivenLimits{0.7f, std::nullopt});
+    writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
+    writer.finish();
+    observations::Settings settings;
+    observations::mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
+    EXPECT_FALSE(settings.sensor.model);
+    EXPECT_EQ(settings.sensor.min_range_m, 0.7f);
+    EXPECT_FALSE(settings.sensor.max_range_m);
 }
 
 TEST(ScanFolderWriter, PosesAreInTheMapAndWhereAllAreKnownFromTheFirst) {

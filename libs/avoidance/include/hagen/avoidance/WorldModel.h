@@ -102,6 +102,9 @@ bool needsLabels(const std::string& model);
 /// Whether a model knows the true scene: an oracle. False for unknown names.
 bool needsTruth(const std::string& model);
 
+/// Whether a model predicts motion (clearanceAfter_m()). False for unknown names.
+bool predictsMotion(const std::string& model);
+
 /// Throws std::invalid_argument for unknown names and lists the known ones; also if an oracle gets
 /// no true clearance.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,

@@ -16,15 +16,20 @@ namespace hagen::logs {
 /// File name of scan n in a scan folder, without extension: "000042".
 std::string scanName(std::size_t scan);
 
+/// Range limits that the settings give; none: the sensor's own.
+struct GivenLimits {
+    std::optional<float> min_range_m, max_range_m;
+};
+
 /// Writes segmented scans as a scan folder; see ScanFolder.h. Functions throw std::runtime_error
 /// naming the file that cannot be written.
 class ScanFolderWriter {
  public:
     /// Creates velodyne/ and labels/ in an existing folder. `mount`: the sensor's tilt on the level
-    /// vehicle, for sensor.yaml. `is_sensor_known`: false leaves the beams out of it, so that a
-    /// guess is not taken for a fact.
+    /// vehicle, for sensor.yaml. `unnamed`: nobody named the sensor, and sensor.yaml has these
+    /// limits only, no beams, so that a guess is not taken for a fact.
     explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {},
-                              bool is_sensor_known = true);
+                              const std::optional<GivenLimits>& unnamed = std::nullopt);
 
     /// Adds a scan with the labels of its returns. `sensor_pose`: sensor pose in the map at the
     /// scan's time, if known. `pose_has_horizon`: the z axis of that map points against gravity.
@@ -40,7 +45,7 @@ class ScanFolderWriter {
  private:
     std::filesystem::path folder_;
     Attitude mount_;
-    bool is_sensor_known_;
+    std::optional<GivenLimits> unnamed_;
     double first_time_s_ = 0;
     std::vector<double> times_s_;  ///< since the first scan
     std::vector<TimedPose> poses_;

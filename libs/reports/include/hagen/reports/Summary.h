@@ -67,7 +67,8 @@ constexpr double kLevel = 0.05;
 
 /// The model with the true scene. It is a ceiling, not a rival.
 constexpr const char* kOracle = "oracle";
-/// The mapping-free contender that follows what moves.
+/// The mapping-free contender, and the one that follows what moves.
+constexpr const char* kMappingFree = "W-RoI";
 constexpr const char* kMappingFreeWithMotion = "W-RoI+motion";
 
 /// The success of a contender at several speeds under otherwise equal conditions.
