@@ -23,6 +23,17 @@ void check(const char* what, double value) {
                                 std::to_string(value) + " m; it must be positive");
 }
 
+void checkProbabilities(const ScanMapOptions& options) {
+    const double least = options.least_probability, most = options.greatest_probability;
+    const double hit = options.hit_probability, miss = options.miss_probability;
+    if (0 < least && least < miss && miss < 0.5 && 0.5 < hit && hit < most && most < 1) return;
+    throw std::invalid_argument(
+        "the probabilities of an OctoMap must be in the order 0 < least < miss < 0.5 < hit < "
+        "greatest < 1, but are " +
+        std::to_string(least) + ", " + std::to_string(miss) + ", " + std::to_string(hit) + ", " +
+        std::to_string(most));
+}
+
 }  // namespace
 
 /// Traverses rays and marks each voxel once.
@@ -91,7 +102,15 @@ class ScanMap::RayTraversal {
 ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
     check("resolution", options.resolution_m);
     check("greatest range", options.max_range_m);
+    checkProbabilities(options);
+    if (options.insertion != RayInsertion::OneRayPerVoxel && options.content != MapContent::Full) {
+        throw std::invalid_argument("OctoMap's own insertion needs all returns as hits");
+    }
     tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);
+    tree_->setProbHit(options.hit_probability);
+    tree_->setProbMiss(options.miss_probability);
+    tree_->setClampingThresMin(options.least_probability);
+    tree_->setClampingThresMax(options.greatest_probability);
     walk_ = std::make_unique<RayTraversal>();
 }
 ScanMap::~ScanMap() = default;
@@ -105,6 +124,15 @@ void ScanMap::insert(const MappedScan& scan) {
     const auto is_hit = [&](std::size_t i) {
         return content == MapContent::Full || scan.labels[i] == Label::Roi;
     };
+    if (options_.insertion != RayInsertion::OneRayPerVoxel) {
+        octomap::Pointcloud cloud;
+        cloud.reserve(scan.points_m.size());
+        for (const Eigen::Vector3f& point_m : scan.points_m) cloud.push_back(pointOf(point_m));
+        constexpr bool lazily = true;
+        tree_->insertPointCloud(cloud, pointOf(scan.origin_m), options_.max_range_m, lazily,
+                                options_.insertion == RayInsertion::OctoMapDiscrete);
+        return;
+    }
     RayTraversal& walk = *walk_;
     walk.start(*tree_, scan.origin_m, options_.max_range_m);
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {

@@ -187,6 +187,73 @@ TEST(ScanMap, RefusesAnEdgeOrARangeOfNothing) {
     }
 }
 
+TEST(ScanMap, RefusesProbabilitiesThatContradict) {
+    const auto make = [](double least, double miss, double hit, double greatest) {
+        mapping::ScanMapOptions options;
+        options.least_probability = least;
+        options.miss_probability = miss;
+        options.hit_probability = hit;
+        options.greatest_probability = greatest;
+        mapping::ScanMap map(options);
+    };
+    EXPECT_NO_THROW(make(0.1, 0.4, 0.7, 0.9));
+    EXPECT_THROW(make(0, 0.4, 0.7, 0.9), std::invalid_argument);
+    EXPECT_THROW(make(0.45, 0.4, 0.7, 0.9), std::invalid_argument);
+    EXPECT_THROW(make(0.1, 0.6, 0.7, 0.9), std::invalid_argument);
+    EXPECT_THROW(make(0.1, 0.4, 0.4, 0.9), std::invalid_argument);
+    EXPECT_THROW(make(0.1, 0.4, 0.7, 1), std::invalid_argument);
+    EXPECT_THROW(make(0.1, 0.4, std::nan(""), 0.9), std::invalid_argument);
+    mapping::ScanMapOptions options;
+    options.insertion = mapping::RayInsertion::OctoMap;
+    EXPECT_THROW(mapping::ScanMap{options}, std::invalid_argument);  // the default is RoiAndRays
+}
+
+TEST(ScanMap, ProbabilitiesAreThoseAskedFor) {
+    mapping::ScanMapOptions options;
+    options.content = mapping::MapContent::Full;
+    options.hit_probability = 0.9;
+    options.miss_probability = 0.3;
+    options.least_probability = 0.25;
+    options.greatest_probability = 0.95;
+    mapping::ScanMap map(options);
+    const auto at = [&](float x) { return map.tree().search(x, 0.1f, 0.1f)->getOccupancy(); };
+    map.insert(scanOf({{2.1f, 0.1f, 0.1f}}));
+    EXPECT_NEAR(at(2.1f), 0.9, 1e-6);
+    EXPECT_NEAR(at(1.1f), 0.3, 1e-6);
+    map.insert(scanOf({{2.1f, 0.1f, 0.1f}}));
+    EXPECT_NEAR(at(2.1f), 0.95, 1e-6);
+    EXPECT_NEAR(at(1.1f), 0.25, 1e-6);
+}
+
+/// OctoMap's insertion is a second implementation of the same.
+TEST(ScanMap, OctoMapsOwnInsertionGivesTheSame) {
+    simulation::Random random(12);
+    const mapping::MappedScan scan = randomScan(random, 400);
+    mapping::ScanMapOptions options;
+    options.content = mapping::MapContent::Full;
+    mapping::ScanMap own(options);
+    options.insertion = mapping::RayInsertion::OctoMap;
+    mapping::ScanMap rays(options);
+    options.insertion = mapping::RayInsertion::OctoMapDiscrete;
+    mapping::ScanMap discrete(options);
+    for (mapping::ScanMap* map : {&own, &rays, &discrete}) map->insert(scan);
+    int free = 0, occupied = 0;
+    for (double x = -3.1; x < 3.2; x += 0.2) {
+        for (double y = -3.1; y < 3.2; y += 0.2) {
+            for (double z = -2.1; z < 2.2; z += 0.2) {
+                const State state = stateAt(own, {x, y, z});
+                EXPECT_EQ(state, stateAt(discrete, {x, y, z}));
+                const bool is_occupied = state == State::Occupied;  // rays go to points
+                EXPECT_EQ(is_occupied, stateAt(rays, {x, y, z}) == State::Occupied);
+                free += state == State::Free;
+                occupied += is_occupied;
+            }
+        }
+    }
+    EXPECT_GT(free, 3000);
+    EXPECT_GT(occupied, 300);
+}
+
 TEST(ScanMap, AScanBeyondItsReachIsRefusedNotWrapped) {
     for (const float far_m : {6600.0f, 500000.0f, -6600.0f}) {
         mapping::ScanMap map({mapping::MapContent::Full, 0.2, 20});

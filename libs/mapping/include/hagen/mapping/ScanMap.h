@@ -13,16 +13,29 @@ enum class MapContent {
     RoiAndRays  ///< RoI returns are hits, the rays of all returns clear (O-RoI+rays)
 };
 
+/// How rays are inserted. All mark a voxel once per scan and never clear one with a hit.
+enum class RayInsertion {
+    OneRayPerVoxel,   ///< own traversal with bit sets; rays that end in the same voxel are one
+    OctoMap,          ///< OctoMap's insertPointCloud() of every ray
+    OctoMapDiscrete,  ///< the same with its discretization: one ray per voxel
+};
+
 struct ScanMapOptions {
     MapContent content = MapContent::RoiAndRays;
     double resolution_m = 0.2;  ///< edge of a voxel; > 0
     double max_range_m = 20;    ///< farther returns clear up to here and are not hits
+    // OctoMap's own values.
+    double hit_probability = 0.7, miss_probability = 0.4;
+    double least_probability = 0.1192, greatest_probability = 0.971;  ///< clamped to these
+    RayInsertion insertion =
+        RayInsertion::OneRayPerVoxel;  ///< the others only for MapContent::Full
 };
 
 /// An OctoMap built from segmented scans.
 class ScanMap {
  public:
-    /// Throws std::invalid_argument unless resolution and range are positive.
+    /// Throws std::invalid_argument unless resolution and range are positive, and the probabilities
+    /// are in the order 0 < least < miss < 0.5 < hit < greatest < 1.
     explicit ScanMap(const ScanMapOptions& options);
 
     ~ScanMap();
