@@ -10,7 +10,6 @@ using Eigen::Vector2d;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr double kWireRadius_m = 0.012;
 constexpr float kFoot_m = -0.4f;  // objects extend into the ground so that none floats on a slope
 
 Eigen::Vector4f knot(double x, double y, double z, double radius) {
@@ -139,7 +138,7 @@ void addWall(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& to_m
 }
 
 void addWireLine(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& to_m, double span_m,
-                 const std::vector<double>& heights_m, double sideways_m) {
+                 const std::vector<double>& heights_m, double sideways_m, double radius_m) {
     constexpr double kSag = 0.02;
     constexpr int kPieces = 12;
     const Vector2d along = to_m - from_m;
@@ -166,7 +165,7 @@ void addWireLine(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& 
                 const double hung_m = heights_m[wire] + (1 - share) * ground_m(p) +
                                       share * ground_m(q) -
                                       4 * kSag * (q - p).norm() * share * (1 - share);
-                knots.push_back(knot(at.x(), at.y(), hung_m, kWireRadius_m));
+                knots.push_back(knot(at.x(), at.y(), hung_m, radius_m));
             }
             shape.addRod(knots);
         }
