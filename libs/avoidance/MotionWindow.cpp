@@ -13,8 +13,9 @@ constexpr float kDoubtOfSpeed = 0.1f, kDoubtOfSigma = 0.5f;
 }  // namespace
 
 void MotionWindow::update(const mapping::MappedScan& scan) {
-    tracks_.update(scan);
-    window_.update(scan, tracks_.trackOfObstacle());
+    const auto view = std::make_shared<const View>(viewOf(scan));
+    tracks_.update(scan, view);
+    window_.update(scan, view, tracks_.trackOfObstacle());
     movers_.clear();
     fastest_m_s_ = 0;
     std::vector<std::uint32_t> moving;

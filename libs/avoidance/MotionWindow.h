@@ -10,7 +10,7 @@ namespace hagen::avoidance {
 /// What does not move, or not certainly, is as in the window.
 class MotionWindow : public WorldModel {
  public:
-    explicit MotionWindow(WindowSize size) : window_(true, size) {}
+    explicit MotionWindow(WindowSize size) : window_(true, size), tracks_(size.radius_m) {}
 
     void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;

@@ -27,8 +27,8 @@ class Nearest {
  public:
     explicit Nearest(float limit_m) : least_m2_(limit_m * limit_m) {}
 
-    /// Of the next tree, only the first `points` points count, and none that is hidden (1; null:
-    /// none is).
+    /// Of the next tree, only the first `points` points count, and none that is hidden (not 0;
+    /// null: none is).
     void consider(std::size_t points, const std::uint8_t* is_hidden = nullptr) {
         counting_ = points;
         is_hidden_ = is_hidden;
@@ -48,6 +48,31 @@ class Nearest {
     float least_m2_;
     const std::uint8_t* is_hidden_ = nullptr;
     std::size_t counting_ = std::numeric_limits<std::size_t>::max();
+};
+
+/// A result set for nanoflann: whether a tree has any point within a radius, of its first `points`
+/// points and apart from one. The search ends at the first.
+class AnyWithin {
+ public:
+    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+    AnyWithin(float radius_m, std::size_t points, std::uint32_t but = kNone)
+        : radius_m2_(radius_m * radius_m), points_(points), but_(but) {}
+
+    bool addPoint(float, std::uint32_t point) {
+        found_ |= point < points_ && point != but_;
+        return !found_;
+    }
+    bool found() const { return found_; }
+    float worstDist() const { return radius_m2_; }
+    static std::size_t size() { return 1; }
+    static bool full() { return true; }
+
+ private:
+    float radius_m2_;
+    std::size_t points_;
+    std::uint32_t but_;
+    bool found_ = false;
 };
 
 }  // namespace hagen::avoidance

@@ -5,13 +5,14 @@
 
 #include <Eigen/Geometry>
 
+#include <hagen/avoidance/SeenDirections.h>
 #include "Thinning.h"
 
 namespace hagen::avoidance {
 namespace {
 
 // What is followed.
-constexpr float kWidest_m = 6, kFarthest_m = 25;
+constexpr float kWidest_m = 6;
 constexpr std::size_t kFewestPoints = 3;
 constexpr float kThinning_m = 0.1f;
 
@@ -23,7 +24,7 @@ constexpr double kFirstSpeedSigma_m_s = 2;
 
 // Matching.
 constexpr double kGate_m = 0.6, kGateOfWidth = 0.25;
-constexpr float kWidthChange_m = 1.0f, kWidthRatio = 2;
+constexpr float kWidthChange_m = 1.4f, kWidthRatio = 1.4f;
 constexpr int kMostMissed = 5;
 
 // What counts as moving.
@@ -32,6 +33,9 @@ constexpr double kLeastSpeed_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
 constexpr std::size_t kCompared = 50;  // points of each sight
 constexpr float kFarFit_m = 0.5f;      // distances count as this at most
 constexpr double kBetterFit = 0.8;
+constexpr float kLeastHeight_m = 0.15f;
+constexpr double kCrossedShare = 0.1;
+constexpr int kFewestCrossed = 2;
 
 /// An obstacle in one scan.
 struct Seen {
@@ -54,7 +58,7 @@ Eigen::Vector2d middleOf(const std::vector<Eigen::Vector3f>& points_m) {
 }
 
 /// The obstacles of a scan that can be followed, by their numbers.
-std::vector<Seen> seenIn(const mapping::MappedScan& scan) {
+std::vector<Seen> seenIn(const mapping::MappedScan& scan, float farthest_m) {
     struct Points {
         std::vector<Eigen::Vector3f> at_m;
         double age_s = 0;
@@ -67,7 +71,7 @@ std::vector<Seen> seenIn(const mapping::MappedScan& scan) {
         if (by_obstacle.size() <= obstacle) by_obstacle.resize(obstacle + 1);
         by_obstacle[obstacle].at_m.push_back(scan.points_m[i]);
         by_obstacle[obstacle].is_far |=
-            (scan.points_m[i] - scan.origin_m).squaredNorm() > kFarthest_m * kFarthest_m;
+            (scan.points_m[i] - scan.origin_m).squaredNorm() > farthest_m * farthest_m;
         if (!scan.age_s.empty()) {
             by_obstacle[obstacle].age_s += static_cast<double>(scan.age_s[i]);
         }
@@ -137,9 +141,9 @@ struct Match {
     }
 };
 
+/// The visible part of a car is half as long from the front as from the side.
 bool isOfSimilarWidth(float a_m, float b_m) {
-    return std::abs(a_m - b_m) < kWidthChange_m &&
-           std::max(a_m, b_m) < kWidthRatio * std::min(a_m, b_m) + kWidthChange_m;
+    return std::max(a_m, b_m) < kWidthRatio * std::min(a_m, b_m) + kWidthChange_m;
 }
 
 std::vector<Match> possibleMatches(const std::vector<ObstacleTrack>& tracks,
@@ -199,10 +203,44 @@ bool fitsBetterMoved(const ObstacleTrack& track) {
     return moved_m < kBetterFit * still_m;
 }
 
-bool isMoving(const ObstacleTrack& track) {
+float heightOf(const std::vector<Eigen::Vector3f>& points_m) {
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& point : points_m) box.extend(point);
+    return box.sizes().z();
+}
+
+/// Whether a scan saw free space where a tenth of these points are.
+bool sawFreeSpaceAt(const View& view, const std::vector<Eigen::Vector3f>& points_m) {
+    int known = 0, free = 0;
+    for (const Eigen::Vector3f& point_m : points_m) {
+        const SeenDirections::Place place = view.seen.placeAt(point_m - view.origin_m);
+        known += place != SeenDirections::Place::Unknown;
+        free += place == SeenDirections::Place::Free;
+    }
+    return free >= kFewestCrossed && free >= kCrossedShare * known;
+}
+
+using Views = std::deque<std::shared_ptr<const View>>;
+
+const View& viewAt(double time_s, const Views& views) {
+    return **std::min_element(views.begin(), views.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a->time_s - time_s) < std::abs(b->time_s - time_s);
+    });
+}
+
+bool crossesFreeSpace(const ObstacleTrack& track, const Views& views) {
+    const ObstacleTrack::Sight &now = track.sights.front(), &before = track.sights.back();
+    const bool was_free = sawFreeSpaceAt(viewAt(before.time_s, views), sampleOf(now.points_m));
+    const bool is_free = sawFreeSpaceAt(*views.front(), sampleOf(before.points_m));
+    const bool is_flat =
+        std::min(heightOf(now.points_m), heightOf(before.points_m)) < kLeastHeight_m;
+    return is_flat ? was_free && is_free : was_free || is_free;
+}
+
+bool isFastEnough(const ObstacleTrack& track) {
     const double speed_m_s = track.velocity_m_s.norm();
     return track.seen_scans >= kLeastSeen && speed_m_s > kLeastSpeed_m_s &&
-           speed_m_s > kSigmas * track.velocitySigma_m_s() && fitsBetterMoved(track);
+           speed_m_s > kSigmas * track.velocitySigma_m_s();
 }
 
 }  // namespace
@@ -210,7 +248,13 @@ bool isMoving(const ObstacleTrack& track) {
 double ObstacleTrack::velocitySigma_m_s() const { return std::sqrt(covariance(1, 1)); }
 
 void ObstacleTracks::update(const mapping::MappedScan& scan) {
-    std::vector<Seen> all = seenIn(scan);
+    update(scan, std::make_shared<const View>(viewOf(scan)));
+}
+
+void ObstacleTracks::update(const mapping::MappedScan& scan, std::shared_ptr<const View> view) {
+    views_.push_front(std::move(view));
+    while (views_.front()->time_s - views_.back()->time_s > kRemembered_s) views_.pop_back();
+    std::vector<Seen> all = seenIn(scan, farthest_m_);
     std::int32_t most = 0;
     for (const Seen& seen : all) most = std::max(most, seen.obstacle);
     track_of_obstacle_.assign(static_cast<std::size_t>(most) + 1, 0);
@@ -228,7 +272,9 @@ void ObstacleTracks::update(const mapping::MappedScan& scan) {
         track_of_obstacle_[static_cast<std::size_t>(seen.obstacle)] = track.number;
         track.sights.push_front(std::move(seen.sight));
         while (track.time_s - track.sights.back().time_s > kRemembered_s) track.sights.pop_back();
-        track.is_moving = isMoving(track);
+        track.is_moving = isFastEnough(track) && fitsBetterMoved(track);
+        if (!track.is_moving || track.crossed_free_space) continue;
+        track.crossed_free_space = track.is_moving = crossesFreeSpace(track, views_);
     }
     for (std::size_t t = 0; t < is_track_taken.size(); ++t) {
         tracks_[t].missed_scans += !is_track_taken[t];

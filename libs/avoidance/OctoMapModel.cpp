@@ -8,9 +8,9 @@ octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()
 
 }  // namespace
 
-OctoMapModel::OctoMapModel(mapping::MapContent content, double resolution_m,
+OctoMapModel::OctoMapModel(const mapping::ScanMapOptions& options,
                            const Eigen::AlignedBox3f& bounds_m)
-    : map_({content, resolution_m}), obstacles_(static_cast<float>(resolution_m)) {
+    : map_(options), obstacles_(static_cast<float>(options.resolution_m)) {
     const Eigen::Vector3f margin = Eigen::Vector3f::Constant(kMapMargin_m);
     octomap::point3d least = pointOf(bounds_m.min() - margin);
     octomap::point3d most = pointOf(bounds_m.max() + margin);

@@ -13,8 +13,7 @@ namespace hagen::avoidance {
 /// detection.
 class OctoMapModel : public WorldModel {
  public:
-    OctoMapModel(mapping::MapContent content, double resolution_m,
-                 const Eigen::AlignedBox3f& bounds_m);
+    OctoMapModel(const mapping::ScanMapOptions& options, const Eigen::AlignedBox3f& bounds_m);
 
     void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;

@@ -22,8 +22,8 @@ std::uint32_t placeOnCurve(const Eigen::Array3f& at_cubes) {
 
 }  // namespace
 
-std::vector<std::uint32_t> thinnedIndices(const std::vector<Eigen::Vector3f>& points_m,
-                                          const Eigen::Vector3f& origin_m, float edge_m) {
+std::vector<ThinnedPoint> thinnedPoints(const std::vector<Eigen::Vector3f>& points_m,
+                                        const Eigen::Vector3f& origin_m, float edge_m) {
     std::vector<std::uint64_t> cubes_and_points;  // sort like pairs, but faster
     cubes_and_points.reserve(points_m.size());
     for (std::size_t i = 0; i < points_m.size(); ++i) {
@@ -35,15 +35,16 @@ std::vector<std::uint32_t> thinnedIndices(const std::vector<Eigen::Vector3f>& po
     const auto distance_m2 = [&](std::uint32_t i) {
         return (points_m[i] - origin_m).squaredNorm();
     };
-    std::vector<std::uint32_t> kept;
+    std::vector<ThinnedPoint> kept;
     kept.reserve(points_m.size());
     std::uint64_t last = ~std::uint64_t{0};
     for (const std::uint64_t cube_and_point : cubes_and_points) {
         const auto point = static_cast<std::uint32_t>(cube_and_point & 0xffffffff);
         if (cube_and_point >> 32 != last) {
-            kept.push_back(point);
-        } else if (distance_m2(point) < distance_m2(kept.back())) {
-            kept.back() = point;
+            kept.push_back({point, 1});
+        } else {
+            ++kept.back().of_points;
+            if (distance_m2(point) < distance_m2(kept.back().index)) kept.back().index = point;
         }
         last = cube_and_point >> 32;
     }
@@ -53,8 +54,8 @@ std::vector<std::uint32_t> thinnedIndices(const std::vector<Eigen::Vector3f>& po
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_m,
                                      const Eigen::Vector3f& origin_m, float edge_m) {
     std::vector<Eigen::Vector3f> kept_m;
-    for (const std::uint32_t i : thinnedIndices(points_m, origin_m, edge_m)) {
-        kept_m.push_back(points_m[i]);
+    for (const ThinnedPoint& point : thinnedPoints(points_m, origin_m, edge_m)) {
+        kept_m.push_back(points_m[point.index]);
     }
     return kept_m;
 }

@@ -5,13 +5,19 @@
 
 namespace hagen::avoidance {
 
-/// Keeps one point per cube of edge `edge_m`: the one nearest to the origin. The grid of cubes
-/// starts at the origin. Returns the points' indices in Morton order, which makes k-d trees faster
-/// to build and search. Points must be finite and within 500 cubes of the origin.
-std::vector<std::uint32_t> thinnedIndices(const std::vector<Eigen::Vector3f>& points_m,
-                                          const Eigen::Vector3f& origin_m, float edge_m);
+/// A point that stands for all those of a cube.
+struct ThinnedPoint {
+    std::uint32_t index;      ///< among all points
+    std::uint32_t of_points;  ///< in the cube; 1: it is alone
+};
 
-/// The same, as points.
+/// Keeps one point per cube of edge `edge_m`: the one nearest to the origin. The grid of cubes
+/// starts at the origin. Returns them in Morton order, which makes k-d trees faster to build and
+/// search. Points must be finite and within 500 cubes of the origin.
+std::vector<ThinnedPoint> thinnedPoints(const std::vector<Eigen::Vector3f>& points_m,
+                                        const Eigen::Vector3f& origin_m, float edge_m);
+
+/// The same, as places.
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_m,
                                      const Eigen::Vector3f& origin_m, float edge_m);
 

@@ -5,7 +5,6 @@
 #include <nanoflann.hpp>
 
 #include "Nearest.h"
-#include "SeenDirections.h"
 #include "Thinning.h"
 
 namespace hagen::avoidance {
@@ -17,20 +16,23 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
 constexpr std::size_t kLeafSize = 32;
 constexpr std::size_t kScansPerTree = 3;
 
-/// The origin of a scan, its farthest returns by direction, and its number of points.
-struct View {
-    Eigen::Vector3f origin_m;
-    SeenDirections seen;
-    std::size_t points = 0;
+// Isolated points.
+constexpr float kNeighbourhood = 0.05f;  // share of the range: 1.5 rows of a VLP-16
+constexpr float kLeastNeighbourhood_m = 0.15f;
+
+struct PastView {
+    std::shared_ptr<const View> view;
+    std::size_t points;  ///< of the scan
 };
 
 }  // namespace
 
 struct WindowModel::PastScans {
-    std::vector<View> views;              ///< newest first
-    TreePoints points;                    ///< in the order of the views; includes dropped scans
-    std::vector<std::uint32_t> track;     ///< per point; 0: none
-    std::vector<std::uint8_t> is_hidden;  ///< per point; empty: none is
+    std::vector<PastView> views;            ///< newest first
+    TreePoints points;                      ///< in the order of the views; includes dropped scans
+    std::vector<std::uint32_t> track;       ///< per point; 0: none
+    std::vector<std::uint8_t> is_isolated;  ///< per point
+    std::vector<std::uint8_t> is_hidden;    ///< per point: it does not count
     std::size_t in_window = 0;
     std::unique_ptr<Tree> tree;
 
@@ -38,22 +40,29 @@ struct WindowModel::PastScans {
         views.insert(views.end(), older.views.begin(), older.views.end());
         points.at_m.insert(points.at_m.end(), older.points.at_m.begin(), older.points.at_m.end());
         track.insert(track.end(), older.track.begin(), older.track.end());
+        is_isolated.insert(is_isolated.end(), older.is_isolated.begin(), older.is_isolated.end());
     }
     void build() {
         points.at_m.shrink_to_fit();
         in_window = points.at_m.size();
         tree = std::make_unique<Tree>(3, points, kLeafSize);
     }
+    bool hasAny(const Eigen::Vector3f& near_m, AnyWithin any) const {
+        tree->findNeighbors(any, near_m.data(), {});
+        return any.found();
+    }
 };
 
 WindowModel::WindowModel(bool roi_only, WindowSize size) : roi_only_(roi_only), size_(size) {}
 WindowModel::~WindowModel() = default;
 
-void WindowModel::update(const mapping::MappedScan& scan,
+void WindowModel::update(const mapping::MappedScan& scan) {
+    update(scan, std::make_shared<const View>(viewOf(scan)), {});
+}
+
+void WindowModel::update(const mapping::MappedScan& scan, std::shared_ptr<const View> view,
                          const std::vector<std::uint32_t>& track_of_obstacle) {
     auto past = std::make_unique<PastScans>();
-    View view;
-    view.origin_m = scan.origin_m;
     std::vector<Eigen::Vector3f> points_m;
     std::vector<std::uint32_t> tracks;
     const auto trackOf = [&](std::size_t i) {
@@ -63,19 +72,18 @@ void WindowModel::update(const mapping::MappedScan& scan,
     };
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         const Eigen::Vector3f ray = scan.points_m[i] - scan.origin_m;
-        view.seen.see(ray);
         const bool counts = !roi_only_ || scan.labels[i] == Label::Roi;
         if (counts && ray.squaredNorm() <= size_.radius_m * size_.radius_m) {
             points_m.push_back(scan.points_m[i]);
             tracks.push_back(trackOf(i));
         }
     }
-    for (const std::uint32_t i : thinnedIndices(points_m, scan.origin_m, kThinning_m)) {
-        past->points.at_m.push_back(points_m[i]);
-        past->track.push_back(tracks[i]);
+    for (const ThinnedPoint& kept : thinnedPoints(points_m, scan.origin_m, kThinning_m)) {
+        past->points.at_m.push_back(points_m[kept.index]);
+        past->track.push_back(tracks[kept.index]);
+        past->is_isolated.push_back(kept.of_points == 1);
     }
-    view.points = past->points.at_m.size();
-    past->views.push_back(std::move(view));
+    past->views.push_back({std::move(view), past->points.at_m.size()});
     if (!past_.empty() && past_.front()->views.size() < kScansPerTree) {
         past->add(*past_.front());
         past_.pop_front();
@@ -83,13 +91,42 @@ void WindowModel::update(const mapping::MappedScan& scan,
     past->build();
     past_.push_front(std::move(past));
     if (++scans_ > size_.scans) forgetOldest();
+    confirmIsolated();
+    hide({});
+}
+
+/// Isolated points of the newest scan are confirmed by any other point near them; older ones, which
+/// nothing has confirmed yet, by the newest scan.
+void WindowModel::confirmIsolated() {
+    const PastScans& newest = *past_.front();
+    const PastView& last = newest.views.front();
+    const auto hasNeighbour = [&](const PastScans& past, std::size_t i, bool is_of_newest) {
+        const Eigen::Vector3f point_m = past.points.at_m[i];
+        const float radius_m = std::max(kLeastNeighbourhood_m,
+                                        kNeighbourhood * (point_m - last.view->origin_m).norm());
+        if (!is_of_newest) return newest.hasAny(point_m, {radius_m, last.points});
+        return std::any_of(past_.begin(), past_.end(), [&](const auto& other) {
+            const bool is_own = other.get() == &past;
+            return other->hasAny(point_m,
+                                 {radius_m, other->in_window,
+                                  is_own ? static_cast<std::uint32_t>(i) : AnyWithin::kNone});
+        });
+    };
+    for (const auto& past : past_) {
+        for (std::size_t i = 0; i < past->in_window; ++i) {
+            if (!past->is_isolated[i]) continue;
+            const bool is_of_newest = past == past_.front() && i < last.points;
+            past->is_isolated[i] = !hasNeighbour(*past, i, is_of_newest);
+        }
+    }
 }
 
 void WindowModel::hide(const std::vector<std::uint32_t>& tracks) {
     for (const auto& past : past_) {
-        past->is_hidden.assign(tracks.empty() ? 0 : past->track.size(), 0);
+        past->is_hidden = past->is_isolated;
+        if (tracks.empty()) continue;
         for (std::size_t i = 0; i < past->is_hidden.size(); ++i) {
-            past->is_hidden[i] =
+            past->is_hidden[i] |=
                 std::find(tracks.begin(), tracks.end(), past->track[i]) != tracks.end();
         }
     }
@@ -111,8 +148,7 @@ float WindowModel::clearance_m(const Eigen::Vector3f& point_m) const {
 float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     Nearest nearest(std::min(limit_m, kReach_m));
     for (const auto& past : past_) {
-        nearest.consider(past->in_window,
-                         past->is_hidden.empty() ? nullptr : past->is_hidden.data());
+        nearest.consider(past->in_window, past->is_hidden.data());
         past->tree->findNeighbors(nearest, point_m.data(), {});
     }
     return std::sqrt(nearest.worstDist());
@@ -120,9 +156,9 @@ float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit
 
 bool WindowModel::isKnown(const Eigen::Vector3f& point_m) const {
     for (const auto& past : past_) {
-        for (const View& view : past->views) {
-            const Eigen::Vector3f ray = point_m - view.origin_m;
-            if (ray.squaredNorm() <= size_.radius_m * size_.radius_m && view.seen.isSeen(ray)) {
+        for (const PastView& at : past->views) {
+            const Eigen::Vector3f ray = point_m - at.view->origin_m;
+            if (ray.squaredNorm() <= size_.radius_m * size_.radius_m && at.view->seen.isSeen(ray)) {
                 return true;
             }
         }
@@ -135,9 +171,11 @@ std::size_t WindowModel::bytes() const {
     for (const auto& past : past_) {
         bytes += sizeof(PastScans) + sizeof(Tree) +
                  past->points.at_m.capacity() * sizeof(Eigen::Vector3f) +
-                 past->track.capacity() * sizeof(std::uint32_t) + past->is_hidden.capacity() +
-                 past->tree->usedMemory(*past->tree);
-        for (const View& view : past->views) bytes += sizeof(View) + view.seen.bytes();
+                 past->track.capacity() * sizeof(std::uint32_t) + past->is_isolated.capacity() +
+                 past->is_hidden.capacity() + past->tree->usedMemory(*past->tree);
+        for (const PastView& at : past->views) {
+            bytes += sizeof(at) + sizeof(View) + at.view->seen.bytes();
+        }
     }
     return bytes;
 }
@@ -146,7 +184,7 @@ WorldModel::Obstacles WindowModel::obstacles() const {
     Obstacles obstacles;
     for (const auto& past : past_) {
         for (std::size_t i = 0; i < past->in_window; ++i) {
-            if (!past->is_hidden.empty() && past->is_hidden[i]) continue;
+            if (past->is_hidden[i]) continue;
             obstacles.centre_m.push_back(past->points.at_m[i]);
         }
     }

@@ -6,11 +6,18 @@
 #include <memory>
 #include <vector>
 
+#include <hagen/avoidance/SeenDirections.h>
+
 namespace hagen::avoidance {
 
 /// No map: the points of the last scans, each thinned to one point per 10 cm cube. Three scans
 /// share a k-d tree, so that a new scan costs a small tree and a query visits few trees. Without
 /// thinning, a nearby wall would fill a scan with points much denser than the measurement noise.
+///
+/// A return that is isolated may be dust or rain, or the first of something thin. It counts as soon
+/// as another return is near it, within 5 % of its range (at least 15 cm): in its own scan, in an
+/// earlier one of the window or in a later one. (As dynamic radius outlier removal does within a
+/// scan: Charron et al., "De-noising of Lidar Point Clouds Corrupted by Snowfall", CRV 2018.)
 class WindowModel : public WorldModel {
  public:
     static constexpr float kThinning_m = 0.1f;
@@ -18,10 +25,10 @@ class WindowModel : public WorldModel {
     WindowModel(bool roi_only, WindowSize size);
     ~WindowModel() override;
 
-    void update(const mapping::MappedScan& scan) override { update(scan, {}); }
-    /// The same, and notes which track the points of each obstacle belong to, by its number; 0:
-    /// none.
-    void update(const mapping::MappedScan& scan,
+    void update(const mapping::MappedScan& scan) override;
+    /// The same with the scan's view, and notes which track the points of each obstacle belong to,
+    /// by its number; 0: none.
+    void update(const mapping::MappedScan& scan, std::shared_ptr<const View> view,
                 const std::vector<std::uint32_t>& track_of_obstacle);
     /// Points of these tracks no longer count, until the next call.
     void hide(const std::vector<std::uint32_t>& tracks);
@@ -33,6 +40,7 @@ class WindowModel : public WorldModel {
 
  private:
     struct PastScans;
+    void confirmIsolated();
     void forgetOldest();
 
     bool roi_only_;

@@ -1,12 +1,16 @@
+#include <hagen/avoidance/DistanceBias.h>
+#include <hagen/avoidance/UnbiasedModel.h>
 #include <hagen/avoidance/WorldModel.h>
 
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
 
+#include "DepthImageModel.h"
 #include "GridModel.h"
 #include "MotionWindow.h"
 #include "OctoMapModel.h"
+#include "RollingGridModel.h"
 #include "WindowModel.h"
 
 namespace hagen::avoidance {
@@ -68,11 +72,23 @@ std::unique_ptr<WorldModel> makeMotionWindow(const WorldModelSetting& setting) {
 
 template <mapping::MapContent kContent, int kResolution_cm>
 std::unique_ptr<WorldModel> makeOctoMap(const WorldModelSetting& setting) {
-    return std::make_unique<OctoMapModel>(kContent, kResolution_cm / 100.0, setting.bounds_m);
+    mapping::ScanMapOptions options;
+    options.content = kContent;
+    options.resolution_m = kResolution_cm / 100.0;
+    return std::make_unique<OctoMapModel>(options, setting.bounds_m);
 }
 
 std::unique_ptr<WorldModel> makeGrid(const WorldModelSetting& setting) {
     return std::make_unique<GridModel>(0.2f, setting.bounds_m);
+}
+
+template <int kEdge_cm>
+std::unique_ptr<WorldModel> makeRollingGrid(const WorldModelSetting& setting) {
+    return std::make_unique<RollingGridModel>(kEdge_cm / 100.0f, setting.pace);
+}
+
+std::unique_ptr<WorldModel> makeDepthImageMap(const WorldModelSetting& setting) {
+    return std::make_unique<DepthImageModel>(0.2f, setting.pace);
 }
 
 template <class Oracle>
@@ -98,6 +114,9 @@ const std::vector<Entry>& entries() {
         {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", Entry::Labels,
          makeOctoMap<mapping::MapContent::RoiAndRays, 40>},
         {"G-Full", "occupancy grid 0.2 m", Entry::AllPoints, makeGrid},
+        {"R-Full-0.1", "rolling grid 0.1 m", Entry::AllPoints, makeRollingGrid<10>},
+        {"R-Full-0.2", "rolling grid 0.2 m", Entry::AllPoints, makeRollingGrid<20>},
+        {"D-Full", "depth-image map 0.2 m", Entry::AllPoints, makeDepthImageMap},
         {"oracle", "true scene", Entry::Truth, makeOracle<OracleModel>},
         {"oracle+motion", "true scene with motion", Entry::Truth, makeOracle<OracleOfMotion>, true},
     };
@@ -166,9 +185,18 @@ bool predictsMotion(const std::string& model) {
     return entry != nullptr && entry->predicts_motion;
 }
 
+std::unique_ptr<WorldModel> makeOctoMap(const mapping::ScanMapOptions& options,
+                                        const Eigen::AlignedBox3f& bounds_m) {
+    return std::make_unique<OctoMapModel>(options, bounds_m);
+}
+
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting) {
-    return entryOf(name).make(setting);
+    std::unique_ptr<WorldModel> model = entryOf(name).make(setting);
+    if (setting.distance == ModelDistance::AsStored) return model;
+    const float bias_m = needsTruth(name) ? 0 : distanceBias_m(name);
+    if (bias_m == 0) return model;
+    return std::make_unique<UnbiasedModel>(std::move(model), bias_m);
 }
 
 }  // namespace hagen::avoidance

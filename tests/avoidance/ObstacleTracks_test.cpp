@@ -43,6 +43,21 @@ mapping::MappedScan scanAt(int number) {
     return scan;
 }
 
+/// A wall all around, behind everything.
+void addBackground(mapping::MappedScan& scan) {
+    constexpr double kStep_rad = 0.02, kRadius_m = 12;
+    for (double azimuth_rad = 0; azimuth_rad < 2 * M_PI; azimuth_rad += kStep_rad) {
+        for (double height_m = -0.4; height_m < 3; height_m += 0.35) {
+            const Eigen::Vector3d at_m(kRadius_m * std::cos(azimuth_rad),
+                                       kRadius_m * std::sin(azimuth_rad), height_m);
+            scan.points_m.push_back(at_m.cast<float>());
+            scan.labels.push_back(Label::Rou);
+            scan.obstacles.push_back(0);
+            scan.age_s.push_back(0.05f);
+        }
+    }
+}
+
 /// Where a pillar with a constant velocity is.
 Pillar moved(const Pillar& pillar, const Eigen::Vector2d& velocity_m_s, double time_s) {
     return {pillar.at_m + time_s * velocity_m_s, pillar.radius_m};
@@ -62,6 +77,7 @@ std::vector<mapping::MappedScan> walkerAndPost(int scans, double age_s = 0.04) {
         addReturns(moved(kWalker, kWalk_m_s, scan.time_s - age_s), is_swapped ? 2 : 1, age_s,
                    random, scan);
         addReturns({{4, 4}}, is_swapped ? 1 : 2, 0.07, random, scan);
+        addBackground(scan);
         all.push_back(std::move(scan));
     }
     return all;
@@ -93,6 +109,60 @@ TEST(ObstacleTracks, TellVelocityAndWhatStands) {
     const ObstacleTrack& post = trackNear(tracks, {4, 4});
     EXPECT_FALSE(post.is_moving);
     EXPECT_LT(post.velocity_m_s.norm(), 0.2);
+}
+
+/// Scans of a pillar that moves, of which only the part within a height is seen.
+std::vector<mapping::MappedScan> slicesOfWalker(double most_height_m) {
+    simulation::Random random(5);
+    std::vector<mapping::MappedScan> all;
+    for (int number = 0; number < 14; ++number) {
+        mapping::MappedScan whole = scanAt(number), scan = whole;
+        addReturns(moved(kWalker, kWalk_m_s, whole.time_s), 1, 0, random, whole);
+        for (std::size_t i = 0; i < whole.points_m.size(); ++i) {
+            const auto above_m = static_cast<double>(whole.points_m[i].z()) - 0.7;
+            if (std::abs(above_m) > most_height_m / 2) continue;
+            scan.points_m.push_back(whole.points_m[i]);
+            scan.labels.push_back(Label::Roi);
+            scan.obstacles.push_back(1);
+            scan.age_s.push_back(0);
+        }
+        all.push_back(std::move(scan));
+    }
+    return all;
+}
+
+int movingScans(std::vector<mapping::MappedScan> scans, int first_with_background,
+                int last_with_background) {
+    ObstacleTracks tracks;
+    int moving = 0;
+    for (int number = 0; number < static_cast<int>(scans.size()); ++number) {
+        mapping::MappedScan& scan = scans[static_cast<std::size_t>(number)];
+        if (number >= first_with_background && number <= last_with_background) {
+            addBackground(scan);
+        }
+        tracks.update(scan);
+        for (const ObstacleTrack& track : tracks.tracks()) moving += track.is_moving;
+    }
+    return moving;
+}
+
+// Where no scan sees farther, it may be another part of what stands there.
+TEST(ObstacleTracks, OnlyWhatCrossesFreeSpaceMoves) {
+    constexpr int kNever = 100;
+    const auto walker = slicesOfWalker(1.5);
+    EXPECT_EQ(movingScans(walker, kNever, kNever), 0);
+    EXPECT_GT(movingScans(walker, 0, kNever), 5);
+    EXPECT_GT(movingScans(walker, 8, kNever), 2) << "farther now, where it was";
+    EXPECT_GT(movingScans(walker, 0, 1), 2) << "farther before, where it is";
+}
+
+// Rays pass a wire on both sides: where its pieces were, and where they are.
+TEST(ObstacleTracks, WhatIsFlatNeedsBothSigns) {
+    const auto slice = slicesOfWalker(0.1);
+    EXPECT_GT(slice[0].points_m.size(), 3u);
+    EXPECT_GT(movingScans(slice, 0, 100), 5);
+    EXPECT_EQ(movingScans(slice, 13, 100), 0) << "farther now, where it was";
+    EXPECT_EQ(movingScans(slice, 0, 1), 0) << "farther before, where it is";
 }
 
 // A wall is seen more and more as the vehicle passes: its middle moves at 3 m/s, its points do not.

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/avoidance/SeenDirections.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/mapping/ScanMap.h>
 #include <hagen/simulation/Random.h>
@@ -35,7 +36,8 @@ avoidance::WorldModelSetting setting() {
             [](const Eigen::Vector3f& p, double after_s) {
                 return std::abs(5 - p.x() - static_cast<float>(after_s));
             },
-            {}};
+            {},
+            avoidance::ModelDistance::AsStored};
 }
 
 std::vector<std::string> modelsThatLearn() {
@@ -47,6 +49,7 @@ std::vector<std::string> modelsThatLearn() {
 /// Edge of a model's voxels; 0 for points.
 float edgeOf(const std::string& name) {
     if (name[0] == 'W') return 0;
+    if (name.find("0.1") != std::string::npos) return 0.1f;
     return name.find("0.4") != std::string::npos ? 0.4f : 0.2f;
 }
 
@@ -84,6 +87,12 @@ std::vector<Eigen::Vector3f> sparsePoints(simulation::Random& random, int count)
     return points;
 }
 
+/// Each point as two returns, so that none is isolated.
+std::vector<Eigen::Vector3f> twice(std::vector<Eigen::Vector3f> points) {
+    points.insert(points.end(), points.begin(), points.end());
+    return points;
+}
+
 float nearestOf(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& at) {
     float least = avoidance::WorldModel::kReach_m;
     for (const auto& point : points) least = std::min(least, (point - at).norm());
@@ -95,7 +104,7 @@ TEST(WorldModel, ClearanceIsThatOfThePoints) {
         simulation::Random random(7);
         const auto points = sparsePoints(random, 60);
         const auto model = avoidance::makeWorldModel(name, setting());
-        model->update(scanOf(points));
+        model->update(scanOf(twice(points)));
         // The cube that a point lies in is nearer than the point by its diagonal at most; which
         // cube is nearest is judged by middles.
         const float diagonal = std::sqrt(3.0f) * edgeOf(name);
@@ -190,7 +199,7 @@ TEST(WorldModel, WhatIsOutsideTheBoundsMayBeAsked) {
 TEST(WorldModel, AnObstacleBesideTheBoundsIsSeen) {
     for (const std::string& name : modelsThatLearn()) {
         const auto model = avoidance::makeWorldModel(name, setting());
-        model->update(scanOf({{0.1f, 6.5f, 1.1f}}));
+        model->update(scanOf(twice({{0.1f, 6.5f, 1.1f}})));
         EXPECT_NEAR(0.7f, model->clearance_m({0.1f, 5.8f, 1.1f}), 0.4f) << name;
     }
 }
@@ -280,7 +289,7 @@ TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {
         std::vector<float> expected, kept;
         for (const auto& [cube, range_m] : nearest_m) expected.push_back(range_m);
         const auto model = avoidance::makeWorldModel("W-Full", setting());
-        model->update(scanOf(points));
+        model->update(scanOf(twice(points)));
         for (const Eigen::Vector3f& point : model->obstacles().centre_m) {
             EXPECT_TRUE(std::find(points.begin(), points.end(), point) != points.end());
             kept.push_back((point - kOrigin).norm());
@@ -304,7 +313,7 @@ TEST(WorldModel, AWindowHoldsTheLastScansAlways) {
     std::vector<std::vector<Eigen::Vector3f>> past;
     for (int number = 0; number < 25; ++number) {
         past.push_back(sparsePoints(random, 5));
-        model->update(scanOf(past.back()));
+        model->update(scanOf(twice(past.back())));
         std::vector<Eigen::Vector3f> kept;
         for (std::size_t i = past.size() > 11 ? past.size() - 11 : 0; i < past.size(); ++i) {
             kept.insert(kept.end(), past[i].begin(), past[i].end());
@@ -317,15 +326,104 @@ TEST(WorldModel, AWindowHoldsTheLastScansAlways) {
     }
 }
 
+TEST(WorldModel, AnIsolatedReturnCountsInAWindowOnceAnotherIsNearIt) {
+    const Eigen::Vector3f speck(4, 0, 1), beside(4, 0.18f, 1), apart(4, 0.22f, 1);
+    const float reach_m = avoidance::WorldModel::kReach_m;  // 5 % of 4 m are 0.2 m
+    const auto model = avoidance::makeWorldModel("W-Full", setting());
+    model->update(scanOf({speck}));
+    EXPECT_EQ(reach_m, model->clearance_m(speck));
+    EXPECT_TRUE(model->obstacles().centre_m.empty());
+    EXPECT_TRUE(model->isKnown({3.9f, 0, 1})) << "a ray came farther";
+    model->update(scanOf({apart}));
+    EXPECT_EQ(reach_m, model->clearance_m(speck));
+    model->update(scanOf({{1, 1, 1}}));
+    model->update(scanOf({beside}));
+    EXPECT_EQ(0, model->clearance_m(speck)) << "confirmed by a later scan";
+    EXPECT_EQ(0, model->clearance_m(beside)) << "confirmed by an earlier scan";
+    EXPECT_EQ(0, model->clearance_m(apart)) << "confirmed by both";
+
+    const auto same_scan = avoidance::makeWorldModel("W-Full", setting());
+    same_scan->update(scanOf({speck, beside, {-2, 0, 1}}));
+    EXPECT_EQ(2u, same_scan->obstacles().centre_m.size());
+}
+
+/// By brute force, over scans that come and go.
+TEST(WorldModel, AWindowKnowsEachIsolatedPoint) {
+    struct Point {
+        Eigen::Vector3f at;
+        int scan;
+        bool is_isolated;
+    };
+    simulation::Random random(31);
+    const auto model = avoidance::makeWorldModel("W-Full", setting());
+    std::vector<Point> window;
+    std::size_t isolated = 0, confirmed = 0;
+    for (int scan = 0; scan < 60; ++scan) {
+        std::vector<Eigen::Vector3f> points;
+        for (int i = 0; i < 5; ++i) {  // each in a cube of its own
+            const auto cube = static_cast<float>(i) + 31;
+            const auto y = static_cast<float>(random.uniform(-0.6, 0.6));
+            const auto z = static_cast<float>(random.uniform(1.0, 1.6));
+            points.emplace_back(0.1f * (cube + 0.5f), y, z);
+        }
+        window.erase(std::remove_if(window.begin(), window.end(),
+                                    [&](const Point& p) { return p.scan <= scan - 11; }),
+                     window.end());
+        for (const auto& at : points) window.push_back({at, scan, true});
+        const std::vector<Point> all = window;
+        for (Point& p : window) {
+            const float radius_m = std::max(0.15f, 0.05f * (p.at - kOrigin).norm());
+            for (const Point& other : all) {
+                const bool is_itself = other.scan == p.scan && other.at == p.at;
+                const bool is_new = other.scan == scan || p.scan == scan;
+                if (is_new && !is_itself && (other.at - p.at).norm() < radius_m) {
+                    p.is_isolated = false;
+                }
+            }
+        }
+        model->update(scanOf(points));
+        const auto kept = model->obstacles().centre_m;
+        for (const Point& p : window) {
+            const bool counts = std::find(kept.begin(), kept.end(), p.at) != kept.end();
+            EXPECT_EQ(!p.is_isolated, counts) << scan;
+            ++(p.is_isolated ? isolated : confirmed);
+        }
+    }
+    EXPECT_GT(isolated, 100u);
+    EXPECT_GT(confirmed, 100u);
+}
+
+// The wall is at x = 5.1 m, 8 m wide.
+TEST(SeenDirections, APlaceIsFreeIfAllAroundItIsFarther) {
+    using Place = avoidance::SeenDirections::Place;
+    const avoidance::View view = avoidance::viewOf(scanOf(wall()));
+    const auto placeAt = [&](float x_m, float y_m) {
+        return view.seen.placeAt(Eigen::Vector3f(x_m, y_m, 1.1f) - view.origin_m);
+    };
+    EXPECT_EQ(placeAt(2, 0.1f), Place::Free);
+    EXPECT_EQ(placeAt(4.4f, 0.1f), Place::Free);
+    EXPECT_EQ(placeAt(4.7f, 0.1f), Place::NotFree);
+    EXPECT_EQ(placeAt(5.4f, 0.1f), Place::NotFree);
+    EXPECT_EQ(placeAt(-2, 0.1f), Place::Unknown);
+    EXPECT_EQ(placeAt(2, 4), Place::Unknown) << "beside the wall";
+    // A pole before the wall: beside it, rays may have passed it.
+    auto points = wall();
+    for (float z = 0; z < 2; z += 0.05f) points.emplace_back(3, 0.2f, z);
+    const avoidance::View past_pole = avoidance::viewOf(scanOf(points));
+    EXPECT_EQ(past_pole.seen.placeAt(Eigen::Vector3f(2.8f, 0.25f, 1.1f) - kOrigin), Place::NotFree);
+    EXPECT_EQ(past_pole.seen.placeAt(Eigen::Vector3f(2.8f, 0.7f, 1.1f) - kOrigin), Place::Free);
+}
+
 TEST(WorldModel, AWindowReachesFifteenMetres) {
     const auto model = avoidance::makeWorldModel("W-Full", setting());
-    model->update(scanOf({{14.9f, 0, 1}, {0, 15.2f, 1}}));
+    model->update(scanOf(twice({{14.9f, 0, 1}, {0, 15.2f, 1}})));
     EXPECT_NEAR(1, model->clearance_m({13.9f, 0, 1}), 1e-4);
     EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({0, 14.2f, 1}));
 }
 
 TEST(WorldModel, RaysClearWhatMovedAway) {
-    for (const std::string name : {"O-Full-0.2", "O-RoI+rays-0.2", "O-RoI+rays-0.4", "G-Full"}) {
+    for (const std::string name : {"O-Full-0.2", "O-RoI+rays-0.2", "O-RoI+rays-0.4", "G-Full",
+                                   "R-Full-0.1", "R-Full-0.2", "D-Full"}) {
         const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 2; ++i) model->update(scanOf(board()));
         ASSERT_LT(model->clearance_m({2.1f, 0.1f, 1.1f}), 1.1f) << name;

@@ -1,6 +1,8 @@
 #pragma once
+#include <hagen/avoidance/ModelDistance.h>
 #include <hagen/avoidance/WindowSize.h>
 #include <hagen/mapping/MappedScan.h>
+#include <hagen/mapping/ScanMap.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -63,6 +65,7 @@ struct WorldModelSetting {
     /// it.
     std::function<float(const Eigen::Vector3f& point_m, double after_s)> true_clearance_m;
     FlightPace pace;  ///< windows are as large as it needs
+    ModelDistance distance = ModelDistance::Unbiased;
 };
 
 /// Names of all world models. The first is the key in flags, files and hashes, the second is what
@@ -80,6 +83,9 @@ struct WorldModelSetting {
 ///     O-RoI+rays-0.2  RoI OctoMap with all rays 0.2 m: RoI points are hits, all rays clear
 ///     O-RoI+rays-0.4  RoI OctoMap with all rays 0.4 m
 ///     G-Full          occupancy grid 0.2 m: MRPT's COccupancyGridMap3D of all points
+///     R-Full-0.1      rolling grid 0.1 m: all points, in a box around the vehicle
+///     R-Full-0.2      rolling grid 0.2 m
+///     D-Full          depth-image map 0.2 m: the same box, updated from a depth image
 ///     oracle          true scene: as it is at the time of the last scan
 ///     oracle+motion   true scene with motion: as it will be
 const std::vector<std::string>& worldModelNames();
@@ -109,5 +115,9 @@ bool predictsMotion(const std::string& model);
 /// no true clearance.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
+
+/// An OctoMap with other settings than those of the named models, to measure what they do.
+std::unique_ptr<WorldModel> makeOctoMap(const mapping::ScanMapOptions& options,
+                                        const Eigen::AlignedBox3f& bounds_m);
 
 }  // namespace hagen::avoidance
