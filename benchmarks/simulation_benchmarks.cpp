@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
+#include <hagen/trials/Air.h>
 #include <hagen/trials/Course.h>
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,8 @@ void scanCourse(benchmark::State& state, const std::string& name) {
     double time_s = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(hagen::simulation::simulateScan(
-            course.scene, model, pose_at, time_s, random, hagen::trials::trialErrorModel()));
+            course.scene, model, pose_at, time_s, random,
+            hagen::trials::trialErrorModel(hagen::trials::Air::Dusty)));
         time_s += 0.7;
     }
 }

@@ -23,7 +23,7 @@ namespace {
 struct Flags {
     trials::CampaignPlan plan;
     std::string seeds, shard = "1/1", unknown = "optimistic", profile, folder;
-    std::vector<std::string> pose_errors{"none"};
+    std::vector<std::string> pose_errors{"none"}, airs{"dusty"}, distances{"unbiased"};
     int jobs = 0;
     bool overwrites = false, is_quiet = false;
 };
@@ -46,6 +46,14 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     plan.pose_errors.clear();
     for (const std::string& name : flags.pose_errors)
         plan.pose_errors.push_back(trials::poseErrorFrom(name));
+    expandAll(flags.airs, {"dusty", "clear"});
+    plan.airs.clear();
+    for (const std::string& name : flags.airs) plan.airs.push_back(trials::airFrom(name));
+    expandAll(flags.distances, {"unbiased", "as-stored"});
+    plan.distances.clear();
+    for (const std::string& name : flags.distances) {
+        plan.distances.push_back(trials::distanceFrom(name));
+    }
     expandAll(plan.scenarios, trials::courseNames());
     expandAll(plan.models, avoidance::worldModelNames());
     expandAll(plan.guidances, avoidance::guidanceNames());
@@ -81,14 +89,16 @@ void printCells(const std::vector<trials::Run>& runs) {
              << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner
              << " " << std::setw(6) << nameOf(setup.pose_error) << " x" << std::setw(3)
              << setup.latency_scale << " " << std::setw(12)
-             << (setup.brakes_in_known_space ? "brake-known" : "optimistic") << std::setw(31)
+             << (setup.brakes_in_known_space ? "brake-known" : "optimistic") << std::setw(6)
+             << nameOf(setup.air) << std::setw(10) << nameOf(setup.distance) << std::setw(31)
              << avoidance::displayName(setup.model);
         Cell& cell = cells[name.str()];
         ++cell.runs;
         ++cell.outcomes[static_cast<int>(run.result.outcome)];
     }
     std::cout
-        << "scenario     m/s  guidance  planner     pose   lat  unknown     world model           "
+        << "scenario     m/s  guidance  planner     pose   lat  unknown     air   distance  world "
+           "model           "
            "           runs  success  collision  timeout\n";
     for (const auto& [name, cell] : cells) {
         std::cout << name << std::right << std::setw(6) << cell.runs << std::setw(9)
@@ -145,6 +155,13 @@ void addFlags(Command& app, Flags& flags) {
                "must end in observed space")
         .oneOf({"optimistic", "brake-known"})
         .showDefault();
+    list("--air", flags.airs,
+         "what the LiDAR meets: dusty (dust, mixed ranges at edges, the vehicle's masked legs), "
+         "clear, or all")
+        .oneOf({"dusty", "clear", "all"});
+    list("--distance", flags.distances,
+         "distances of the world models: unbiased (less their measured bias), as-stored, or all")
+        .oneOf({"unbiased", "as-stored", "all"});
     app.option("--profile", flags.profile,
                "latency profile made by `calibrate` (default: the one built into the program)");
     app.option("--shard", flags.shard,

@@ -80,6 +80,9 @@ void addReplay(Program& program) {
             return name == "brake_known" ? "brake-known" : name;  // as in runs.csv
         })
         .oneOf({"optimistic", "brake-known"});
+    sub.option("--air", wanted.air, "dusty or clear").oneOf({"dusty", "clear"});
+    sub.option("--distance", wanted.distance, "unbiased or as-stored")
+        .oneOf({"unbiased", "as-stored"});
     sub.option("-o,--output", flags->output, "output folder (default: DIR)");
     sub.flag("--overwrite", flags->overwrite, "replace the replay of this run");
     sub.does([flags] { return run(*flags); });

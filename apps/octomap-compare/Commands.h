@@ -14,6 +14,7 @@ void addClosedLoop(Program& program);
 void addFlyRuns(Program& program);
 void addMerge(Program& program);
 void addCalibrate(Program& program);
+void addDistances(Program& program);
 void addOpenLoop(Program& program);
 void addReport(Program& program);
 void addReplay(Program& program);

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     hagen::addMerge(program);
     hagen::addFlyRuns(program);
     hagen::addCalibrate(program);
+    hagen::addDistances(program);
     hagen::addOpenLoop(program);
     hagen::addReport(program);
     hagen::addReplay(program);

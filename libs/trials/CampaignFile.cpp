@@ -31,23 +31,43 @@ CampaignPlan planFrom(const Json& noted) {
     }
     plan.latency_scales = noted.at("latency_scales").numbers();
     plan.brakes_in_known_space = noted.at("unknown").text() == "brake_known";
+    // Plans without these entries are older.
+    plan.airs = {Air::Clear};
+    if (const Json* airs = noted.find("airs")) {
+        plan.airs.clear();
+        for (const std::string& air : airs->texts()) plan.airs.push_back(airFrom(air));
+    }
+    plan.distances = {ModelDistance::AsStored};
+    if (const Json* distances = noted.find("distances")) {
+        plan.distances.clear();
+        for (const std::string& name : distances->texts()) {
+            plan.distances.push_back(distanceFrom(name));
+        }
+    }
     return plan;
+}
+
+template <class Value>
+std::vector<std::string> namesOf(const std::vector<Value>& values) {
+    std::vector<std::string> names;
+    for (const Value value : values) names.push_back(nameOf(value));
+    return names;
 }
 
 }  // namespace
 
 std::string textOf(const CampaignPlan& plan) {
-    std::vector<std::string> errors;
-    for (const PoseError error : plan.pose_errors) errors.push_back(nameOf(error));
     return Json{{"scenarios", plan.scenarios},
                 {"seeds", {plan.first_seed, plan.last_seed}},
                 {"speeds_m_s", plan.speeds_m_s},
                 {"models", plan.models},
                 {"guidances", plan.guidances},
                 {"planners", plan.planners},
-                {"pose_errors", errors},
+                {"pose_errors", namesOf(plan.pose_errors)},
                 {"latency_scales", plan.latency_scales},
-                {"unknown", plan.brakes_in_known_space ? "brake_known" : "optimistic"}}
+                {"unknown", plan.brakes_in_known_space ? "brake_known" : "optimistic"},
+                {"airs", namesOf(plan.airs)},
+                {"distances", namesOf(plan.distances)}}
         .dump();
 }
 
@@ -74,6 +94,7 @@ void writeCampaignFile(const CampaignFile& campaign, const LatencyProfile& profi
     root["profile"] = {
         {"machine", profile.machine}, {"made_by", profile.made_by}, {"date", profile.date}};
     root["vehicle"] = Json::parse(vehicleText());
+    root["sensor"] = Json::parse(sensorText());
     root["filter"] = observations::dumpSettings(observations::Settings{});
     root["flown"] = Json::array();
     for (const std::string& plan : campaign.plans) {

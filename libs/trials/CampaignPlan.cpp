@@ -46,6 +46,8 @@ void check(const CampaignPlan& plan, const Shard& shard) {
                joined(avoidance::plannerNames()));
     checkPositive("speed", plan.speeds_m_s);
     checkPositive("latency scale", plan.latency_scales);
+    if (plan.airs.empty()) throw std::invalid_argument("no air is given");
+    if (plan.distances.empty()) throw std::invalid_argument("no distance is given");
     if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
     if (plan.last_seed < plan.first_seed) {
         throw std::invalid_argument("the last seed is before the first");
@@ -58,30 +60,32 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     }
 }
 
-std::vector<TrialSetup> setupsOf(const CampaignPlan& plan) {
-    std::vector<TrialSetup> setups;
-    TrialSetup setup;
-    setup.brakes_in_known_space = plan.brakes_in_known_space;
-    for (const double speed : plan.speeds_m_s) {
-        for (const double scale : plan.latency_scales) {
-            for (const PoseError error : plan.pose_errors) {
-                for (const std::string& planner : plan.planners) {
-                    for (const std::string& guidance : plan.guidances) {
-                        for (const std::string& model : plan.models) {
-                            setup.speed_m_s = speed;
-                            setup.latency_scale = scale;
-                            setup.pose_error = error;
-                            setup.planner = planner;
-                            setup.guidance = guidance;
-                            setup.model = model;
-                            setups.push_back(setup);
-                        }
-                    }
-                }
-            }
+/// Each setup once with each of the values.
+template <class Value, class Field>
+std::vector<TrialSetup> withEach(const std::vector<TrialSetup>& setups,
+                                 const std::vector<Value>& values, Field field) {
+    std::vector<TrialSetup> all;
+    for (TrialSetup setup : setups) {
+        for (const Value& value : values) {
+            setup.*field = value;
+            all.push_back(setup);
         }
     }
-    return setups;
+    return all;
+}
+
+/// The last list varies fastest.
+std::vector<TrialSetup> setupsOf(const CampaignPlan& plan) {
+    std::vector<TrialSetup> setups(1);
+    setups[0].brakes_in_known_space = plan.brakes_in_known_space;
+    setups = withEach(setups, plan.speeds_m_s, &TrialSetup::speed_m_s);
+    setups = withEach(setups, plan.airs, &TrialSetup::air);
+    setups = withEach(setups, plan.distances, &TrialSetup::distance);
+    setups = withEach(setups, plan.latency_scales, &TrialSetup::latency_scale);
+    setups = withEach(setups, plan.pose_errors, &TrialSetup::pose_error);
+    setups = withEach(setups, plan.planners, &TrialSetup::planner);
+    setups = withEach(setups, plan.guidances, &TrialSetup::guidance);
+    return withEach(setups, plan.models, &TrialSetup::model);
 }
 
 }  // namespace

@@ -16,8 +16,13 @@ std::string numberText(double value) {
 
 Condition conditionOf(const Run& run) {
     const TrialSetup& setup = run.setup;
-    return {setup.speed_m_s, setup.planner, setup.pose_error, setup.latency_scale,
-            setup.brakes_in_known_space};
+    return {setup.speed_m_s,
+            setup.planner,
+            setup.pose_error,
+            setup.latency_scale,
+            setup.brakes_in_known_space,
+            setup.air,
+            setup.distance};
 }
 
 Contender contenderOf(const Run& run) { return {run.setup.model, run.setup.guidance}; }
@@ -37,6 +42,8 @@ std::string deviationOf(const Condition& condition) {
     if (condition.pose_error != PoseError::None) name += ", pose " + nameOf(condition.pose_error);
     if (condition.latency_scale != 1) name += ", latency x" + numberText(condition.latency_scale);
     if (condition.brakes_in_known_space) name += ", brakes in known space";
+    if (condition.air != Air::Dusty) name += ", " + nameOf(condition.air) + " air";
+    if (condition.distance != ModelDistance::Unbiased) name += ", distances as stored";
     return name;
 }
 

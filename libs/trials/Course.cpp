@@ -128,14 +128,4 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
                              " has a path; choose another seed");
 }
 
-simulation::SensorErrorModel trialErrorModel() {
-    simulation::SensorErrorModel faults;
-    faults.least_noise_m = 0.02;
-    faults.lost = 0.01;
-    faults.mixed = 0;
-    faults.dust_per_m = 0;
-    faults.airframe = false;
-    return faults;
-}
-
 }  // namespace hagen::trials

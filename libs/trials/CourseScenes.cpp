@@ -196,7 +196,7 @@ simulation::Scene makeTerrain(const simulation::Random& random) {
 }
 
 /// Lines of poles across the path. One wire of each is at about flight altitude, the others above.
-simulation::Scene makeWires(const simulation::Random& random) {
+simulation::Scene makeWires(double radius_m, const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(3, 0.04, 0.12, random);
     simulation::Random& r = builder.random();
     for (double x_m = 8; x_m <= 34; x_m += 8.5) {
@@ -209,7 +209,7 @@ simulation::Scene makeWires(const simulation::Random& random) {
         if (r.chance(0.5)) heights_m.push_back(heights_m[1] + r.uniform(0.8, 1.6));
         const double sideways_m = r.uniform(0.05, 0.3);
         simulation::addWireLine(builder, from, from + length_m * step, span_m, heights_m,
-                                sideways_m);
+                                sideways_m, radius_m);
     }
     scatterTrees(builder, 0.006);
     scatterTufts(builder, 0.02, 0.3);
@@ -324,7 +324,9 @@ const std::vector<CourseKind>& courseKinds() {
         {"gap", 2, [](simulation::Random random) { return makeGap(random); }},
         {"u-trap", 2, [](simulation::Random random) { return makeTrap(random); }},
         {"terrain", 2, [](simulation::Random random) { return makeTerrain(random); }},
-        {"wires", 2, [](simulation::Random random) { return makeWires(random); }},
+        {"wires", 2,
+         [](simulation::Random random) { return makeWires(simulation::kWireRadius_m, random); }},
+        {"wires-thin", 2, [](simulation::Random random) { return makeWires(0.005, random); }},
         {"movers", 1.5, [](simulation::Random random) { return makeMovers(random); }},
         {"street", 1.5, [](simulation::Random random) { return makeStreet(random); }}};
     return kinds;

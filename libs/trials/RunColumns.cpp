@@ -12,8 +12,9 @@ double measureFrom(const std::string& text) {
     return text.empty() ? NAN : parsedNumber<double>(text);
 }
 
-RunColumn key(RunColumn column) {
+RunColumn key(RunColumn column, const std::string& before = "") {
     column.is_key = true;
+    column.before = before;
     return column;
 }
 
@@ -86,7 +87,15 @@ const std::vector<RunColumn>& runColumns() {
         measure("latency_p95_ms", &TrialResult::latency_p95_ms, 3),
         measure("latency_max_ms", &TrialResult::latency_max_ms, 3),
         word("settings", &Run::settings_hash),
-        word("version", &Run::version)};
+        word("version", &Run::version),
+        key({"air", [](const Run& run) { return nameOf(run.setup.air); },
+             [](const std::string& text, Run& run) { run.setup.air = wordFrom<Air>(text, kAirs); }},
+            kAirs[1]),
+        key({"distance", [](const Run& run) { return nameOf(run.setup.distance); },
+             [](const std::string& text, Run& run) {
+                 run.setup.distance = wordFrom<ModelDistance>(text, avoidance::kModelDistances);
+             }},
+            avoidance::kModelDistances[1])};
     return all;
 }
 

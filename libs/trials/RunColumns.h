@@ -12,9 +12,11 @@ struct RunColumn {
     std::function<std::string(const Run&)> write;
     std::function<void(const std::string&, Run&)> read;  ///< throws std::runtime_error
     bool is_key = false;                                 ///< part of what identifies a run
+    /// What holds for all runs of older tables, which lack the column; empty: no table lacks it.
+    std::string before{};
 };
 
-/// All columns, in their order in the table.
+/// All columns, in their order in the table. Those that older tables lack are last.
 const std::vector<RunColumn>& runColumns();
 
 }  // namespace hagen::trials

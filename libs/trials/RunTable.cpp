@@ -75,6 +75,25 @@ Run runFrom(const std::string& line, const Columns& columns) {
     return run;
 }
 
+/// The columns of a table by its header. Older tables lack the last ones. None: it is no table.
+Columns columnsOf(const std::string& header) {
+    Columns columns = rowColumns();
+    while (headerOf(columns) != header) {
+        if (columns.empty() || columns.back()->before.empty()) return {};
+        columns.pop_back();
+    }
+    return columns;
+}
+
+/// The run of a row with some of the columns.
+Run runOfOlder(const std::string& row, const Columns& columns) {
+    Run run = runFrom(row, columns);
+    for (std::size_t c = columns.size(); c < rowColumns().size(); ++c) {
+        rowColumns()[c]->read(rowColumns()[c]->before, run);
+    }
+    return run;
+}
+
 }  // namespace
 
 std::string runHeader() { return headerOf(rowColumns()); }
@@ -92,18 +111,19 @@ std::vector<Run> readRuns(const std::filesystem::path& file) {
         throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
     };
     std::vector<Run> runs;
+    Columns columns;
     std::string text;
     int line = 0;
     while (std::getline(in, text)) {
         ++line;
         if (!text.empty() && text.back() == '\r') text.pop_back();
         if (line == 1) {
-            if (text != runHeader())
-                fail(line, "not the header of runs; it must be " + runHeader());
+            columns = columnsOf(text);
+            if (columns.empty()) fail(line, "not the header of runs; it must be " + runHeader());
             continue;
         }
         try {
-            runs.push_back(runOf(text));
+            runs.push_back(runOfOlder(text, columns));
         } catch (const std::runtime_error& e) {
             fail(line, e.what());
         }
@@ -117,8 +137,8 @@ void sortRuns(std::vector<Run>& runs) {
     const auto key = [](const Run& run) {
         const TrialSetup& s = run.setup;
         return std::tie(run.scenario, s.speed_m_s, s.planner, s.guidance, s.model, s.pose_error,
-                        s.latency_scale, s.brakes_in_known_space, run.settings_hash, run.version,
-                        run.seed);
+                        s.latency_scale, s.brakes_in_known_space, s.air, s.distance,
+                        run.settings_hash, run.version, run.seed);
     };
     std::stable_sort(runs.begin(), runs.end(),
                      [&](const Run& a, const Run& b) { return key(a) < key(b); });

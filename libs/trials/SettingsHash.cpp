@@ -2,6 +2,7 @@
 #include <hagen/base/Json.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <hagen/segmentation/Options.h>
+#include <hagen/trials/Air.h>
 #include <hagen/trials/SettingsHash.h>
 
 #include <array>
@@ -44,9 +45,24 @@ std::string vehicleText() {
         .dump();
 }
 
+std::string sensorText() {
+    base::Json airs;
+    for (const Air air : {Air::Dusty, Air::Clear}) {
+        const simulation::SensorErrorModel faults = trialErrorModel(air);
+        airs[nameOf(air)] = {{"footprint_rad", faults.footprint_rad},
+                             {"least_noise_m", faults.least_noise_m},
+                             {"half_range_m", faults.half_range_m},
+                             {"lost", faults.lost},
+                             {"mixed", faults.mixed},
+                             {"dust_per_m", faults.dust_per_m},
+                             {"airframe", faults.airframe}};
+    }
+    return airs.dump();
+}
+
 std::string hashOfSettings(const LatencyProfile& profile) {
     return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +
-                  vehicleText() + "\n" + filterText() + textOf(profile));
+                  vehicleText() + "\n" + sensorText() + "\n" + filterText() + textOf(profile));
 }
 
 }  // namespace hagen::trials

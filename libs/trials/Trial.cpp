@@ -71,7 +71,7 @@ class TrialFlight {
           setup_(setup),
           listener_(listener),
           stopwatch_(measurement),
-          sensor_(course),
+          sensor_(course, setup.air),
           belief_(setup.pose_error, course.seed),
           latencies_(course, setup, profile),
           guidance_(avoidance::makeGuidance(setup.guidance)),
@@ -83,8 +83,12 @@ class TrialFlight {
         world.true_clearance_m = [this](const Eigen::Vector3f& believed_m, double after_s) {
             return course_.distance.at(believed_m - scan_offset_m_, scan_s_ + after_s);
         };
+        world.distance = setup.distance;
         world.pace = {setup.speed_m_s, TrialSensor::kTurn_s, setup.limits};
-        stopwatch_.weigh("", 0, [&] { world_ = avoidance::makeWorldModel(setup.model, world); });
+        stopwatch_.weigh("", 0, [&] {
+            world_ = setup.make_world ? setup.make_world(world)
+                                      : avoidance::makeWorldModel(setup.model, world);
+        });
     }
 
     TrialResult fly() {
@@ -126,7 +130,8 @@ class TrialFlight {
         const LabelledReturns& returns = stopwatch_.time("filter", [&]() -> const LabelledReturns& {
             return sensor_.segment(turn, measured, trace_, belief_);
         });
-        const mapping::MappedScan scan = sensor_.place(turn, measured, returns, trace_, belief_);
+        const mapping::MappedScan scan =
+            TrialSensor::place(turn, measured, returns, trace_, belief_);
         scan_s_ = scan.time_s;
         scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
         const std::string prefix = setup_.model + "/";

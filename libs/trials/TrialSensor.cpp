@@ -51,13 +51,19 @@ class TurnTransforms {
 
 }  // namespace
 
-TrialSensor::TrialSensor(const Course& course) : course_(course), filter_(standardFilter()) {}
+TrialSensor::TrialSensor(const Course& course, Air air)
+    : course_(course),
+      faults_(trialErrorModel(air)),
+      airframe_(trialAirframe(air)),
+      filter_(standardFilter()) {}
 
 simulation::SimulatedScan TrialSensor::measure(int number, const FlightTrace& trace) const {
     simulation::Random random(course_.seed, streams::kScan + static_cast<std::uint64_t>(number));
     const auto pose_at = [&](double time_s) { return trace.at(time_s); };
-    return simulation::simulateScan(course_.scene, filter_.sensor(), pose_at, kTurn_s * number,
-                                    random, trialErrorModel());
+    simulation::SimulatedScan measured = simulation::simulateScan(
+        course_.scene, filter_.sensor(), pose_at, kTurn_s * number, random, faults_);
+    maskAirframe(airframe_, measured.scan);
+    return measured;
 }
 
 const LabelledReturns& TrialSensor::segment(int number, const simulation::SimulatedScan& measured,

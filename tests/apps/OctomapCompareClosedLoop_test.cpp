@@ -283,10 +283,10 @@ TEST(ClosedLoop, ItsWorkersAreNoCommandOfUsers) {
 
 TEST(ClosedLoop, AWorkerWithoutItsParentFliesNothing) {
     const TemporaryFolder folder;
-    const Outcome outcome =
-        octomapCompare({"fly-runs", "--parent", "1", "--profile", someProfile(folder).string(),
-                        "--journal", (folder / "journal").string(),
-                        "forest-0.02,1,oracle,straight,10,primitives,none,1,optimistic"});
+    const Outcome outcome = octomapCompare(
+        {"fly-runs", "--parent", "1", "--profile", someProfile(folder).string(), "--journal",
+         (folder / "journal").string(),
+         "forest-0.02,1,oracle,straight,10,primitives,none,1,optimistic,dusty,unbiased"});
     EXPECT_NE(outcome.exit_code, 0);
     EXPECT_FALSE(fs::exists(folder / "journal"));
 }

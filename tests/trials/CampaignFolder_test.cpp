@@ -68,9 +68,9 @@ TEST(CampaignFolder, WhatIsInJournalsIsThereAgain) {
     const auto runs = readRuns(place / "c/runs.csv");
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_EQ(runs[0].seed, 1u);
-    EXPECT_THAT(
-        readFile(place / "c/measured.csv"),
-        HasSubstr("gap,1,W-RoI,astar,4,primitives,none,1,optimistic,,,2.000,2.900,,,,,0\n"));
+    EXPECT_THAT(readFile(place / "c/measured.csv"),
+                HasSubstr("gap,1,W-RoI,astar,4,primitives,none,1,optimistic,dusty,unbiased,,,2.000,"
+                          "2.900,,,,,0\n"));
 }
 
 TEST(CampaignFolder, AFinishedOneIsAddedTo) {

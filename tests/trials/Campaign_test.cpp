@@ -117,7 +117,7 @@ TEST_F(Campaign, WhyAWorkerFailedIsToldAndFinishedRunsAreKept) {
     EXPECT_EQ(failsWith("echo 'too tired' >&2; exit 1"), "too tired; 0" + kept);
     EXPECT_EQ(failsWith("fly \"$1\"; exit 3"),
               "a worker ended with exit status 3 at "
-              "gap,0,oracle,astar,4,primitives,none,1,optimistic; 1" +
+              "gap,0,oracle,astar,4,primitives,none,1,optimistic,dusty,unbiased; 1" +
                   kept);
     EXPECT_THAT(failsWith("fly \"$1\"; echo 'out of air' >&2; kill -9 $$"),
                 AllOf(StartsWith("a worker was killed by signal 9 (Killed) at street,0,W-RoI,"),

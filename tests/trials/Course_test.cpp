@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/trials/Air.h>
 #include <hagen/trials/Course.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <map>
 #include <queue>
 #include <stdexcept>
+#include <utility>
 
 namespace hagen::trials {
 namespace {
@@ -53,7 +55,7 @@ simulation::SimulatedScan scanAtStart(const Course& course, double time_s = 0) {
     };
     simulation::Random random(1);
     return simulation::simulateScan(course.scene, sensorModel("VLP-16"), pose_at, time_s, random,
-                                    trialErrorModel());
+                                    trialErrorModel(Air::Clear));
 }
 
 /// The nearest that stands on the ground or moves, by rays in all directions.
@@ -202,23 +204,52 @@ TEST(CourseTest, TheTrapIsInTheWayAndCannotBeFlownOver) {
     }
 }
 
+/// How wide the wires are that a fence of rays, up from below the straight way, meets [m].
+std::vector<double> wireWidths_m(const Course& c) {
+    constexpr double kStep_m = 0.001;
+    std::vector<simulation::RayHit> hits;
+    std::vector<simulation::Ray> rays;
+    for (double x_m = 2; x_m < 40; x_m += kStep_m) {
+        rays.push_back({above(c, x_m, 0, 1.2), Vector3f::UnitZ(), 0, 2.0f});
+    }
+    c.scene.snapshotOver(0, 0.1).cast(rays, 2.0f, hits);
+    std::vector<double> widths_m;
+    double width_m = 0;
+    for (const simulation::RayHit& hit : hits) {
+        if (hit.kind == simulation::ObjectClass::Wire) {
+            width_m += kStep_m;
+        } else if (width_m > 0) {
+            widths_m.push_back(std::exchange(width_m, 0.0));
+        }
+    }
+    return widths_m;
+}
+
 TEST(CourseTest, WiresCrossTheStraightWayAboutAsHighAsOneFlies) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        const Course& c = course("wires", seed);
-        EXPECT_LT(leastClearanceStraight_m(c), 0.65) << "seed " << seed;
-        std::vector<simulation::RayHit> hits;
-        std::vector<simulation::Ray> rays;  // a fence of rays, up from below the way
-        for (double x_m = 2; x_m < 40; x_m += 0.01) {
-            rays.push_back({above(c, x_m, 0, 1.2), Vector3f::UnitZ(), 0, 2.0f});
+        for (const auto& [name, thickness_m] : {std::pair("wires", 0.024), {"wires-thin", 0.01}}) {
+            const Course& c = course(name, seed);
+            EXPECT_LT(leastClearanceStraight_m(c), 0.65) << name << ", seed " << seed;
+            const std::vector<double> widths_m = wireWidths_m(c);
+            EXPECT_GT(widths_m.size(), 2u) << name << ", seed " << seed;
+            for (const double width_m : widths_m) EXPECT_NEAR(width_m, thickness_m, 0.0015);
         }
-        c.scene.snapshotOver(0, 0.1).cast(rays, 2.0f, hits);
-        const auto wires =
-            std::count_if(hits.begin(), hits.end(), [](const simulation::RayHit& hit) {
-                return hit.kind == simulation::ObjectClass::Wire;
-            });
-        EXPECT_GT(wires, 2) << "seed " << seed;
-        EXPECT_LT(wires, 4 * 3 * 4) << "seed " << seed;  // 24 mm each
     }
+}
+
+TEST(CourseTest, ThinWiresHangWhereTheOthersDo) {
+    const Course &thick = course("wires", 2), &thin = course("wires-thin", 2);
+    simulation::Random random(4);
+    int at_wires = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const double x_m = random.uniform(0, 40), y_m = random.uniform(-8, 8);
+        const Vector3f at = above(thick, x_m, y_m, random.uniform(1, 4));
+        const float more_m = thin.distance.toStatic(at) - thick.distance.toStatic(at);
+        ASSERT_GT(more_m, -1e-4f);
+        ASSERT_LT(more_m, 0.0071f);
+        at_wires += more_m > 0.0069f ? 1 : 0;
+    }
+    EXPECT_GT(at_wires, 1000);
 }
 
 TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
@@ -247,7 +278,8 @@ TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
 }
 
 TEST(CourseTest, WhatIsHardIsInTheWay) {
-    for (const char* name : {"forest-0.10", "orchard", "gap", "u-trap", "wires", "street"}) {
+    for (const char* name :
+         {"forest-0.10", "orchard", "gap", "u-trap", "wires", "wires-thin", "street"}) {
         int blocked = 0;
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             blocked += leastClearanceStraight_m(course(name, seed)) < 0.45f ? 1 : 0;
@@ -266,7 +298,7 @@ TEST(CourseTest, AnUnknownNameIsToldWithThoseKnown) {
     }
 }
 
-TEST(CourseTest, TrialsAreFlownWithoutDustAndAirframe) {
+TEST(CourseTest, ClearAirHasNeitherDustNorAirframe) {
     const simulation::SimulatedScan scan = scanAtStart(course("street", 1));
     for (const simulation::ObjectClass kind : scan.kind)
         ASSERT_TRUE(kind != simulation::ObjectClass::Dust &&

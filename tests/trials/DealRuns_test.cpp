@@ -66,7 +66,8 @@ TEST(DealRuns, FlownRunsAreLeftOut) {
     const auto is_flown = [](const Row& run) { return run.seed == 0 || run.setup.speed_m_s < 2; };
     const auto shares = dealRuns(someFlights(2, 2), 4, is_flown);
     ASSERT_EQ(shares.size(), 1u);
-    EXPECT_THAT(shares[0], ElementsAre("gap,1,W-RoI,astar,2,primitives,none,1,optimistic"));
+    EXPECT_THAT(shares[0],
+                ElementsAre("gap,1,W-RoI,astar,2,primitives,none,1,optimistic,dusty,unbiased"));
     EXPECT_TRUE(dealRuns(someFlights(2, 2), 4, [](const Row&) { return true; }).empty());
 }
 

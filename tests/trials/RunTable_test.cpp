@@ -33,10 +33,10 @@ TEST(RunTable, AnExampleReadsAsTheHeaderSays) {
               "scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,"
               "pose_error,latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,"
               "dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,"
-              "version");
+              "version,air,distance");
     EXPECT_EQ(rowOf(someRun()),
               "forest-0.05,1007,W-RoI,astar,4,success,0.7312,43.250,12.340,primitives,none,1,"
-              "optimistic,41.500,,21.500,123,4,1,3.500,7.250,9.000,1234abcd,0.1.0");
+              "optimistic,41.500,,21.500,123,4,1,3.500,7.250,9.000,1234abcd,0.1.0,dusty,unbiased");
 }
 
 TEST(RunTable, NothingIsMinusZeroAndNothingDependsOnTheLocale) {
@@ -60,6 +60,8 @@ Row anyRun(simulation::Random& random) {
     run.setup.pose_error = static_cast<PoseError>(random.uniformInt(3));
     run.setup.latency_scale = random.chance(0.5) ? 4 : 1;
     run.setup.brakes_in_known_space = random.chance(0.5);
+    run.setup.air = random.chance(0.5) ? Air::Clear : Air::Dusty;
+    run.setup.distance = random.chance(0.5) ? ModelDistance::AsStored : ModelDistance::Unbiased;
     run.result.outcome = static_cast<Outcome>(random.uniformInt(3));
     for (double TrialResult::*field :
          {&TrialResult::min_clearance_m, &TrialResult::path_m, &TrialResult::time_s,
@@ -84,9 +86,11 @@ TEST(RunTable, WhatIsWrittenIsReadAndWrittenTheSameAgain) {
 }
 
 TEST(RunTable, AKeyIsTheCourseAndSetupOfARowAndIsReadBack) {
-    EXPECT_EQ(keyHeader(),
-              "scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown");
-    EXPECT_EQ(keyOf(someRun()), "forest-0.05,1007,W-RoI,astar,4,primitives,none,1,optimistic");
+    EXPECT_EQ(
+        keyHeader(),
+        "scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown,air,distance");
+    EXPECT_EQ(keyOf(someRun()),
+              "forest-0.05,1007,W-RoI,astar,4,primitives,none,1,optimistic,dusty,unbiased");
     simulation::Random random(3);
     for (int r = 0; r < 300; ++r) {
         const Row run = anyRun(random);
@@ -98,8 +102,10 @@ TEST(RunTable, AKeyIsTheCourseAndSetupOfARowAndIsReadBack) {
         unflown.version = run.version;
         EXPECT_EQ(rowOf(unflown), rowOf(run));
     }
-    EXPECT_EQ(test::messageOf([] { runOfKey("gap,1"); }), "2 fields, not 9");
-    EXPECT_EQ(test::messageOf([] { runOfKey("gap,x,W-RoI,astar,4,primitives,none,1,optimistic"); }),
+    EXPECT_EQ(test::messageOf([] { runOfKey("gap,1"); }), "2 fields, not 11");
+    EXPECT_EQ(test::messageOf([] {
+                  runOfKey("gap,x,W-RoI,astar,4,primitives,none,1,optimistic,clear,unbiased");
+              }),
               "column seed: \"x\" is not a number");
 }
 
@@ -134,9 +140,9 @@ TEST(RunTable, SaysWhichLineAndColumnIsBroken) {
         });
     };
     const std::string at = (folder / "runs.csv").string() + ":3: ";
-    EXPECT_EQ(broken("gap,1"), at + "2 fields, not 24");
-    EXPECT_EQ(broken(good + ",1"), at + "25 fields, not 24");
-    EXPECT_EQ(broken(""), at + "1 fields, not 24");
+    EXPECT_EQ(broken("gap,1"), at + "2 fields, not 26");
+    EXPECT_EQ(broken(good + ",1"), at + "27 fields, not 26");
+    EXPECT_EQ(broken(""), at + "1 fields, not 26");
     const auto with = [&](const std::string& from, const std::string& to) {
         return std::string(good).replace(good.find(from), from.size(), to);
     };
@@ -147,6 +153,29 @@ TEST(RunTable, SaysWhichLineAndColumnIsBroken) {
               at + "column outcome: \"won\" is not one of success, collision, timeout");
     EXPECT_EQ(broken(with("optimistic", "")),
               at + "column unknown: \"\" is not one of optimistic, brake_known");
+}
+
+TEST(RunTable, OlderTablesAreOfClearAirAndDistancesAsStored) {
+    const test::TemporaryFolder folder;
+    std::string header = runHeader(), row = rowOf(someRun());
+    const auto drop = [](std::string& line) { line.erase(line.rfind(',')); };
+    drop(header);
+    drop(row);
+    const auto file = folder.write("runs.csv", header + "\n" + row + "\n");
+    ASSERT_EQ(readRuns(file).size(), 1u);
+    EXPECT_EQ(readRuns(file)[0].setup.air, Air::Dusty);
+    EXPECT_EQ(readRuns(file)[0].setup.distance, ModelDistance::AsStored);
+    drop(header);
+    drop(row);
+    folder.write("runs.csv", header + "\n" + row + "\n");
+    EXPECT_EQ(readRuns(file)[0].setup.air, Air::Clear);
+    EXPECT_EQ(readRuns(file)[0].setup.distance, ModelDistance::AsStored);
+    EXPECT_EQ(readRuns(file)[0].version, "0.1.0");
+    folder.write("runs.csv", header + "\n" + rowOf(someRun()) + "\n");
+    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":2: 26 fields, not 24"));
+    drop(header);
+    folder.write("runs.csv", header + "\n");
+    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: not the header"));
 }
 
 TEST(RunTable, SaysWhichFileIsNoTable) {
@@ -163,6 +192,18 @@ TEST(RunTable, NamesOfPoseErrorsAreReadBack) {
     EXPECT_EQ(poseErrorFrom("drift"), PoseError::Drift);
     EXPECT_EQ(nameOf(PoseError::Noise), "noise");
     EXPECT_THROW(poseErrorFrom("fog"), std::invalid_argument);
+}
+
+TEST(RunTable, NamesOfAirsAreReadBack) {
+    EXPECT_EQ(airFrom("clear"), Air::Clear);
+    EXPECT_EQ(nameOf(Air::Dusty), "dusty");
+    EXPECT_THROW(airFrom("fog"), std::invalid_argument);
+}
+
+TEST(RunTable, NamesOfDistancesAreReadBack) {
+    EXPECT_EQ(distanceFrom("as-stored"), ModelDistance::AsStored);
+    EXPECT_EQ(nameOf(ModelDistance::Unbiased), "unbiased");
+    EXPECT_THROW(distanceFrom("far"), std::invalid_argument);
 }
 
 }  // namespace

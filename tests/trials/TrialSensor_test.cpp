@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <hagen/observations/Settings.h>
 #include <hagen/trials/TrialSensor.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "trials/SimpleCourse.h"
 
@@ -43,7 +45,7 @@ TEST(TrialSensor, ReturnsComeToLieWhereTheyWereMeasuredInFlight) {
     putWall(content, -10, 10);
     const Course course = simpleCourse(std::move(content));
     const FlightTrace trace = fastTrace();
-    TrialSensor sensor(course);
+    TrialSensor sensor(course, Air::Clear);
     for (const PoseError error : {PoseError::None, PoseError::Drift}) {
         PoseBelief belief(error, 3);
         const simulation::SimulatedScan measured = sensor.measure(7, trace);
@@ -62,7 +64,7 @@ TEST(TrialSensor, AWallIsOfInterestAndTheGroundIsNot) {
     putWall(content, -10, 10);
     const Course course = simpleCourse(std::move(content));
     const FlightTrace trace = fastTrace();
-    TrialSensor sensor(course);
+    TrialSensor sensor(course, Air::Clear);
     PoseBelief belief(PoseError::None, 3);
     const simulation::SimulatedScan measured = sensor.measure(5, trace);
     const std::vector<Label> labels = sensor.segment(5, measured, trace, belief).label;
@@ -78,16 +80,74 @@ TEST(TrialSensor, AWallIsOfInterestAndTheGroundIsNot) {
     EXPECT_GT(right, 0.95 * all);
 }
 
+/// Returns of a kind that still have a range.
+int countOf(simulation::ObjectClass kind, const simulation::SimulatedScan& measured) {
+    int count = 0;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        if (measured.kind[i] == kind && !std::isnan(measured.scan.range_m[i])) ++count;
+    }
+    return count;
+}
+
+TEST(TrialSensor, DustyAirHasDustAndTheVehiclesOwnReturnsAreMasked) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -10, 10);
+    const Course course = simpleCourse(std::move(content));
+    const FlightTrace trace = fastTrace();
+    TrialSensor dusty(course, Air::Dusty);
+    const TrialSensor clear(course, Air::Clear);
+    PoseBelief belief(PoseError::None, 3);
+    int specks = 0;
+    for (int turn = 0; turn < 10; ++turn) {
+        const simulation::SimulatedScan in_clear_air = clear.measure(turn, trace);
+        EXPECT_EQ(countOf(simulation::ObjectClass::Dust, in_clear_air), 0);
+        const simulation::SimulatedScan measured = dusty.measure(turn, trace);
+        EXPECT_EQ(countOf(simulation::ObjectClass::Airframe, measured), 0);
+        specks += countOf(simulation::ObjectClass::Dust, measured);
+        EXPECT_GT(std::count(measured.kind.begin(), measured.kind.end(),
+                             simulation::ObjectClass::Airframe),
+                  50);
+        // Legs hide a few per cent, the mask takes next to nothing.
+        EXPECT_GT(countOf(simulation::ObjectClass::Wall, measured),
+                  0.95 * countOf(simulation::ObjectClass::Wall, in_clear_air));
+        const auto labels = dusty.segment(turn, measured, trace, belief);
+        for (const Eigen::Vector3f& point :
+             dusty.place(turn, measured, labels, trace, belief).points_m) {
+            const double range_m =
+                (point.cast<double>() - trace.at(0.1 * turn + 0.05).position_m).norm();
+            ASSERT_GT(range_m, 0.5);
+        }
+    }
+    EXPECT_GT(specks, 10);
+}
+
+TEST(TrialSensor, TheAirframeIsThatOfItsSettings) {
+    observations::Settings settings;
+    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/airframe_simulated.yaml", settings);
+    const Airframe &file = settings.airframe.parts, built_in = trialAirframe(Air::Dusty);
+    ASSERT_EQ(built_in.boxes.size(), file.boxes.size());
+    for (std::size_t i = 0; i < file.boxes.size(); ++i) {
+        EXPECT_EQ(built_in.boxes[i].low_m, file.boxes[i].low_m);
+        EXPECT_EQ(built_in.boxes[i].high_m, file.boxes[i].high_m);
+    }
+    ASSERT_EQ(built_in.spheres.size(), file.spheres.size());
+    for (std::size_t i = 0; i < file.spheres.size(); ++i) {
+        EXPECT_EQ(built_in.spheres[i].centre_m, file.spheres[i].centre_m);
+        EXPECT_EQ(built_in.spheres[i].radius_m, file.spheres[i].radius_m);
+    }
+    EXPECT_TRUE(trialAirframe(Air::Clear).isEmpty());
+}
+
 TEST(TrialSensor, ATurnDoesNotDependOnThoseAskedForBefore) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -10, 10);
     const Course course = simpleCourse(std::move(content));
     const FlightTrace trace = fastTrace();
-    const TrialSensor one(course), other(course);
+    const TrialSensor one(course, Air::Dusty), other(course, Air::Dusty);
     one.measure(2, trace);
     const simulation::SimulatedScan a = one.measure(6, trace), b = other.measure(6, trace);
-    EXPECT_EQ(a.scan.range_m, b.scan.range_m);
-    EXPECT_NE(a.scan.range_m, other.measure(7, trace).scan.range_m);
+    EXPECT_EQ(a.scan.x_m, b.scan.x_m);
+    EXPECT_NE(a.scan.x_m, other.measure(7, trace).scan.x_m);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ TEST(Trial, OverOpenGroundItFliesStraightToTheGoal) {
     for (const char* model : {"oracle", "W-RoI"}) {
         TrialSetup setup;
         setup.model = model;
+        setup.air = Air::Clear;
         const TrialResult result = runTrial(course, setup, constantProfile(10));
         EXPECT_EQ(result.outcome, Outcome::Success) << model;
         EXPECT_NEAR(result.path_m, 18.5, 0.2);  // to where the goal counts as reached

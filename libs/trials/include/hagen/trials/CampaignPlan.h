@@ -16,6 +16,8 @@ struct CampaignPlan {
     std::vector<PoseError> pose_errors{PoseError::None};
     std::vector<double> latency_scales{1};
     bool brakes_in_known_space = false;
+    std::vector<Air> airs{Air::Dusty};
+    std::vector<ModelDistance> distances{ModelDistance::Unbiased};
 };
 
 /// Part `number` of `of`, counted from 1: every of-th course.

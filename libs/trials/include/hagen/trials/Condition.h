@@ -12,9 +12,12 @@ struct Condition {
     PoseError pose_error;
     double latency_scale;
     bool brakes_in_known_space;
+    Air air = Air::Dusty;
+    ModelDistance distance = ModelDistance::Unbiased;
 
     auto key() const {
-        return std::tie(speed_m_s, planner, pose_error, latency_scale, brakes_in_known_space);
+        return std::tie(speed_m_s, planner, pose_error, latency_scale, brakes_in_known_space, air,
+                        distance);
     }
     bool operator<(const Condition& other) const { return key() < other.key(); }
     bool operator==(const Condition& other) const { return key() == other.key(); }

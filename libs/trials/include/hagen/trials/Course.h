@@ -1,5 +1,4 @@
 #pragma once
-#include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scene.h>
 #include <hagen/simulation/SceneDistance.h>
 #include <Eigen/Core>
@@ -31,6 +30,7 @@ struct Course {
 ///     u-trap       walls 6 m high as a U, 9 to 11 m wide and 8 to 10 m deep, open to the start
 ///     terrain      slopes up to 15 degrees with trees and rocks
 ///     wires        wires 24 mm thick across the path, one of each line at flight altitude
+///     wires-thin   the same with wires 10 mm thick
 ///     movers       people, cars and drones that circle across the path at 1 to 3 m/s; flown at
 ///                  1.5 m
 ///     street       parked cars, also in the middle, lamps, trees and walls; flown at 1.5 m
@@ -40,10 +40,6 @@ const std::vector<std::string>& courseNames();
 /// for the vehicle are rejected, and the next one is made from the seed's next stream.
 /// Throws std::invalid_argument, naming the known ones, for an unknown name.
 Course makeCourse(const std::string& scenario, std::uint64_t seed);
-
-/// The LiDAR's faults in a trial: 2 cm of noise, 1 % of returns lost, thin wires missed more often
-/// with distance. No dust; returns from the vehicle itself are masked out.
-simulation::SensorErrorModel trialErrorModel();
 
 // Every course has a path past its static obstacles with this clearance, between these heights.
 constexpr double kCourseClearance_m = 0.65;

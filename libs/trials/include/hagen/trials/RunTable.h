@@ -20,9 +20,10 @@ struct Run {
 
 /// Columns: scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,
 /// pose_error,latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,
-/// dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version
+/// dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version,air,distance
 /// outcome: success, collision, timeout; pose_error: none, noise, drift; unknown: optimistic,
-/// brake_known; NaN is an empty field. Fixed decimals, '.' in every locale, \n.
+/// brake_known; air: dusty, clear; distance: unbiased,
+/// as-stored; NaN is an empty field. Fixed decimals, '.' in every locale, \n.
 std::string runHeader();
 std::string rowOf(const Run& run);
 
@@ -30,14 +31,16 @@ std::string rowOf(const Run& run);
 Run runOf(const std::string& row);
 
 /// A run's key identifies it: the fields of its course and setup, as in its row. The header's
-/// columns: scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown
+/// columns:
+/// scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown,air,distance
 std::string keyHeader();
 std::string keyOf(const Run& run);
 
 /// A run of this course and setup that was not flown yet. Throws as runOf().
 Run runOfKey(const std::string& key);
 
-/// Throws std::runtime_error, naming file, line and column.
+/// Tables of older versions have neither column `air` nor `distance`: clear air, as-stored. Throws
+/// std::runtime_error, naming file, line and column.
 std::vector<Run> readRuns(const std::filesystem::path& file);
 
 /// Orders runs by scenario, speed, planner, guidance, model, ..., seed.

@@ -7,13 +7,16 @@ namespace hagen::trials {
 /// Increment it with every change to courses, world models, guidance, planners or the flight itself
 /// that alters the row of any run: one table must not mix old and new runs. RecordedFlights_test
 /// fails otherwise.
-constexpr int kRevision = 7;
+constexpr int kRevision = 10;
 
 /// 16 hexadecimal digits that identify all settings of a run that are not in its own row: the
-/// program's version, kRevision, vehicle, filter options and latencies.
+/// program's version, kRevision, vehicle, sensor errors, filter options and latencies.
 std::string hashOfSettings(const LatencyProfile& profile);
 
 /// The vehicle of all runs, as JSON.
 std::string vehicleText();
+
+/// The LiDAR's faults by air, as JSON.
+std::string sensorText();
 
 }  // namespace hagen::trials

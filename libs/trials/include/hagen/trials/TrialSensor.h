@@ -2,6 +2,7 @@
 #include <hagen/mapping/MappedScan.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <hagen/simulation/Lidar.h>
+#include <hagen/trials/Air.h>
 #include <hagen/trials/Course.h>
 #include <hagen/trials/FlightTrace.h>
 #include <hagen/trials/PoseBelief.h>
@@ -9,15 +10,16 @@
 namespace hagen::trials {
 
 /// The LiDAR on board and the filter behind it: a VLP-16 that turns ten times a second, segmented
-/// with the settings of config/vlp16.yaml.
+/// with the settings of config/vlp16.yaml. Returns from the vehicle itself are masked.
 class TrialSensor {
  public:
     static constexpr double kTurn_s = 0.1;
 
-    explicit TrialSensor(const Course& course);
+    TrialSensor(const Course& course, Air air);
 
-    /// The turn that starts at `number` * kTurn_s, measured from the true poses. Depends on the
-    /// course's seed and the number only, not on which other turns were measured.
+    /// The turn that starts at `number` * kTurn_s, measured from the true poses. Masked returns
+    /// have no range. Depends on air, the course's seed and the number only, not on which other
+    /// turns were measured.
     simulation::SimulatedScan measure(int number, const FlightTrace& trace) const;
 
     /// Segments a turn, with the horizon of the believed attitude. Valid until the next call.
@@ -31,6 +33,8 @@ class TrialSensor {
 
  private:
     const Course& course_;
+    simulation::SensorErrorModel faults_;
+    Airframe airframe_;
     HagenFilter filter_;
 };
 

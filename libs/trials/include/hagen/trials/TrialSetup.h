@@ -1,6 +1,11 @@
 #pragma once
 #include <hagen/avoidance/Vehicle.h>
+#include <hagen/avoidance/WorldModel.h>
+#include <hagen/trials/Air.h>
+#include <hagen/trials/Distance.h>
 #include <hagen/trials/PoseError.h>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,7 +20,13 @@ struct TrialSetup {
     PoseError pose_error = PoseError::None;
     double latency_scale = 1;            ///< 4: an embedded computer
     bool brakes_in_known_space = false;  ///< stay able to brake within space that was seen
+    Air air = Air::Dusty;
+    ModelDistance distance = ModelDistance::Unbiased;
     avoidance::VehicleLimits limits;
+    /// If set, makes the world model instead of `model`, whose latencies then apply. For
+    /// experiments; campaigns fly named models.
+    std::function<std::unique_ptr<avoidance::WorldModel>(const avoidance::WorldModelSetting&)>
+        make_world;
 };
 
 /// The stages of one planning step by their names in a latency profile: the filter if the model

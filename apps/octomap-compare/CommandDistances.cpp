@@ -1,0 +1,100 @@
+// octomap-compare distances: measures how far off the clearances of world models are.
+#include <hagen/avoidance/WorldModel.h>
+#include <hagen/base/NumberText.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
+#include <hagen/trials/ClearanceErrors.h>
+#include <hagen/trials/Distance.h>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/ProgressLine.h>
+#include "Commands.h"
+
+namespace hagen {
+namespace {
+
+struct Flags {
+    std::string seeds = "0-29", distance = "as-stored", folder;
+    std::vector<std::string> models{"all"};
+    bool has_specks = false, overwrites = false;
+};
+
+std::vector<std::string> modelsFrom(const Flags& flags) {
+    if (flags.models != std::vector<std::string>{"all"}) return flags.models;
+    std::vector<std::string> models;
+    for (const std::string& model : avoidance::worldModelNames()) {
+        if (!avoidance::needsTruth(model)) models.push_back(model);
+    }
+    return models;
+}
+
+int run(const Flags& flags) {
+    const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
+    const auto seeds = one_seed ? std::optional(std::pair{*one_seed, *one_seed})
+                                : base::numbersFrom<std::uint64_t>(flags.seeds, '-');
+    if (!seeds || seeds->second < seeds->first) {
+        throw UsageError("--seeds", "'" + flags.seeds + "' is not a seed or a range A-B");
+    }
+    namespace fs = std::filesystem;
+    std::optional<base::OutputPath> csv, markdown;
+    if (!flags.folder.empty()) {
+        fs::create_directories(flags.folder);
+        csv.emplace(fs::path(flags.folder) / "distances.csv", base::kFile, flags.overwrites);
+        markdown.emplace(fs::path(flags.folder) / "distances.md", base::kFile, flags.overwrites);
+    }
+    trials::ClearanceMeasurement measurement;
+    measurement.models = modelsFrom(flags);
+    std::tie(measurement.first_seed, measurement.last_seed) = *seeds;
+    measurement.distance = trials::distanceFrom(flags.distance);
+    measurement.has_specks = flags.has_specks;
+    ProgressLine progress("seed");
+    measurement.doing = [&](std::uint64_t seed) {
+        if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+        progress.show(seed - seeds->first, seeds->second - seeds->first + 1);
+    };
+    std::vector<trials::ClearanceErrors> errors;
+    try {
+        errors = trials::measureClearances(measurement);
+    } catch (const std::invalid_argument& e) {
+        throw UsageError("--models", e.what());
+    }
+    const std::string table = trials::clearanceMarkdown(errors);
+    std::cout << table << "\nBiases, for libs/avoidance/DistanceBias.cpp:\n\n"
+              << trials::biasTable(errors);
+    if (!csv) return 0;
+    base::writeText(trials::clearanceCsv(errors), csv->temporary(), csv->path());
+    base::writeText(table, markdown->temporary(), markdown->path());
+    csv->commit();
+    markdown->commit();
+    std::cout << "\n" << csv->path().string() << "\n" << markdown->path().string() << "\n";
+    return 0;
+}
+
+}  // namespace
+
+void addDistances(Program& program) {
+    const auto flags = std::make_shared<Flags>();
+    Command sub = program.subcommand(
+        "distances",
+        "measure how far off the clearances of world models are, on flights past a "
+        "wall and poles");
+    sub.option("--seeds", flags->seeds, "seeds of the flights, A-B").showDefault();
+    takesWorldModels(
+        sub.option("--models", flags->models, "world models (default: all that need no truth)")
+            .delimiter(','),
+        {"all"});
+    sub.option("--distance", flags->distance,
+               "as-stored: without any correction; unbiased: with the one that flights use")
+        .oneOf({"as-stored", "unbiased"})
+        .showDefault();
+    sub.flag("--specks", flags->has_specks, "let models take in the returns of dust, too");
+    sub.option("-o,--output", flags->folder, "folder for distances.csv and distances.md");
+    sub.flag("--overwrite", flags->overwrites, "replace existing files");
+    sub.does([flags] { return run(*flags); });
+}
+
+}  // namespace hagen
