@@ -23,7 +23,8 @@ bool matches(const trials::Run& run, const RunWanted& wanted) {
     return run.seed == wanted.seed && is(wanted.scenario, run.scenario) &&
            is(wanted.model, setup.model) && is(wanted.guidance, setup.guidance) &&
            is(wanted.planner, setup.planner) && is(wanted.pose_error, nameOf(setup.pose_error)) &&
-           is(wanted.unknown, unknownOf(run)) &&
+           is(wanted.unknown, unknownOf(run)) && is(wanted.air, nameOf(setup.air)) &&
+           is(wanted.distance, nameOf(setup.distance)) &&
            (wanted.speed_m_s == 0 || wanted.speed_m_s == setup.speed_m_s) &&
            (wanted.latency_scale == 0 || wanted.latency_scale == setup.latency_scale);
 }
@@ -94,6 +95,12 @@ std::string choiceOf(const trials::Run& run, const std::vector<trials::Run>& amo
         [](const trials::Run& one) { return base::shortestText(one.setup.latency_scale); },
         setup.latency_scale == usual.latency_scale);
     add("--unknown", unknownOf, setup.brakes_in_known_space == usual.brakes_in_known_space);
+    add(
+        "--air", [](const trials::Run& one) { return nameOf(one.setup.air); },
+        setup.air == usual.air);
+    add(
+        "--distance", [](const trials::Run& one) { return nameOf(one.setup.distance); },
+        setup.distance == usual.distance);
     return flags + "   # " + nameOf(run.result.outcome);
 }
 
@@ -107,6 +114,8 @@ std::string fileNameOf(const trials::Run& run) {
         name += "-latency" + base::shortestText(setup.latency_scale);
     }
     if (setup.brakes_in_known_space) name += "-brake-known";
+    if (setup.air != usual.air) name += "-" + nameOf(setup.air);
+    if (setup.distance != usual.distance) name += "-" + nameOf(setup.distance);
     return name;
 }
 

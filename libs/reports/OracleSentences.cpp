@@ -11,21 +11,38 @@
 namespace hagen::reports {
 namespace {
 
-/// What the true scene does not reach is lost by the planner and the guidance, whatever the model.
-std::string ceilingText(const Cell& oracle) {
+/// The true scene with motion against this one, if it flew the same courses; else null.
+const Pairing* withMotion(const Summary& summary, const Cell& oracle) {
+    for (const Pairing& one : summary.motion_to_oracle) {
+        if (one.scenario == oracle.scenario && one.condition == oracle.condition &&
+            one.second == oracle.contender && one.pairs() == oracle.runs) {
+            return &one;
+        }
+    }
+    return nullptr;
+}
+
+/// What the true scene does not reach is lost by the planner and the guidance, whatever the model;
+/// some of it because they take the world to stand still.
+std::string ceilingText(const Summary& summary, const Cell& oracle) {
     const std::string who = capital(placeOf(oracle.scenario)) + " at " + nameOf(oracle.condition) +
                             ", the " + withGuidance(oracle.contender) + " succeeds on ";
     if (oracle.successes == oracle.runs) {
         return who + "all " + counted(oracle.runs, "course") + ": planner and guidance lose none.";
     }
     const double share = static_cast<double>(oracle.successes) / oracle.runs;
-    return who + percent(share) + " % of " + counted(oracle.runs, "course") + ": the other " +
-           percent(1 - share) +
-           " points are lost by planner and guidance, "
-           "which take the world to stand still.";
+    const std::string lost = who + percent(share) + " % of " + counted(oracle.runs, "course") +
+                             ": the other " + percent(1 - share) +
+                             " points are lost by planner and guidance";
+    const Pairing* motion = withMotion(summary, oracle);
+    if (motion == nullptr) return lost + ", which take the world to stand still.";
+    const double then = static_cast<double>(motion->both + motion->only_first) / oracle.runs;
+    return lost + ". Where it is known how obstacles move, they succeed on " + percent(then) +
+           " % of the same courses: that is worth " + points(then - share) + " points, and " +
+           percent(1 - then) + " points are lost all the same.";
 }
 
-std::string gapText(const Cell& oracle, const std::vector<Pairing>& gaps) {
+std::string gapText(const Summary& summary, const Cell& oracle, const std::vector<Pairing>& gaps) {
     std::vector<std::string> below, above, undecided, chance, close, alike;
     for (const Pairing& gap : gaps) {
         const std::string text =
@@ -49,7 +66,7 @@ std::string gapText(const Cell& oracle, const std::vector<Pairing>& gaps) {
                 (excludesZero(gap) ? undecided : chance).push_back(text);
         }
     }
-    std::string text = ceilingText(oracle);
+    std::string text = ceilingText(summary, oracle);
     const auto append = [&](const std::string& what, const std::vector<std::string>& who) {
         if (!who.empty()) text += " " + what + ": " + listed(who) + ".";
     };
@@ -93,7 +110,7 @@ std::vector<std::string> oracleSentences(const Summary& summary,
                     without_gap.push_back(scenario);
                 } else {
                     sentences.push_back(
-                        gapText(*find(summary, scenario, condition, contender), gaps));
+                        gapText(summary, *find(summary, scenario, condition, contender), gaps));
                 }
             }
             if (!without_gap.empty()) {

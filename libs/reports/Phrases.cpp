@@ -51,6 +51,7 @@ std::string rivalOf(const Pairing& pairing) {
 
 std::string placeOf(const std::string& scenario) {
     if (scenario == kAllButWires) return "without wires";
+    if (scenario == kThinWires) return "on thin wires";
     return scenario == kWires ? "on wires" : scenario.empty() ? "" : "in " + scenario;
 }
 

@@ -179,13 +179,17 @@ pages::Table flightTable(const SharedCourses& shared) {
 }
 
 pages::Table wiresTable(const Summary& summary, const trials::Condition& condition) {
-    pages::Table table{{"contender", "runs", "success %", "collision %", "timeout %"}, {}};
-    for (const trials::Contender& contender : contendersUnder(summary, condition)) {
-        const Cell* cell = find(summary, kWires, condition, contender);
-        if (cell == nullptr) continue;
-        table.rows.push_back(
-            {nameOf(contender), std::to_string(cell->runs), percentOf(cell->successes, cell->runs),
-             percentOf(cell->collisions, cell->runs), percentOf(cell->timeouts, cell->runs)});
+    pages::Table table{{"scenario", "contender", "runs", "success %", "collision %", "timeout %"},
+                       {}};
+    for (const char* scenario : {kWires, kThinWires}) {
+        for (const trials::Contender& contender : contendersUnder(summary, condition)) {
+            const Cell* cell = find(summary, scenario, condition, contender);
+            if (cell == nullptr) continue;
+            table.rows.push_back({scenario, nameOf(contender), std::to_string(cell->runs),
+                                  percentOf(cell->successes, cell->runs),
+                                  percentOf(cell->collisions, cell->runs),
+                                  percentOf(cell->timeouts, cell->runs)});
+        }
     }
     return table;
 }

@@ -170,7 +170,7 @@ void addPairings(const Flights& flights, Summary& summary) {
             summary.pairings.insert(summary.pairings.end(), each.begin(), each.end());
             std::vector<Pairing> others;
             std::copy_if(each.begin(), each.end(), std::back_inserter(others),
-                         [](const Pairing& one) { return one.scenario != kWires; });
+                         [](const Pairing& one) { return !isWires(one.scenario); });
             const bool is_full_window = comparison.second.model == "W-Full";
             if (is_full_window && !others.empty() && others.size() < each.size()) {
                 summary.without_wires.push_back(sumOf(others, kAllButWires));
@@ -180,9 +180,17 @@ void addPairings(const Flights& flights, Summary& summary) {
             const std::vector<Pairing> each = pairingsOf(flights, condition, gap);
             summary.to_oracle.insert(summary.to_oracle.end(), each.begin(), each.end());
         }
+        for (const trials::Contender& with_motion : present) {
+            const trials::Contender oracle{kOracle, with_motion.guidance};
+            if (with_motion.model != kOracleWithMotion || present.count(oracle) == 0) continue;
+            const std::vector<Pairing> each = pairingsOf(flights, condition, {with_motion, oracle});
+            summary.motion_to_oracle.insert(summary.motion_to_oracle.end(), each.begin(),
+                                            each.end());
+        }
     }
     for (std::vector<Pairing>* pairings :
-         {&summary.overall, &summary.pairings, &summary.without_wires, &summary.to_oracle}) {
+         {&summary.overall, &summary.pairings, &summary.without_wires, &summary.to_oracle,
+          &summary.motion_to_oracle}) {
         for (Pairing& pairing : *pairings) judge(pairing);
         correct(*pairings);
     }
@@ -210,17 +218,14 @@ void addCells(const Flights& flights, Summary& summary) {
 
 /// Compares speeds under otherwise equal conditions, from low to high.
 void addSpeedLimits(Summary& summary) {
-    std::map<std::tuple<std::string, trials::Contender,
-                        std::tuple<std::string, trials::PoseError, double, bool>>,
+    std::map<std::tuple<std::string, trials::Contender, trials::Condition>,
              std::map<double, const Cell*>>
         series;
     for (const Cell& cell : summary.cells) {
-        const trials::Condition& c = cell.condition;
         if (cell.scenario.empty()) continue;
-        series[{cell.scenario,
-                cell.contender,
-                {c.planner, c.pose_error, c.latency_scale, c.brakes_in_known_space}}][c.speed_m_s] =
-            &cell;
+        trials::Condition without_speed = cell.condition;
+        without_speed.speed_m_s = 0;
+        series[{cell.scenario, cell.contender, without_speed}][cell.condition.speed_m_s] = &cell;
     }
     for (const auto& [key, cells] : series) {
         if (cells.size() < 2) continue;
@@ -347,6 +352,8 @@ std::vector<trials::Contender> contendersUnder(const Summary& summary,
     }
     return present;
 }
+
+bool isWires(const std::string& scenario) { return scenario == kWires || scenario == kThinWires; }
 
 std::string nameOf(Verdict verdict) {
     return verdict == Verdict::NotInferior ? "not inferior"

@@ -31,7 +31,9 @@ Json json(const trials::Condition& condition) {
             {"planner", condition.planner},
             {"pose_error", nameOf(condition.pose_error)},
             {"latency_scale", condition.latency_scale},
-            {"unknown", condition.brakes_in_known_space ? "brake_known" : "optimistic"}};
+            {"unknown", condition.brakes_in_known_space ? "brake_known" : "optimistic"},
+            {"air", nameOf(condition.air)},
+            {"distance", nameOf(condition.distance)}};
 }
 
 Json json(const trials::Contender& contender) {
@@ -106,6 +108,8 @@ Json json(const SpeedLimit& limit) {
             {"pose_error", nameOf(c.pose_error)},
             {"latency_scale", c.latency_scale},
             {"unknown", c.brakes_in_known_space ? "brake_known" : "optimistic"},
+            {"air", nameOf(c.air)},
+            {"distance", nameOf(c.distance)},
             {"flown_m_s", number(limit.flown_m_s)},
             {"highest_m_s", number(limit.highest_m_s)},
             {"surely_m_s", number(limit.sure_m_s)}};
@@ -139,7 +143,7 @@ std::string row(const Cell& cell) {
         text += "," + plain(spread->p05) + "," + plain(spread->median) + "," + plain(spread->p95);
     }
     return text + "," + plain(cell.latency_max_ms) + "," + plain(cell.dropped_percent) + "," +
-           plain(cell.stops_per_km);
+           plain(cell.stops_per_km) + "," + nameOf(c.air) + "," + nameOf(c.distance);
 }
 
 }  // namespace
@@ -157,6 +161,7 @@ Json jsonOf(const Summary& summary) {
             {"without_wires", list(summary.without_wires)},
             {"pairings", list(summary.pairings)},
             {"to_oracle", list(summary.to_oracle)},
+            {"motion_to_oracle", list(summary.motion_to_oracle)},
             {"saturation", list(saturationsOf(summary))},
             {"speed_limits", list(summary.speed_limits)}};
 }
@@ -175,7 +180,7 @@ std::string summaryCsv(const Summary& summary) {
             text += std::string(",") + measure + what;
         }
     }
-    text += ",latency_max_ms,dropped_scans_percent,emergency_stops_per_km\n";
+    text += ",latency_max_ms,dropped_scans_percent,emergency_stops_per_km,air,distance\n";
     for (const Cell& cell : summary.cells) text += row(cell) + "\n";
     return text;
 }

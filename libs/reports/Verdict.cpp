@@ -9,6 +9,7 @@
 #include "OracleSentences.h"
 #include "Phrases.h"
 #include "ScenarioSentences.h"
+#include "SensitivitySentences.h"
 
 namespace hagen::reports {
 namespace {
@@ -92,7 +93,7 @@ std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall
     }
     if (apart.empty()) return apart;
     for (const Pairing& one : summary.pairings) {
-        if (one.scenario == kWires && isSameContest(one, overall)) apart.push_back(one);
+        if (isWires(one.scenario) && isSameContest(one, overall)) apart.push_back(one);
     }
     return apart;
 }
@@ -195,6 +196,7 @@ std::vector<std::string> verdictOf(const Summary& summary) {
              leftOutSentence(summary.pairings, "in single scenarios") + " " +
                  leftOutSentence(summary.overall, "over all scenarios")});
     }
+    append(sensitivitySentences(summary));
     append(oracleSentences(summary, reference));
     std::vector<Pairing> pooled = pooledPairings(summary, reference);
     std::stable_partition(pooled.begin(), pooled.end(), [](const Pairing& pairing) {

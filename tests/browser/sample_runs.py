@@ -9,7 +9,7 @@ import sys
 HEADER = (
     "scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,pose_error,"
     "latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,dropped_scans,"
-    "emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version")
+    "emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version,air,distance")
 SCENARIOS = ["forest-0.02", "forest-0.05", "forest-0.10", "gap", "movers", "orchard", "street",
              "terrain", "u-trap", "wires"]
 UPDATE_MS = {"W-RoI": 0.9, "W-Full": 2.5, "G-Full": 14, "O-Full-0.4": 20, "O-Full-0.2": 90}
@@ -36,7 +36,7 @@ def row(scenario, seed, model, guidance, speed):
             f"{path / speed + 2:.3f}", "primitives", "none", 1, "optimistic", f"{oracle:.3f}",
             f"{3 + 4 * draw.random():.3f}", f"{15 + 10 * draw.random():.3f}", 110,
             int(latency > 80) * 20, draw.randrange(3), f"{latency:.3f}", f"{1.6 * latency:.3f}",
-            f"{2.5 * latency:.3f}", "0123456789abcdef", "0.1.0"]
+            f"{2.5 * latency:.3f}", "0123456789abcdef", "0.1.0", "dusty", "unbiased"]
 
 
 def rows():

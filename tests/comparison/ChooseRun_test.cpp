@@ -18,8 +18,11 @@ TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
     run.setup.pose_error = trials::PoseError::Noise;
     run.setup.latency_scale = 4;
     run.setup.brakes_in_known_space = true;
+    run.setup.air = trials::Air::Clear;
+    run.setup.distance = trials::ModelDistance::AsStored;
     EXPECT_EQ(replays::fileNameOf(run),
-              "forest-0.10-7-O-RoI+rays-0.4-astar-2.5mps-3dvfh-noise-latency4-brake-known");
+              "forest-0.10-7-O-RoI+rays-0.4-astar-2.5mps-3dvfh-noise-latency4-brake-known-clear-"
+              "as-stored");
 }
 
 TEST(ChooseRun, ListsWhatThereIsInstead) {
@@ -75,6 +78,26 @@ TEST(ChooseRun, TellsWaysOfUnknownSpaceApart) {
     EXPECT_TRUE(replays::chooseRun(runs, wanted).setup.brakes_in_known_space);
     wanted.unknown = "optimistic";
     EXPECT_FALSE(replays::chooseRun(runs, wanted).setup.brakes_in_known_space);
+}
+
+TEST(ChooseRun, TellsAirsAndDistancesApart) {
+    std::vector<Row> runs{test::runOf("gap", 1, "W-RoI", "astar", kWon),
+                          test::runOf("gap", 1, "W-RoI", "astar", kHit)};
+    runs[1].setup.air = trials::Air::Clear;
+    replays::RunWanted wanted;
+    wanted.seed = 1;
+    wanted.air = "clear";
+    EXPECT_EQ(replays::chooseRun(runs, wanted).setup.air, trials::Air::Clear);
+    EXPECT_EQ(replays::choiceOf(runs[0], runs),
+              "--scenario gap --model W-RoI --guidance astar --speed 4 --air dusty   # success");
+    runs[1].setup = runs[0].setup;
+    runs[1].setup.distance = trials::ModelDistance::AsStored;
+    wanted.air = "dusty";
+    wanted.distance = "as-stored";
+    EXPECT_EQ(replays::chooseRun(runs, wanted).setup.distance, trials::ModelDistance::AsStored);
+    EXPECT_EQ(replays::choiceOf(runs[1], runs),
+              "--scenario gap --model W-RoI --guidance astar --speed 4 --distance as-stored   "
+              "# collision");
 }
 
 }  // namespace

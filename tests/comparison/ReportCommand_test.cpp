@@ -87,7 +87,7 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     folder_.write("campaign.json", R"({"flown": [{"scenarios": ["gap"], "seeds": [0, 9],
         "speeds_m_s": [4.0], "models": ["W-RoI", "G-Full"], "guidances": ["astar"],
         "planners": ["primitives"], "pose_errors": ["none"], "latency_scales": [1.0],
-        "unknown": "optimistic"}]})");
+        "unknown": "optimistic", "airs": ["dusty"], "distances": ["unbiased"]}]})");
     const test::Outcome before = run({"report", folder()});  // no runs.csv yet
     ASSERT_EQ(before.exit_code, 0) << before.err;
     EXPECT_THAT(before.out, HasSubstr("Unfinished: 3 of 20 planned runs are done."));
@@ -173,14 +173,14 @@ TEST_F(ReportCommand, NamesWhatIsMissing) {
     folder_.write("campaign.json", R"({"flown": [{"scenarios": ["moon"], "seeds": [0, 9],
         "speeds_m_s": [4.0], "models": ["W-RoI"], "guidances": ["astar"],
         "planners": ["primitives"], "pose_errors": ["none"], "latency_scales": [1.0],
-        "unknown": "optimistic"}]})");
+        "unknown": "optimistic", "airs": ["dusty"], "distances": ["unbiased"]}]})");
     expectFailure({"report", folder()}, 1, "was it written by another version");
 }
 
 TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
     folder_.write("runs.csv",
                   trials::runHeader() + "\n" + trials::rowOf(threeContenders()[0]) + "\ngap,1\n");
-    expectFailure({"report", folder()}, 1, "runs.csv:3: 2 fields, not 24");
+    expectFailure({"report", folder()}, 1, "runs.csv:3: 2 fields, not 26");
     writeRuns(threeContenders());
     folder_.write("memory.csv", "model,path_m,bytes\nW-RoI,far,1\n");
     expectFailure({"report", folder()}, 1, "memory.csv:2: not model,path_m,bytes");
@@ -208,7 +208,7 @@ TEST_F(ReportCommand, SaysWhereItCannotWrite) {
 
 TEST_F(ReportCommand, AnUnknownCommandIsToldWhichThereAre) {
     const std::string there_are =
-        "there are closedloop, merge, calibrate, openloop, report, replay";
+        "there are closedloop, merge, calibrate, distances, openloop, report, replay";
     expectFailure({"fly"}, 2, "'fly' is not a command; " + there_are);
     expectFailure({}, 2, "no command given; " + there_are);
 }

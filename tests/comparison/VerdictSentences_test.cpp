@@ -10,6 +10,7 @@
 #include <hagen/reports/Summary.h>
 #include <hagen/reports/SummaryFiles.h>
 #include <hagen/reports/Verdict.h>
+#include <functional>
 #include "SampleRuns.h"
 
 namespace hagen {
@@ -394,6 +395,98 @@ TEST(OracleSentence, NamesTheScenariosWithoutAGap) {
     // Nobody flew it.
     for (const std::string& sentence : Table{}.add("gap", "G-Full", {80, 0, 0, 20}).verdict()) {
         EXPECT_THAT(sentence, Not(HasSubstr("true scene")));
+    }
+}
+
+TEST(OracleSentence, SaysWhatMotionIsWorthIfItFlewTheSameCourses) {
+    const auto tableWith = [](int courses_with_motion) {
+        Table table;
+        table.add("gap", "oracle", {50, 0, 10, 40});
+        for (int i = 0; i < courses_with_motion; ++i) {
+            table.runs.push_back(test::runOf("gap", static_cast<std::uint64_t>(i), "oracle+motion",
+                                             "astar", i < 95 ? kWon : kLate));
+        }
+        return table;
+    };
+    EXPECT_THAT(
+        tableWith(100).verdict(),
+        Contains(StartsWith("In gap at 4 m/s, the true scene with A* succeeds on 60.0 % of "
+                            "100 courses: the other 40.0 points are lost by planner and "
+                            "guidance. Where it is known how obstacles move, they succeed "
+                            "on 95.0 % of the same courses: that is worth +35.0 points, and "
+                            "5.0 points are lost all the same. ")));
+    for (const int courses : {0, 99}) {
+        EXPECT_THAT(tableWith(courses).verdict(),
+                    Contains(HasSubstr("guidance, which take the world to stand still.")));
+    }
+}
+
+/// The same contest unbiased or in dusty air, and the other way.
+Table flownBothWays(Counts usual, Counts other, const std::function<void(Row&)>& change) {
+    Table table = Table{}.add("gap", "G-Full", usual), second = Table{}.add("gap", "G-Full", other);
+    for (Row& run : second.runs) change(run);
+    table.runs.insert(table.runs.end(), second.runs.begin(), second.runs.end());
+    return table;
+}
+
+const auto kAsStored = [](Row& run) { run.setup.distance = trials::ModelDistance::AsStored; };
+const auto kClearAir = [](Row& run) { run.setup.air = trials::Air::Clear; };
+
+TEST(SensitivitySentence, AnAnswerThatFlipsIsOpen) {
+    EXPECT_THAT(
+        flownBothWays({60, 30, 0, 10}, {60, 0, 30, 10}, kAsStored).verdict(),
+        AllOf(
+            Contains(AllOf(StartsWith("Open: in gap at 4 m/s, RoI window with A* vs. occupancy "
+                                      "grid 0.2 m. With unbiased distances it succeeds more "
+                                      "often (90.0 % vs. 60.0 % of 100 courses; +30.0 points, "),
+                           HasSubstr("), with distances as stored it succeeds less often (60.0 % "
+                                     "vs. 90.0 % of 100 courses; -30.0 points, "))),
+            Contains("Of 1 comparison flown with unbiased distances and with distances as stored, "
+                     "1 has the opposite answer and is open.")));
+    // Not inferior, and less often.
+    EXPECT_THAT(flownBothWays({380, 3, 3, 14}, {60, 0, 30, 10}, kClearAir).verdict(),
+                Contains(AllOf(StartsWith("Open: in gap"),
+                               HasSubstr("In dusty air it is not "
+                                         "inferior ("),
+                               HasSubstr("), in clear air it succeeds less often ("))));
+}
+
+TEST(SensitivitySentence, AnAnswerThatDoesNotFlipIsCounted) {
+    const std::string counted =
+        "Of 1 comparison flown in dusty air and in clear air, none has the opposite answer, 1 ";
+    const auto verdictOf = [](Counts usual, Counts other) {
+        return flownBothWays(usual, other, kClearAir).verdict();
+    };
+    const Counts better{60, 30, 0, 10}, open{50, 5, 5, 40}, slightly_worse{1900, 0, 20, 80},
+        not_inferior{380, 3, 3, 14};
+    EXPECT_THAT(verdictOf(better, better), Contains(counted + "decided alike."));
+    EXPECT_THAT(verdictOf(better, not_inferior), Contains(counted + "decided alike."));
+    EXPECT_THAT(verdictOf(slightly_worse, not_inferior), Contains(counted + "decided alike."));
+    EXPECT_THAT(verdictOf(better, open), Contains(counted + "decided only in dusty air."));
+    EXPECT_THAT(verdictOf(open, better), Contains(counted + "decided only in clear air."));
+    EXPECT_THAT(verdictOf(open, open), Contains(counted + "decided neither way."));
+    for (const std::string& sentence : verdictOf(better, better)) {
+        EXPECT_THAT(sentence, Not(HasSubstr("Open: ")));
+    }
+}
+
+TEST(SensitivitySentence, OnlyTheSameContestCounts) {
+    // At another speed, and with another planner.
+    for (const std::function<void(Row&)>& change : {std::function<void(Row&)>([](Row& run) {
+                                                        kAsStored(run);
+                                                        run.setup.speed_m_s = 6;
+                                                    }),
+                                                    std::function<void(Row&)>([](Row& run) {
+                                                        kAsStored(run);
+                                                        run.setup.planner = "3dvfh";
+                                                    })}) {
+        for (const std::string& sentence :
+             flownBothWays({60, 30, 0, 10}, {60, 0, 30, 10}, change).verdict()) {
+            EXPECT_THAT(sentence, Not(HasSubstr("opposite")));
+        }
+    }
+    for (const std::string& sentence : Table{}.add("gap", "G-Full", {60, 30, 0, 10}).verdict()) {
+        EXPECT_THAT(sentence, Not(HasSubstr("flown with")));
     }
 }
 

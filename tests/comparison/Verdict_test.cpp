@@ -54,6 +54,16 @@ TEST(Verdict, ReportsWiresSeparately) {
                 Contains(AllOf(StartsWith("Without wires at 4 m/s, RoI window with A* vs. full "
                                           "window: success 97.5 % vs. 97.4 % on the same 800 "),
                                HasSubstr("1 of 2 scenarios has no course on which the two "))));
+    // Thin wires count as wires, too.
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        runs.push_back(test::runOf("wires-thin", seed, "W-RoI", "astar", kHit));
+        runs.push_back(test::runOf("wires-thin", seed, "W-Full", "astar", kWon));
+    }
+    const reports::Summary more = reports::summarize(runs);
+    EXPECT_EQ(more.without_wires[0].pairs(), 800);
+    const std::vector<reports::Pairing> three = reports::splitByWires(more, more.overall.front());
+    ASSERT_EQ(three.size(), 3u);
+    EXPECT_THAT(reports::differenceText(three[2]), StartsWith("On thin wires at 4 m/s, "));
     // If nobody flew wires, the total is already without wires.
     EXPECT_TRUE(reports::summarize({test::runOf("gap", 0, "W-RoI", "astar", kWon),
                                     test::runOf("gap", 0, "W-Full", "astar", kWon)})

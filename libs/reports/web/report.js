@@ -120,7 +120,9 @@ withPlace('speed', place => {
       clip: 8, borderDash: look(one).dash, pointStyle: look(one).mark, pointRadius: 5,
       data: summary.cells.filter(cell => cell.scenario === scenario && same(cell, one) &&
           cell.condition.planner === 'primitives' && cell.condition.pose_error === 'none' &&
-          cell.condition.latency_scale === 1 && cell.condition.unknown === 'optimistic')
+          cell.condition.latency_scale === 1 && cell.condition.unknown === 'optimistic' &&
+          cell.condition.air === summary.conditions[0].air &&
+          cell.condition.distance === summary.conditions[0].distance)
         .map(cell => ({x: cell.condition.speed_m_s + 0.06 * (w - (who.length - 1) / 2),
                        y: percent(cell.success.share), low: percent(cell.success.interval[0]),
                        high: percent(cell.success.interval[1])}))

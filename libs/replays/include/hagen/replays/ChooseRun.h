@@ -11,6 +11,7 @@ struct RunWanted {
     std::uint64_t seed = 0;
     std::string scenario, model, guidance, planner, pose_error;
     std::string unknown;  ///< "optimistic", or "brake-known"
+    std::string air, distance;
     double speed_m_s = 0, latency_scale = 0;
 };
 
@@ -23,7 +24,7 @@ trials::Run chooseRun(const std::vector<trials::Run>& runs, const RunWanted& wan
 std::string choiceOf(const trials::Run& run, const std::vector<trials::Run>& among);
 
 /// A unique name of a run for files: "gap-7-W-RoI-astar-4mps", followed by conditions that differ
-/// from the defaults: "-3dvfh-noise-latency4-brake-known".
+/// from the defaults: "-3dvfh-noise-latency4-brake-known-clear-as-stored".
 std::string fileNameOf(const trials::Run& run);
 
 }  // namespace hagen::replays

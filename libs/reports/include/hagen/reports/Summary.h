@@ -34,7 +34,11 @@ enum class Verdict { NotInferior, Inferior, Open };
 
 /// A filter may lose objects this thin, so wires are reported separately.
 constexpr const char* kWires = "wires";
+constexpr const char* kThinWires = "wires-thin";
 constexpr const char* kAllButWires = "all but wires";
+
+/// Whether a scenario is reported as wires.
+bool isWires(const std::string& scenario);
 
 /// Two contenders on the courses that both flew, under one condition.
 struct Pairing {
@@ -67,6 +71,8 @@ constexpr double kLevel = 0.05;
 
 /// The model with the true scene. It is a ceiling, not a rival.
 constexpr const char* kOracle = "oracle";
+/// The same, which knows the future, too.
+constexpr const char* kOracleWithMotion = "oracle+motion";
 /// The mapping-free contender, and the one that follows what moves.
 constexpr const char* kMappingFree = "W-RoI";
 constexpr const char* kMappingFreeWithMotion = "W-RoI+motion";
@@ -93,6 +99,9 @@ struct Summary {
     std::vector<Pairing> without_wires;
     /// Every model against the true scene with the same guidance, in each scenario.
     std::vector<Pairing> to_oracle;
+    /// The true scene with motion against the one without, with the same guidance, in each
+    /// scenario.
+    std::vector<Pairing> motion_to_oracle;
     std::vector<SpeedLimit> speed_limits;
     std::vector<std::string> settings, versions;  ///< of the runs; normally one of each
     int runs = 0;

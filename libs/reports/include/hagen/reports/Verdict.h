@@ -10,8 +10,8 @@ namespace hagen::reports {
 /// collisions. It depends on the runs of the summary alone, so it can be made for any part of them.
 std::vector<std::string> verdictOf(const Summary& summary);
 
-/// W-RoI against W-Full, first without wires, then on wires only. Empty for any other pairing, and
-/// if only wires or no wires were flown.
+/// W-RoI against W-Full, first without wires, then on each kind of wires. Empty for any other
+/// pairing, and if only wires or no wires were flown.
 std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall);
 
 /// Pairings in single scenarios in which the first contender succeeds less often; largest loss
