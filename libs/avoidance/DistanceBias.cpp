@@ -20,10 +20,9 @@ const std::map<std::string, float>& biases_m() {
         {"O-RoI+rays-0.2", -0.150f},
         {"O-RoI+rays-0.4", -0.272f},
         {"G-Full", -0.139f},
-        // Of seeds 0-3 only.
-        {"R-Full-0.2", -0.163f},
-        {"R-Full-0.1", -0.084f},
-        {"D-Full", -0.173f},
+        {"R-Full-0.1", -0.083f},
+        {"R-Full-0.2", -0.150f},
+        {"D-Full", -0.161f},
     };
     return biases_m;
 }

@@ -36,18 +36,22 @@ double lookAhead(const PlanningTask& task) {
            1;
 }
 
-/// The free distance of a sphere of the clearance radius.
+/// The free distance of a sphere of the clearance radius that moves at the speed towards the goal.
 double freeDistance(const WorldModel& world, const PlanningTask& task,
                     const Eigen::Vector3d& direction, double reach_m) {
     const auto clearance_radius_m = static_cast<float>(task.limits.clearance_radius_m());
+    const auto speed_m_s = static_cast<float>(speedTowardsGoal(task));
+    // What comes at the sphere shortens the way for which a clearance holds.
+    const float share = speed_m_s / (speed_m_s + world.fastest_m_s());
     float at_m = 0, needed_m = 0;
     while (at_m < reach_m) {
         const Eigen::Vector3d point_m = task.start.position_m + at_m * direction;
-        const float clearance_m = world.clearance_m(point_m.cast<float>());
+        const double after_s = task.start_after_s + static_cast<double>(at_m / speed_m_s);
+        const float clearance_m = world.clearanceAfter_m(point_m.cast<float>(), after_s);
         if (clearance_m < needed_m) return at_m;
         needed_m = clearance_m >= clearance_radius_m ? clearance_radius_m
                                                      : std::max(needed_m, clearance_m);
-        at_m += std::max(clearance_m - needed_m, kTraceStep_m);
+        at_m += std::max((clearance_m - needed_m) * share, kTraceStep_m);
     }
     return reach_m;
 }

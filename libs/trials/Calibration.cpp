@@ -88,6 +88,7 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
     const LatencyProfile nominal = constantProfile(kNominal_ms);
     TrialMeasurement measurement;
     TrialSetup setup;
+    setup.speed_m_s = kCalibrated_m_s;
     for (const std::string& model : options.models) {
         if (options.doing) options.doing(model);
         setup.model = model;

@@ -284,22 +284,22 @@ TEST(MotionWindow, WhereNothingMovesItIsTheWindow) {
 class BallModel : public WorldModel {
  public:
     static constexpr float kFirst_m = 6, kSpeed_m_s = 3, kRadius_m = 0.5f;
-    explicit BallModel(bool knows_motion) : knows_motion_(knows_motion) {}
+    explicit BallModel(bool knows_motion) : BallModel(knows_motion ? kSpeed_m_s : 0) {}
+    explicit BallModel(float speed_m_s) : speed_m_s_(speed_m_s) {}
 
     void update(const mapping::MappedScan&) override {}
     float clearance_m(const Eigen::Vector3f& p) const override { return clearanceAfter_m(p, 0); }
     float clearanceAfter_m(const Eigen::Vector3f& p, double after_s) const override {
-        const float passed_s = knows_motion_ ? static_cast<float>(after_s) : 0;
-        const Eigen::Vector3f ball_m(kFirst_m - kSpeed_m_s * passed_s, 0, 2);
+        const Eigen::Vector3f ball_m(kFirst_m - speed_m_s_ * static_cast<float>(after_s), 0, 2);
         return std::clamp((p - ball_m).norm() - kRadius_m, 0.0f, kReach_m);
     }
-    float fastest_m_s() const override { return knows_motion_ ? kSpeed_m_s : 0; }
+    float fastest_m_s() const override { return std::abs(speed_m_s_); }
     bool isKnown(const Eigen::Vector3f&) const override { return true; }
     std::size_t bytes() const override { return 0; }
     Obstacles obstacles() const override { return {}; }
 
  private:
-    bool knows_motion_;
+    float speed_m_s_;
 };
 
 /// The least distance from the ball's surface in 2 s, of which a command is held for 1.2 s.
@@ -324,15 +324,24 @@ PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) 
 }
 
 // Straight ahead there is room for the way until the vehicle stops, but the ball comes.
-TEST(MotionPrimitives, LeaveTheWayOfWhatComes) {
+TEST(Planning, LeavesTheWayOfWhatComes) {
     const PlanningTask task = taskTowards({12, 0, 2}, 0.3);
     const double ball_m = 6 - 3 * 0.3;
-    const auto planner = makePlanner("primitives");
-    const Plan still = planner->plan(BallModel(false), task);
-    const Plan plan = planner->plan(BallModel(true), task);
-    EXPECT_FALSE(plan.is_emergency);
-    EXPECT_GT(nearestWay_m(plan.command_m_s, ball_m), 0.6);
+    for (const std::string& name : plannerNames()) {
+        const Plan plan = makePlanner(name)->plan(BallModel(true), task);
+        EXPECT_FALSE(plan.is_emergency) << name;
+        EXPECT_GT(nearestWay_m(plan.command_m_s, ball_m), 0.6) << name;
+    }
+    const Plan still = makePlanner("primitives")->plan(BallModel(false), task);
     EXPECT_LT(nearestWay_m(still.command_m_s, ball_m), 0.3);
+}
+
+// The ball stands in the way, or is gone before the vehicle is there.
+TEST(PolarHistogram, RanksDirectionsByWhereObstaclesWillBe) {
+    const PlanningTask task = taskTowards({20, 0, 2}, 0);
+    const auto planner = makePlanner("3dvfh");
+    EXPECT_EQ(planner->plan(BallModel(-3.0f), task).command_m_s.y(), 0);
+    EXPECT_GT(std::abs(planner->plan(BallModel(false), task).command_m_s.y()), 0.3);
 }
 
 TEST(MotionPrimitives, EvadeWhereNothingIsFree) {

@@ -122,8 +122,8 @@ def check_crash(folder):
     with open(folder / "runs.csv", encoding="utf-8") as table:
         row = next(csv.DictReader(table))
     check(row["outcome"] == "collision", "a fast flight that plans late ends in a collision")
-    command("replay", folder, "--seed", "3")
-    page = folder / "replay-forest-0.10-3-W-RoI-straight-10mps-latency15.html"
+    command("replay", folder, "--seed", "0")
+    page = folder / "replay-forest-0.10-0-W-RoI-straight-10mps-latency25.html"
     with Browser() as browser:
         browser.open(page)
         browser.wait_for("return document.body.dataset.step !== undefined;")
@@ -202,7 +202,7 @@ with tempfile.TemporaryDirectory() as place:
     for one in ("W-RoI", "O-Full-0.4"):
         check_replay(flown, one)
     check_panels(flown / "replays/replay-gap-0-O-Full-0.4-astar-4mps.html")
-    command("closedloop", "--scenario", "forest-0.10", "--seeds", "3", "--models", "W-RoI",
-            "--guidance", "straight", "--speed", "10", "--latency-scale", "15", "-o",
+    command("closedloop", "--scenario", "forest-0.10", "--seeds", "0", "--models", "W-RoI",
+            "--guidance", "straight", "--speed", "10", "--latency-scale", "25", "-o",
             place / "crash")
     check_crash(place / "crash")

@@ -12,6 +12,10 @@ struct CalibrationOptions {
     std::function<void(const std::string& what)> doing;  ///< called before each model
 };
 
+/// Flights that measure latencies are as fast as those that all scenarios are flown at: windows and
+/// rolling maps are larger then. So latencies of slower flights are too long rather than too short.
+constexpr double kCalibrated_m_s = 10;
+
 /// Measures every stage's CPU time on this machine, in flights through these courses with every
 /// guidance and planner. The flights themselves use latencies of kNominal_ms per stage. Nothing
 /// else should run meanwhile. Throws std::invalid_argument for unknown names.
