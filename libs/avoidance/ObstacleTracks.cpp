@@ -25,7 +25,7 @@ constexpr double kFirstSpeedSigma_m_s = 2;
 // Matching.
 constexpr double kGate_m = 0.6, kGateOfWidth = 0.25;
 constexpr float kWidthChange_m = 1.4f, kWidthRatio = 1.4f;
-constexpr int kMostMissed = 5;
+constexpr int kMostMissed = 10;
 
 // What counts as moving.
 constexpr int kLeastSeen = 3;
@@ -272,7 +272,8 @@ void ObstacleTracks::update(const mapping::MappedScan& scan, std::shared_ptr<con
         track_of_obstacle_[static_cast<std::size_t>(seen.obstacle)] = track.number;
         track.sights.push_front(std::move(seen.sight));
         while (track.time_s - track.sights.back().time_s > kRemembered_s) track.sights.pop_back();
-        track.is_moving = isFastEnough(track) && fitsBetterMoved(track);
+        track.is_moving =
+            isFastEnough(track) && (track.crossed_free_space || fitsBetterMoved(track));
         if (!track.is_moving || track.crossed_free_space) continue;
         track.crossed_free_space = track.is_moving = crossesFreeSpace(track, views_);
     }

@@ -8,6 +8,7 @@
 
 #include "DepthImageModel.h"
 #include "GridModel.h"
+#include "MapWithMotion.h"
 #include "MotionWindow.h"
 #include "OctoMapModel.h"
 #include "RollingGridModel.h"
@@ -57,8 +58,8 @@ using Factory = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
 struct Entry {
     std::string name, display_name;
     enum { AllPoints, Labels, Truth } needs;
-    Factory make;
-    bool predicts_motion = false;
+    Factory make;  ///< of MoversOverMap: the map
+    enum { StandsStill, OwnMotion, MoversOverMap } motion = StandsStill;
 };
 
 template <bool kRoiOnly>
@@ -66,8 +67,9 @@ std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting& setting) {
     return std::make_unique<WindowModel>(kRoiOnly, windowSizeFor(setting.pace));
 }
 
+template <bool kRoiOnly>
 std::unique_ptr<WorldModel> makeMotionWindow(const WorldModelSetting& setting) {
-    return std::make_unique<MotionWindow>(windowSizeFor(setting.pace));
+    return std::make_unique<MotionWindow>(kRoiOnly, windowSizeFor(setting.pace));
 }
 
 template <mapping::MapContent kContent, int kResolution_cm>
@@ -99,8 +101,11 @@ std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
         {"W-RoI", "RoI window", Entry::Labels, makeWindow<true>},
-        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMotionWindow, true},
+        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMotionWindow<true>,
+         Entry::OwnMotion},
         {"W-Full", "full window", Entry::AllPoints, makeWindow<false>},
+        {"W-Full+motion", "full window with motion", Entry::Labels, makeMotionWindow<false>,
+         Entry::OwnMotion},
         {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints,
          makeOctoMap<mapping::MapContent::Full, 20>},
         {"O-Full-0.4", "OctoMap 0.4 m", Entry::AllPoints,
@@ -114,11 +119,16 @@ const std::vector<Entry>& entries() {
         {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", Entry::Labels,
          makeOctoMap<mapping::MapContent::RoiAndRays, 40>},
         {"G-Full", "occupancy grid 0.2 m", Entry::AllPoints, makeGrid},
+        {"G-Full+motion", "occupancy grid 0.2 m with motion", Entry::Labels, makeGrid,
+         Entry::MoversOverMap},
         {"R-Full-0.1", "rolling grid 0.1 m", Entry::AllPoints, makeRollingGrid<10>},
         {"R-Full-0.2", "rolling grid 0.2 m", Entry::AllPoints, makeRollingGrid<20>},
+        {"R-Full-0.2+motion", "rolling grid 0.2 m with motion", Entry::Labels, makeRollingGrid<20>,
+         Entry::MoversOverMap},
         {"D-Full", "depth-image map 0.2 m", Entry::AllPoints, makeDepthImageMap},
         {"oracle", "true scene", Entry::Truth, makeOracle<OracleModel>},
-        {"oracle+motion", "true scene with motion", Entry::Truth, makeOracle<OracleOfMotion>, true},
+        {"oracle+motion", "true scene with motion", Entry::Truth, makeOracle<OracleOfMotion>,
+         Entry::OwnMotion},
     };
     return entries;
 }
@@ -182,7 +192,7 @@ bool needsTruth(const std::string& model) {
 
 bool predictsMotion(const std::string& model) {
     const Entry* entry = findEntry(model);
-    return entry != nullptr && entry->predicts_motion;
+    return entry != nullptr && entry->motion != Entry::StandsStill;
 }
 
 std::unique_ptr<WorldModel> makeOctoMap(const mapping::ScanMapOptions& options,
@@ -192,11 +202,17 @@ std::unique_ptr<WorldModel> makeOctoMap(const mapping::ScanMapOptions& options,
 
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting) {
-    std::unique_ptr<WorldModel> model = entryOf(name).make(setting);
-    if (setting.distance == ModelDistance::AsStored) return model;
-    const float bias_m = needsTruth(name) ? 0 : distanceBias_m(name);
-    if (bias_m == 0) return model;
-    return std::make_unique<UnbiasedModel>(std::move(model), bias_m);
+    const Entry& entry = entryOf(name);
+    std::unique_ptr<WorldModel> model = entry.make(setting);
+    const bool has_bias = setting.distance != ModelDistance::AsStored && !needsTruth(name) &&
+                          distanceBias_m(name) != 0;
+    if (has_bias) model = std::make_unique<UnbiasedModel>(std::move(model), distanceBias_m(name));
+    if (entry.motion == Entry::MoversOverMap) {
+        // Movers are points, which have no bias of voxels.
+        return std::make_unique<MapWithMotion>(std::move(model),
+                                               windowSizeFor(setting.pace).radius_m);
+    }
+    return model;
 }
 
 }  // namespace hagen::avoidance

@@ -203,19 +203,20 @@ TEST(ObstacleTracks, NoiseMakesNothingMove) {
     EXPECT_EQ(moving, 0);  // of 2000
 }
 
-TEST(ObstacleTracks, AnObstacleThatIsHiddenForHalfASecondIsTheSame) {
+TEST(ObstacleTracks, AnObstacleThatIsHiddenForNineScansIsTheSame) {
     ObstacleTracks tracks;
-    const auto scans = walkerAndPost(16);
-    for (int number = 0; number < 16; ++number) {
+    const auto scans = walkerAndPost(18);
+    for (int number = 0; number < 18; ++number) {
         mapping::MappedScan scan = scans[static_cast<std::size_t>(number)];
-        const bool is_hidden = number >= 8 && number < 13;
+        const bool is_hidden = number >= 8 && number < 17;
         if (is_hidden) scan.obstacles.assign(scan.obstacles.size(), 0);
         tracks.update(scan);
     }
     EXPECT_EQ(tracks.tracks().size(), 2u);
-    EXPECT_TRUE(trackNear(tracks, moved(kWalker, kWalk_m_s, 1.6).at_m).is_moving);
+    // At once, although there is no earlier scan left to compare with.
+    EXPECT_TRUE(trackNear(tracks, moved(kWalker, kWalk_m_s, 1.8).at_m).is_moving);
     // Longer, and it is forgotten.
-    for (int number = 16; number < 23; ++number) tracks.update(scanAt(number));
+    for (int number = 18; number < 30; ++number) tracks.update(scanAt(number));
     EXPECT_TRUE(tracks.tracks().empty());
 }
 
@@ -257,6 +258,25 @@ TEST(MotionWindow, MoversAreWhereTheyWillBeAndLeaveNoTrail) {
     EXPECT_GT(moving->clearance_m(placeAfter(-0.8)), 0.6f);
     EXPECT_LT(standing->clearance_m(placeAfter(-0.8)), 0.3f);
     EXPECT_EQ(standing->fastest_m_s(), 0);
+}
+
+TEST(MapWithMotion, MoversAreWhereTheyWillBeAndTheRestIsTheMap) {
+    const auto scans = walkerAndPost(12);
+    for (const std::string name : {"G-Full", "R-Full-0.2"}) {
+        const auto moving = modelOf(name + "+motion", scans), standing = modelOf(name, scans);
+        EXPECT_GT(moving->fastest_m_s(), 1.5f) << name;
+        const auto placeAfter = [&](double after_s) {
+            const Eigen::Vector2d at_m = moved(kWalker, kWalk_m_s, 1.2 + after_s).at_m;
+            return Eigen::Vector3d(at_m.x(), at_m.y(), 1).cast<float>().eval();
+        };
+        for (const double after_s : {0.0, 0.5, 1.0}) {
+            EXPECT_LT(moving->clearanceAfter_m(placeAfter(after_s), after_s), 0.3f) << name;
+        }
+        EXPECT_GT(moving->clearanceAfter_m(placeAfter(0), 1.0), 0.5f) << name;
+        EXPECT_LT(standing->clearanceAfter_m(placeAfter(0), 1.0), 0.4f) << name;
+        const Eigen::Vector3f by_the_post_m(3, 3, 1);
+        EXPECT_FLOAT_EQ(moving->clearance_m(by_the_post_m), standing->clearance_m(by_the_post_m));
+    }
 }
 
 TEST(MotionWindow, WhereNothingMovesItIsTheWindow) {
@@ -324,15 +344,14 @@ PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) 
 }
 
 // Straight ahead there is room for the way until the vehicle stops, but the ball comes.
-TEST(Planning, LeavesTheWayOfWhatComes) {
+TEST(MotionPrimitives, LeaveTheWayOfWhatComes) {
     const PlanningTask task = taskTowards({12, 0, 2}, 0.3);
     const double ball_m = 6 - 3 * 0.3;
-    for (const std::string& name : plannerNames()) {
-        const Plan plan = makePlanner(name)->plan(BallModel(true), task);
-        EXPECT_FALSE(plan.is_emergency) << name;
-        EXPECT_GT(nearestWay_m(plan.command_m_s, ball_m), 0.6) << name;
-    }
-    const Plan still = makePlanner("primitives")->plan(BallModel(false), task);
+    const auto planner = makePlanner("primitives");
+    const Plan still = planner->plan(BallModel(false), task);
+    const Plan plan = planner->plan(BallModel(true), task);
+    EXPECT_FALSE(plan.is_emergency);
+    EXPECT_GT(nearestWay_m(plan.command_m_s, ball_m), 0.6);
     EXPECT_LT(nearestWay_m(still.command_m_s, ball_m), 0.3);
 }
 

@@ -33,21 +33,19 @@ struct ObstacleTrack {
 /// Velocities of the obstacles that the filter numbers: nearest neighbours are matched from scan to
 /// scan, and a Kalman filter with constant velocity (per axis, in the plane) follows each.
 ///
-/// An obstacle counts as moving if
-/// - it was seen in three scans or more, and its speed is above 0.5 m/s and three standard
-///   deviations;
-/// - its points of up to 0.6 s ago, moved along at its velocity, fit its points of now clearly
-/// better
-///   than where they were (the visible part of a standing obstacle changes as the vehicle passes,
-///   which moves its middle, but not its points);
-/// - it once crossed free space: the scan of up to 0.6 s ago saw farther at a tenth of its points,
-/// or
+/// An obstacle counts as moving if it is fast: seen in three scans or more, and faster than 0.5 m/s
+/// and three standard deviations of its speed. To begin with,
+/// - its points of up to 0.6 s ago, moved along at its velocity, must fit its points of now clearly
+///   better than where they were (the visible part of a standing obstacle changes as the vehicle
+///   passes, which moves its middle, but not its points);
+/// - it must cross free space: the scan of up to 0.6 s ago saw farther at a tenth of its points, or
 ///   the scan of now does so where they were then. A standing obstacle whose visible part changes
 ///   does not. Rays pass a wire on both sides, so that pieces of one seem to move along it: what is
 ///   less than 15 cm high needs both.
+/// After that, it moves whenever it is fast: close by, the visible part of a mover changes, too.
 ///
-/// Obstacles wider than 6 m, with less than three points, or with a point that is too far away are
-/// not followed.
+/// A track that is not seen for ten scans ends. Obstacles wider than 6 m, with less than three
+/// points, or with a point that is too far away are not followed.
 class ObstacleTracks {
  public:
     explicit ObstacleTracks(float farthest_m = 25) : farthest_m_(farthest_m) {}

@@ -74,7 +74,8 @@ struct WorldModelSetting {
 ///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
 ///                     (windowSizeFor())
 ///     W-RoI+motion    RoI window with motion: the same, with obstacles that move where they will
-///                     be (ObstacleTracks)
+///                     be (ObstacleTracks); so W-Full+motion, and G-Full+motion and
+///                     R-Full-0.2+motion, which map what stands
 ///     W-Full          full window: the same with all points
 ///     O-Full-0.2      OctoMap 0.2 m: all points
 ///     O-Full-0.4      OctoMap 0.4 m
