@@ -57,7 +57,7 @@ int run(const Flags& flags, bool has_output) {
     if (profile_file) {
         trials::CalibrationOptions options;
         options.models = models;
-        options.courses = flags.is_quick ? 1 : 3;
+        options.courses = flags.is_quick ? 1 : 4;
         options.doing = [](const std::string& model) {
             if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
             std::cerr << "measuring latencies: " << avoidance::displayName(model) << "\n";
@@ -96,7 +96,7 @@ void addCalibrate(Program& program) {
     sub.option("--path-m", flags->path_m, "length of that flight [m]")
         .between(10.0, 10000.0)
         .showDefault();
-    sub.flag("--quick", flags->is_quick, "one course instead of three");
+    sub.flag("--quick", flags->is_quick, "one course instead of four");
     sub.flag("--overwrite", flags->overwrites, "replace existing files");
     sub.does([flags, file, memory] { return run(*flags, file.isGiven() || memory.isGiven()); });
 }

@@ -8,7 +8,8 @@ namespace hagen::avoidance {
 /// along at its velocity (ObstacleTracks), less the doubt in it.
 class Movers {
  public:
-    explicit Movers(float farthest_m) : tracks_(farthest_m) {}
+    explicit Movers(float farthest_m);
+    ~Movers();
 
     void update(const mapping::MappedScan& scan, const std::shared_ptr<const View>& view);
 
@@ -24,17 +25,10 @@ class Movers {
     void addTo(WorldModel::Obstacles& obstacles) const;
 
  private:
-    struct Mover {
-        std::vector<Eigen::Vector3f> points_m;  ///< at the time of the last scan
-        Eigen::Vector3f middle_m;
-        float radius_m;  ///< of a sphere around the points
-        Eigen::Vector3f velocity_m_s;
-        float doubt_m, doubt_m_s;  ///< clearance that is not certain, at once and per second
-    };
-    static Mover moverFrom(const ObstacleTrack& track, double time_s);
+    struct Mover;
 
     ObstacleTracks tracks_;
-    std::vector<Mover> movers_;
+    std::vector<std::unique_ptr<Mover>> movers_;
     std::vector<std::uint32_t> moving_;
     float fastest_m_s_ = 0;
 };

@@ -12,7 +12,7 @@
 namespace hagen::trials {
 namespace {
 
-const std::array<const char*, 3> kCourses{"forest-0.05", "forest-0.10", "u-trap"};
+const std::array<const char*, 4> kCourses{"forest-0.05", "forest-0.10", "u-trap", "movers"};
 
 std::string processorName() {
     std::ifstream in("/proc/cpuinfo");

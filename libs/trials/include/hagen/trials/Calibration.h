@@ -8,7 +8,7 @@ namespace hagen::trials {
 
 struct CalibrationOptions {
     std::vector<std::string> models;  ///< to measure
-    int courses = 3;                  ///< of forest-0.05, forest-0.10, u-trap, in turn
+    int courses = 4;                  ///< of forest-0.05, forest-0.10, u-trap, movers, in turn
     std::function<void(const std::string& what)> doing;  ///< called before each model
 };
 
