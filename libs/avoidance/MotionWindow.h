@@ -9,7 +9,8 @@ namespace hagen::avoidance {
 /// they went is not known. What does not move, or not certainly, is as in the window.
 class MotionWindow : public WorldModel {
  public:
-    MotionWindow(bool roi_only, WindowSize size) : window_(roi_only, size), movers_(size.radius_m) {}
+    MotionWindow(bool roi_only, WindowSize size)
+        : window_(roi_only, size), movers_(size.radius_m) {}
 
     void update(const mapping::MappedScan& scan) override;
     float clearance_m(const Eigen::Vector3f& point_m) const override;
