@@ -108,7 +108,7 @@ void addOpenLoop(Program& program) {
     openloop::LogSource& source = flags->open_loop.source;
     Command sub = program.subcommand(
         "openloop", "compare world models on a recorded log: cost and correctness");
-    sub.option("-i,--input", source.log, ".rawlog or scan folder (KITTI layout)")
+    sub.option("-i,--input", source.log, "rawlog, capture (.pcap) or scan folder (KITTI layout)")
         .existingPath()
         .required();
     sub.option("--poses", source.poses,

@@ -1,7 +1,9 @@
 #include <hagen/logs/ScanSource.h>
 
+#include <hagen/captures/CaptureFile.h>
 #include <algorithm>
 
+#include "CaptureSource.h"
 #include "RawlogSource.h"
 #include "ScanFolderSource.h"
 
@@ -86,6 +88,9 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
     }
     if (std::filesystem::is_directory(recording)) {
         return std::make_unique<ScanFolderSource>(recording, options);
+    }
+    if (captures::isCapture(recording)) {
+        return std::make_unique<CaptureSource>(recording, options);
     }
     return std::make_unique<RawlogSource>(recording, options);
 }

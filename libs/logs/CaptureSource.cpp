@@ -1,0 +1,68 @@
+#include "CaptureSource.h"
+
+#include <hagen/logs/PoseFile.h>
+
+namespace hagen::logs {
+
+CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
+    : ScanSource(options), file_(capture), capture_(capture) {}
+
+std::optional<RecordedEntry> CaptureSource::nextEntry() {
+    while (turns_ <= options_.last_entry) {
+        checkInterruption();
+        const auto turn = capture_.next();
+        is_read_to_end_ = turn == nullptr;
+        if (!turn) return std::nullopt;
+        RecordedEntry entry;
+        entry.number = turns_++;
+        if (skips(entry.number)) continue;
+        entry.object = turn;
+        entry.fraction_read = capture_.fractionRead();
+        addIfScan(turn, "", entry);
+        return entry;
+    }
+    return std::nullopt;
+}
+
+RawlogSurvey CaptureSource::survey() const {
+    RawlogSurvey survey;
+    captures::VelodyneCapture ahead(file_);
+    try {
+        while (const auto turn = ahead.next()) {
+            checkInterruption();
+            survey.scans[turn->sensorLabel].push_back({turn->timestamp, turn->sensorPose});
+        }
+    } catch (const captures::BrokenCapture&) {
+        survey.is_whole = false;  // nextEntry() reports the break
+    }
+    return survey;
+}
+
+LogPoses CaptureSource::readPoses(const std::filesystem::path& file) {
+    if (file.empty() || kindOfPoseFile(file) == PoseFileKind::Tum) {
+        return posesOfRawlog(RawlogSurvey(), file);
+    }
+    RawlogSurvey selected = survey();
+    for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
+        scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
+    }
+    return posesOfRawlog(selected, file);
+}
+
+std::map<std::string, std::vector<mrpt::Clock::time_point>> CaptureSource::scanTimes() {
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
+    for (const auto& [label, places] : survey().scans) {
+        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
+    }
+    return times;
+}
+
+std::vector<std::string> CaptureSource::remarks() const {
+    std::vector<std::string> remarks = capture_.remarks();
+    if (!is_read_to_end_ && turns_ > options_.last_entry) {
+        for (std::string& remark : remarks) remark += " (up to the last entry converted)";
+    }
+    return remarks;
+}
+
+}  // namespace hagen::logs
