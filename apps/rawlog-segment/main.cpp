@@ -66,7 +66,8 @@ void declare(Program& app, Flags& flags) {
         return name.empty() ? "the name is empty" : "";
     };
 
-    app.option("-i,--input", conversion.input, "a rawlog, a capture of a Velodyne (.pcap, .pcapng), or a scan folder (KITTI "
+    app.option("-i,--input", conversion.input,
+               "a rawlog, a capture of a Velodyne (.pcap, .pcapng), or a scan folder (KITTI "
                "layout)")
         .existingPath()
         .group("Input");

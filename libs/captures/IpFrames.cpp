@@ -40,8 +40,8 @@ Bytes ipOf(int link_type, Bytes frame, bool& is_tagged) {
 }  // namespace
 
 bool isKnownLink(int link_type) {
-    for (const int known : {DLT_EN10MB, DLT_LINUX_SLL, kAnyDevice2, DLT_NULL, DLT_LOOP, DLT_RAW,
-                            DLT_IPV4, kRawIp}) {
+    for (const int known :
+         {DLT_EN10MB, DLT_LINUX_SLL, kAnyDevice2, DLT_NULL, DLT_LOOP, DLT_RAW, DLT_IPV4, kRawIp}) {
         if (link_type == known) return true;
     }
     return false;

@@ -27,9 +27,9 @@ struct IpPacket {
     Kind kind = Kind::Other;
     bool is_tagged = false;  ///< the frame has a VLAN tag
     std::uint32_t from_ip = 0, to_ip = 0;
-    std::uint16_t id = 0;  ///< of all fragments of a datagram
-    std::size_t offset = 0;      ///< of the content in the datagram, bytes
-    bool has_more = false;       ///< fragments follow
+    std::uint16_t id = 0;    ///< of all fragments of a datagram
+    std::size_t offset = 0;  ///< of the content in the datagram, bytes
+    bool has_more = false;   ///< fragments follow
     Bytes content;
 
     bool isFragment() const { return has_more || offset > 0; }

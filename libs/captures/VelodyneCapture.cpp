@@ -139,9 +139,9 @@ std::string VelodyneCapture::Reader::textOfOthers() const {
     addCount(other_datagrams, "other UDP datagram", "", text);
     if (other_datagrams > 0) {
         text.pop_back();
-        const auto most = std::max_element(
-            others.begin(), others.end(),
-            [](const auto& a, const auto& b) { return a.second < b.second; });
+        const auto most =
+            std::max_element(others.begin(), others.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; });
         text += " (most: " + std::to_string(most->second) + " of " +
                 std::to_string(most->first.second) + " bytes to port " +
                 std::to_string(most->first.first) + ")";

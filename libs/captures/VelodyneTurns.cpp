@@ -15,7 +15,7 @@ constexpr int kBlockBytes = CObservationVelodyneScan::SIZE_BLOCK;
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr std::size_t kMostWaiting = 16;
 constexpr double kHourUs = 3600e6, kSecondUs = 1e6;
-constexpr double kEndOfTurnUs = 50e3;    // without packets
+constexpr double kEndOfTurnUs = 50e3;     // without packets
 constexpr double kLongestTurnUs = 250e3;  // the slowest sensors turn five times per second
 constexpr int kLeastWrap = 100;           // 0.01 degrees; less is jitter of a sensor that stands
 
@@ -67,8 +67,7 @@ void VelodyneTurns::add(const VelodynePacket& packet) {
         ++counts_.interruptions;
     }
     auto place = waiting_.end();
-    while (place != waiting_.begin() &&
-           elapsedUs(std::prev(place)->sensorTimeUs(), time_us) < 0) {
+    while (place != waiting_.begin() && elapsedUs(std::prev(place)->sensorTimeUs(), time_us) < 0) {
         --place;
     }
     if (place != waiting_.begin() && isSame(*std::prev(place), packet)) {
@@ -112,13 +111,14 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
     const int azimuth = packet.azimuth();
     const bool wraps = azimuth >= 0 && azimuth < last_azimuth_ - kLeastWrap;
-    if (turn_ && (wraps || std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs)) endTurn();
+    if (turn_ && (wraps || std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs))
+        endTurn();
     if (!turn_) {
         using Ticks = std::chrono::duration<std::int64_t, std::ratio<1, 10000000>>;
         const std::chrono::nanoseconds since_1970(packet.time_ns);
         turn_ = CObservationVelodyneScan::Create();
-        turn_->timestamp = mrpt::Clock::fromDouble(0) +
-                           std::chrono::duration_cast<Ticks>(since_1970);
+        turn_->timestamp =
+            mrpt::Clock::fromDouble(0) + std::chrono::duration_cast<Ticks>(since_1970);
         turn_->originalReceivedTimestamp = turn_->timestamp;
         turn_->sensorLabel = label_;
         turn_->calibration = observations::defaultCalibration(model_);

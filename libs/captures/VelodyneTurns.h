@@ -34,12 +34,12 @@ class VelodyneTurns {
     using Turn = mrpt::obs::CObservationVelodyneScan::Ptr;
 
     struct Counts {
-        std::size_t packets = 0;       ///< taken, without those repeated
+        std::size_t packets = 0;  ///< taken, without those repeated
         std::size_t turns = 0;
-        std::size_t dual = 0;          ///< packets with two returns per firing
-        std::size_t out_of_order = 0;  ///< packets put back in their place
-        std::size_t repeated = 0;      ///< packets that came again, left out
-        std::size_t lost = 0;          ///< packets missing, by the sensor's clock
+        std::size_t dual = 0;           ///< packets with two returns per firing
+        std::size_t out_of_order = 0;   ///< packets put back in their place
+        std::size_t repeated = 0;       ///< packets that came again, left out
+        std::size_t lost = 0;           ///< packets missing, by the sensor's clock
         std::size_t interruptions = 0;  ///< gaps of more than a second, and jumps of that clock
     };
 

@@ -80,6 +80,15 @@ void readPoints(const CObservationPointCloud& observation, Scan& scan) {
     }
 }
 
+/// Names the fields of a newer MRPT's cloud that get lost.
+std::string remarkOnFields(const CObservationPointCloud& observation) {
+    const std::vector<std::string> fields = fieldsNotKept(*observation.pointcloud);
+    std::string names;
+    for (const std::string& field : fields) names += (names.empty() ? "" : ", ") + field;
+    if (names.empty()) return "";
+    return "fields of its cloud are not used, and not in an output rawlog: " + names;
+}
+
 void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,
                  ObservedScan& observed) {
     sensorOf(observation, observed.sensor);
@@ -139,6 +148,7 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
         if (velodyne->point_cloud.size() == 0) observed.remark = "the scan has no packets";
     } else if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
         readPoints(*cloud, observed.scan);
+        observed.remark = remarkOnFields(*cloud);
     } else {
         throw std::runtime_error("not a LiDAR scan");
     }

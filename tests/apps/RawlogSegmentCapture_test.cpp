@@ -62,7 +62,8 @@ TEST_F(RawlogSegmentCapture, ACaptureAndARawlogOfTheSameScansGiveTheSameLabels) 
 TEST_F(RawlogSegmentCapture, TheSameBytesForAnyNumberOfThreads) {
     const std::string capture = captureOfRecording();
     for (const std::string jobs : {"1", "3"}) {
-        ASSERT_EQ(run({"-q", "-i", capture, "-o", path(jobs + ".rawlog"), "--jobs", jobs}).exit_code, 0);
+        ASSERT_EQ(
+            run({"-q", "-i", capture, "-o", path(jobs + ".rawlog"), "--jobs", jobs}).exit_code, 0);
     }
     EXPECT_EQ(test::readFile(path("1.rawlog")), test::readFile(path("3.rawlog")));
 }
@@ -85,9 +86,11 @@ TEST_F(RawlogSegmentCapture, NoCutCrashesIt) {
     const std::string whole = test::readFile(captureOfRecording()).substr(0, 200000);
     for (std::size_t cut = 0; cut < 12; ++cut) {
         test::writeBytes(path("cut.pcap"), whole.substr(0, cut * whole.size() / 12));
-        const auto outcome = run({"-i", path("cut.pcap"), "--stats", path("s.json"), "--overwrite"});
+        const auto outcome =
+            run({"-i", path("cut.pcap"), "--stats", path("s.json"), "--overwrite"});
         EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 1) << outcome.err;
-        EXPECT_EQ(outcome.exit_code == 0, outcome.err.find("rawlog-segment: ") == std::string::npos);
+        EXPECT_EQ(outcome.exit_code == 0,
+                  outcome.err.find("rawlog-segment: ") == std::string::npos);
     }
 }
 
@@ -95,8 +98,7 @@ TEST_F(RawlogSegmentCapture, ACaptureOfSomethingElseIsNamed) {
     test::SentDatagram ouster;
     ouster.content = std::string(8448, '\0');
     ouster.to_port = 7502;
-    const std::string capture =
-        test::CaptureWriter().datagram(ouster).write(path("ouster.pcap"));
+    const std::string capture = test::CaptureWriter().datagram(ouster).write(path("ouster.pcap"));
     expectFailure({"-i", capture, "-o", path("out.rawlog")}, 1,
                   "ouster.pcap: has no data packets of a known Velodyne");
     const std::string wifi = test::CaptureWriter(105).write(path("wifi.pcap"));

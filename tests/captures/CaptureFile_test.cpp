@@ -90,9 +90,12 @@ TEST_F(CaptureFileTest, ReadsEveryKindOfFileAndLink) {
 
 TEST_F(CaptureFileTest, VlanTagsAreReadThroughAndCounted) {
     const ByteString ip = test::ipOf(sent("x"));
-    EXPECT_THAT(
-        read(CaptureWriter().frame(ethernet(ip, 1)).frame(ethernet(ip, 2)).frame(ethernet(ip)).bytes()),
-        ElementsAre("x", "x", "x"));
+    EXPECT_THAT(read(CaptureWriter()
+                         .frame(ethernet(ip, 1))
+                         .frame(ethernet(ip, 2))
+                         .frame(ethernet(ip))
+                         .bytes()),
+                ElementsAre("x", "x", "x"));
     EXPECT_EQ(counts_.tagged, 2u);
     expectBalance();
 }

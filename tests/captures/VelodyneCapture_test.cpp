@@ -76,7 +76,9 @@ class VelodyneCaptureTest : public testing::Test {
         }
         return writer;
     }
-    Turns read(const ByteString& bytes) { return readFile(test::writeBytes(folder_ / "a.pcap", bytes)); }
+    Turns read(const ByteString& bytes) {
+        return readFile(test::writeBytes(folder_ / "a.pcap", bytes));
+    }
     Turns readFile(const std::filesystem::path& file) {
         VelodyneCapture capture(file);
         Turns turns;
@@ -195,7 +197,8 @@ TEST_F(VelodyneCaptureTest, ASensorThatStandsStillStillGivesScansOfBoundedSize) 
     firings.intensity.setZero(16, 24 * 1000);
     firings.azimuth_step_deg = 0;
     Packets packets;
-    for (const auto& packet : encodePackets(model, firings)) packets.push_back(test::bytesOf(packet));
+    for (const auto& packet : encodePackets(model, firings))
+        packets.push_back(test::bytesOf(packet));
     const Turns turns = read(captureOf(packets).bytes());
     EXPECT_EQ(packetsOf(turns), packets);
     for (const auto& turn : turns) EXPECT_LE(turn->scan_packets.size(), 190u);
@@ -206,8 +209,8 @@ TEST_F(VelodyneCaptureTest, DualReturnsAreDecodedAndNamed) {
     const Turns turns = read(captureOf(packets).bytes());
     EXPECT_EQ(packetsOf(turns), packets);
     EXPECT_EQ(turns.size(), 2u);
-    EXPECT_THAT(remarks_[0], HasSubstr(", " + std::to_string(packets.size()) +
-                                       " packets with dual returns"));
+    EXPECT_THAT(remarks_[0],
+                HasSubstr(", " + std::to_string(packets.size()) + " packets with dual returns"));
     EXPECT_EQ(remarks_[0].find("lost"), std::string::npos);
 }
 
@@ -232,7 +235,8 @@ TEST_F(VelodyneCaptureTest, SeveralSensorsAreToldApart) {
     EXPECT_EQ(packetsOf({turns[1]}), rear);
     EXPECT_EQ(turns[2]->sensorLabel, "velodyne_3");
     EXPECT_EQ(packetsOf({turns[2]}), top);
-    EXPECT_THAT(remarks_[2], HasSubstr("velodyne_3 (HDL-32E at 10.0.0.101, port 2368): 40 packets"));
+    EXPECT_THAT(remarks_[2],
+                HasSubstr("velodyne_3 (HDL-32E at 10.0.0.101, port 2368): 40 packets"));
 }
 
 TEST_F(VelodyneCaptureTest, EverythingElseIsCounted) {
@@ -251,10 +255,11 @@ TEST_F(VelodyneCaptureTest, EverythingElseIsCounted) {
     writer.datagram(sent(hdl64)).datagram(sent(hdl64));
     writer.frame("arp");
     EXPECT_EQ(read(writer.bytes()).size(), 1u);
-    EXPECT_EQ(remarks_[1],
-              "12 frames; left out: 2 position packets (GPS), 2 packets of an HDL-64E, which is not "
-              "supported, 1 packet of an unknown Velodyne (model id 0xa1), 1 other UDP datagram "
-              "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
+    EXPECT_EQ(
+        remarks_[1],
+        "12 frames; left out: 2 position packets (GPS), 2 packets of an HDL-64E, which is not "
+        "supported, 1 packet of an unknown Velodyne (model id 0xa1), 1 other UDP datagram "
+        "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
 }
 
 TEST_F(VelodyneCaptureTest, NoEndOfSensorsFillsTheMemory) {
@@ -273,7 +278,8 @@ TEST_F(VelodyneCaptureTest, WithoutAPacketItSaysWhatThereIs) {
     SentDatagram ouster = sent(ByteString(8448, '\0'));
     ouster.to_port = 7502;
     EXPECT_TRUE(read(CaptureWriter().datagram(ouster).datagram(ouster).bytes()).empty());
-    EXPECT_THAT(broken_, HasSubstr("a.pcap: has no data packets of a known Velodyne (VLP-16 (0x22)"));
+    EXPECT_THAT(broken_,
+                HasSubstr("a.pcap: has no data packets of a known Velodyne (VLP-16 (0x22)"));
     EXPECT_THAT(broken_, HasSubstr("2 other UDP datagrams (most: 2 of 8448 bytes to port 7502)"));
     EXPECT_THAT(broken_, HasSubstr("--sensor-json FILE"));
     EXPECT_TRUE(read(CaptureWriter().bytes()).empty());
@@ -350,7 +356,8 @@ TEST_F(VelodyneCaptureTest, ATableTopCaptureOfRawPackets) {
     if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
     const ByteString raw = test::readFile(folder / "vlp16_packets_1206.bin");
     Packets packets;
-    for (std::size_t at = 0; at + 1206 <= raw.size(); at += 1206) packets.push_back(raw.substr(at, 1206));
+    for (std::size_t at = 0; at + 1206 <= raw.size(); at += 1206)
+        packets.push_back(raw.substr(at, 1206));
     ASSERT_EQ(packets.size(), 1000u);
     const Turns turns = read(captureOf(packets).bytes());
     EXPECT_EQ(packetsOf(turns), packets);

@@ -44,8 +44,8 @@ std::vector<ByteString> fragmentsOf(const SentDatagram& datagram, std::size_t mo
     std::vector<ByteString> packets;
     for (std::size_t at = 0; at < whole.size(); at += most) {
         const unsigned more = at + most < whole.size() ? 0x2000 : 0;
-        packets.push_back(ipWith(datagram, whole.substr(at, most),
-                                 more | static_cast<unsigned>(at / 8)));
+        packets.push_back(
+            ipWith(datagram, whole.substr(at, most), more | static_cast<unsigned>(at / 8)));
     }
     return packets;
 }
@@ -100,8 +100,8 @@ ByteString pcapngOf(const std::vector<ByteString>& frames, double time_s) {
         const auto size = static_cast<std::uint32_t>(body.size() + 12);
         return little32(type) + little32(size) + body + little32(size);
     };
-    ByteString bytes = block(0x0a0d0d0a, little32(0x1a2b3c4d) + ByteString("\x01\0\0\0", 4) +
-                                             ByteString(8, '\xff'));
+    ByteString bytes = block(
+        0x0a0d0d0a, little32(0x1a2b3c4d) + ByteString("\x01\0\0\0", 4) + ByteString(8, '\xff'));
     bytes += block(1, ByteString("\x01\0\0\0", 4) + little32(65535));  // an interface: Ethernet
     const auto time_us = static_cast<std::uint64_t>(1e6 * time_s);
     for (const ByteString& frame : frames) {

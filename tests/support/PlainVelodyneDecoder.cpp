@@ -87,8 +87,7 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
                                          const observations::VelodyneModel& model) {
     const bool has_own =
         observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
-    return has_own ? observation.calibration
-                   : observations::defaultCalibration(model);
+    return has_own ? observation.calibration : observations::defaultCalibration(model);
 }
 
 /// Rotation of the sensor from one firing's block to the next, in 0.01 degrees: the median over the

@@ -17,8 +17,8 @@ struct BrokenCapture : std::runtime_error {
 
 /// A UDP datagram of a capture, put together from its IP fragments.
 struct Datagram {
-    std::int64_t time_ns = 0;       ///< of the capture, since 1970; of its last fragment
-    std::uint32_t from_ip = 0;      ///< IPv4
+    std::int64_t time_ns = 0;   ///< of the capture, since 1970; of its last fragment
+    std::uint32_t from_ip = 0;  ///< IPv4
     std::uint16_t to_port = 0;
     const std::uint8_t* bytes = nullptr;  ///< valid until the next one is read
     std::size_t size = 0;
@@ -27,8 +27,8 @@ struct Datagram {
 /// "10.0.0.101".
 std::string ipText(std::uint32_t ip);
 
-/// What became of the frames of a capture. Each frame is counted once, but for those whose fragments
-/// made up a datagram.
+/// What became of the frames of a capture. Each frame is counted once, but for those whose
+/// fragments made up a datagram.
 struct FrameCounts {
     std::size_t frames = 0;          ///< all
     std::size_t datagrams = 0;       ///< UDP datagrams that came out whole

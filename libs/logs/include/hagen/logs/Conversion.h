@@ -96,10 +96,11 @@ struct ConversionListener {
 
 /// Segments a whole log. Holds two entries per thread in memory. Pictures are drawn on one thread.
 ///
-/// A segmented rawlog keeps every entry of the input, in order (of a capture: the scans). After each LiDAR observation it has
-/// the `_roi` and `_non_roi` clouds and, if requested, the preview. In a sensory frame these join
-/// the frame. Each scan of a scan folder becomes one observation. A written scan folder keeps the
-/// names and the point order of an input folder; scans of a rawlog are numbered.
+/// A segmented rawlog keeps every entry of the input, in order (of a capture: the scans). After
+/// each LiDAR observation it has the `_roi` and `_non_roi` clouds and, if requested, the preview.
+/// In a sensory frame these join the frame. Each scan of a scan folder becomes one observation. A
+/// written scan folder keeps the names and the point order of an input folder; scans of a rawlog
+/// are numbered.
 ///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.

@@ -32,11 +32,12 @@ struct RecordedScan {
     observations::SharedBeams beams;
 };
 
-/// An entry of a recording: an object of a rawlog, a scan of a scan folder, or a turn of a sensor in
-/// a capture.
+/// An entry of a recording: an object of a rawlog, a scan of a scan folder, or a turn of a sensor
+/// in a capture.
 struct RecordedEntry {
     std::size_t number = 0;  ///< index in the recording
-    /// The rawlog's object, or the scan of a capture. For a scan folder, an equivalent observation, if requested.
+    /// The rawlog's object, or the scan of a capture. For a scan folder, an equivalent observation,
+    /// if requested.
     mrpt::serialization::CSerializable::Ptr object;
     std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
     double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
