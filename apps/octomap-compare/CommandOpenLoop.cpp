@@ -111,6 +111,9 @@ void addOpenLoop(Program& program) {
     sub.option("-i,--input", source.log, "rawlog, capture (.pcap) or scan folder (KITTI layout)")
         .existingPath()
         .required();
+    sub.option("--sensor-json", source.sensor_json,
+               "metadata of the Ouster whose packets a capture has")
+        .existingFile();
     sub.option("--poses", source.poses,
                "poses of the vehicle (TUM) or of the sensor, one per scan (KITTI); overrides the "
                "poses in the log")

@@ -54,8 +54,7 @@ struct VelodyneCapture::Reader {
     std::deque<VelodyneTurns::Turn> complete;
     std::size_t packets = 0, position_packets = 0, further_sensors = 0, hdl64_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
-    std::map<std::pair<std::uint16_t, std::size_t>, std::size_t> others;  ///< by port and size
-    std::size_t other_datagrams = 0;
+    OtherDatagrams others;
     bool is_at_end = false;
     std::string broken_because;
 
@@ -63,7 +62,6 @@ struct VelodyneCapture::Reader {
 
     void take(const Datagram& datagram);
     void takePacket(const Datagram& datagram, const VelodyneModel& model);
-    void countOther(const Datagram& datagram);
     void finish();
     std::string whyEmpty() const;
     std::string textOfOthers() const;
@@ -73,7 +71,7 @@ void VelodyneCapture::Reader::take(const Datagram& datagram) {
     if (datagram.size == kPositionBytes && datagram.to_port == kPositionPort) {
         ++position_packets;
     } else if (!isDataPacket(datagram)) {
-        countOther(datagram);
+        others.add(datagram);
     } else if (isHdl64(datagram)) {
         ++hdl64_packets;
     } else if (const auto* model = observations::findVelodyneModel(datagram.bytes[1205])) {
@@ -108,13 +106,6 @@ void VelodyneCapture::Reader::takePacket(const Datagram& datagram, const Velodyn
     turns.complete().clear();
 }
 
-void VelodyneCapture::Reader::countOther(const Datagram& datagram) {
-    constexpr std::size_t kMostKinds = 64;
-    ++other_datagrams;
-    const std::pair kind{datagram.to_port, datagram.size};
-    if (others.size() < kMostKinds || others.count(kind) > 0) ++others[kind];
-}
-
 void VelodyneCapture::Reader::finish() {
     is_at_end = true;
     for (const SensorKey& key : order) {
@@ -136,16 +127,7 @@ std::string VelodyneCapture::Reader::textOfOthers() const {
                  text);
     }
     addCount(further_sensors, "packet", "of further sensors", text);
-    addCount(other_datagrams, "other UDP datagram", "", text);
-    if (other_datagrams > 0) {
-        text.pop_back();
-        const auto most =
-            std::max_element(others.begin(), others.end(),
-                             [](const auto& a, const auto& b) { return a.second < b.second; });
-        text += " (most: " + std::to_string(most->second) + " of " +
-                std::to_string(most->first.second) + " bytes to port " +
-                std::to_string(most->first.first) + ")";
-    }
+    others.describe(text);
     return text;
 }
 
@@ -208,16 +190,11 @@ std::vector<std::string> VelodyneCapture::remarks() const {
         addCount(counts.interruptions, "interruption", "or jump of the sensor's clock", text);
         remarks.push_back(text);
     }
-    const FrameCounts& frames = r.capture.counts();
     std::string left_out;
     addCount(r.position_packets, "position packet", "(GPS)", left_out);
-    for (const std::string& more : {r.textOfOthers(), textOfLosses(frames)}) {
-        if (!more.empty()) left_out += (left_out.empty() ? "" : ", ") + more;
-    }
-    std::string all = counted(frames.frames, "frame");
-    addCount(frames.tagged, "frame", "with a VLAN tag", all);
-    addCount(frames.fragments, "frame", "that are IP fragments", all);
-    remarks.push_back(all + "; left out: " + (left_out.empty() ? "none" : left_out));
+    const std::string others = r.textOfOthers();
+    if (!others.empty()) left_out += (left_out.empty() ? "" : ", ") + others;
+    remarks.push_back(textOfFrames(r.capture.counts(), left_out));
     return remarks;
 }
 

@@ -2,9 +2,10 @@
 
 #include <hagen/range_image/SensorModel.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
+
+#include "Remarks.h"
 
 namespace hagen::captures {
 namespace {
@@ -114,11 +115,8 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
     if (turn_ && (wraps || std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs))
         endTurn();
     if (!turn_) {
-        using Ticks = std::chrono::duration<std::int64_t, std::ratio<1, 10000000>>;
-        const std::chrono::nanoseconds since_1970(packet.time_ns);
         turn_ = CObservationVelodyneScan::Create();
-        turn_->timestamp =
-            mrpt::Clock::fromDouble(0) + std::chrono::duration_cast<Ticks>(since_1970);
+        turn_->timestamp = timeOf(packet.time_ns);
         turn_->originalReceivedTimestamp = turn_->timestamp;
         turn_->sensorLabel = label_;
         turn_->calibration = observations::defaultCalibration(model_);

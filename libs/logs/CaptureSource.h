@@ -1,11 +1,11 @@
 #pragma once
-#include <hagen/captures/VelodyneCapture.h>
+#include <hagen/captures/LidarCapture.h>
 #include <hagen/logs/RawlogSurvey.h>
 #include <hagen/logs/ScanSource.h>
 
 namespace hagen::logs {
 
-/// A capture of Velodyne packets as a source of scans: each turn of a sensor is an entry.
+/// A capture of a LiDAR's packets as a source of scans: each turn of a sensor is an entry.
 class CaptureSource : public ScanSource {
  public:
     CaptureSource(const std::filesystem::path& capture, const SourceOptions& options);
@@ -26,7 +26,7 @@ class CaptureSource : public ScanSource {
     RawlogSurvey survey() const;
 
     std::filesystem::path file_;
-    captures::VelodyneCapture capture_;
+    std::unique_ptr<captures::LidarCapture> capture_;
     std::size_t turns_ = 0;
     bool is_read_to_end_ = false;
 };

@@ -72,6 +72,7 @@ Converter::Converter(const Conversion& conversion, const ConversionListener& lis
 SourceOptions Converter::sourceOptions() {
     SourceOptions options;
     options.sensor_labels = conversion_.sensor_labels;
+    options.sensor_json = conversion_.sensor_json;
     options.first_entry = conversion_.from;
     options.last_entry = conversion_.to;
     if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;

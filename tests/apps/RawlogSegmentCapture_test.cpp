@@ -1,12 +1,14 @@
 // rawlog-segment on network captures, as a user would run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/captures/OusterSensor.h>
 #include <hagen/logs/RawlogReader.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <nlohmann/json.hpp>
 
 #include "support/CaptureWriter.h"
+#include "support/OusterPackets.h"
 #include "support/ProgramTest.h"
 
 namespace hagen {
@@ -92,6 +94,41 @@ TEST_F(RawlogSegmentCapture, NoCutCrashesIt) {
         EXPECT_EQ(outcome.exit_code == 0,
                   outcome.err.find("rawlog-segment: ") == std::string::npos);
     }
+}
+
+TEST_F(RawlogSegmentCapture, AnOusterNeedsItsMetadata) {
+    const std::string json = folder_.write("ouster.json", test::ousterJson());
+    const auto sensor = captures::readOusterSensor(json);
+    test::CaptureWriter writer;
+    for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 1))) {
+        test::SentDatagram datagram;
+        datagram.content = packet;
+        writer.datagram(datagram);
+    }
+    const std::string capture = writer.write(path("ouster.pcap"));
+    const std::string config =
+        folder_.write("four_beams.yaml", "window_size: 2\nprincipal_components: 1\n");
+    const auto outcome = run({"-i", capture, "--sensor-json", json, "-o", path("out.rawlog"),
+                              "--kitti", path("scans"), "-c", config});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("sensor ouster: OS-0-32-U1, 4 beams"));
+    EXPECT_THAT(outcome.err, HasSubstr("ouster (OS-0-32-U1, RNG19_RFL8_SIG16_NIR16): 4 packets"));
+    logs::RawlogReader reader(path("out.rawlog"));
+    while (reader.next()) {
+    }
+    EXPECT_EQ(reader.entries(), 3u);
+
+    const std::string out = path("other.rawlog");
+    expectFailure({"-i", capture, "-o", out}, 1, "--sensor-json FILE");
+    expectFailure({"-i", capture, "--sensor-json", path("none.json"), "-o", out}, 2,
+                  "--sensor-json");
+    const std::string cut = folder_.write("cut.json", test::ousterJson().substr(0, 200));
+    expectFailure({"-i", capture, "--sensor-json", cut, "-o", out}, 1,
+                  "cut.json: not metadata of an Ouster");
+    const std::string other = folder_.write("other.json", test::ousterJson("LEGACY"));
+    expectFailure({"-i", capture, "--sensor-json", other, "-o", out}, 1,
+                  "Is it another sensor's metadata?");
+    expectFailure({"-i", path("out.rawlog"), "--sensor-json", json, "-o", out}, 1, "is no capture");
 }
 
 TEST_F(RawlogSegmentCapture, ACaptureOfSomethingElseIsNamed) {

@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/captures/CaptureFile.h>
+#include <hagen/captures/OusterSensor.h>
 #include <hagen/logs/PoseFile.h>
+#include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/ObservationScan.h>
 
 #include "support/CaptureWriter.h"
+#include "support/OusterPackets.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 
@@ -112,6 +115,100 @@ TEST_F(CaptureSourceTest, TimesAndPosesOfFiles) {
     writeKittiPoses(folder_ / "two.txt", {CPose3D(), CPose3D()});
     EXPECT_THAT(test::messageOf([&] { open()->usePoses(folder_ / "two.txt"); }),
                 HasSubstr("has 2 poses for 3 scans"));
+}
+
+/// A capture of three frames of an Ouster, and its metadata.
+class OusterSourceTest : public testing::Test {
+ protected:
+    OusterSourceTest() {
+        options_.sensor_json = folder_.write("sensor.json", test::ousterJson());
+        const auto sensor = captures::readOusterSensor(options_.sensor_json);
+        test::CaptureWriter writer;
+        for (std::uint16_t id = 1; id <= 3; ++id) {
+            for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, id))) {
+                test::SentDatagram datagram;
+                datagram.content = packet;
+                datagram.time_s = kStart_s + 0.1 * (id - 1);
+                writer.datagram(datagram);
+            }
+        }
+        capture_ = writer.write(folder_ / "ouster.pcap");
+    }
+    test::TemporaryFolder folder_;
+    SourceOptions options_;
+    fs::path capture_;
+};
+
+TEST_F(OusterSourceTest, ScansBringTheirSensorAndAreWrittenAsClouds) {
+    using observations::CloudClass;
+    for (const auto cloud_class : {std::optional<CloudClass>(), std::optional(CloudClass::Simple),
+                                   std::optional(CloudClass::WithIntensity)}) {
+        options_.folder_objects = cloud_class;
+        const auto source = openRecording(capture_, options_);
+        source->useSettings({});
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto entry = source->nextEntry();
+            ASSERT_TRUE(entry);
+            ASSERT_EQ(entry->scans.size(), 1u);
+            EXPECT_EQ(entry->scans[0].beams, nullptr);  // nothing to recover
+            observations::ObservedScan observed;
+            observations::readObservation(*entry->scans[0].observation, {}, observed);
+            EXPECT_EQ(observed.sensor.name, "OS-0-32-U1");
+            EXPECT_FALSE(observed.is_sensor_assumed);
+            EXPECT_FALSE(observed.scan.time_s.empty());
+            ASSERT_EQ(entry->object != nullptr, cloud_class.has_value());
+            if (!cloud_class) continue;
+            const auto object =
+                std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(entry->object);
+            ASSERT_TRUE(object);
+            EXPECT_EQ(object->sensorLabel, "ouster");
+            RawlogWriter writer(folder_ / "a.rawlog", true);
+            writer.write(*object);
+            writer.commit();
+            Scan again;
+            const auto read = RawlogReader(folder_ / "a.rawlog").next();
+            observations::readCloudPoints(dynamic_cast<mrpt::obs::CObservation&>(*read), again);
+            EXPECT_EQ(again.x_m, observed.scan.x_m);
+            const bool has_intensity = cloud_class == CloudClass::WithIntensity;
+            EXPECT_EQ(again.intensity, has_intensity ? observed.scan.intensity
+                                                     : std::vector<float>(again.size(), 0.0f));
+        }
+        EXPECT_FALSE(source->nextEntry());
+    }
+}
+
+TEST_F(OusterSourceTest, RangeLimitsOfTheSettingsHoldAndAnotherModelIsRemarkedOn) {
+    const auto scan = openRecording(capture_, options_)->nextScan();
+    observations::Settings settings;
+    settings.sensor.model = "OS0-128";
+    settings.sensor.max_range_m = 50.0f;
+    observations::ObservedScan observed;
+    observations::readObservation(*scan->observation, settings, observed);
+    EXPECT_EQ(observed.sensor.rows(), 4);
+    EXPECT_EQ(observed.sensor.max_range_m, 50.0f);
+    EXPECT_THAT(observed.remark, HasSubstr("the packets are of the sensor OS-0-32-U1"));
+}
+
+TEST_F(OusterSourceTest, TimesAndPoses) {
+    EXPECT_EQ(openRecording(capture_, options_)->scanTimes().at("ouster").size(), 3u);
+    writeKittiPoses(folder_ / "poses.txt", {CPose3D(), CPose3D(1, 0, 0, 0, 0, 0), CPose3D()});
+    const auto source = openRecording(capture_, options_);
+    source->usePoses(folder_ / "poses.txt");
+    source->nextScan();
+    EXPECT_NEAR(source->nextScan()->pose.sensor_pose->x(), 1.0, 1e-6);
+}
+
+TEST_F(OusterSourceTest, MetadataAreForCapturesOnly) {
+    RawlogWriter writer(folder_ / "a.rawlog", true);
+    writer.write(mrpt::obs::CObservationPointCloud());
+    writer.commit();
+    EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "a.rawlog", options_); }),
+                HasSubstr("a.rawlog: is no capture (.pcap, .pcapng), so there is no sensor that "));
+    EXPECT_THAT(test::messageOf([&] { openRecording(folder_.path(), options_); }),
+                HasSubstr("is no capture"));
+    options_.sensor_json = folder_ / "none.json";
+    EXPECT_THAT(test::messageOf([&] { openRecording(capture_, options_); }),
+                HasSubstr("none.json: not metadata of an Ouster: cannot be opened"));
 }
 
 TEST_F(CaptureSourceTest, ABreakIsReportedAfterTheScansBeforeIt) {

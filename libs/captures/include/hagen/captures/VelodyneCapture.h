@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/captures/CaptureFile.h>
+#include <hagen/captures/LidarCapture.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <filesystem>
@@ -14,21 +14,16 @@ namespace hagen::captures {
 ///
 /// The first sensor has the label "velodyne", others "velodyne_2" and so on. The time of a turn is
 /// that of the capture at its first packet. The first and the last turn of a capture may be parts.
-class VelodyneCapture {
+class VelodyneCapture : public LidarCapture {
  public:
     /// Throws BrokenCapture naming the file if it cannot be opened.
     explicit VelodyneCapture(const std::filesystem::path& file);
-    ~VelodyneCapture();
+    ~VelodyneCapture() override;
 
-    /// The next turn; null at the end. Where the capture breaks off, the turns in progress come
-    /// first. Throws BrokenCapture there, and at the end if there was no packet.
     mrpt::obs::CObservationVelodyneScan::Ptr next();
-
-    double fractionRead() const;
-
-    /// What was found, with figures: the frames, each sensor, and all that was lost or left out.
-    /// Complete at the end.
-    std::vector<std::string> remarks() const;
+    mrpt::obs::CObservation::Ptr nextScan() override { return next(); }
+    double fractionRead() const override;
+    std::vector<std::string> remarks() const override;
 
  private:
     struct Reader;

@@ -16,7 +16,8 @@ namespace hagen::logs {
 
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
-    std::filesystem::path input;  ///< a rawlog, a capture, or a scan folder
+    std::filesystem::path input;        ///< a rawlog, a capture, or a scan folder
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
 
     std::filesystem::path rawlog;    ///< segmented rawlog
     std::filesystem::path folder;    ///< scan folder; with several LiDARs, one subfolder per LiDAR

@@ -48,8 +48,10 @@ struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
-    /// Class of the clouds in RecordedEntry::object for scans of a scan folder; none: no objects.
+    /// Class of the clouds in RecordedEntry::object for scans of a scan folder or of an Ouster's
+    /// capture; none: no objects.
     std::optional<observations::CloudClass> folder_objects;
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
     /// Called before each entry is read, also in advance; false ends reading with Interrupted.
     std::function<bool()> keep_going = [] { return true; };
 };
@@ -150,7 +152,8 @@ class ScanSource {
 };
 
 /// Opens a rawlog, a capture (.pcap, .pcapng) or a scan folder; files are told apart by their
-/// content. Throws std::runtime_error naming it if it does not exist or cannot be opened.
+/// content. Throws std::runtime_error naming it if it does not exist or cannot be opened, or if
+/// there is a sensor_json but no capture.
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 
