@@ -108,7 +108,8 @@ struct CaptureFile::Reader {
     }
 
     /// Takes the content of a whole datagram; false if it is cut.
-    bool take(const IpPacket& packet, Bytes whole, const pcap_pkthdr& header, Datagram& datagram) {
+    static bool take(const IpPacket& packet, Bytes whole, const pcap_pkthdr& header,
+                     Datagram& datagram) {
         if (whole.size < kUdpHeader) return false;
         const std::size_t size = whole.at16(4);
         if (size < kUdpHeader || size > whole.size) return false;
@@ -134,14 +135,12 @@ bool CaptureFile::next(Datagram& datagram) {
         ++r.counts.frames;
         const IpPacket packet = readFrame(r.link_type, frame);
         r.counts.tagged += packet.is_tagged;
-        if (header->caplen < header->len && packet.kind != IpPacket::Kind::Other) {
-            ++r.counts.cut_frames;
-        } else if (packet.kind == IpPacket::Kind::Other) {
+        if (packet.kind == IpPacket::Kind::Other) {
             ++r.counts.other_traffic;
-        } else if (packet.kind == IpPacket::Kind::Cut) {
+        } else if (packet.kind == IpPacket::Kind::Cut || header->caplen < header->len) {
             ++r.counts.cut_frames;
         } else if (const Bytes whole = r.wholeOf(packet); whole.data != nullptr) {
-            if (r.take(packet, whole, *header, datagram)) {
+            if (Reader::take(packet, whole, *header, datagram)) {
                 ++r.counts.datagrams;
                 return true;
             }

@@ -2,6 +2,8 @@
 
 #include <pcap/dlt.h>
 
+#include <initializer_list>
+
 namespace hagen::captures {
 namespace {
 

@@ -2,8 +2,8 @@
 
 #include <hagen/range_image/SensorModel.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "Remarks.h"
 
@@ -28,7 +28,7 @@ const std::uint8_t* bytesOf(const VelodynePacket& packet) {
 double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
 
 bool isSame(const VelodynePacket& a, const VelodynePacket& b) {
-    return std::memcmp(&a.raw, &b.raw, sizeof a.raw) == 0;
+    return std::equal(bytesOf(a), bytesOf(a) + sizeof a.raw, bytesOf(b));
 }
 
 }  // namespace

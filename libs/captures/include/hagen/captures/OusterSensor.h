@@ -45,6 +45,6 @@ struct OusterSensor {
 
 /// Reads the metadata of a sensor, as the sensor or the maker's tools write it. Throws
 /// std::runtime_error naming the file and what is missing or wrong.
-OusterSensor readOusterSensor(const std::filesystem::path& json);
+OusterSensor readOusterSensor(const std::filesystem::path& file);
 
 }  // namespace hagen::captures

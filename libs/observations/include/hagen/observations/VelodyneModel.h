@@ -25,7 +25,10 @@ struct VelodyneModel {
     /// From the first firing of a packet to that of the next.
     double packetPeriodUs(bool is_dual) const { return (is_dual ? 6 : 12) * blockPeriodUs(); }
     /// From a firing's first laser to this one.
-    double delayUs(int laser) const { return laser / lasers_at_once * laser_period_us; }
+    double delayUs(int laser) const {
+        const int group = laser / lasers_at_once;
+        return group * laser_period_us;
+    }
     /// The time of a laser within its block's rotation: 0 at the block's azimuth, 1 at the next
     /// block's.
     double turnWithinBlock(int firing, int laser) const {
