@@ -40,7 +40,7 @@ std::string packetOf(const std::vector<Point>& points, std::int64_t time_ns, int
     put(bytes, number, 2);
     put(bytes, 0, 1);
     put(bytes, data_type, 1);
-    put(bytes, 0, 1 + 12 + 4);
+    bytes += std::string(1 + 12 + 4, '\0');
     put(bytes, time_ns, 8);
     for (const Point& point : points) {
         for (const int value : {point.x, point.y, point.z}) put(bytes, value, size);
