@@ -66,12 +66,16 @@ void declare(Program& app, Flags& flags) {
         return name.empty() ? "the name is empty" : "";
     };
 
-    app.option("-i,--input", conversion.input, "a .rawlog, or a scan folder (KITTI layout)")
+    app.option("-i,--input", conversion.input,
+               "a rawlog, a network capture (.pcap, .pcapng), or a scan folder (KITTI layout)")
         .existingPath()
         .group("Input");
+    app.option("--sensor-json", conversion.sensor_json,
+               "metadata of the Ouster whose packets a capture has")
+        .existingFile()
+        .group("Input");
     app.option("--from", conversion.from,
-               "first entry to convert, from 0; for a scan "
-               "folder: scan")
+               "first entry to convert, from 0; of a scan folder: scan; of a capture: turn")
         .notNegative()
         .group("Input");
     app.option("--to", conversion.to, "last entry to convert").notNegative().group("Input");
@@ -217,6 +221,7 @@ void learn(const Flags& flags) {
     const logs::Conversion& conversion = flags.conversion;
     logs::AirframeLearning learning;
     learning.input = conversion.input;
+    learning.sensor_json = conversion.sensor_json;
     learning.file = flags.learned_airframe;
     learning.overwrite = conversion.overwrite;
     learning.seconds = flags.learn_seconds;
@@ -269,6 +274,8 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"
         "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
+        "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"
+        "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"
         "\n"
         "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "

@@ -40,7 +40,7 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     std::vector<fs::path> outputs = conversion.octomaps;
     outputs.insert(outputs.end(),
                    {conversion.rawlog, conversion.folder, conversion.pictures, conversion.stats});
-    base::checkApart(outputs, {conversion.input, conversion.poses});
+    base::checkApart(outputs, {conversion.input, conversion.poses, conversion.sensor_json});
     useExternals(conversion, listener);
     return Converter(conversion, listener).run();
 }

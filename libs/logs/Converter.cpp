@@ -1,5 +1,6 @@
 #include "Converter.h"
 
+#include <hagen/captures/CaptureFile.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/ScanFolder.h>
@@ -71,6 +72,7 @@ Converter::Converter(const Conversion& conversion, const ConversionListener& lis
 SourceOptions Converter::sourceOptions() {
     SourceOptions options;
     options.sensor_labels = conversion_.sensor_labels;
+    options.sensor_json = conversion_.sensor_json;
     options.first_entry = conversion_.from;
     options.last_entry = conversion_.to;
     if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
@@ -261,6 +263,8 @@ ConversionReport Converter::run() {
         endEarly(e);
     } catch (const BrokenScan& e) {
         endEarly(e);
+    } catch (const captures::BrokenCapture& e) {
+        endEarly(e);
     } catch (const Interrupted& e) {
         endEarly(e);
     }
@@ -285,14 +289,20 @@ ConversionReport Converter::finish() {
                          "the airframe of the settings masks none of its returns; is it that of "
                          "this vehicle, in the frame of the sensor?");
     }
+    remarkOnRecording();
     outputs_.commit(report_);
     return std::move(report_);
+}
+
+void Converter::remarkOnRecording() {
+    for (const std::string& remark : source_->remarks()) listener_.remark("the recording", remark);
 }
 
 /// Keeps what was converted so far, and adds its location to the error.
 template <class Error>
 void Converter::endEarly(const Error& why) {
     if (report_.entries == 0) throw why;
+    remarkOnRecording();
     const std::string unit = fs::is_directory(conversion_.input) ? "scans" : "entries";
     throw Error(std::string(why.what()) + "; the " + std::to_string(report_.entries) + " " + unit +
                 " before it are in" + outputs_.keepPartial(report_));

@@ -55,6 +55,7 @@ class Converter {
     void insertIntoMap(const ScanInConversion& scan);
     void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan);
     ConversionReport finish();
+    void remarkOnRecording();
     void checkLabels() const;
     template <class Error>
     [[noreturn]] void endEarly(const Error& why);

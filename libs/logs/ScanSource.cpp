@@ -1,7 +1,9 @@
 #include <hagen/logs/ScanSource.h>
 
+#include <hagen/captures/CaptureFile.h>
 #include <algorithm>
 
+#include "CaptureSource.h"
 #include "RawlogSource.h"
 #include "ScanFolderSource.h"
 
@@ -84,7 +86,16 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
     if (!std::filesystem::exists(recording)) {
         throw std::runtime_error(recording.string() + ": no such file or folder");
     }
-    if (std::filesystem::is_directory(recording)) {
+    const bool is_folder = std::filesystem::is_directory(recording);
+    if (!is_folder && captures::isCapture(recording)) {
+        return std::make_unique<CaptureSource>(recording, options);
+    }
+    if (!options.sensor_json.empty()) {
+        throw std::runtime_error(
+            recording.string() + ": is no capture (.pcap, .pcapng), so there " +
+            "is no sensor that " + options.sensor_json.string() + " could describe");
+    }
+    if (is_folder) {
         return std::make_unique<ScanFolderSource>(recording, options);
     }
     return std::make_unique<RawlogSource>(recording, options);

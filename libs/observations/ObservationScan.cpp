@@ -1,3 +1,4 @@
+#include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/VelodyneDecoder.h>
@@ -80,23 +81,54 @@ void readPoints(const CObservationPointCloud& observation, Scan& scan) {
     }
 }
 
-void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,
-                 ObservedScan& observed) {
-    sensorOf(observation, observed.sensor);
-    // The recording's range limits are those of its driver; all returns are in the packets.
+/// Names the fields of a newer MRPT's cloud that get lost.
+std::string remarkOnFields(const CObservationPointCloud& observation) {
+    const std::vector<std::string> fields = fieldsNotKept(*observation.pointcloud);
+    std::string names;
+    for (const std::string& field : fields) names += (names.empty() ? "" : ", ") + field;
+    if (names.empty()) return "";
+    return "fields of its cloud are not used, and not in an output rawlog: " + names;
+}
+
+const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {
+    const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
+    return cloud == nullptr ? nullptr : dynamic_cast<const LocatedCloud*>(cloud->pointcloud.get());
+}
+
+/// The recording's own sensor is used, but for its range limits: those are of its driver, and all
+/// returns are there.
+void takeOwnSensor(const Settings& settings, ObservedScan& observed) {
     SensorModel& sensor = observed.sensor;
     sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
+    if (settings.sensor.model && settings.sensor.model != sensor.name) {
+        observed.remark = "the packets are of the sensor " + sensor.name +
+                          ": its beams are used instead of the settings' sensor.model " +
+                          *settings.sensor.model;
+    }
+}
+
+/// Reads a cloud that knows its beams.
+void readLocated(const CObservationPointCloud& observation, const LocatedCloud& cloud,
+                 const Settings& settings, ObservedScan& observed) {
+    observed.sensor = cloud.sensor();
+    takeOwnSensor(settings, observed);
+    readPoints(observation, observed.scan);
+    locateBeams(observed.sensor, observed.scan);
+    observed.scan.row = cloud.rows();  // exact, also for near returns
+    observed.scan.time_s = cloud.times_s();
+}
+
+void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,
+                 ObservedScan& observed) {
+    sensorOf(observation, observed.sensor);
+    takeOwnSensor(settings, observed);
     const std::size_t unsound_blocks =
         decodePackets(observation, observed.scan, observed.work.decoder);
     if (unsound_blocks > 0) {
         observed.remark = std::to_string(unsound_blocks) + " of " +
                           std::to_string(observation.scan_packets.size() * 12) +
                           " packet blocks have no valid header or azimuth and are skipped";
-    } else if (settings.sensor.model && settings.sensor.model != observed.sensor.name) {
-        observed.remark = "the packets are from a " + observed.sensor.name +
-                          ": its beams are used instead of the settings' sensor.model " +
-                          *settings.sensor.model;
     }
 }
 
@@ -109,7 +141,7 @@ bool isLidarScan(const mrpt::obs::CObservation& observation) {
 }
 
 bool isCloud(const mrpt::obs::CObservation& observation) {
-    if (!isLidarScan(observation)) return false;
+    if (!isLidarScan(observation) || locatedCloudOf(observation) != nullptr) return false;
     const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation);
     return velodyne == nullptr || velodyne->scan_packets.empty();
 }
@@ -138,7 +170,12 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
         readPoints(*velodyne, observed.scan);
         if (velodyne->point_cloud.size() == 0) observed.remark = "the scan has no packets";
     } else if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
+        if (const LocatedCloud* located = locatedCloudOf(observation)) {
+            readLocated(*cloud, *located, settings, observed);
+            return;
+        }
         readPoints(*cloud, observed.scan);
+        observed.remark = remarkOnFields(*cloud);
     } else {
         throw std::runtime_error("not a LiDAR scan");
     }

@@ -22,7 +22,6 @@ constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
 static_assert(kTurn == kReadingsOfTurn);
 static_assert(CObservationVelodyneScan::SCANS_PER_BLOCK == kReturnsOfBlock);
-static_assert(CObservationVelodyneScan::DISTANCE_RESOLUTION == kDistanceUnit_m);
 constexpr double kHourUs = 3600e6;
 
 /// A raw packet, read byte by byte (little-endian): MRPT's struct is packed, and its accessors bind
@@ -98,7 +97,7 @@ const VelodyneModel& modelOf(const CObservationVelodyneScan& observation, std::s
     const VelodyneModel* model = findVelodyneModel(id);
     if (model == nullptr) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": unknown model id " +
-                                 hex(id) + "; known are VLP-16 (0x22) and HDL-32E (0x21)");
+                                 hex(id) + "; known are" + knownVelodynes());
     }
     if (id != Packet(observation.scan_packets.front()).modelId()) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": model id " + hex(id) +
@@ -136,6 +135,7 @@ int turnOfBlocks(const CObservationVelodyneScan& observation, std::vector<int>& 
 BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
                             int turn_of_blocks) {
     BlockOffsets places;
+    places.distance_unit_m = model.distance_unit_m;
     for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
         const int laser = i % model.lasers;
         const auto& correction = calibration.laser_corrections[laser];

@@ -34,8 +34,8 @@ class PacketWriter {
     std::vector<std::uint8_t> bytes_;
 };
 
-unsigned distanceUnits(float range_m) {
-    const float units = std::round(range_m / CObservationVelodyneScan::DISTANCE_RESOLUTION);
+unsigned distanceUnits(float range_m, const VelodyneModel& model) {
+    const float units = std::round(range_m / model.distance_unit_m);
     return units >= 1.0f && units <= 65535.0f ? static_cast<unsigned>(units) : 0u;  // NaN: 0
 }
 
@@ -64,14 +64,16 @@ void checkSizes(const VelodyneModel& model, const Firings& firings) {
 
 /// Returns the azimuth reading of a laser of a firing, not rounded and not wrapped to a revolution.
 double readingOf(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
-    const double turn = firing + laser * model.laser_period_us / model.firing_period_us;
+    const double turn = firing + model.delayUs(laser) / model.firing_period_us;
     return 100.0 * (firings.first_azimuth_deg + turn * firings.azimuth_step_deg);
 }
 
 }  // namespace
 
 double firingAzimuthDeg(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
-    return azimuthOfReadingDeg(readingOf(model, firings, laser, firing));
+    const auto& corrections = defaultCalibration(model).laser_corrections[laser];
+    return azimuthOfReadingDeg(readingOf(model, firings, laser, firing) -
+                               100.0 * corrections.azimuthCorrection);
 }
 
 std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& firings) {
@@ -93,7 +95,7 @@ std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& fir
             for (int i = 0; i < kReturns; ++i) {
                 const int laser = i % model.lasers, firing = block_firing + i / model.lasers;
                 const bool fired = firing < firing_count;
-                bytes.put16(fired ? distanceUnits(range_m(laser, firing)) : 0);
+                bytes.put16(fired ? distanceUnits(range_m(laser, firing), model) : 0);
                 bytes.put8(fired ? intensityUnits(firings.intensity(laser, firing)) : 0);
             }
         }

@@ -124,7 +124,7 @@ void locate(const VelodyneBlock* blocks, std::size_t block_count, const BlockOff
             Direction direction = rotateBy(*block, places, i);
             if (HWY_UNLIKELY(passes_behind)) wrap(*block, places, i, direction);
             const auto range_m =
-                hn::Add(hn::Mul(hn::ConvertTo(d, raw.distance), hn::Set(d, kDistanceUnit_m)),
+                hn::Add(hn::Mul(hn::ConvertTo(d, raw.distance), hn::Set(d, places.distance_unit_m)),
                         hn::LoadU(d, places.distance_m + i));
             const auto horizontal_m =
                 hn::Add(hn::Mul(range_m, hn::LoadU(d, places.elevation_cosine + i)),

@@ -10,9 +10,6 @@ namespace hagen::observations {
 /// Returns per block.
 constexpr std::size_t kReturnsOfBlock = 32;
 
-/// Unit of the distances in packets.
-constexpr float kDistanceUnit_m = 0.002f;
-
 /// Azimuth readings per revolution; one more than a full circle, see azimuthOfReadingDeg().
 constexpr int kReadingsOfTurn = 36000;
 constexpr double kRadiansPerReading = 2.0 * kPi / (kReadingsOfTurn - 1);
@@ -20,6 +17,7 @@ constexpr double kRadiansPerReading = 2.0 * kPi / (kReadingsOfTurn - 1);
 /// Offsets of a return from the first return of its block: one entry per place in the block, the
 /// same for all blocks of a scan.
 struct BlockOffsets {
+    float distance_unit_m;  ///< of the distances in packets
     float turn_sine[kReturnsOfBlock], turn_cosine[kReturnsOfBlock];  ///< clockwise
     float turn_rad[kReturnsOfBlock];                                 ///< clockwise
     float turn_reading[kReturnsOfBlock];                             ///< 0.01 degrees clockwise

@@ -49,6 +49,7 @@ void place(const observations::ObservationSegmenter::Output& out, const CObserva
 LoggedScans::LoggedScans(const LogSource& source) : own_reach_m_(source.own_reach_m) {
     logs::SourceOptions options;
     if (!source.sensor_label.empty()) options.sensor_labels = {source.sensor_label};
+    options.sensor_json = source.sensor_json;
     source_ = logs::openRecording(source.log, options);
 
     std::vector<TimePoint> times;

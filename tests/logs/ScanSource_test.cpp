@@ -407,7 +407,7 @@ TEST_F(ScanSourceTest, CountsOnlyEntriesThatExist) {
 TEST_F(ScanSourceTest, ABrokenRawlogGivesWhatIsBeforeTheBreak) {
     const fs::path whole = rawlogOf(mixed());
     // Uncompressed, so that it can be truncated at any byte.
-    GzipInput stream(whole);
+    PackedInput stream(whole);
     std::string bytes(1 << 16, '\0');
     bytes.resize(stream.Read(bytes.data(), bytes.size()));
     const fs::path cut = folder_ / "cut.rawlog";

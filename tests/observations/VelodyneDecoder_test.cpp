@@ -101,9 +101,7 @@ Firings randomFirings(unsigned seed, const VelodyneModel& model, int count, doub
 }
 
 void expectReturns(const VelodyneModel& model, const Firings& firings, const Scan& scan) {
-    const auto calibration =
-        mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration);
-    const auto rows = rowsOfLasers(calibration);
+    const auto rows = rowsOfLasers(defaultCalibration(model));
     std::size_t i = 0;
     for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
         for (int laser = 0; laser < model.lasers; ++laser) {
@@ -114,10 +112,11 @@ void expectReturns(const VelodyneModel& model, const Firings& firings, const Sca
             const double turned =
                 std::remainder(static_cast<double>(scan.azimuth_rad[i]) - azimuth_rad, 2 * kPi);
             ASSERT_LT(std::abs(degrees(turned)), 0.016);  // azimuths are rounded twice to 0.01
-            ASSERT_NEAR(scan.range_m[i], range_m, 0.00101);
+            ASSERT_NEAR(scan.range_m[i], range_m, 0.5f * model.distance_unit_m + 1e-5f);
             ASSERT_EQ(scan.row[i], rows[laser]);
             ASSERT_NEAR(scan.intensity[i], firings.intensity(laser, firing), 0.5 / 255 + 1e-6);
-            ASSERT_NEAR(std::hypot(scan.x_m[i], scan.y_m[i], scan.z_m[i]), range_m, 0.002);
+            ASSERT_NEAR(std::hypot(scan.x_m[i], scan.y_m[i], scan.z_m[i]), range_m,
+                        model.distance_unit_m);
             ASSERT_NEAR(std::remainder(std::atan2(scan.y_m[i], scan.x_m[i]) - scan.azimuth_rad[i],
                                        static_cast<float>(2 * kPi)),
                         0.0, 1e-5);
@@ -128,7 +127,7 @@ void expectReturns(const VelodyneModel& model, const Firings& firings, const Sca
 }
 
 TEST(VelodyneDecoder, GivesBackWhatWasEncoded) {
-    for (const char* name : {"VLP-16", "HDL-32E"}) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
         const VelodyneModel& model = velodyneModel(name);
         for (unsigned seed = 51; seed < 55; ++seed) {
             const Firings firings = randomFirings(seed, model, 24 * 40, 0.3);
@@ -140,7 +139,7 @@ TEST(VelodyneDecoder, GivesBackWhatWasEncoded) {
 }
 
 TEST(VelodyneDecoder, DualModeGivesTheLastAndTheStrongestReturnOfEveryFiring) {
-    for (const char* name : {"VLP-16", "HDL-32E"}) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
         const VelodyneModel& model = velodyneModel(name);
         Firings firings = randomFirings(55, model, 240, 0.0);
         firings.last_range_m = firings.range_m + 1.0f;
@@ -246,7 +245,8 @@ TEST(VelodyneDecoder, RecordingsAreDecodedAsReturnByReturn) {
 /// A random scan: any part of a revolution, any fraction of missing returns, half of them with dual
 /// returns, half with a calibration with all corrections.
 CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
-    const VelodyneModel& model = velodyneModel(random.chance(0.5) ? "VLP-16" : "HDL-32E");
+    const char* const names[] = {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"};
+    const VelodyneModel& model = velodyneModel(names[random.whole(0, 3)]);
     const double missing = random.chance(0.2) ? 1.0 : static_cast<double>(random.real(0.0f, 0.9f));
     Firings firings = randomFirings(static_cast<unsigned>(random.whole(0, 1000000)), model,
                                     random.whole(1, 600), missing);

@@ -10,9 +10,8 @@ namespace {
 using mrpt::obs::VelodyneCalibration;
 
 TEST(VelodyneModel, DefaultCalibrationsHaveTheBeamsOfTheDataSheets) {
-    for (const char* name : {"VLP-16", "HDL-32E"}) {
-        const auto& calibration =
-            VelodyneCalibration::LoadDefaultCalibration(velodyneModel(name).calibration);
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+        const auto& calibration = defaultCalibration(velodyneModel(name));
         const SensorModel expected = sensorModel(name), found = sensorOf(calibration, name);
         ASSERT_EQ(found.rows(), expected.rows());
         for (int row = 0; row < found.rows(); ++row) {
@@ -29,7 +28,7 @@ TEST(VelodyneModel, RowsFollowElevationNotLaserNumber) {
 }
 
 TEST(VelodyneModel, ABlockHoldsThirtyTwoReturns) {
-    for (const char* name : {"VLP-16", "HDL-32E"}) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
         const VelodyneModel& model = velodyneModel(name);
         EXPECT_EQ(model.lasers * model.firings_per_block, 32);
         EXPECT_EQ(model.turnWithinBlock(0, 0), 0.0);
@@ -43,6 +42,26 @@ TEST(VelodyneModel, FiresAsTheManualsSay) {
     EXPECT_EQ(velodyneModel("VLP-16").firing_period_us, 55.296);
     EXPECT_EQ(velodyneModel("HDL-32E").laser_period_us, 1.152);
     EXPECT_EQ(velodyneModel("HDL-32E").firing_period_us, 46.080);
+    // A VLP-32C fires two lasers at once: the last pair 15 periods after the first.
+    EXPECT_EQ(velodyneModel("VLP-32C").delayUs(1), 0.0);
+    EXPECT_DOUBLE_EQ(velodyneModel("VLP-32C").delayUs(31), 15 * 2.304);
+    EXPECT_DOUBLE_EQ(velodyneModel("VLP-16").packetPeriodUs(false), 1327.104);
+    EXPECT_DOUBLE_EQ(velodyneModel("VLP-16").packetPeriodUs(true), 663.552);
+    EXPECT_DOUBLE_EQ(velodyneModel("HDL-32E").packetPeriodUs(false), 552.96);
+    EXPECT_DOUBLE_EQ(velodyneModel("VLP-32C").packetPeriodUs(false), 663.552);
+}
+
+TEST(VelodyneModel, AVlp32cLooksAsideByTheOffsetsOfItsManual) {
+    const auto& lasers = defaultCalibration(velodyneModel("VLP-32C")).laser_corrections;
+    double sum = 0;
+    for (const auto& laser : lasers) {
+        const double offset_deg = std::abs(laser.azimuthCorrection);
+        EXPECT_TRUE(offset_deg == 1.4 || offset_deg == 4.2);
+        sum += laser.azimuthCorrection;
+    }
+    EXPECT_NEAR(sum, 0.0, 1e-9);
+    EXPECT_EQ(lasers[0].azimuthCorrection, -1.4);  // subtracted: the manual adds 1.4
+    EXPECT_NEAR(lasers[3].sinVertCorrection, std::sin(-15.639 * M_PI / 180), 1e-12);
 }
 
 TEST(VelodyneModel, AzimuthReadingsGoClockwiseAroundTheTurn) {
@@ -56,7 +75,7 @@ TEST(VelodyneModel, AzimuthReadingsGoClockwiseAroundTheTurn) {
 }
 
 TEST(VelodyneModel, OtherModelsAreNotKnown) {
-    EXPECT_EQ(findVelodyneModel(0x28), nullptr);  // VLP-32C: different packets
+    EXPECT_EQ(findVelodyneModel(0xa1), nullptr);  // VLS-128: different packets
     EXPECT_THROW(velodyneModel("HDL-64E"), std::invalid_argument);
 }
 

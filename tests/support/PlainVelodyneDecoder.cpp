@@ -87,8 +87,7 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
                                          const observations::VelodyneModel& model) {
     const bool has_own =
         observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
-    return has_own ? observation.calibration
-                   : VelodyneCalibration::LoadDefaultCalibration(model.calibration);
+    return has_own ? observation.calibration : observations::defaultCalibration(model);
 }
 
 /// Rotation of the sensor from one firing's block to the next, in 0.01 degrees: the median over the
@@ -133,12 +132,10 @@ std::vector<Laser> lasersOf(const VelodyneCalibration& calibration) {
 }
 
 /// Appends the position of a return: coordinates, range, azimuth and row.
-void appendReturn(const Laser& laser, double reading, unsigned distance, Scan& scan) {
+void appendReturn(const Laser& laser, double reading, float distance_m, Scan& scan) {
     static const AzimuthTable azimuths;
     const Azimuth azimuth = azimuths(static_cast<float>(reading - laser.azimuth_reading));
-    const float range_m =
-        static_cast<float>(distance) * CObservationVelodyneScan::DISTANCE_RESOLUTION +
-        laser.distance_m;
+    const float range_m = distance_m + laser.distance_m;
     const float horizontal_m = range_m * laser.cosine + laser.up_m * laser.sine;
     scan.x_m.push_back(horizontal_m * azimuth.cosine + laser.sideways_m * azimuth.sine);
     scan.y_m.push_back(-horizontal_m * azimuth.sine + laser.sideways_m * azimuth.cosine);
@@ -157,6 +154,7 @@ std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& sca
         *observations::findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
     const std::vector<Laser> lasers = lasersOf(calibrationOf(observation, model));
     const int turn = turnOfBlocks(observation);
+    const float unit_m = model.name == "VLP-32C" ? 0.004f : 0.002f;
     const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
     scan.reserve(observation.scan_packets.size() * CObservationVelodyneScan::SCANS_PER_PACKET);
 
@@ -177,7 +175,7 @@ std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& sca
                 const int laser = i % model.lasers;
                 const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
                 appendReturn(lasers[laser], packet.azimuth(b) + turn * turn_in_block,
-                             packet.distance(b, i), scan);
+                             static_cast<float>(packet.distance(b, i)) * unit_m, scan);
                 scan.intensity.push_back(static_cast<float>(packet.intensity(b, i)) / 255.0f);
                 scan.time_s.push_back(
                     static_cast<float>(1e-6 * (block_us + turn_in_block * model.blockPeriodUs())));

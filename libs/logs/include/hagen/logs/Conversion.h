@@ -16,7 +16,8 @@ namespace hagen::logs {
 
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
-    std::filesystem::path input;  ///< a .rawlog, or a scan folder
+    std::filesystem::path input;        ///< a rawlog, a capture, or a scan folder
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
 
     std::filesystem::path rawlog;    ///< segmented rawlog
     std::filesystem::path folder;    ///< scan folder; with several LiDARs, one subfolder per LiDAR
@@ -96,10 +97,11 @@ struct ConversionListener {
 
 /// Segments a whole log. Holds two entries per thread in memory. Pictures are drawn on one thread.
 ///
-/// A segmented rawlog keeps every entry of the input, in order. After each LiDAR observation it has
-/// the `_roi` and `_non_roi` clouds and, if requested, the preview. In a sensory frame these join
-/// the frame. Each scan of a scan folder becomes one observation. A written scan folder keeps the
-/// names and the point order of an input folder; scans of a rawlog are numbered.
+/// A segmented rawlog keeps every entry of the input, in order (of a capture: the scans). After
+/// each LiDAR observation it has the `_roi` and `_non_roi` clouds and, if requested, the preview.
+/// In a sensory frame these join the frame. Each scan of a scan folder becomes one observation. A
+/// written scan folder keeps the names and the point order of an input folder; scans of a rawlog
+/// are numbered.
 ///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.

@@ -11,11 +11,12 @@ namespace hagen::logs {
 
 /// A recording to learn the airframe from, and the file to write.
 struct AirframeLearning {
-    std::filesystem::path input;  ///< a .rawlog, or a scan folder
-    std::filesystem::path file;   ///< ends in .yaml; the picture beside it ends in .png
-    bool overwrite = false;       ///< replace existing outputs
-    double seconds = 10;          ///< of the recording, from the first selected scan on
-    std::size_t from = 0;         ///< first and last entry to read, both inclusive
+    std::filesystem::path input;        ///< a rawlog, a capture, or a scan folder
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
+    std::filesystem::path file;         ///< ends in .yaml; the picture beside it ends in .png
+    bool overwrite = false;             ///< replace existing outputs
+    double seconds = 10;                ///< of the recording, from the first selected scan on
+    std::size_t from = 0;               ///< first and last entry to read, both inclusive
     std::size_t to = std::numeric_limits<std::size_t>::max();
     std::vector<std::string> sensor_labels;  ///< the LiDAR; empty: the only one
     observations::Settings settings;         ///< its sensor; an airframe in it is ignored

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/logs/GzipInput.h>
+#include <hagen/logs/PackedInput.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 #include <cstddef>
@@ -16,8 +16,9 @@ struct BrokenRawlog : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Reads a rawlog entry by entry and holds one in memory. An entry is an object of the file: an
-/// observation, an action collection, a sensory frame, or any other.
+/// Reads a rawlog entry by entry and holds one in memory: uncompressed, gzip or zstd, as MRPT
+/// before and since version 3 writes it. An entry is an object of the file: an observation, an
+/// action collection, a sensory frame, or any other.
 class RawlogReader {
  public:
     /// Throws std::runtime_error naming the file if it cannot be opened or is empty.
@@ -33,7 +34,7 @@ class RawlogReader {
 
  private:
     std::filesystem::path file_;
-    GzipInput stream_;
+    PackedInput stream_;
     mrpt::serialization::CArchive::UniquePtr archive_;
     std::size_t entries_ = 0;
 };

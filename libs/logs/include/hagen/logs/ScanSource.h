@@ -27,15 +27,17 @@ struct RecordedScan {
     mrpt::obs::CObservation::ConstPtr observation;  ///< with sensor label, time and mounting pose
     observations::ScanPose pose;
     std::size_t entry = 0;  ///< index of its entry in the recording
-    std::string name;       ///< file name in a scan folder; empty for a rawlog
+    std::string name;       ///< file name in a scan folder; empty for others
     /// The recovered beams of a cloud whose sensor nobody named; null otherwise (useSettings()).
     observations::SharedBeams beams;
 };
 
-/// An entry of a recording: an object of a rawlog, or a scan of a scan folder.
+/// An entry of a recording: an object of a rawlog, a scan of a scan folder, or a turn of a sensor
+/// in a capture.
 struct RecordedEntry {
     std::size_t number = 0;  ///< index in the recording
-    /// The rawlog's object. For a scan folder, an equivalent observation, if requested.
+    /// The rawlog's object, or the scan of a capture. For a scan folder, an equivalent observation,
+    /// if requested.
     mrpt::serialization::CSerializable::Ptr object;
     std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
     double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
@@ -46,8 +48,10 @@ struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
-    /// Class of the clouds in RecordedEntry::object for scans of a scan folder; none: no objects.
+    /// Class of the clouds in RecordedEntry::object for scans of a scan folder or of an Ouster's
+    /// capture; none: no objects.
     std::optional<observations::CloudClass> folder_objects;
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
     /// Called before each entry is read, also in advance; false ends reading with Interrupted.
     std::function<bool()> keep_going = [] { return true; };
 };
@@ -72,8 +76,8 @@ class ScanSource {
  public:
     virtual ~ScanSource() = default;
 
-    /// The next selected entry, with or without scans; none at the end. Throws BrokenRawlog or
-    /// BrokenScan naming file and entry, and Interrupted.
+    /// The next selected entry, with or without scans; none at the end. Throws BrokenRawlog,
+    /// BrokenScan or BrokenCapture naming file and entry, and Interrupted.
     virtual std::optional<RecordedEntry> nextEntry() = 0;
 
     /// The next scan of any entry; none at the end. Throws like nextEntry(). Use one of the two:
@@ -105,6 +109,10 @@ class ScanSource {
 
     /// Entries read so far, including skipped ones. For a scan folder: all entries.
     virtual std::size_t entriesKnown() const = 0;
+    /// What the user should know of the recording as a whole, such as packets that are missing;
+    /// complete once the last entry was read.
+    virtual std::vector<std::string> remarks() const { return {}; }
+
     std::size_t entriesSkipped() const { return entries_skipped_; }  ///< before the first selected
     /// Sensor labels of LiDAR scans read so far that are not selected.
     const std::set<std::string>& otherLabels() const { return other_labels_; }
@@ -143,8 +151,9 @@ class ScanSource {
     std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
 };
 
-/// Opens a .rawlog or a scan folder. Throws std::runtime_error naming it if it does not exist or
-/// cannot be opened.
+/// Opens a rawlog, a capture (.pcap, .pcapng) or a scan folder; files are told apart by their
+/// content. Throws std::runtime_error naming it if it does not exist or cannot be opened, or if
+/// there is a sensor_json but no capture.
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 // Aliases for classes that differ between MRPT 2.5 and later versions.
+#include <hagen/observations/NewerClouds.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -16,6 +17,7 @@ inline void registerMrptClasses() {
     static const bool is_done = [] {
         mrpt::obs::registerAllClasses_mrpt_obs();
         mrpt::maps::registerAllClasses_mrpt_maps();
+        registerNewerClouds();
         return true;
     }();
     static_cast<void>(is_done);

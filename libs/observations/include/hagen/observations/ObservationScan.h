@@ -20,7 +20,8 @@ namespace hagen::observations {
 /// CObservationPointCloud whose label does not end in `_roi` or `_non_roi` (those are results).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
-/// True if it is such a scan without packets: one that does not identify its sensor.
+/// True if it is such a scan without packets, and no LocatedCloud: one that does not identify its
+/// sensor.
 bool isCloud(const mrpt::obs::CObservation& observation);
 
 /// A LiDAR scan read from an observation.

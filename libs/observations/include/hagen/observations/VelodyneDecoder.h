@@ -10,7 +10,7 @@ namespace hagen::observations {
 
 /// Returns the sensor that took these packets: its calibration's beams (those of the model's
 /// default calibration if the observation has none) and the observation's range limits. Throws
-/// std::runtime_error for a model other than VLP-16 and HDL-32E.
+/// std::runtime_error for an unknown model.
 SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
 /// The same, into `sensor`, whose memory is reused.
 void sensorOf(const mrpt::obs::CObservationVelodyneScan& observation, SensorModel& sensor);

@@ -22,10 +22,10 @@ struct Firings {
 /// decoder computes it (up to rounding). Use it to compute the range to encode.
 double firingAzimuthDeg(const VelodyneModel& model, const Firings& firings, int laser, int firing);
 
-/// Encodes raw packets, the inverse of decodePackets(). Ranges are rounded to 2 mm; those that a
-/// packet cannot represent (131.07 m and more) become missing returns, as with the sensor. The last
-/// packet is padded with firings without returns. Throws std::invalid_argument if array sizes
-/// differ or do not fit the model.
+/// Encodes raw packets, the inverse of decodePackets(). Ranges are rounded to the model's unit (2
+/// or 4 mm); those that a packet cannot represent (131.07 or 262.14 m and more) become missing
+/// returns, as with the sensor. The last packet is padded with firings without returns. Throws
+/// std::invalid_argument if array sizes differ or do not fit the model.
 std::vector<mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket> encodePackets(
     const VelodyneModel& model, const Firings& firings);
 

@@ -15,22 +15,35 @@ struct VelodyneModel {
     std::uint8_t id;          ///< product id in the packet's last byte
     int lasers;               ///< returns of one firing
     int firings_per_block;    ///< lasers * firings_per_block = 32
-    double laser_period_us;   ///< from one laser of a firing to the next
+    int lasers_at_once;       ///< this many neighbours in the packet fire at the same time
+    double laser_period_us;   ///< from one laser (or group of them) of a firing to the next
     double firing_period_us;  ///< from one firing to the next
-    std::string calibration;  ///< its name in mrpt::obs::VelodyneCalibration
+    float distance_unit_m;    ///< of the distances in packets
+    std::string calibration;  ///< its name in mrpt::obs::VelodyneCalibration; empty: not there
 
     double blockPeriodUs() const { return firings_per_block * firing_period_us; }
+    /// From the first firing of a packet to that of the next.
+    double packetPeriodUs(bool is_dual) const { return (is_dual ? 6 : 12) * blockPeriodUs(); }
+    /// From a firing's first laser to this one.
+    double delayUs(int laser) const {
+        const int group = laser / lasers_at_once;
+        return group * laser_period_us;
+    }
     /// The time of a laser within its block's rotation: 0 at the block's azimuth, 1 at the next
     /// block's.
     double turnWithinBlock(int firing, int laser) const {
-        return (firing * firing_period_us + laser * laser_period_us) / blockPeriodUs();
+        return (firing * firing_period_us + delayUs(laser)) / blockPeriodUs();
     }
 };
 
-/// Returns the model with this product id (VLP-16 0x22, HDL-32E 0x21), or nullptr.
+/// Returns the model with this product id, or nullptr: VLP-16 0x22, Puck Hi-Res 0x24, HDL-32E 0x21,
+/// VLP-32C 0x28.
 const VelodyneModel* findVelodyneModel(std::uint8_t id);
-/// Returns the model with this name. Throws std::invalid_argument for any but VLP-16 and HDL-32E.
+/// Returns the model with this name. Throws std::invalid_argument for any other.
 const VelodyneModel& velodyneModel(const std::string& name);
+
+/// The names of all models, and their ids: " VLP-16 (0x22), ...".
+std::string knownVelodynes();
 
 /// Converts a packet's azimuth reading (0.01 degrees, fractions allowed) to degrees clockwise from
 /// x, within +-180. Matches MRPT's own decoder, so that clouds of both coincide: it spreads the
@@ -38,7 +51,8 @@ const VelodyneModel& velodyneModel(const std::string& name);
 /// degrees ahead.
 double azimuthOfReadingDeg(double reading);
 
-/// Returns MRPT's default calibration of a model. Thread-safe.
+/// Returns the default calibration of a model: MRPT's, or that of the manual if MRPT has none.
+/// Thread-safe.
 const mrpt::obs::VelodyneCalibration& defaultCalibration(const VelodyneModel& model);
 
 /// Returns the image row of a laser, and of each laser (row 0: lowest beam), by the calibration's

@@ -14,11 +14,12 @@ namespace hagen::openloop {
 
 /// A recorded log and the settings for segmenting its scans.
 struct LogSource {
-    std::filesystem::path log;    ///< a .rawlog or a scan folder
+    std::filesystem::path log;    ///< a rawlog, a capture or a scan folder
     std::filesystem::path poses;  ///< pose file (TUM, KITTI); empty: poses in the log
     std::string sensor_label;     ///< of the LiDAR; empty: all LiDARs of the log
     observations::Settings settings;
     float own_reach_m = 0.8f;  ///< nearer returns are the vehicle's own and are left out
+    std::filesystem::path sensor_json = {};  ///< metadata of the Ouster of a capture; empty: none
 };
 
 /// A segmented scan of a log in the map frame.

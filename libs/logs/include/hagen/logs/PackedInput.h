@@ -6,13 +6,14 @@
 
 namespace hagen::logs {
 
-/// Reads a file that is uncompressed or consists of one or more gzip members, and detects
-/// truncation. MRPT's own stream takes a truncated gzip file for a complete one.
-class GzipInput : public mrpt::io::CStream {
+/// Reads a file that is uncompressed or consists of one or more gzip members or zstd frames, told
+/// apart by its content, and detects truncation. MRPT's own stream takes a truncated gzip file for
+/// a complete one, and before MRPT 3 knows no zstd.
+class PackedInput : public mrpt::io::CStream {
  public:
     /// Throws std::runtime_error naming the file if it cannot be opened.
-    explicit GzipInput(const std::filesystem::path& file);
-    ~GzipInput() override;
+    explicit PackedInput(const std::filesystem::path& file);
+    ~PackedInput() override;
 
     /// Reads up to `count` bytes; fewer at the end of the file or at a fault. Returns their number.
     std::size_t Read(void* buffer, std::size_t count) override;

@@ -1,0 +1,34 @@
+#include <hagen/captures/LidarCapture.h>
+#include <hagen/captures/LivoxCapture.h>
+#include <hagen/captures/OusterCapture.h>
+#include <hagen/captures/VelodyneCapture.h>
+
+#include "LivoxPacket.h"
+
+namespace hagen::captures {
+namespace {
+
+/// Whether the first datagrams have points of a Livox. What cannot be read is reported later.
+bool isOfLivox(const std::filesystem::path& file) {
+    constexpr int kDatagrams = 1000;
+    CaptureFile capture(file);
+    Datagram datagram;
+    try {
+        for (int i = 0; i < kDatagrams && capture.next(datagram); ++i) {
+            if (livoxPacketOf(datagram)) return true;
+        }
+    } catch (const BrokenCapture&) {
+    }
+    return false;
+}
+
+}  // namespace
+
+std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
+                                          const std::filesystem::path& sensor_json) {
+    if (!sensor_json.empty()) return std::make_unique<OusterCapture>(file, sensor_json);
+    if (isOfLivox(file)) return std::make_unique<LivoxCapture>(file);
+    return std::make_unique<VelodyneCapture>(file);
+}
+
+}  // namespace hagen::captures

@@ -1,0 +1,169 @@
+#include <hagen/captures/OusterCapture.h>
+#include <hagen/captures/OusterFrames.h>
+#include <hagen/observations/LocatedCloud.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <chrono>
+#include <map>
+#include <optional>
+
+#include "OusterScan.h"
+#include "Remarks.h"
+
+namespace hagen::captures {
+namespace {
+
+using mrpt::obs::CObservationPointCloud;
+
+constexpr std::size_t kImuBytes = 48;
+
+std::uint64_t serialOf(const Datagram& datagram) {
+    std::uint64_t serial = 0;
+    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{datagram.bytes[7 + i]} << (8 * i);
+    return serial;
+}
+
+}  // namespace
+
+struct OusterCapture::Reader {
+    std::filesystem::path file, json;
+    OusterSensor sensor;
+    CaptureFile capture;
+    OusterFrames frames;
+    std::optional<std::uint32_t> from_ip;  ///< of the sensor, once known
+    std::size_t imu_packets = 0, other_sources = 0;
+    std::map<std::uint64_t, std::size_t> other_serials;
+    OtherDatagrams others;
+    bool is_at_end = false;
+    std::string broken_because;
+
+    Reader(const std::filesystem::path& name, const std::filesystem::path& metadata)
+        : file(name),
+          json(metadata),
+          sensor(readOusterSensor(metadata)),
+          capture(name),
+          frames(sensor) {}
+
+    void take(const Datagram& datagram);
+    bool isOfSensor(const Datagram& datagram);
+    CObservationPointCloud::Ptr observationOf(const OusterFrame& frame) const;
+    std::string textOfOthers() const;
+    std::string whyEmpty() const;
+};
+
+/// Counts what is not of the sensor.
+bool OusterCapture::Reader::isOfSensor(const Datagram& datagram) {
+    const bool is_legacy = sensor.profile.is_legacy;
+    const bool is_lidar = is_legacy || (datagram.bytes[0] == 1 && datagram.bytes[1] == 0);
+    if (!is_lidar) {
+        others.add(datagram);
+        return false;
+    }
+    const std::string serial = is_legacy ? "" : std::to_string(serialOf(datagram));
+    if (!is_legacy && !sensor.serial.empty() && serial != sensor.serial) {
+        constexpr std::size_t kMostSerials = 16;
+        const std::uint64_t key = other_serials.size() < kMostSerials ? serialOf(datagram) : 0;
+        ++other_serials[key];
+        return false;
+    }
+    if (from_ip.value_or(datagram.from_ip) != datagram.from_ip) {
+        ++other_sources;
+        return false;
+    }
+    from_ip = datagram.from_ip;
+    return true;
+}
+
+void OusterCapture::Reader::take(const Datagram& datagram) {
+    if (datagram.size == sensor.packetBytes()) {
+        if (isOfSensor(datagram)) frames.add(datagram.bytes, datagram.time_ns);
+    } else if (datagram.size == kImuBytes) {
+        ++imu_packets;
+    } else {
+        others.add(datagram);
+    }
+}
+
+CObservationPointCloud::Ptr OusterCapture::Reader::observationOf(const OusterFrame& frame) const {
+    auto observation = CObservationPointCloud::Create();
+    observation->sensorLabel = "ouster";
+    observation->timestamp = timeOf(frame.time_ns);
+    const Eigen::Vector3d up_m = sensor.lidar_to_sensor.translation();
+    observation->sensorPose = mrpt::poses::CPose3D(up_m.x(), up_m.y(), up_m.z(), 0, 0, 0);
+    observation->pointcloud =
+        std::make_shared<observations::LocatedCloud>(scanOf(frame, sensor), sensor.model);
+    return observation;
+}
+
+std::string OusterCapture::Reader::textOfOthers() const {
+    std::string text;
+    addCount(imu_packets, "IMU packet", "", text);
+    for (const auto& [serial, count] : other_serials) {
+        addCount(count, "packet",
+                 serial == 0 ? "of further sensors"
+                             : "of the sensor with serial number " + std::to_string(serial),
+                 text);
+    }
+    addCount(other_sources, "packet", "from another address", text);
+    others.describe(text);
+    return text;
+}
+
+std::string OusterCapture::Reader::whyEmpty() const {
+    std::string found = textOfOthers();
+    const std::string losses = textOfLosses(capture.counts());
+    if (!losses.empty()) found += (found.empty() ? "" : ", ") + losses;
+    return file.string() + ": has no packets of the " + sensor.name +
+           (sensor.serial.empty() ? "" : " with serial number " + sensor.serial) + " in " +
+           json.string() + " (" + std::to_string(sensor.packetBytes()) + " bytes, profile " +
+           sensor.profile.name + "); it has " + (found.empty() ? "no frames" : found) +
+           ". Is it another sensor's metadata?";
+}
+
+OusterCapture::OusterCapture(const std::filesystem::path& file,
+                             const std::filesystem::path& sensor_json)
+    : reader_(std::make_unique<Reader>(file, sensor_json)) {}
+
+OusterCapture::~OusterCapture() = default;
+
+CObservationPointCloud::Ptr OusterCapture::next() {
+    Reader& r = *reader_;
+    Datagram datagram;
+    while (r.frames.complete().empty() && !r.is_at_end) {
+        try {
+            r.is_at_end = !r.capture.next(datagram);
+            if (!r.is_at_end) r.take(datagram);
+        } catch (const BrokenCapture& e) {
+            r.broken_because = e.what();
+            r.is_at_end = true;
+        }
+        if (r.is_at_end) r.frames.finish();
+    }
+    if (!r.frames.complete().empty()) {
+        auto observation = r.observationOf(r.frames.complete().front());
+        r.frames.complete().pop_front();
+        return observation;
+    }
+    if (!r.broken_because.empty()) throw BrokenCapture(r.broken_because);
+    if (r.frames.counts().packets == 0) throw BrokenCapture(r.whyEmpty());
+    return nullptr;
+}
+
+double OusterCapture::fractionRead() const { return reader_->capture.fractionRead(); }
+
+std::vector<std::string> OusterCapture::remarks() const {
+    const Reader& r = *reader_;
+    const OusterFrames::Counts& counts = r.frames.counts();
+    std::string text = "ouster (" + r.sensor.name + ", " + r.sensor.profile.name +
+                       "): " + counted(counts.packets, "packet") + " in " +
+                       counted(counts.frames, "turn");
+    addCount(counts.lost_frames, "turn", "lost", text);
+    addCount(counts.missing_columns, "column", "missing", text);
+    addCount(counts.invalid_columns, "column", "that the sensor calls invalid, left out", text);
+    addCount(counts.wrong_columns, "column", "with a wrong number, left out", text);
+    addCount(counts.repeated_columns, "column", "repeated, left out", text);
+    addCount(counts.late_packets, "packet", "more than a turn late, left out", text);
+    return {text, textOfFrames(r.capture.counts(), r.textOfOthers())};
+}
+
+}  // namespace hagen::captures

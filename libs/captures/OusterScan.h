@@ -1,0 +1,13 @@
+#pragma once
+#include <hagen/captures/OusterFrames.h>
+#include <hagen/range_image/Scan.h>
+
+namespace hagen::captures {
+
+/// The returns of a frame, column by column as they were measured, each with its beam and the time
+/// since the first column. The origin is that of the sensor's beams (its lidar frame), the axes
+/// those of the sensor: x forward, away from the connector. Pixels without a range and invalid
+/// columns have no return.
+Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor);
+
+}  // namespace hagen::captures

@@ -1,0 +1,201 @@
+#include <hagen/captures/VelodyneCapture.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <tuple>
+
+#include "Remarks.h"
+#include "VelodyneTurns.h"
+
+namespace hagen::captures {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+using observations::VelodyneModel;
+
+constexpr std::size_t kPacketBytes = CObservationVelodyneScan::PACKET_SIZE;
+constexpr std::size_t kPositionBytes = 512;
+constexpr std::uint16_t kPositionPort = 8308;
+constexpr std::size_t kMostSensors = 16;  // more are other traffic that looks like packets
+
+/// A sensor by its address, the port that it sends to, and its model.
+using SensorKey = std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>;
+
+/// Whether any block has the header of a Velodyne, also that of an HDL-64E's lower block.
+bool isDataPacket(const Datagram& datagram) {
+    if (datagram.size != kPacketBytes) return false;
+    for (std::size_t at = 0; at < 1200; at += 100) {
+        const unsigned header = datagram.bytes[at] | unsigned{datagram.bytes[at + 1]} << 8;
+        if (header == 0xeeff || header == 0xddff) return true;
+    }
+    return false;
+}
+
+/// An HDL-64E sends blocks of its lower lasers; other sensors with such packets have none.
+bool isHdl64(const Datagram& datagram) {
+    return datagram.bytes[100] == 0xff && datagram.bytes[101] == 0xdd;
+}
+
+}  // namespace
+
+struct VelodyneCapture::Reader {
+    struct Sensor {
+        std::string label, name;
+        VelodyneTurns turns;
+    };
+
+    std::filesystem::path file;
+    CaptureFile capture;
+    std::map<SensorKey, Sensor> sensors;
+    std::vector<SensorKey> order;  ///< of appearance
+    std::deque<VelodyneTurns::Turn> complete;
+    std::size_t packets = 0, position_packets = 0, further_sensors = 0, hdl64_packets = 0;
+    std::map<unsigned, std::size_t> unknown_ids;
+    OtherDatagrams others;
+    bool is_at_end = false;
+    std::string broken_because;
+
+    explicit Reader(const std::filesystem::path& name) : file(name), capture(name) {}
+
+    void take(const Datagram& datagram);
+    void takePacket(const Datagram& datagram, const VelodyneModel& model);
+    void finish();
+    std::string whyEmpty() const;
+    std::string textOfOthers() const;
+};
+
+void VelodyneCapture::Reader::take(const Datagram& datagram) {
+    if (datagram.size == kPositionBytes && datagram.to_port == kPositionPort) {
+        ++position_packets;
+    } else if (!isDataPacket(datagram)) {
+        others.add(datagram);
+    } else if (isHdl64(datagram)) {
+        ++hdl64_packets;
+    } else if (const auto* model = observations::findVelodyneModel(datagram.bytes[1205])) {
+        takePacket(datagram, *model);
+    } else {
+        ++unknown_ids[datagram.bytes[1205]];
+    }
+}
+
+void VelodyneCapture::Reader::takePacket(const Datagram& datagram, const VelodyneModel& model) {
+    const SensorKey key{datagram.from_ip, datagram.to_port, model.id};
+    auto sensor = sensors.find(key);
+    if (sensor == sensors.end()) {
+        if (sensors.size() == kMostSensors) {
+            ++further_sensors;
+            return;
+        }
+        order.push_back(key);
+        const std::string label =
+            order.size() == 1 ? "velodyne" : "velodyne_" + std::to_string(order.size());
+        const std::string name = model.name + " at " + ipText(datagram.from_ip) + ", port " +
+                                 std::to_string(datagram.to_port);
+        sensor = sensors.emplace(key, Sensor{label, name, VelodyneTurns(model, label)}).first;
+    }
+    VelodynePacket packet;
+    std::memcpy(static_cast<void*>(&packet.raw), datagram.bytes, kPacketBytes);
+    packet.time_ns = datagram.time_ns;
+    ++packets;
+    VelodyneTurns& turns = sensor->second.turns;
+    turns.add(packet);
+    std::move(turns.complete().begin(), turns.complete().end(), std::back_inserter(complete));
+    turns.complete().clear();
+}
+
+void VelodyneCapture::Reader::finish() {
+    is_at_end = true;
+    for (const SensorKey& key : order) {
+        VelodyneTurns& turns = sensors.at(key).turns;
+        turns.finish();
+        std::move(turns.complete().begin(), turns.complete().end(), std::back_inserter(complete));
+        turns.complete().clear();
+    }
+}
+
+/// The datagrams that are not of a known Velodyne.
+std::string VelodyneCapture::Reader::textOfOthers() const {
+    std::string text;
+    addCount(hdl64_packets, "packet", "of an HDL-64E, which is not supported", text);
+    for (const auto& [id, count] : unknown_ids) {
+        char hex[8];
+        std::snprintf(hex, sizeof hex, "0x%02x", id);
+        addCount(count, "packet", "of an unknown Velodyne (model id " + std::string(hex) + ")",
+                 text);
+    }
+    addCount(further_sensors, "packet", "of further sensors", text);
+    others.describe(text);
+    return text;
+}
+
+std::string VelodyneCapture::Reader::whyEmpty() const {
+    std::string found = textOfOthers();
+    const std::string losses = textOfLosses(capture.counts());
+    if (!losses.empty()) found += (found.empty() ? "" : ", ") + losses;
+    addCount(position_packets, "position packet", "", found);
+    return file.string() + ": has no data packets of a known Velodyne (" +
+           observations::knownVelodynes().substr(1) + "); it has " +
+           (found.empty() ? "no frames" : found) +
+           ". Packets of an Ouster need its metadata: --sensor-json FILE";
+}
+
+VelodyneCapture::VelodyneCapture(const std::filesystem::path& file)
+    : reader_(std::make_unique<Reader>(file)) {}
+
+VelodyneCapture::~VelodyneCapture() = default;
+
+CObservationVelodyneScan::Ptr VelodyneCapture::next() {
+    Reader& r = *reader_;
+    Datagram datagram;
+    while (r.complete.empty() && !r.is_at_end) {
+        try {
+            if (r.capture.next(datagram)) {
+                r.take(datagram);
+            } else {
+                r.finish();
+            }
+        } catch (const BrokenCapture& e) {
+            r.broken_because = e.what();
+            r.finish();
+        }
+    }
+    if (!r.complete.empty()) {
+        const auto turn = r.complete.front();
+        r.complete.pop_front();
+        return turn;
+    }
+    if (!r.broken_because.empty()) throw BrokenCapture(r.broken_because);
+    if (r.packets == 0) throw BrokenCapture(r.whyEmpty());
+    return nullptr;
+}
+
+double VelodyneCapture::fractionRead() const { return reader_->capture.fractionRead(); }
+
+std::vector<std::string> VelodyneCapture::remarks() const {
+    const Reader& r = *reader_;
+    std::vector<std::string> remarks;
+    for (const SensorKey& key : r.order) {
+        const Reader::Sensor& sensor = r.sensors.at(key);
+        const VelodyneTurns::Counts& counts = sensor.turns.counts();
+        std::string text = sensor.label + " (" + sensor.name +
+                           "): " + counted(counts.packets, "packet") + " in " +
+                           counted(counts.turns, "turn");
+        addCount(counts.dual, "packet", "with dual returns", text);
+        addCount(counts.lost, "packet", "lost", text);
+        addCount(counts.out_of_order, "packet", "out of order, put back", text);
+        addCount(counts.repeated, "packet", "repeated, left out", text);
+        addCount(counts.interruptions, "interruption", "or jump of the sensor's clock", text);
+        remarks.push_back(text);
+    }
+    std::string left_out;
+    addCount(r.position_packets, "position packet", "(GPS)", left_out);
+    const std::string others = r.textOfOthers();
+    if (!others.empty()) left_out += (left_out.empty() ? "" : ", ") + others;
+    remarks.push_back(textOfFrames(r.capture.counts(), left_out));
+    return remarks;
+}
+
+}  // namespace hagen::captures

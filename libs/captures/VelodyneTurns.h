@@ -1,0 +1,74 @@
+#pragma once
+#include <hagen/observations/VelodyneModel.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace hagen::captures {
+
+/// A data packet of a Velodyne and when it came.
+struct VelodynePacket {
+    using Raw = mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket;
+
+    Raw raw;
+    std::int64_t time_ns = 0;  ///< of the capture
+
+    /// Microseconds since the full hour, by the sensor's clock.
+    double sensorTimeUs() const;
+    bool isDual() const;
+    /// Azimuth of its first block that has one, 0.01 degrees; -1: none has.
+    int azimuth() const;
+};
+
+/// Groups the packets of one sensor into turns: one ends where the azimuth wraps.
+///
+/// Packets that come up to sixteen late are put back in order by the sensor's clock. A turn also
+/// ends where more than 50 ms are missing (a whole turn at the highest speed) and after 250 ms (a
+/// sensor that stands still never wraps), so memory is bounded.
+class VelodyneTurns {
+ public:
+    using Turn = mrpt::obs::CObservationVelodyneScan::Ptr;
+
+    struct Counts {
+        std::size_t packets = 0;  ///< taken, without those repeated
+        std::size_t turns = 0;
+        std::size_t dual = 0;           ///< packets with two returns per firing
+        std::size_t out_of_order = 0;   ///< packets put back in their place
+        std::size_t repeated = 0;       ///< packets that came again, left out
+        std::size_t lost = 0;           ///< packets missing, by the sensor's clock
+        std::size_t interruptions = 0;  ///< gaps of more than a second, and jumps of that clock
+    };
+
+    VelodyneTurns(const observations::VelodyneModel& model, std::string label);
+
+    void add(const VelodynePacket& packet);
+    /// Ends the last turn: no packets follow.
+    void finish();
+
+    /// The turns that are complete, oldest first. The caller takes them out.
+    std::deque<Turn>& complete() { return complete_; }
+    const Counts& counts() const { return counts_; }
+
+ private:
+    void flush();
+    void append(const VelodynePacket& packet);
+    void checkGap(const VelodynePacket& packet);
+    void endTurn();
+
+    const observations::VelodyneModel& model_;
+    std::string label_;
+    std::deque<VelodynePacket> waiting_;  ///< by the sensor's clock
+    Turn turn_;                           ///< in progress; null: none
+    double turn_start_us_ = 0;
+    bool has_last_ = false;
+    double last_us_ = 0;     ///< of the last packet appended
+    int last_azimuth_ = -1;  ///< likewise
+    std::deque<Turn> complete_;
+    Counts counts_;
+};
+
+}  // namespace hagen::captures

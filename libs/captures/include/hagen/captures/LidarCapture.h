@@ -1,0 +1,34 @@
+#pragma once
+#include <hagen/captures/CaptureFile.h>
+#include <mrpt/obs/CObservation.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::captures {
+
+/// The scans in a capture.
+class LidarCapture {
+ public:
+    virtual ~LidarCapture() = default;
+
+    /// The next scan; null at the end. Where the capture breaks off, the scans in progress come
+    /// first. Throws BrokenCapture there, and at the end if there was no packet.
+    virtual mrpt::obs::CObservation::Ptr nextScan() = 0;
+
+    /// Fraction of the file read so far, 0 ... 1.
+    virtual double fractionRead() const = 0;
+
+    /// What was found, with figures: the frames, each sensor, and all that was lost or left out.
+    /// Complete at the end.
+    virtual std::vector<std::string> remarks() const = 0;
+};
+
+/// Opens a capture of Velodyne sensors, or of the Ouster whose metadata file is given. Throws
+/// std::runtime_error naming the file that cannot be opened or is none.
+std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
+                                          const std::filesystem::path& sensor_json = {});
+
+}  // namespace hagen::captures

@@ -1,0 +1,50 @@
+#pragma once
+#include <hagen/range_image/SensorModel.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::captures {
+
+/// How the packets of an Ouster hold their pixels: a profile of its firmware manual.
+struct OusterProfile {
+    std::string name;
+    bool is_legacy;            ///< no packet header, a footer per column
+    std::size_t pixel_bytes;   ///< of a beam in a column
+    std::uint32_t range_mask;  ///< of the little-endian number at the start of a pixel
+    float range_unit_m;
+    std::size_t reflectivity_at;
+    std::size_t second_at;  ///< of the second return's range; 0: there is none
+    std::size_t second_reflectivity_at;
+};
+
+/// An Ouster as its metadata describe it.
+struct OusterSensor {
+    std::string name;    ///< product line: "OS-0-32-U1"
+    std::string serial;  ///< empty: not known
+    OusterProfile profile;
+    std::size_t columns_per_frame = 0, columns_per_packet = 0, pixels = 0;
+    std::size_t first_column = 0, last_column = 0;  ///< of the window; it may wrap around
+    std::vector<double> altitude_rad, azimuth_rad;  ///< of each pixel; azimuth counter-clockwise
+    std::vector<std::uint8_t> row;                  ///< of each pixel: 0 is the lowest beam
+    double beam_origin_m = 0;                       ///< of the beams, from the axis outwards
+    double beam_origin_up_m = 0;                    ///< and upwards
+    Eigen::Isometry3d lidar_to_sensor = Eigen::Isometry3d::Identity();
+    std::shared_ptr<const SensorModel> model;  ///< the beams, lowest first
+
+    std::size_t packetBytes() const;
+    std::size_t columnBytes() const;
+    std::size_t windowColumns() const;
+};
+
+/// Reads the metadata of a sensor, as the sensor or the maker's tools write it. Throws
+/// std::runtime_error naming the file and what is missing or wrong.
+OusterSensor readOusterSensor(const std::filesystem::path& file);
+
+}  // namespace hagen::captures

@@ -1,0 +1,33 @@
+#pragma once
+#include <hagen/captures/LidarCapture.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::captures {
+
+/// The turns of the Velodyne sensors in a capture: VLP-16, Puck Hi-Res, HDL-32E and VLP-32C, told
+/// apart by the id in their packets.
+///
+/// The first sensor has the label "velodyne", others "velodyne_2" and so on. The time of a turn is
+/// that of the capture at its first packet. The first and the last turn of a capture may be parts.
+class VelodyneCapture : public LidarCapture {
+ public:
+    /// Throws BrokenCapture naming the file if it cannot be opened.
+    explicit VelodyneCapture(const std::filesystem::path& file);
+    ~VelodyneCapture() override;
+
+    mrpt::obs::CObservationVelodyneScan::Ptr next();
+    mrpt::obs::CObservation::Ptr nextScan() override { return next(); }
+    double fractionRead() const override;
+    std::vector<std::string> remarks() const override;
+
+ private:
+    struct Reader;
+    std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace hagen::captures

@@ -1,0 +1,100 @@
+#include "CaptureSource.h"
+
+#include <hagen/logs/PoseFile.h>
+#include <hagen/observations/MrptCompat.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+namespace hagen::logs {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationPointCloud;
+
+/// What a rawlog of this scan holds: packets as they are, a cloud of the class asked for.
+mrpt::serialization::CSerializable::Ptr objectOf(
+    const CObservation::Ptr& scan, const std::optional<observations::CloudClass>& cloud_class) {
+    const auto cloud = std::dynamic_pointer_cast<CObservationPointCloud>(scan);
+    if (!cloud) return scan;
+    if (!cloud_class) return nullptr;
+    auto copy = CObservationPointCloud::Create(*cloud);
+    if (*cloud_class == observations::CloudClass::Simple) {
+        const auto points = observations::PortableCloud::Create();
+        const mrpt::maps::CPointsMap& all = *cloud->pointcloud;
+        points->setSize(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            points->setPointFast(i, all.getPointsBufferRef_x()[i], all.getPointsBufferRef_y()[i],
+                                 all.getPointsBufferRef_z()[i]);
+        }
+        points->mark_as_modified();
+        copy->pointcloud = points;
+    }
+    return copy;
+}
+
+}  // namespace
+
+CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
+    : ScanSource(options),
+      file_(capture),
+      capture_(captures::openCapture(capture, options.sensor_json)) {}
+
+std::optional<RecordedEntry> CaptureSource::nextEntry() {
+    while (turns_ <= options_.last_entry) {
+        checkInterruption();
+        const auto turn = capture_->nextScan();
+        is_read_to_end_ = turn == nullptr;
+        if (!turn) return std::nullopt;
+        RecordedEntry entry;
+        entry.number = turns_++;
+        if (skips(entry.number)) continue;
+        entry.object = objectOf(turn, options_.folder_objects);
+        entry.fraction_read = capture_->fractionRead();
+        addIfScan(turn, "", entry);
+        return entry;
+    }
+    return std::nullopt;
+}
+
+RawlogSurvey CaptureSource::survey() const {
+    RawlogSurvey survey;
+    const auto ahead = captures::openCapture(file_, options_.sensor_json);
+    try {
+        while (const auto turn = ahead->nextScan()) {
+            checkInterruption();
+            survey.scans[turn->sensorLabel].push_back(
+                {turn->timestamp, mrpt::poses::CPose3D(turn->sensorPose())});
+        }
+    } catch (const captures::BrokenCapture&) {
+        survey.is_whole = false;  // nextEntry() reports the break
+    }
+    return survey;
+}
+
+LogPoses CaptureSource::readPoses(const std::filesystem::path& file) {
+    if (file.empty() || kindOfPoseFile(file) == PoseFileKind::Tum) {
+        return posesOfRawlog(RawlogSurvey(), file);
+    }
+    RawlogSurvey selected = survey();
+    for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
+        scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
+    }
+    return posesOfRawlog(selected, file);
+}
+
+std::map<std::string, std::vector<mrpt::Clock::time_point>> CaptureSource::scanTimes() {
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
+    for (const auto& [label, places] : survey().scans) {
+        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
+    }
+    return times;
+}
+
+std::vector<std::string> CaptureSource::remarks() const {
+    std::vector<std::string> remarks = capture_->remarks();
+    if (!is_read_to_end_ && turns_ > options_.last_entry) {
+        for (std::string& remark : remarks) remark += " (up to the last entry converted)";
+    }
+    return remarks;
+}
+
+}  // namespace hagen::logs

@@ -1,0 +1,34 @@
+#pragma once
+#include <hagen/captures/LidarCapture.h>
+#include <hagen/logs/RawlogSurvey.h>
+#include <hagen/logs/ScanSource.h>
+
+namespace hagen::logs {
+
+/// A capture of a LiDAR's packets as a source of scans: each turn of a sensor is an entry.
+class CaptureSource : public ScanSource {
+ public:
+    CaptureSource(const std::filesystem::path& capture, const SourceOptions& options);
+
+    std::optional<RecordedEntry> nextEntry() override;
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
+    std::size_t entriesKnown() const override { return turns_; }
+    std::vector<std::string> remarks() const override;
+
+ protected:
+    /// Captures have no poses of their own.
+    LogPoses readPoses(const std::filesystem::path& file) override;
+    /// Packets know their sensor.
+    bool showClouds(observations::CloudSensors&) override { return false; }
+
+ private:
+    /// Reads the capture in advance, up to where it breaks off.
+    RawlogSurvey survey() const;
+
+    std::filesystem::path file_;
+    std::unique_ptr<captures::LidarCapture> capture_;
+    std::size_t turns_ = 0;
+    bool is_read_to_end_ = false;
+};
+
+}  // namespace hagen::logs

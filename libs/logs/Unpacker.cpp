@@ -1,0 +1,94 @@
+#include "Unpacker.h"
+
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+namespace hagen::logs {
+namespace {
+
+/// Gzip members, one after the other.
+class GzipUnpacker : public Unpacker {
+ public:
+    GzipUnpacker() {
+        constexpr int kGzipOnly = 31;
+        if (inflateInit2(&inflater_, kGzipOnly) != Z_OK) throw std::bad_alloc();
+    }
+    ~GzipUnpacker() override { inflateEnd(&inflater_); }
+    GzipUnpacker(const GzipUnpacker&) = delete;
+    GzipUnpacker& operator=(const GzipUnpacker&) = delete;
+
+    bool unpack(UnpackStep& step) override {
+        is_in_member_ = true;
+        inflater_.next_in = const_cast<unsigned char*>(step.in);  // is only read
+        inflater_.avail_in = static_cast<unsigned>(step.in_size);
+        inflater_.next_out = step.out;
+        inflater_.avail_out = static_cast<unsigned>(step.out_size);
+        const int code = inflate(&inflater_, Z_NO_FLUSH);
+        step = {inflater_.next_in, inflater_.avail_in, inflater_.next_out, inflater_.avail_out};
+        if (code == Z_STREAM_END) {
+            is_in_member_ = false;  // only another member may follow
+            inflateReset(&inflater_);
+            return true;
+        }
+        return code == Z_OK || code == Z_BUF_ERROR;  // the latter: there was nothing to do
+    }
+
+ private:
+    z_stream inflater_{};
+};
+
+/// Zstandard frames, one after the other.
+class ZstdUnpacker : public Unpacker {
+ public:
+    ZstdUnpacker() : context_(ZSTD_createDCtx()) {
+        if (!context_) throw std::bad_alloc();
+    }
+
+    bool unpack(UnpackStep& step) override {
+        ZSTD_inBuffer in{step.in, step.in_size, 0};
+        ZSTD_outBuffer out{step.out, step.out_size, 0};
+        const std::size_t code = ZSTD_decompressStream(context_.get(), &out, &in);
+        step = {step.in + in.pos, step.in_size - in.pos, step.out + out.pos,
+                step.out_size - out.pos};
+        if (ZSTD_isError(code) != 0) return false;
+        is_in_member_ = code != 0;
+        return true;
+    }
+
+ private:
+    struct Free {
+        void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+    };
+    std::unique_ptr<ZSTD_DCtx, Free> context_;
+};
+
+/// An uncompressed file.
+class Copier : public Unpacker {
+ public:
+    bool unpack(UnpackStep& step) override {
+        const std::size_t bytes = std::min(step.in_size, step.out_size);
+        std::memcpy(step.out, step.in, bytes);
+        step = {step.in + bytes, step.in_size - bytes, step.out + bytes, step.out_size - bytes};
+        return true;
+    }
+};
+
+template <std::size_t N>
+bool startsWith(const unsigned char* start, std::size_t size, const unsigned char (&magic)[N]) {
+    return size >= N && std::equal(magic, magic + N, start);
+}
+
+}  // namespace
+
+std::unique_ptr<Unpacker> unpackerFor(const unsigned char* start, std::size_t size) {
+    constexpr unsigned char kGzip[] = {0x1f, 0x8b}, kZstd[] = {0x28, 0xb5, 0x2f, 0xfd};
+    if (startsWith(start, size, kGzip)) return std::make_unique<GzipUnpacker>();
+    if (startsWith(start, size, kZstd)) return std::make_unique<ZstdUnpacker>();
+    return std::make_unique<Copier>();
+}
+
+}  // namespace hagen::logs

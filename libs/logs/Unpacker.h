@@ -1,0 +1,32 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+
+namespace hagen::logs {
+
+/// The next bytes of a file, and room for what they unpack to. Both shrink from the front.
+struct UnpackStep {
+    const unsigned char* in;
+    std::size_t in_size;
+    unsigned char* out;
+    std::size_t out_size;
+};
+
+/// A format of compression, read block by block.
+class Unpacker {
+ public:
+    virtual ~Unpacker() = default;
+    /// Unpacks until the input or the room is used up, or a member ends. False: the data is
+    /// corrupt.
+    virtual bool unpack(UnpackStep& step) = 0;
+    /// Whether the input may not end here: a member has begun.
+    bool isInMember() const { return is_in_member_; }
+
+ protected:
+    bool is_in_member_ = false;
+};
+
+/// The unpacker of a file that begins with these bytes: gzip, zstd, or none for anything else.
+std::unique_ptr<Unpacker> unpackerFor(const unsigned char* start, std::size_t size);
+
+}  // namespace hagen::logs

@@ -1,0 +1,175 @@
+#include <hagen/observations/NewerClouds.h>
+
+#include <mrpt/core/aligned_std_vector.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/aligned_serialization.h>
+#include <mrpt/serialization/stl_serialization.h>
+#include <mrpt/version.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <type_traits>
+
+namespace hagen::observations {
+#if MRPT_VERSION < 0x020f00
+namespace {
+
+using mrpt::maps::CPointsMap;
+using mrpt::maps::CPointsMapXYZI;
+using mrpt::maps::CSimplePointsMap;
+using mrpt::serialization::CArchive;
+
+/// Reads this many numbers, in blocks, so that a wrong number ends at the end of the file and does
+/// not take all memory.
+template <class Vector>
+void readNumbers(CArchive& in, std::uint32_t count, Vector& values) {
+    constexpr std::size_t kBlock = 1 << 16;
+    values.clear();
+    while (values.size() < count) {
+        const std::size_t before = values.size();
+        const std::size_t more = std::min<std::size_t>(count - before, kBlock);
+        values.resize(before + more);
+        in.ReadBufferFixEndianness(values.data() + before, more);
+    }
+}
+
+/// The name of a field.
+std::string readName(CArchive& in) {
+    constexpr std::uint32_t kMostLetters = 256;
+    const auto letters = in.ReadAs<std::uint32_t>();
+    if (letters > kMostLetters) throw std::runtime_error("the name of a field is too long");
+    std::string name;
+    readNumbers(in, letters, name);
+    return name;
+}
+
+/// The coordinates, with their number.
+struct Coordinates {
+    std::vector<float> x_m, y_m, z_m;
+
+    explicit Coordinates(CArchive& in) {
+        const auto count = in.ReadAs<std::uint32_t>();
+        readNumbers(in, count, x_m);
+        readNumbers(in, count, y_m);
+        readNumbers(in, count, z_m);
+    }
+    void copyTo(CPointsMap& cloud) const {
+        cloud.setSize(x_m.size());
+        for (std::size_t i = 0; i < x_m.size(); ++i) {
+            cloud.setPointFast(i, x_m[i], y_m[i], z_m[i]);
+        }
+        cloud.mark_as_modified();
+    }
+};
+
+/// Version 1 has no `disableDeletion`.
+void readInsertionOptions(CArchive& in, CPointsMap::TInsertionOptions& options) {
+    const auto version = in.ReadAs<std::int8_t>();
+    if (version != 0 && version != 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+    in >> options.minDistBetweenLaserPoints >> options.addToExistingPointsMap >>
+        options.also_interpolate;
+    if (version == 0) in >> options.disableDeletion;
+    in >> options.fuseWithExisting >> options.isPlanarMap >> options.horizontalTolerance >>
+        options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
+}
+
+/// A CSimplePointsMap whose insertion options may be newer. It is written as the older one, since
+/// its class and writing are inherited.
+class SimpleCloud : public CSimplePointsMap {
+    static constexpr std::uint8_t kVersionWithOptions = 10;
+
+    void serializeFrom(CArchive& in, std::uint8_t version) override {
+        if (version != kVersionWithOptions) {
+            CSimplePointsMap::serializeFrom(in, version);
+            return;
+        }
+        Coordinates(in).copyTo(*this);
+        in >> genericMapParams;
+        readInsertionOptions(in, insertionOptions);
+        likelihoodOptions.readFromStream(in);
+        renderOptions.readFromStream(in);
+    }
+};
+
+/// A CGenericPointsMap: coordinates, then named fields by type. It is written as CPointsMapXYZI.
+class GenericCloud : public CPointsMapXYZI {
+ public:
+    std::vector<std::string> fields_not_kept;
+
+ private:
+    static constexpr std::uint8_t kNewestVersion = 4;
+
+    void serializeFrom(CArchive& in, std::uint8_t version) override {
+        if (version > kNewestVersion) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+        fields_not_kept.clear();
+        Coordinates(in).copyTo(*this);
+        readFields<float>(in, version);
+        if (version >= 1) readFields<double>(in, version);
+        readFields<std::uint16_t>(in, version);
+        if (version >= 2) readFields<std::uint8_t>(in, version);
+        if (version >= 4) readFields<std::uint32_t>(in, version);
+        readInsertionOptions(in, insertionOptions);
+        likelihoodOptions.readFromStream(in);
+    }
+
+    /// The fields of one type.
+    template <class Number>
+    void readFields(CArchive& in, std::uint8_t version) {
+        for (auto fields = in.ReadAs<std::uint32_t>(); fields > 0; --fields) {
+            const std::string name = readName(in);
+            mrpt::aligned_std_vector<Number> values;
+            if (version >= 3 || std::is_same_v<Number, float>) {
+                readNumbers(in, in.ReadAs<std::uint32_t>(), values);
+            } else {
+                in >> values;
+            }
+            if (name != "intensity") {
+                fields_not_kept.push_back(name);
+                continue;
+            }
+            for (std::size_t i = 0; i < std::min(values.size(), size()); ++i) {
+                setPointIntensity(i, static_cast<float>(values[i]));
+            }
+        }
+    }
+};
+
+/// Registers a class under the name of another. The entries live as long as the program.
+template <class Cloud, class Base>
+void registerAs(const char* name) {
+    static const mrpt::rtti::TRuntimeClassId id{
+        name,
+        [] { return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<Cloud>()); },
+        [] { return CLASS_ID(Base); }};
+    // MRPT warns on standard error if the name is taken.
+    std::ostringstream warning;
+    std::streambuf* const error = std::cerr.rdbuf(warning.rdbuf());
+    mrpt::rtti::registerClassCustomName(name, &id);
+    std::cerr.rdbuf(error);
+}
+
+}  // namespace
+
+void registerNewerClouds() {
+    registerAs<SimpleCloud, CSimplePointsMap>("mrpt::maps::CSimplePointsMap");
+    registerAs<GenericCloud, CPointsMapXYZI>("mrpt::maps::CGenericPointsMap");
+}
+
+std::vector<std::string> fieldsNotKept(const CPointsMap& cloud) {
+    const auto* generic = dynamic_cast<const GenericCloud*>(&cloud);
+    return generic == nullptr ? std::vector<std::string>() : generic->fields_not_kept;
+}
+
+#else
+
+void registerNewerClouds() {}
+std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap&) { return {}; }
+
+#endif
+}  // namespace hagen::observations

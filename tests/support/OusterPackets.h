@@ -1,0 +1,22 @@
+#pragma once
+#include <hagen/captures/OusterFrames.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hagen::test {
+
+/// Metadata of an Ouster with four beams and 64 columns, in packets of 16.
+std::string ousterJson(const std::string& profile = "RNG19_RFL8_SIG16_NIR16",
+                       const std::string& serial = "992137000142");
+
+/// The packets of a frame, by the maker's manual; each holds what the frame has in its columns. The
+/// serial number is that of `sensor`.
+std::vector<std::string> packetsOf(const captures::OusterSensor& sensor,
+                                   const captures::OusterFrame& frame);
+
+/// A frame of such a sensor with random pixels, some without a return, all columns valid.
+captures::OusterFrame randomFrame(const captures::OusterSensor& sensor, std::uint16_t id);
+
+}  // namespace hagen::test
