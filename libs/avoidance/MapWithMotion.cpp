@@ -48,4 +48,10 @@ float MapWithMotion::clearanceAfter_m(const Eigen::Vector3f& point_m, double aft
                                      map_->clearance_m(point_m));
 }
 
+WorldModel::Obstacles MapWithMotion::obstacles() const {
+    Obstacles obstacles = map_->obstacles();
+    movers_.addTo(obstacles);
+    return obstacles;
+}
+
 }  // namespace hagen::avoidance

@@ -18,7 +18,8 @@ class MapWithMotion : public WorldModel {
     float fastest_m_s() const override { return movers_.fastest_m_s(); }
     bool isKnown(const Eigen::Vector3f& point_m) const override { return map_->isKnown(point_m); }
     std::size_t bytes() const override { return map_->bytes() + movers_.bytes(); }
-    Obstacles obstacles() const override { return map_->obstacles(); }
+    /// Points of movers are drawn as voxels, too.
+    Obstacles obstacles() const override;
 
  private:
     std::unique_ptr<WorldModel> map_;

@@ -113,7 +113,10 @@ struct CaptureFile::Reader {
         if (whole.size < kUdpHeader) return false;
         const std::size_t size = whole.at16(4);
         if (size < kUdpHeader || size > whole.size) return false;
-        datagram.time_ns = std::int64_t{header.ts.tv_sec} * 1000000000 + header.ts.tv_usec;
+        // A hostile file can hold any number of seconds: wrap around, which is defined.
+        datagram.time_ns =
+            static_cast<std::int64_t>(static_cast<std::uint64_t>(header.ts.tv_sec) * 1000000000u +
+                                      static_cast<std::uint64_t>(header.ts.tv_usec));
         datagram.from_ip = packet.from_ip;
         datagram.to_port = static_cast<std::uint16_t>(whole.at16(2));
         datagram.bytes = whole.data + kUdpHeader;

@@ -16,16 +16,19 @@ using mrpt::obs::CObservationPointCloud;
 constexpr std::uint64_t kScan_ns = 100000000;
 constexpr std::uint64_t kInterruption_ns = 1000000000;
 constexpr std::size_t kMostSensors = 16;
+constexpr std::size_t kMostPackets = 10000;  // of a scan, whatever the clock says; usual are 210
 
 /// What is left out of, and known about, the packets of one sensor.
 struct Sensor {
     std::string label;
-    std::size_t packets = 0, scans = 0, lost = 0, late = 0, interruptions = 0;
+    std::size_t packets = 0;  ///< taken, without those repeated
+    std::size_t scans = 0, lost = 0, late = 0, repeated = 0, interruptions = 0;
     bool is_begun = false;
     std::uint16_t last_number = 0;
     std::uint64_t start_ns = 0, last_ns = 0;  ///< of the scan in progress, by the sensor's clock
     std::int64_t capture_time_ns = 0;         ///< of its first packet
     Scan scan;                                ///< in progress
+    std::size_t scan_packets = 0;
 };
 
 }  // namespace
@@ -73,10 +76,13 @@ void LivoxCapture::Reader::take(const Datagram& datagram) {
 }
 
 void LivoxCapture::Reader::take(const LivoxPacket& packet, std::int64_t time_ns, Sensor& sensor) {
-    ++sensor.packets;
     if (sensor.is_begun) {
         const auto step = static_cast<std::int16_t>(
             static_cast<std::uint16_t>(packet.number - sensor.last_number));
+        if (step == 0 && packet.time_ns == sensor.last_ns) {
+            ++sensor.repeated;
+            return;
+        }
         const bool is_earlier = packet.time_ns < sensor.last_ns;
         const std::uint64_t gap_ns =
             is_earlier ? sensor.last_ns - packet.time_ns : packet.time_ns - sensor.last_ns;
@@ -85,12 +91,15 @@ void LivoxCapture::Reader::take(const LivoxPacket& packet, std::int64_t time_ns,
             endScan(sensor);
         } else if (is_earlier) {
             ++sensor.late;  // its points are as good: they join the scan in progress
+            if (step < 0 && sensor.lost > 0) --sensor.lost;
         } else {
             // The number starts again with each frame of some firmware.
             if (step > 1) sensor.lost += static_cast<std::size_t>(step - 1);
-            if (packet.time_ns >= sensor.start_ns + kScan_ns) endScan(sensor);
+            if (packet.time_ns - sensor.start_ns >= kScan_ns) endScan(sensor);
         }
+        if (sensor.scan_packets == kMostPackets) endScan(sensor);
     }
+    ++sensor.packets;
     if (!sensor.is_begun) {
         sensor.is_begun = true;
         sensor.start_ns = packet.time_ns;
@@ -101,12 +110,14 @@ void LivoxCapture::Reader::take(const LivoxPacket& packet, std::int64_t time_ns,
         sensor.last_ns = packet.time_ns;
         sensor.last_number = packet.number;
     }
+    ++sensor.scan_packets;
     appendPoints(packet, sensor.start_ns, sensor.scan);
 }
 
 void LivoxCapture::Reader::endScan(Sensor& sensor) {
     if (!sensor.is_begun) return;
     sensor.is_begun = false;
+    sensor.scan_packets = 0;
     ++sensor.scans;
     locateBeams(*model, sensor.scan);
     auto observation = CObservationPointCloud::Create();
@@ -157,6 +168,7 @@ std::vector<std::string> LivoxCapture::remarks() const {
                            counted(sensor.scans, "scan");
         addCount(sensor.lost, "packet", "lost", text);
         addCount(sensor.late, "packet", "out of order, with the scan in which it came", text);
+        addCount(sensor.repeated, "packet", "repeated, left out", text);
         addCount(sensor.interruptions, "interruption", "or jump of the sensor's clock", text);
         remarks.push_back(text);
     }

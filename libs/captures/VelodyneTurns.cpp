@@ -16,9 +16,10 @@ constexpr int kBlockBytes = CObservationVelodyneScan::SIZE_BLOCK;
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr std::size_t kMostWaiting = 16;
 constexpr double kHourUs = 3600e6, kSecondUs = 1e6;
-constexpr double kEndOfTurnUs = 50e3;     // without packets
-constexpr double kLongestTurnUs = 250e3;  // the slowest sensors turn five times per second
-constexpr int kLeastWrap = 100;           // 0.01 degrees; less is jitter of a sensor that stands
+constexpr double kEndOfTurnUs = 50e3;       // without packets
+constexpr double kLongestTurnUs = 250e3;    // the slowest sensors turn five times per second
+constexpr std::size_t kMostPackets = 2000;  // more than any sensor sends in that time
+constexpr int kLeastWrap = 100;             // 0.01 degrees; less is jitter of a sensor that stands
 
 const std::uint8_t* bytesOf(const VelodynePacket& packet) {
     return reinterpret_cast<const std::uint8_t*>(&packet.raw);
@@ -112,8 +113,9 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
     const int azimuth = packet.azimuth();
     const bool wraps = azimuth >= 0 && azimuth < last_azimuth_ - kLeastWrap;
-    if (turn_ && (wraps || std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs))
-        endTurn();
+    const bool is_long = turn_ && (std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs ||
+                                   turn_->scan_packets.size() >= kMostPackets);
+    if (turn_ && (wraps || is_long)) endTurn();
     if (!turn_) {
         turn_ = CObservationVelodyneScan::Create();
         turn_->timestamp = timeOf(packet.time_ns);

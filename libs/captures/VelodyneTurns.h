@@ -27,8 +27,9 @@ struct VelodynePacket {
 /// Groups the packets of one sensor into turns: one ends where the azimuth wraps.
 ///
 /// Packets that come up to sixteen late are put back in order by the sensor's clock. A turn also
-/// ends where more than 50 ms are missing (a whole turn at the highest speed) and after 250 ms (a
-/// sensor that stands still never wraps), so memory is bounded.
+/// ends where more than 50 ms are missing (a whole turn at the highest speed), after 250 ms (a
+/// sensor that stands still never wraps) and after 2000 packets (whatever its clock says), so
+/// memory is bounded.
 class VelodyneTurns {
  public:
     using Turn = mrpt::obs::CObservationVelodyneScan::Ptr;

@@ -104,6 +104,7 @@ class GenericCloud : public CPointsMapXYZI {
 
  private:
     static constexpr std::uint8_t kNewestVersion = 4;
+    static constexpr std::size_t kMostFields = 256;
 
     void serializeFrom(CArchive& in, std::uint8_t version) override {
         if (version > kNewestVersion) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
@@ -130,6 +131,9 @@ class GenericCloud : public CPointsMapXYZI {
                 in >> values;
             }
             if (name != "intensity") {
+                if (fields_not_kept.size() >= kMostFields) {
+                    throw std::runtime_error("a cloud has too many fields");
+                }
                 fields_not_kept.push_back(name);
                 continue;
             }

@@ -134,6 +134,15 @@ TEST_F(LivoxCaptureTest, AScanIsATenthOfASecondByTheSensorsClock) {
                     "500 frames; left out: none"));
 }
 
+TEST_F(LivoxCaptureTest, RepeatedPacketsAreLeftOutAndCounted) {
+    auto all = packets(100);
+    all.insert(all.begin() + 40, all[39]);
+    std::size_t points = 0;
+    for (const auto& scan : read(captureOf(all).bytes())) points += observedOf(*scan).scan.size();
+    EXPECT_EQ(points, 100u);
+    EXPECT_THAT(remarks_[0], HasSubstr("100 packets in 1 scan, 1 packet repeated, left out"));
+}
+
 TEST_F(LivoxCaptureTest, LostAndLatePacketsAndJumpsAreCountedAndNoPointGetsLost) {
     auto all = packets(300);
     std::swap(all[20], all[21]);
@@ -145,7 +154,7 @@ TEST_F(LivoxCaptureTest, LostAndLatePacketsAndJumpsAreCountedAndNoPointGetsLost)
     std::size_t points = 0;
     for (const auto& scan : read(captureOf(all).bytes())) points += observedOf(*scan).scan.size();
     EXPECT_EQ(points, 317u);
-    EXPECT_THAT(remarks_[0], HasSubstr(", 4 packets lost, 1 packet out of order, with the scan in "
+    EXPECT_THAT(remarks_[0], HasSubstr(", 3 packets lost, 1 packet out of order, with the scan in "
                                        "which it came, 2 interruptions or jump"));
 }
 
