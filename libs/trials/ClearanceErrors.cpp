@@ -188,8 +188,8 @@ class Passing {
     }
 
     /// Whether the sensor sees a place, past the obstacle.
-    bool isSeen(const simulation::Scene::Snapshot& snapshot, const Eigen::Vector3f& from_m,
-                const Eigen::Vector3f& at_m) const {
+    static bool isSeen(const simulation::Scene::Snapshot& snapshot, const Eigen::Vector3f& from_m,
+                       const Eigen::Vector3f& at_m) {
         const Eigen::Vector3f way_m = at_m - from_m;
         std::vector<simulation::RayHit> hits;
         snapshot.cast({{from_m, way_m.normalized(), 0, way_m.norm()}}, way_m.norm(), hits);
