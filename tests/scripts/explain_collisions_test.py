@@ -53,5 +53,9 @@ with tempfile.TemporaryDirectory() as place:
     missing = explain(place / "unflown", [row for row in made_up if row[2] != "oracle"])
     assert missing.returncode != 0 and missing.stdout == "", "what is missing is flown, and that fails here"
 
+    HEADER.append("settings")
+    mixed = explain(place / "mixed", [row + ["old" if row[8] == "1" else "new"] for row in made_up])
+    assert mixed.returncode == 1 and "other settings" in mixed.stderr and mixed.stdout == "", mixed.stderr
+
     nowhere = subprocess.run([SCRIPT, place / "nowhere"], capture_output=True, text=True, check=False)
     assert nowhere.returncode == 1 and "nowhere/runs.csv: No such file" in nowhere.stderr, nowhere.stderr
