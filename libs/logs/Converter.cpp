@@ -64,7 +64,8 @@ Converter::Converter(const Conversion& conversion, const ConversionListener& lis
       source_(openRecording(conversion.input, sourceOptions())),
       settings_(source_->useSettings(conversion.settings)),
       outputs_(conversion),
-      segmenters_(settings_, conversion.cloud_class) {
+      segmenters_(settings_, conversion.cloud_class),
+      sensor_check_(conversion.input.string()) {
     report_.settings = settings_;
     if (needsPoses(conversion_)) usePoses();
 }
@@ -189,10 +190,18 @@ void Converter::insertIntoMap(const ScanInConversion& scan) {
     listener_.remark(titleOf(scan.recorded), "no pose near its time: it is not in the map");
 }
 
+void Converter::checkSensor(const ScanInConversion& scan) {
+    const std::string remark = sensor_check_.see(scan.recorded, scan.segmented);
+    if (remark.empty()) return;
+    const std::lock_guard lock(listener_mutex_);
+    listener_.remark(titleOf(scan.recorded), remark);
+}
+
 void Converter::account(ScanInConversion& scan) {
     if (!scan.is_segmented && !scan.unreadable_because.empty()) ++report_.unreadable_scans;
     reportRemarks(scan);
     if (scan.is_segmented) {
+        checkSensor(scan);
         if (outputs_.wantsMap()) insertIntoMap(scan);
         ScanReport report = reportOf(scan.segmented);
         report.entry = scan.recorded.entry;
@@ -277,6 +286,7 @@ ConversionReport Converter::finish() {
                                  " entries, none at or after " + std::to_string(conversion_.from));
     }
     checkLabels();
+    finishSensorCheck();
     if (outputs_.wantsMap() && report_.scans > 0 && report_.scans_in_map == 0) {
         throw std::runtime_error(report_.poses + ": has no pose near any of the " +
                                  std::to_string(report_.scans) + " scans of " +
@@ -292,6 +302,16 @@ ConversionReport Converter::finish() {
     remarkOnRecording();
     outputs_.commit(report_);
     return std::move(report_);
+}
+
+void Converter::finishSensorCheck() {
+    for (const auto& [label, remark] : sensor_check_.finish()) {
+        listener_.remark("sensor " + label, remark);
+    }
+    for (auto& [label, sensor] : report_.sensors) {
+        const std::string fit = sensor_check_.textOf(label);
+        if (!fit.empty()) sensor += ", " + fit;
+    }
 }
 
 void Converter::remarkOnRecording() {

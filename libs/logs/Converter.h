@@ -11,6 +11,7 @@
 
 #include "ConversionOutputs.h"
 #include "SegmenterPool.h"
+#include "SensorCheck.h"
 
 namespace hagen::logs {
 
@@ -55,6 +56,8 @@ class Converter {
     void insertIntoMap(const ScanInConversion& scan);
     void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan);
     ConversionReport finish();
+    void checkSensor(const ScanInConversion& scan);
+    void finishSensorCheck();
     void remarkOnRecording();
     void checkLabels() const;
     template <class Error>
@@ -67,6 +70,7 @@ class Converter {
     const observations::Settings settings_;  ///< with those of the recording's own sensor
     ConversionOutputs outputs_;
     SegmenterPool segmenters_;
+    SensorCheck sensor_check_;
     ConversionReport report_;
     std::exception_ptr end_;  ///< why reading ended early
 };

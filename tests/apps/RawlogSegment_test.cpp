@@ -124,7 +124,9 @@ TEST_F(RawlogSegment, SaysWhichSensorItTookAndHowItKnows) {
     fs::remove(path("scans/sensor.yaml"));
     const auto named = run({"-i", path("scans"), "--kitti", path("again"), "--stats",
                             path("b.json"), "-c", kConfig + "vlp16.yaml"});
-    EXPECT_THAT(named.out, HasSubstr("sensor velodyne: VLP-16, 16 beams\n"));
+    EXPECT_THAT(
+        named.out,
+        HasSubstr("sensor velodyne: VLP-16, 16 beams, 100.0 % of the returns lie on them\n"));
     const auto outcome = run(
         {"-i", path("scans"), "--kitti", path("again"), "--stats", path("b.json"), "--overwrite"});
     EXPECT_THAT(outcome.out, HasSubstr("sensor velodyne: 16 beams recovered (VLP-16), "));
@@ -163,6 +165,37 @@ TEST_F(RawlogSegment, SaysThatACloudHasNoBeamsOrTooFewReturns) {
     EXPECT_EQ(few.exit_code, 0) << few.err;
     EXPECT_THAT(few.out, HasSubstr("sensor velodyne: too few returns"));
     EXPECT_THAT(few.out, HasSubstr("VLP-16 assumed"));
+}
+
+TEST_F(RawlogSegment, RemarksOnBeamsThatAreOnlyPartlyThoseOfTheCloud) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    // Five of sixteen beams are a degree too high.
+    folder_.write("scans/sensor.yaml",
+                  "sensor: {model: custom, elevations_deg: [-15, -13, -10, -9, -7, -4, -3, -1, 2, "
+                  "3, 5, 8, 9, 11, 14, 15]}\n");
+    const auto outcome = run({"-i", path("scans"), "--kitti", path("labels")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("of 16 beams in view, the cloud shows 11, besides 5 others. "
+                                       "Is it this sensor?"));
+}
+
+TEST_F(RawlogSegment, FailsWhereTheCloudIsNotThatOfTheSensorNamed) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    fs::remove(path("scans/sensor.yaml"));
+    const auto outcome =
+        run({"-i", path("scans"), "--kitti", path("labels"), "-c", kConfig + "hdl64e.yaml"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr(path("scans") + ": "));
+    EXPECT_THAT(outcome.err, HasSubstr(" % of the cloud fits HDL-64E with its 64 beams"));
+    EXPECT_THAT(outcome.err, HasSubstr("'sensor: {model: recovered}'"));
+    EXPECT_FALSE(fs::exists(path("labels")));
+
+    // Elevations in radians.
+    folder_.write("scans/sensor.yaml",
+                  "sensor: {model: custom, elevations_deg: [-0.26, -0.22, -0.19, -0.15, -0.12, "
+                  "-0.08, -0.05, -0.01, 0.01, 0.05, 0.08, 0.12, 0.15, 0.19, 0.22, 0.26]}\n");
+    EXPECT_THAT(run({"-i", path("scans"), "--kitti", path("labels")}).err,
+                HasSubstr("its elevations are not in degrees"));
 }
 
 TEST_F(RawlogSegment, PacketsKnowTheirSensorEvenIfSettingsWantItRecovered) {

@@ -1,0 +1,75 @@
+#include "SensorCheck.h"
+
+#include <hagen/base/NumberText.h>
+#include <hagen/observations/ObservationScan.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hagen::logs {
+namespace {
+
+// Turns whose motion was compensated keep 75 to 90 % on beams two degrees apart.
+constexpr float kRemarkBelow = 0.75f;
+constexpr float kErrorBelow = 0.5f;
+
+/// Rounded down: 100 % is all of them.
+std::string percent(float share) {
+    const double tenths = std::floor(1000.0 * static_cast<double>(share));
+    return base::fixedText(0.1 * tenths, 1) + " %";
+}
+
+}  // namespace
+
+std::string SensorCheck::judge(const std::string& title, const Seen& seen) const {
+    const BeamFit& fit = seen.best;
+    const float share = fit.share();
+    if (share >= kRemarkBelow) return "";
+    std::string text = percent(share) + " of the cloud fits " + seen.sensor + " with its " +
+                       std::to_string(seen.rows) + " beams: " + percent(fit.returns_share) +
+                       " of the returns lie on them";
+    if (fit.beams_shown > 0) {
+        text += ", and of " + std::to_string(fit.beams) + " beams in view, the cloud shows " +
+                std::to_string(fit.beams_seen);
+        const std::size_t others = fit.beams_shown - fit.beams_seen;
+        if (others > 0) text += ", besides " + std::to_string(others) + " others";
+    }
+    if (share >= kErrorBelow) return text + ". Is it this sensor?";
+    throw std::runtime_error(recording_ + ": " + title + ": only " + text +
+                             ". It is another sensor, its points are not in the sensor's frame, or "
+                             "its elevations are not in degrees. Name the right sensor, or add "
+                             "'sensor: {model: recovered}' in a later settings file");
+}
+
+std::string SensorCheck::see(const RecordedScan& recorded,
+                             const observations::ObservationSegmenter::Output& segmented) {
+    if (!observations::isCloud(*recorded.observation)) return "";
+    if (segmented.recovered || segmented.is_sensor_assumed) return "";
+    Seen& seen = seen_[recorded.observation->sensorLabel];
+    if (seen.clouds >= kClouds) return "";
+    const auto fit = fitBeams(*segmented.scan, *segmented.sensor);
+    if (!fit) return "";
+    ++seen.clouds;
+    seen.sensor = segmented.sensor->name;
+    seen.rows = segmented.sensor->rows();
+    if (seen.clouds == 1 || fit->share() > seen.best.share()) seen.best = *fit;
+    return seen.clouds == kClouds ? judge(titleOf(recorded), seen) : "";
+}
+
+std::map<std::string, std::string> SensorCheck::finish() {
+    std::map<std::string, std::string> remarks;
+    for (const auto& [label, seen] : seen_) {
+        if (seen.clouds == 0 || seen.clouds >= kClouds) continue;
+        const std::string remark = judge("sensor " + label, seen);
+        if (!remark.empty()) remarks[label] = remark;
+    }
+    return remarks;
+}
+
+std::string SensorCheck::textOf(const std::string& sensor_label) const {
+    const auto seen = seen_.find(sensor_label);
+    if (seen == seen_.end() || seen->second.clouds == 0) return "";
+    return percent(seen->second.best.returns_share) + " of the returns lie on them";
+}
+
+}  // namespace hagen::logs
