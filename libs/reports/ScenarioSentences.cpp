@@ -16,14 +16,20 @@ std::string withFigures(const Pairing& pairing) {
     return rivalOf(pairing) + " (" + figuresOf(pairing) + ")";
 }
 
-/// The rivals of one contender in one scenario, by answer.
+/// The rivals of one contender in one scenario, by answer. Where nothing can be said they are only
+/// named: the table of comparisons has the figures.
 std::string answersText(const std::string& subject, const std::vector<Pairing>& pairings) {
     std::map<Answer, std::vector<std::string>> rivals;
     std::vector<std::string> chance;  // undecided ones whose interval contains zero
     for (const Pairing& pairing : pairings) {
         const Answer answer = answerOf(pairing);
-        const bool may_be_chance = answer == Answer::Undecided && !excludesZero(pairing);
-        (may_be_chance ? chance : rivals[answer]).push_back(withFigures(pairing));
+        if (answer == Answer::Saturated) {
+            rivals[answer].push_back(rivalOf(pairing));
+        } else if (answer == Answer::Undecided && !excludesZero(pairing)) {
+            chance.push_back(rivalOf(pairing));
+        } else {
+            rivals[answer].push_back(withFigures(pairing));
+        }
     }
     const std::string margin = marginText();
     const std::pair<Answer, std::string> statements[] = {

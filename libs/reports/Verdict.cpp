@@ -189,7 +189,8 @@ std::vector<std::string> verdictOf(const Summary& summary) {
     if (!summary.pairings.empty()) {
         append(
             {"In brackets: success on the courses that both flew; the difference and its 95 % "
-             "interval; McNemar's exact p with Holm's correction.",
+             "interval; McNemar's exact p with Holm's correction. What may be chance and what is "
+             "saturated is named only; the tables of paired comparisons have the figures.",
              "Saturated: two contenders differ on no course, or both succeed on at least " +
                  std::to_string(kCeilingPercent) +
                  " %. Such a scenario does not say which is better.",

@@ -102,10 +102,9 @@ TEST(ScenarioSentence, SaysNotInferiorOnlyWhereNotSaturated) {
 }
 
 TEST(ScenarioSentence, SaysMayBeChanceOnlyIfTheIntervalContainsZero) {
-    EXPECT_THAT(firstOf({20, 4, 5, 11}),
-                AllOf(StartsWith(kGap + ": no comparison is decided yet. Undecided, may be "
-                                        "chance: occupancy grid 0.2 m (60.0 % vs. 62.5 %"),
-                      HasSubstr("; p 1.000)."), Not(HasSubstr("excludes"))));
+    EXPECT_EQ(
+        firstOf({20, 4, 5, 11}),
+        kGap + ": no comparison is decided yet. Undecided, may be chance: occupancy grid 0.2 m.");
     // 8 to 1, p = 20 / 2^9: significant alone, not as one of three.
     Table three;
     for (const char* scenario : {"gap", "orchard", "street"}) {
@@ -127,7 +126,6 @@ TEST(ScenarioSentence, SaysIfTooFewCoursesDifferForATest) {
                 AllOf(HasSubstr("; 5 courses differ, too few for a test; the interval excludes a "
                                 "difference of zero, the corrected test does not)"),
                       Not(HasSubstr("; p "))));
-    EXPECT_THAT(firstOf({50, 1, 0, 9}), HasSubstr("; 1 course differs, too few for a test)"));
     EXPECT_THAT(firstOf({50, 0, 6, 4}), AllOf(HasSubstr("; p 0.031"), Not(HasSubstr("too few"))));
 }
 
@@ -135,12 +133,10 @@ TEST(ScenarioSentence, GroupsTheRivalsOfAScenario) {
     Table table;
     table.add("gap", "G-Full", {60, 0, 0, 40}).add("gap", "W-Full", {60, 0, 0, 40});
     table.add("gap", "O-Full-0.4", {40, 20, 0, 40});
-    const std::string same = " (60.0 % vs. 60.0 % of 100 courses, none of which differs)";
     EXPECT_THAT(table.first(),
                 AllOf(StartsWith(kGap + " succeeds more often than OctoMap 0.4 m (60.0 % vs. "
                                         "40.0 % of 100 courses; +20.0 points, "),
-                      testing::EndsWith(" Saturated: occupancy grid 0.2 m" + same +
-                                        " and full window" + same + ".")));
+                      testing::EndsWith(" Saturated: occupancy grid 0.2 m and full window.")));
 }
 
 TEST(SaturationSentence, NamesWhatIsSaturatedAndTheSpeedAtWhichItIsNot) {
@@ -203,7 +199,7 @@ TEST(GuidanceSentence, IsApartFromTheModels) {
     EXPECT_EQ(
         table.first(),
         "In u-trap at 4 m/s, RoI window with A*: nothing to tell apart. Saturated: RoI window "
-        "with straight guidance (100.0 % vs. 100.0 % of 100 courses, none of which differs).");
+        "with straight guidance.");
 }
 
 TEST(LeftOutSentence, CountsWhatCouldNotBeSignificant) {

@@ -77,9 +77,7 @@ TEST(Verdict, UsesTheSingular) {
     ASSERT_EQ(words.size(), 9u);
     EXPECT_THAT(words[0],
                 StartsWith("In gap at 4 m/s, RoI window with A*: no comparison is decided "
-                           "yet. Undecided, may be chance: occupancy grid 0.2 m (0.0 % "
-                           "vs. 100.0 % of 1 course; -100.0 points, "));
-    EXPECT_THAT(words[0], HasSubstr("; 1 course differs, too few for a test)."));
+                           "yet. Undecided, may be chance: occupancy grid 0.2 m."));
     EXPECT_EQ(words[5], "Undecided comparisons need more courses.");
     EXPECT_EQ(words[6].find("RoI window with A*: 1 collision in 1 run ("), 0u) << words[6];
     EXPECT_EQ(words[7], "Occupancy grid 0.2 m with A*: no collision in 1 run.");
