@@ -129,19 +129,27 @@ int run(Flags flags) {
     return 0;
 }
 
+std::string listOf(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
 void addFlags(Command& app, Flags& flags) {
-    const auto list = [&](const char* flag, std::vector<std::string>& names, const char* what) {
+    const auto list = [&](const char* flag, std::vector<std::string>& names,
+                          const std::string& what) {
         return app.option(flag, names, what).delimiter(',').showDefault();
     };
     trials::CampaignPlan& plan = flags.plan;
-    list("--scenario", plan.scenarios, "courses or all").required();
+    list("--scenario", plan.scenarios, "courses, or all: " + listOf(trials::courseNames()))
+        .required();
     app.option("--seeds", flags.seeds,
                "seeds of the courses, A-B; the same seeds make the same runs")
         .required();
     app.option("--speed", plan.speeds_m_s, "maximum speeds in m/s (default: 4)").delimiter(',');
-    takesWorldModels(
-        list("--models", plan.models, "world models, such as W-RoI or \"RoI window\", or all"),
-        {"all"});
+    takesWorldModels(list("--models", plan.models,
+                          "world models, or all: " + listOf(avoidance::worldModelNames())),
+                     {"all"});
     list("--guidance", plan.guidances, "straight, astar or all");
     list("--planner", plan.planners, "primitives, 3dvfh or all");
     list("--pose-error", flags.pose_errors,

@@ -7,8 +7,7 @@ int main(int argc, char** argv) {
                            "avoidance based on maps.");
     program.footer(
         "Examples:\n"
-        "  octomap-compare closedloop --scenario forest-0.05 --seeds 1000-1019 --models "
-        "W-RoI,O-Full-0.4 -o runs\n"
+        "  octomap-compare closedloop --scenario gap --seeds 1000-1019 --models all -o runs\n"
         "  octomap-compare openloop -i flight.rawlog --poses flight.tum -o models\n"
         "  octomap-compare COMMAND --help\n"
         "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");

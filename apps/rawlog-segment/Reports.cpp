@@ -51,6 +51,10 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         std::printf("%s could not be read, kept unchanged\n",
                     counted(report.unreadable_scans, "scan", "scans").c_str());
     }
+    if (report.results_replaced > 0) {
+        std::printf("%s of an earlier run replaced\n",
+                    counted(report.results_replaced, "result", "results").c_str());
+    }
     for (const auto& [label, sensor] : report.sensors) {
         std::printf("sensor %s: %s\n", label.c_str(), sensor.c_str());
     }
@@ -70,8 +74,10 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         if (!path.empty()) std::printf("%s: %s\n", what, path.c_str());
     };
     output("segmented rawlog", conversion.rawlog);
-    output("scans and labels", conversion.folder);
-    output("pictures", conversion.pictures);
+    if (report.scans > 0) {  // otherwise there are no folders
+        output("scans and labels", conversion.folder);
+        output("pictures", conversion.pictures);
+    }
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);
 }

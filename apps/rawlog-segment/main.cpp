@@ -267,9 +267,11 @@ int run(const Program& program, Flags& flags) {
 int main(int argc, char** argv) {
     Program program(
         "rawlog-segment",
+        "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
+        "log.");
+    program.footer(
         "Examples:\n"
-        "  rawlog-segment -i flight.rawlog -o segmented.rawlog\n"
-        "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview --stats flight.json\n"
+        "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview\n"
         "  rawlog-segment -i flight.rawlog --kitti labels -c config/paper.yaml\n"
         "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"
         "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
@@ -277,10 +279,7 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"
         "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"
-        "\n"
-        "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
-        "log.");
-    program.footer("Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     Flags flags;
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });

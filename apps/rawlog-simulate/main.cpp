@@ -2,12 +2,15 @@
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <string>
 
 #include <hagen/command_line/CommandLine.h>
 #include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/ProgressLine.h>
 #include <hagen/simulated_logs/SimulatedLog.h>
 
 namespace {
@@ -19,16 +22,17 @@ void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
     const auto not_empty = [](const std::string& name) {
         return name.empty() ? "the name is empty" : "";
     };
-    const auto known_scenario = [](const std::string& name) {
-        std::string known;
-        for (const std::string& scenario : simulation::scenarioNames()) {
-            if (scenario == name) return std::string();
-            known += (known.empty() ? "" : ", ") + scenario;
-        }
+    std::string known;
+    for (const std::string& scenario : simulation::scenarioNames()) {
+        known += (known.empty() ? "" : ", ") + scenario;
+    }
+    const auto known_scenario = [known](const std::string& name) -> std::string {
+        const auto names = simulation::scenarioNames();
+        if (std::find(names.begin(), names.end(), name) != names.end()) return "";
         return "unknown scenario '" + name + "'; known are " + known;
     };
 
-    app.option("--scenario", log.scenario, "the scene; an unknown name prints the list")
+    app.option("--scenario", log.scenario, "the scene: " + known)
         .required()
         .check(known_scenario, "NAME")
         .group("Flight");
@@ -115,8 +119,16 @@ void printSummary(const simulated_logs::SimulatedLog& log,
 int run(const simulated_logs::SimulatedLog& log, bool is_quiet) {
     check(log);
     catchSignals();
-    const simulated_logs::SimulationReport report =
-        simulated_logs::simulateLog(log, [] { return !isInterrupted(); });
+    ProgressLine progress("scan");
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t begun = 0;
+    const auto keep_going = [&] {
+        ++begun;
+        const bool is_long = std::chrono::steady_clock::now() - start > std::chrono::seconds(2);
+        if (!is_quiet && is_long) progress.show(begun, static_cast<std::size_t>(log.scans));
+        return !isInterrupted();
+    };
+    const simulated_logs::SimulationReport report = simulated_logs::simulateLog(log, keep_going);
     if (!is_quiet) printSummary(log, report);
     return kDone;
 }
@@ -126,14 +138,15 @@ int run(const simulated_logs::SimulatedLog& log, bool is_quiet) {
 int main(int argc, char** argv) {
     Program program(
         "rawlog-simulate",
-        "Examples:\n"
-        "  rawlog-simulate --scenario orchard --scans 50 --altitude 2 --seed 1 -o flight.rawlog\n"
-        "  rawlog-simulate --scenario wires --scans 12 --every-s 2 --altitude 4 --seed 7 --kitti "
-        "wires\n"
-        "\n"
         "Simulates a flight with a LiDAR over a generated scene, and writes its scans with ground "
         "truth.");
-    program.footer("Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+    program.footer(
+        "Examples (each on one line):\n"
+        "  rawlog-simulate --scenario orchard --scans 50 --altitude 2 --seed 1\n"
+        "    -o flight.rawlog\n"
+        "  rawlog-simulate --scenario wires --scans 12 --every-s 2 --altitude 4 --seed 7\n"
+        "    --kitti wires\n"
+        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     simulated_logs::SimulatedLog log;
     bool is_quiet = false;
     declare(program, log, is_quiet);

@@ -163,13 +163,11 @@ int main(int argc, char** argv) {
         "segmentation-evaluate",
         "Score the filter on labelled scan folders (KITTI layout; labels 1 ROU, 2 RoI).");
     program.footer(
-        "Prints precision, recall and F1 of each class over all returns of all scans; returns with "
-        "ground-truth label 0 are excluded.\n"
+        "Prints precision, recall and F1 of each class over all returns of all scans;\n"
+        "returns with ground-truth label 0 are excluded.\n"
         "Example:\n"
         "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10\n"
-        "  segmentation-evaluate -i scans/* --baselines --label-map config/semantic_kitti.yaml "
-        "--json "
-        "all.json");
+        "  segmentation-evaluate -i scans/* --baselines --json all.json");
     program.version(HAGEN_VERSION);
     Flags flags;
     addFlags(program, flags);

@@ -3,12 +3,51 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 
 #include <hagen/command_line/Interrupt.h>
 
 namespace hagen::command_line {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kHelpWidth = 80, kHelpColumn = 30;
+
+/// Breaks a line of --help between words. Its continuations begin where descriptions do.
+std::string wrapped(std::string line) {
+    std::string lines;
+    while (line.size() > kHelpWidth) {
+        const std::size_t end = line.rfind(' ', kHelpWidth);
+        const bool has_word = line.find_first_not_of(' ') < end && end != std::string::npos;
+        // A word that is longer than a line stays whole.
+        const std::size_t cut = has_word ? end : line.find(' ', kHelpWidth);
+        if (cut == std::string::npos) break;
+        const std::size_t rest = line.find_first_not_of(' ', cut);
+        if (rest == std::string::npos) break;
+        const std::size_t indent = line[0] == ' ' ? kHelpColumn : 0;
+        lines += line.substr(0, line.find_last_not_of(' ', cut) + 1) + "\n";
+        line = std::string(indent, ' ') + line.substr(rest);
+    }
+    return lines + line;
+}
+
+/// CLI11's text of --help in lines of a terminal's width.
+class HelpText : public CLI::Formatter {
+ public:
+    HelpText() { column_width(kHelpColumn); }
+
+    std::string make_help(const CLI::App* app, std::string name,
+                          CLI::AppFormatMode mode) const override {
+        std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
+        std::string text;
+        for (std::string line; std::getline(lines, line);) text += wrapped(line) + "\n";
+        return text;
+    }
+};
+
+}  // namespace
 
 Flag& Flag::required() {
     option_->required();
@@ -156,7 +195,9 @@ std::string subcommandsOf(const CLI::App& app, const std::string& program) {
 Program::Program(std::string name, const std::string& description)
     : Program(std::make_unique<CLI::App>(description), std::move(name)) {}
 Program::Program(std::unique_ptr<CLI::App> app, std::string name)
-    : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {}
+    : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {
+    app_->formatter(std::make_shared<HelpText>());  // subcommands inherit it
+}
 Program::~Program() = default;
 
 void Program::footer(const std::string& text) { app_->footer(text); }
