@@ -61,6 +61,11 @@ fs::path labelFilesOf(const LabelRow& row, const logs::ScanFolder& scans,
     places.insert(places.end(), {row.folder / scans_name, row.folder / scans_name / "labels"});
     const auto place = std::find_if(places.begin(), places.end(), hasLabelFiles);
     const fs::path folder = place == places.end() ? places.front() : *place;
+    std::error_code no_such_folder;
+    if (fs::equivalent(folder, scans.path() / "labels", no_such_folder)) {
+        throw std::runtime_error(folder.string() + ": is the ground truth itself; --labels " +
+                                 row.name + "=DIR needs the folder with the labels to score");
+    }
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const fs::path file = folder / (scans.name(i) + ".label");
         if (fs::is_regular_file(file)) continue;

@@ -85,6 +85,13 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
       has_label_map_(label_map.has_value()),
       has_kind_files_(fs::is_directory(folder_.path() / "semantic")),
       altitudes_m_(folder_.altitudes()) {
+    const bool is_by_kind = has_label_map_ && has_kind_files_;
+    if (!is_by_kind && folder_.hasPredictions()) {
+        throw std::runtime_error(path + ": its labels are predictions (" +
+                                 logs::ScanFolder::kMadeBy +
+                                 "), not ground truth; score them with --labels NAME=" + path +
+                                 " against the folder that has the ground truth");
+    }
     if (label_map) {
         kinds_ = *label_map;
     } else if (has_kind_files_ && fs::exists(folder_.kindNamesFile())) {

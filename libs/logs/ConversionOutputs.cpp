@@ -70,7 +70,10 @@ std::string ConversionOutputs::writeScan(
 }
 
 void ConversionOutputs::finish(const ConversionReport& report) {
-    for (const auto& [label, writer] : folder_writers_) writer.finish();
+    for (const auto& [label, writer] : folder_writers_) {
+        writer.finish();
+        markAsPredictions(folders_->folderOf(label));
+    }
     if (map_) map_->write();
     if (stats_) writeStatistics(stats_->temporary(), conversion_, report);
 }

@@ -5,6 +5,7 @@
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/MrptMessage.h>
+#include <hagen/observations/Results.h>
 #include <hagen/observations/ScenePreview.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -102,13 +103,42 @@ bool Converter::read(EntryInConversion& entry) {
         if (!recorded) return false;
         entry.fraction_read = recorded->fraction_read;
         entry.object = recorded->object;
+        entry.results_replaced = 0;
         for (RecordedScan& scan : recorded->scans) {
             entry.scans.emplace_back().recorded = std::move(scan);
         }
+        takeOutResults(entry);
         return true;
     } catch (...) {
         end_ = std::current_exception();  // rethrown once the entries before are converted
         return false;
+    }
+}
+
+/// Takes out what an earlier run made of scans that are segmented again: the new results replace
+/// it. Results of other LiDARs, and those without their scan, stay.
+void Converter::takeOutResults(EntryInConversion& entry) {
+    for (const ScanInConversion& scan : entry.scans) {
+        const CObservation& observation = *scan.recorded.observation;
+        last_scans_[observation.sensorLabel] = observation.timestamp;
+    }
+    const auto isReplaced = [this](const CObservation& observation) {
+        if (!observations::isResult(observation)) return false;
+        const std::string label = observations::scanLabelOf(observation);
+        return std::any_of(last_scans_.begin(), last_scans_.end(), [&](const auto& scan) {
+            return (label.empty() || label == scan.first) && observation.timestamp == scan.second;
+        });
+    };
+    if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object)) {
+        for (auto part = frame->begin(); part != frame->end();) {
+            const bool is_replaced = isReplaced(**part);
+            entry.results_replaced += is_replaced;
+            part = is_replaced ? frame->erase(part) : std::next(part);
+        }
+    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry.object)) {
+        if (!isReplaced(*observation)) return;
+        entry.object.reset();
+        entry.results_replaced = 1;
     }
 }
 
@@ -222,6 +252,7 @@ void Converter::account(EntryInConversion& entry) {
     entry.object.reset();
 
     ++report_.entries;
+    report_.results_replaced += entry.results_replaced;
     report_.fraction = entry.fraction_read;
     const std::lock_guard lock(listener_mutex_);
     listener_.progress(report_);

@@ -4,6 +4,7 @@
 #include <hagen/observations/ObservationSegmenter.h>
 
 #include <exception>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -30,8 +31,9 @@ struct EntryInConversion {
     double fraction_read = 0;
     mrpt::serialization::CSerializable::Ptr object;  ///< none: only scans are written
     std::vector<ScanInConversion> scans;
-    std::exception_ptr failure;   ///< ends the conversion once all entries before it are done
-    Bytes bytes, member, packed;  ///< buffers of the output
+    std::size_t results_replaced = 0;  ///< of an earlier run, taken out of the object
+    std::exception_ptr failure;        ///< ends the conversion once all entries before it are done
+    Bytes bytes, member, packed;       ///< buffers of the output
 };
 
 /// A conversion in progress. Entries are segmented on several threads; all outputs and callbacks
@@ -44,6 +46,7 @@ class Converter {
  private:
     // The steps of the pipeline (OrderedPipeline.h), and their parts.
     bool read(EntryInConversion& entry);
+    void takeOutResults(EntryInConversion& entry);
     void segment(EntryInConversion& entry);
     void account(EntryInConversion& entry);
 
@@ -70,6 +73,8 @@ class Converter {
     const observations::Settings settings_;  ///< with those of the recording's own sensor
     ConversionOutputs outputs_;
     SegmenterPool segmenters_;
+    /// Time of the last scan read, by sensor label.
+    std::map<std::string, mrpt::Clock::time_point> last_scans_;
     SensorCheck sensor_check_;
     ConversionReport report_;
     std::exception_ptr end_;  ///< why reading ended early

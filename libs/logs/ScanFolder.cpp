@@ -64,7 +64,8 @@ const base::OutputKind kScanFolders{
         static const std::set<std::string> kFiles{"times.txt",  "poses.txt",     "poses.tum",
                                                   "kinds.yaml", "altitudes.txt", "sensor.yaml"};
         const fs::path folder = within.parent_path().filename();
-        return (folder == "velodyne" && within.extension() == ".bin") ||
+        return (folder / within.filename() == ScanFolder::kMadeBy) ||
+               (folder == "velodyne" && within.extension() == ".bin") ||
                ((folder == "labels" || folder == "semantic") && within.extension() == ".label") ||
                kFiles.count(within.filename().string()) > 0;
     }};
@@ -100,6 +101,13 @@ std::vector<double> ScanFolder::times() const {
 
 std::vector<double> ScanFolder::altitudes() const {
     return readNumberPerScan(folder_ / "altitudes.txt", "metres", size());
+}
+
+void markAsPredictions(const fs::path& folder) {
+    const fs::path file = folder / ScanFolder::kMadeBy;
+    std::ofstream out(file);
+    out << "rawlog-segment: these labels are predictions, not ground truth\n";
+    base::closeWritten(out, file);
 }
 
 void readScan(const fs::path& file, Scan& scan) {

@@ -68,13 +68,10 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
                              const LabelledReturns& returns, const SensorModel& sensor,
                              double time_s, const std::optional<mrpt::poses::CPose3D>& sensor_pose,
                              bool pose_has_horizon) {
-    if (times_s_.empty()) {
-        writeSensor(folder_ / "sensor.yaml", sensor, unnamed_, mount_);
-        first_time_s_ = time_s;
-    }
+    if (times_s_.empty()) writeSensor(folder_ / "sensor.yaml", sensor, unnamed_, mount_);
     writeScan(folder_ / "velodyne" / (name + ".bin"), scan);
     writeLabels(folder_ / "labels" / (name + ".label"), returns.label, returns.component);
-    times_s_.push_back(time_s - first_time_s_);
+    times_s_.push_back(time_s);
     if (sensor_pose) poses_.push_back({times_s_.back(), *sensor_pose});
     have_horizon_ = have_horizon_ && pose_has_horizon;
 }

@@ -44,6 +44,7 @@ void SensorFolders::unwrapOnlyFolder() {
 }
 
 void SensorFolders::commit() {
+    if (folders_.empty()) return;
     unwrapOnlyFolder();
     path_.commit();
 }

@@ -104,6 +104,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
     if (!conversion.octomaps.empty()) json["scans_in_map"] = report.scans_in_map;
     json["entries"] = report.entries;
     json["unreadable_scans"] = report.unreadable_scans;
+    json["results_replaced"] = report.results_replaced;
     json["left_out_before"] = report.left_out_before;
     json["returns"] = {{"all", report.returns},
                        {"roi", report.roi},

@@ -1,6 +1,7 @@
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/Results.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -8,17 +9,12 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
-#include <string_view>
 
 namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationPointCloud;
 using mrpt::obs::CObservationVelodyneScan;
-
-bool endsWith(std::string_view text, std::string_view ending) {
-    return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
-}
 
 template <class Coordinates>
 void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates& z, Scan& scan) {
@@ -135,7 +131,7 @@ void readPackets(const CObservationVelodyneScan& observation, const Settings& se
 }  // namespace
 
 bool isLidarScan(const mrpt::obs::CObservation& observation) {
-    if (endsWith(observation.sensorLabel, "_roi")) return false;  // also excludes `_non_roi`
+    if (isResult(observation)) return false;
     return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr ||
            dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
 }

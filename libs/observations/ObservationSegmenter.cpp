@@ -1,6 +1,7 @@
 #include <hagen/base/ProcessCost.h>
 #include <hagen/observations/Mount.h>
 #include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/observations/Results.h>
 #include <mrpt/core/initializer.h>
 #include <mrpt/rtti/CObject.h>
 
@@ -33,17 +34,6 @@ bool isSameSensor(const SensorModel& a, const SensorModel& b) {
 bool areSameFor(const Options& a, const Options& b) {
     return a.columns == b.columns && a.window_size == b.window_size &&
            a.principal_components == b.principal_components;
-}
-
-CObservationPointCloud::Ptr partOf(const mrpt::obs::CObservation& observation,
-                                   const std::string& suffix,
-                                   const mrpt::maps::CPointsMap::Ptr& points) {
-    auto part = CObservationPointCloud::Create();
-    part->timestamp = observation.timestamp;
-    part->sensorLabel = observation.sensorLabel + suffix;
-    part->sensorPose = mrpt::poses::CPose3D(observation.sensorPose());
-    part->pointcloud = points;
-    return part;
 }
 
 }  // namespace
@@ -113,8 +103,8 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     const auto labelled = std::chrono::steady_clock::now();
 
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
-    out.roi = partOf(observation, "_roi", cloudOf(scan, result.returns.roi, cloud_class));
-    out.non_roi = partOf(observation, "_non_roi", cloudOf(scan, result.returns.rou, cloud_class));
+    out.roi = resultOf(observation, true, cloudOf(scan, result.returns.roi, cloud_class));
+    out.non_roi = resultOf(observation, false, cloudOf(scan, result.returns.rou, cloud_class));
     out.scan = &scan;
     out.result = &result;
     out.sensor = &filter.sensor();

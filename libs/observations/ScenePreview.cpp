@@ -1,20 +1,22 @@
+#include <hagen/observations/Results.h>
 #include <hagen/observations/ScenePreview.h>
 #include <hagen/segmentation/RoiBoxes.h>
 #include <mrpt/img/TColor.h>
-#include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CDisk.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/stock_objects.h>
+
+#include <algorithm>
+#include <vector>
 
 namespace hagen::observations {
 namespace {
 
-// Colour-blind safe, and both distinct from the viewer's grey.
-const mrpt::img::TColor kRoiColor(213, 94, 0), kRouColor(150, 190, 230), kZoneColor(240, 240, 240),
-    kBoxColor(255, 190, 120);
+const mrpt::img::TColor kZoneColor(240, 240, 240), kBoxColor(255, 190, 120);
 constexpr std::uint32_t kLeastBoxed = 30;  // returns; boxes around fewer only hide them
-constexpr float kRoiPixels = 4.0f, kRouPixels = 2.0f;
+constexpr float kRoiPixels = 4.0f, kNonRoiPixels = 2.0f;
 
 mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& points,
                                                 const mrpt::img::TColor& color, float pixels) {
@@ -29,15 +31,36 @@ mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& po
     return cloud;
 }
 
-mrpt::opengl::CBox::Ptr frameAround(const RoiBox& box) {
-    const auto corner = [](const Eigen::Vector3f& p) {
-        return mrpt::math::TPoint3D(p.x(), p.y(), p.z());
-    };
-    auto frame =
-        mrpt::opengl::CBox::Create(corner(box.extents_m.min()), corner(box.extents_m.max()), true);
-    frame->setColor_u8(kBoxColor);
-    frame->setBoxBorderColor(kBoxColor);
-    return frame;
+/// The twelve edges of a box.
+void addEdges(const Eigen::AlignedBox3f& box, mrpt::opengl::CSetOfLines& lines) {
+    using Box = Eigen::AlignedBox3f;
+    // Bit k of a corner's number tells whether it is at the upper end of axis k.
+    for (int corner = 0; corner < 8; ++corner) {
+        const Eigen::Vector3f a = box.corner(static_cast<Box::CornerType>(corner));
+        for (const int bit : {1, 2, 4}) {
+            if ((corner & bit) != 0) continue;
+            const Eigen::Vector3f b = box.corner(static_cast<Box::CornerType>(corner | bit));
+            lines.appendLine(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+        }
+    }
+}
+
+/// The boxes of the larger obstacles. A box inside another one would only hide its points.
+std::vector<Eigen::AlignedBox3f> boxesToDraw(const std::vector<RoiBox>& boxes) {
+    std::vector<Eigen::AlignedBox3f> drawn;
+    for (const RoiBox& box : boxes) {
+        if (box.returns < kLeastBoxed) continue;
+        const auto holds = [&](const Eigen::AlignedBox3f& other) {
+            return other.contains(box.extents_m);
+        };
+        if (std::any_of(drawn.begin(), drawn.end(), holds)) continue;
+        drawn.erase(
+            std::remove_if(drawn.begin(), drawn.end(),
+                           [&](const auto& other) { return box.extents_m.contains(other); }),
+            drawn.end());
+        drawn.push_back(box.extents_m);
+    }
+    return drawn;
 }
 
 }  // namespace
@@ -46,12 +69,17 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
                                               const ObservationSegmenter::Output& segmented,
                                               float zone_m) {
     auto sensor = mrpt::opengl::CSetOfObjects::Create();
+    sensor->setName(kPreviewName);
     sensor->setPose(mrpt::poses::CPose3D(observation.sensorPose()));
-    sensor->insert(coloured(*segmented.non_roi->pointcloud, kRouColor, kRouPixels));
+    sensor->insert(coloured(*segmented.non_roi->pointcloud, kNonRoiColor, kNonRoiPixels));
     sensor->insert(coloured(*segmented.roi->pointcloud, kRoiColor, kRoiPixels));
-    for (const RoiBox& box : boxRoiComponents(*segmented.scan, segmented.result->returns)) {
-        if (box.returns >= kLeastBoxed) sensor->insert(frameAround(box));
-    }
+    // Lines, as MRPT 3 cannot read the boxes of MRPT 2.
+    auto frames = mrpt::opengl::CSetOfLines::Create();
+    frames->setName("obstacles");
+    frames->setColor_u8(kBoxColor);
+    const auto boxes = boxRoiComponents(*segmented.scan, segmented.result->returns);
+    for (const Eigen::AlignedBox3f& box : boxesToDraw(boxes)) addEdges(box, *frames);
+    sensor->insert(frames);
     sensor->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 2.0f));
     auto zone = mrpt::opengl::CDisk::Create(zone_m, zone_m - 0.15f, 100);
     zone->setColor_u8(kZoneColor);

@@ -279,9 +279,12 @@ TEST_F(RawlogSegment, ListsEveryKeyOfSettingsFiles) {
 TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
     const fs::path log = "/usr/share/mrpt/datasets/localization_demo.rawlog";
     if (!fs::exists(log)) GTEST_SKIP() << "mrpt-common is not installed";
-    const auto outcome = run({"-i", log, "-o", path("out.rawlog")});
+    const auto outcome = run({"-i", log, "-o", path("out.rawlog"), "--kitti", path("scans"),
+                              "--pictures", path("pictures")});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("no LiDAR scan"));
+    EXPECT_FALSE(fs::exists(path("scans")));
+    EXPECT_FALSE(fs::exists(path("pictures")));
     logs::RawlogReader in(log), out(path("out.rawlog"));
     while (in.next()) ASSERT_NE(out.next(), nullptr);
     EXPECT_EQ(out.next(), nullptr);

@@ -484,6 +484,20 @@ TEST_F(SegmentationEvaluate, NamesKindsAndClassesThatHaveNoName) {
     expectFailure({"-i", pole}, 1, "altitudes.txt: has 2 lines for 1 scans");
 }
 
+TEST_F(SegmentationEvaluate, FailsWherePredictionsWouldBeScoredAgainstThemselves) {
+    const std::string pole = labelledPole();
+    const std::string found = (folder_ / "found").string();
+    ASSERT_EQ(test::run(HAGEN_RAWLOG_SEGMENT, {"-i", pole, "--kitti", found}).exit_code, 0);
+    const auto of_predictions = run({"-i", found});
+    EXPECT_EQ(of_predictions.exit_code, 1);
+    EXPECT_THAT(of_predictions.err, HasSubstr(found + ": its labels are predictions"));
+    EXPECT_THAT(of_predictions.err, HasSubstr("--labels NAME=" + found));
+    EXPECT_EQ(run({"-i", pole, "--labels", "found=" + found}).exit_code, 0);
+    const auto of_itself = run({"-i", pole, "--labels", "itself=" + pole});
+    EXPECT_EQ(of_itself.exit_code, 1);
+    EXPECT_THAT(of_itself.err, HasSubstr(pole + "/labels: is the ground truth itself"));
+}
+
 TEST_F(SegmentationEvaluate, FailsWithoutScansOrLabels) {
     expectFailure({"-i", (folder_ / "none").string()}, 1, "not a scan folder");
     expectFailure({"-i", folder_.path()}, 1, "velodyne");

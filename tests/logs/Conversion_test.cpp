@@ -142,16 +142,52 @@ TEST_P(ConversionTest, AgainGivesTheSameBytes) {
     }
 }
 
-TEST_P(ConversionTest, ItsOwnOutputIsNotSegmentedAgain) {
-    writeLog({scanFrom(0)});
+TEST_P(ConversionTest, ItsOwnOutputGivesTheSameFile) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(scanFrom(2, "rear"));
+    frame->insert(pose());
+    writeLog({pose(), scanFrom(0), scanFrom(1), frame});
+    Conversion first = conversion();
+    first.preview = true;
+    convert(first);
+    Conversion again = first;
+    again.input = first.rawlog;
+    again.rawlog = folder_ / "again.rawlog";
+    const ConversionReport report = convert(again);
+    EXPECT_EQ(report.scans, 3u);
+    EXPECT_EQ(report.entries, 10u);
+    EXPECT_EQ(report.results_replaced, 9u);
+    EXPECT_EQ(entriesOf(again.rawlog), entriesOf(first.rawlog));
+    EXPECT_EQ(test::readFile(again.rawlog), test::readFile(first.rawlog));
+}
+
+TEST_P(ConversionTest, ResultsOfAnotherLidarAndResultsWithoutTheirScanStay) {
+    writeLog({scanFrom(0, "front"), scanFrom(0, "rear")});
     convert(conversion());
     Conversion again = conversion();
     again.input = folder_ / "out.rawlog";
     again.rawlog = folder_ / "again.rawlog";
-    EXPECT_EQ(convert(again).scans, 1u);
+    again.sensor_labels = {"rear"};
+    EXPECT_EQ(convert(again).results_replaced, 2u);
     EXPECT_EQ(entriesOf(again.rawlog),
-              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "lidar_roi",
-                                        "lidar_non_roi"}));
+              (std::vector<std::string>{"front", "front_roi", "front_non_roi", "rear", "rear_roi",
+                                        "rear_non_roi"}));
+    Conversion cut = conversion();
+    cut.input = folder_ / "out.rawlog";
+    cut.rawlog = folder_ / "cut.rawlog";
+    cut.from = 1;
+    EXPECT_EQ(convert(cut).results_replaced, 2u);
+    EXPECT_EQ(entriesOf(cut.rawlog), (std::vector<std::string>{"front_roi", "front_non_roi", "rear",
+                                                               "rear_roi", "rear_non_roi"}));
+}
+
+TEST_P(ConversionTest, AScanLabelledLikeAResultIsAScan) {
+    auto observed = std::make_unique<observations::ObservedScan>();
+    observations::readObservation(*scanFrom(0), {}, *observed);
+    writeLog({observations::observationOf(observed->scan, "front_roi", {})});
+    EXPECT_EQ(convert(conversion()).scans, 1u);
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"front_roi", "front_roi_roi", "front_roi_non_roi"}));
 }
 
 TEST_P(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
@@ -161,7 +197,7 @@ TEST_P(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
     const ConversionReport report = convert(both);
     const ScanFolder scans(both.folder);
     ASSERT_EQ(scans.size(), 2u);
-    EXPECT_NEAR(scans.times()[1], 1.0, 1e-6);
+    EXPECT_NEAR(scans.times()[1], mrpt::Clock::toDouble(scanFrom(1)->timestamp), 1e-6);
     std::size_t roi = 0, returns = 0;
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const auto labels = readLabels(scans.labelFile(i));

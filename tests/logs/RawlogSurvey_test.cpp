@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <hagen/logs/RawlogSurvey.h>
 #include <hagen/logs/RawlogWriter.h>
+#include <hagen/observations/Results.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
@@ -59,6 +61,12 @@ mrpt::obs::CObservationPointCloud::Ptr cloud(double seconds, const std::string& 
     observation->sensorLabel = label;
     observation->sensorPose = CPose3D(0, 0, 0.25, 0, 0, 0);
     return observation;
+}
+
+mrpt::obs::CObservationPointCloud::Ptr result(double seconds, const std::string& label,
+                                              bool is_roi) {
+    const auto scan = cloud(seconds, label);
+    return observations::resultOf(*scan, is_roi, mrpt::maps::CSimplePointsMap::Create());
 }
 
 class RawlogSurveyTest : public testing::Test {
@@ -138,7 +146,7 @@ TEST_F(RawlogSurveyTest, ALogWithoutPosesHasNone) {
 
 TEST_F(RawlogSurveyTest, ScansAreListedBySensorLabelWithoutOurOwnClouds) {
     const auto found =
-        survey({cloud(0.0, "front"), cloud(0.0, "front_roi"), cloud(0.0, "front_non_roi"),
+        survey({cloud(0.0, "front"), result(0.0, "front", true), result(0.0, "front", false),
                 frameOf(cloud(0.05, "rear")), cloud(0.1, "front")});
     ASSERT_EQ(found.scans.size(), 2u);
     ASSERT_EQ(found.scans.at("front").size(), 2u);

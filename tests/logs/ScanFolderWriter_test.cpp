@@ -44,7 +44,8 @@ TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
     EXPECT_EQ(read.name(1), "000001");
     EXPECT_EQ(readLabels(read.labelFile(1)), (std::vector<std::uint16_t>{2, 1, 0}));
     ASSERT_EQ(read.times().size(), 2u);
-    EXPECT_NEAR(read.times()[1], 0.1, 1e-6);
+    EXPECT_NEAR(read.times()[0], 50.0, 1e-6);
+    EXPECT_NEAR(read.times()[1], 50.1, 1e-6);
     EXPECT_FALSE(fs::exists(read.tumFile()));
     Scan scan;
     readScan(read.scanFile(0), scan);
@@ -125,7 +126,7 @@ TEST(ScanFolderWriter, PosesAreInTheMapAndWhereAllAreKnownFromTheFirst) {
         writer.finish();
         const auto tum = readTumPoses(folder / "poses.tum");
         ASSERT_EQ(tum.size(), is_known ? 2u : 1u);
-        EXPECT_EQ(tum[0].time_s, 0.0);
+        EXPECT_EQ(tum[0].time_s, 50.0);
         EXPECT_NEAR((tum[0].pose - first).norm(), 0.0, 1e-7);
         ASSERT_EQ(fs::exists(folder / "poses.txt"), is_known);
     }

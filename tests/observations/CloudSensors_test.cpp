@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/Results.h>
 #include <hagen/range_image/Angle.h>
 
 #include <limits>
@@ -151,7 +152,8 @@ TEST(CloudSensors, WhatIsNoCloudIsLeftAlone) {
     auto packets = test::poleScanFrom(0, "a");
     const Scan scan = scanOfModel("VLP-16");
     sensors.see(*packets);
-    sensors.see(*cloudOf(scan, "a_roi"));
+    const auto cloud = cloudOf(scan, "a");
+    sensors.see(*resultOf(*cloud, true, cloud->pointcloud));
     mrpt::obs::CObservationPointCloud empty;  // cannot be read
     empty.sensorLabel = "a";
     sensors.see(empty);

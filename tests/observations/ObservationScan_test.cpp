@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/Results.h>
 #include <mrpt/obs/CObservationComment.h>
 
 #include <stdexcept>
@@ -37,13 +38,15 @@ TEST(ObservationScan, VelodyneScansAndPointCloudsAreLidarScans) {
     EXPECT_FALSE(isLidarScan(mrpt::obs::CObservationComment()));
 }
 
-TEST(ObservationScan, ResultsAreNotSegmentedAgain) {
+TEST(ObservationScan, ResultsAreNoScans) {
     const auto observation = cloud({});
-    for (const char* label : {"lidar_roi", "lidar_non_roi", "_roi"}) {
-        observation->sensorLabel = label;
-        EXPECT_FALSE(isLidarScan(*observation)) << label;
-    }
-    for (const char* label : {"", "roi", "roi_lidar", "droi"}) {
+    EXPECT_FALSE(isLidarScan(*resultOf(*observation, true, observation->pointcloud)));
+    EXPECT_FALSE(isLidarScan(*resultOf(*observation, false, observation->pointcloud)));
+}
+
+TEST(ObservationScan, AScanMayBeLabelledLikeAResult) {
+    const auto observation = cloud({});
+    for (const char* label : {"lidar_roi", "lidar_non_roi", "_roi", "", "roi", "droi"}) {
         observation->sensorLabel = label;
         EXPECT_TRUE(isLidarScan(*observation)) << label;
     }

@@ -59,6 +59,7 @@ struct ConversionReport {
     std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
     std::size_t returns_masked = 0;    ///< of the unclassified: those of the airframe
     std::size_t unreadable_scans = 0;  ///< kept but not segmented; each was reported
+    std::size_t results_replaced = 0;  ///< clouds and previews of an earlier run, not in the output
     std::size_t left_out_before = 0;   ///< entries skipped before `from`
     /// Description of the sensor by sensor label: "VLP-16, 16 beams", or how it was recovered
     /// (CloudSensors.h).
@@ -99,7 +100,8 @@ struct ConversionListener {
 ///
 /// A segmented rawlog keeps every entry of the input, in order (of a capture: the scans). After
 /// each LiDAR observation it has the `_roi` and `_non_roi` clouds and, if requested, the preview.
-/// In a sensory frame these join the frame. Each scan of a scan folder becomes one observation. A
+/// In a sensory frame these join the frame. They replace those that an earlier run made of the same
+/// scan. Each scan of a scan folder becomes one observation. A
 /// written scan folder keeps the names and the point order of an input folder; scans of a rawlog
 /// are numbered.
 ///

@@ -18,6 +18,9 @@ extern const base::OutputKind kScanFolders;
 ///     velodyne/NNNNNN.bin    float32 x, y, z [m], intensity [0..1] per point
 ///     labels/NNNNNN.label    uint32 per point, same order: low 16 bits the label (0 unclassified,
 ///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
+///     labels/made_by.txt     optional: the program whose predictions the labels are; otherwise
+///     they
+///                            are ground truth
 ///     semantic/NNNNNN.label  optional: uint32 per point, low 16 bits the object class
 ///     kinds.yaml             optional: names of these classes; see evaluation/LabelMap.h
 ///     altitudes.txt          optional: sensor height above ground [m], one line per scan
@@ -32,6 +35,8 @@ extern const base::OutputKind kScanFolders;
 /// Functions throw std::runtime_error naming the file.
 class ScanFolder {
  public:
+    static constexpr const char* kMadeBy = "labels/made_by.txt";
+
     /// Lists velodyne/*.bin in the order of their names. Throws if there are none.
     explicit ScanFolder(std::filesystem::path folder);
 
@@ -49,6 +54,9 @@ class ScanFolder {
     std::filesystem::path kittiPosesFile() const { return folder_ / "poses.txt"; }
     std::filesystem::path calibrationFile() const { return folder_ / "calib.txt"; }
 
+    /// Whether the labels are marked as predictions (markAsPredictions()).
+    bool hasPredictions() const { return std::filesystem::exists(folder_ / kMadeBy); }
+
     /// times.txt, one element per scan; empty if the file does not exist. Throws if the number of
     /// lines differs from the number of scans.
     std::vector<double> times() const;
@@ -64,6 +72,9 @@ class ScanFolder {
 struct BrokenScan : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+/// Marks the labels of a scan folder as predictions of rawlog-segment.
+void markAsPredictions(const std::filesystem::path& folder);
 
 /// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Throws
 /// BrokenScan.

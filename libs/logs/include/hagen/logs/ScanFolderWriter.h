@@ -38,7 +38,7 @@ class ScanFolderWriter {
                const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,
                bool pose_has_horizon = true);
 
-    /// Writes times.txt (seconds since the first scan); poses.tum with the known poses, if all of
+    /// Writes times.txt (seconds, by the recording's clock); poses.tum with the known poses, if all of
     /// them have a horizon, because readers level with them; and poses.txt if all poses are known.
     void finish() const;
 
@@ -46,8 +46,7 @@ class ScanFolderWriter {
     std::filesystem::path folder_;
     Attitude mount_;
     std::optional<GivenLimits> unnamed_;
-    double first_time_s_ = 0;
-    std::vector<double> times_s_;  ///< since the first scan
+    std::vector<double> times_s_;
     std::vector<TimedPose> poses_;
     bool have_horizon_ = true;
 };

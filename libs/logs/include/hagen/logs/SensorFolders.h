@@ -18,6 +18,7 @@ class SensorFolders {
     /// allowed in file names become '_'.
     const std::filesystem::path& folderOf(const std::string& sensor_label);
 
+    /// Gives the folder its name, unless it is empty.
     void commit();
     std::filesystem::path keepPartial();
 

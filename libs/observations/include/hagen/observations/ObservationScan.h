@@ -17,7 +17,7 @@
 namespace hagen::observations {
 
 /// True if the observation is read as a LiDAR scan: a CObservationVelodyneScan or a
-/// CObservationPointCloud whose label does not end in `_roi` or `_non_roi` (those are results).
+/// CObservationPointCloud that is no result of the filter (isResult()).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
 /// True if it is such a scan without packets, and no LocatedCloud: one that does not identify its

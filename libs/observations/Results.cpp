@@ -1,0 +1,69 @@
+#include <hagen/observations/Results.h>
+
+#include <mrpt/obs/CObservation3DScene.h>
+#include <mrpt/opengl/CRenderizable.h>
+
+#include <cmath>
+
+namespace hagen::observations {
+namespace {
+
+using mrpt::obs::CObservationPointCloud;
+
+bool endsWith(const std::string& text, const std::string& suffix) {
+    return text.size() >= suffix.size() &&
+           text.compare(text.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+const char* suffixOf(bool is_roi) { return is_roi ? kRoiSuffix : kNonRoiSuffix; }
+const mrpt::img::TColor& colorOf(bool is_roi) { return is_roi ? kRoiColor : kNonRoiColor; }
+
+bool isAbout(const mrpt::img::TColorf& a, const mrpt::img::TColorf& b) {
+    const float half_step = 0.5f / 255.0f;
+    return std::abs(a.R - b.R) < half_step && std::abs(a.G - b.G) < half_step &&
+           std::abs(a.B - b.B) < half_step;
+}
+
+/// The suffix of a result's label; empty: the observation is no cloud of the filter.
+std::string suffixOf(const mrpt::obs::CObservation& observation) {
+    const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
+    // A cloud in a file beside the rawlog has not been read, and is none of ours.
+    if (cloud == nullptr || cloud->pointcloud == nullptr) return "";
+    for (const bool is_roi : {false, true}) {  // "_non_roi" ends in "_roi", too
+        if (endsWith(cloud->sensorLabel, suffixOf(is_roi)) &&
+            isAbout(cloud->pointcloud->renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) {
+            return suffixOf(is_roi);
+        }
+    }
+    return "";
+}
+
+bool isPreview(const mrpt::obs::CObservation& observation) {
+    const auto* scene = dynamic_cast<const mrpt::obs::CObservation3DScene*>(&observation);
+    return scene != nullptr && scene->scene && scene->scene->getByName(kPreviewName);
+}
+
+}  // namespace
+
+CObservationPointCloud::Ptr resultOf(const mrpt::obs::CObservation& scan, bool is_roi,
+                                     const mrpt::maps::CPointsMap::Ptr& points) {
+    points->renderOptions.color = mrpt::img::TColorf(colorOf(is_roi));
+    auto result = CObservationPointCloud::Create();
+    result->timestamp = scan.timestamp;
+    result->sensorLabel = scan.sensorLabel + suffixOf(is_roi);
+    result->sensorPose = mrpt::poses::CPose3D(scan.sensorPose());
+    result->pointcloud = points;
+    return result;
+}
+
+bool isResult(const mrpt::obs::CObservation& observation) {
+    return !suffixOf(observation).empty() || isPreview(observation);
+}
+
+std::string scanLabelOf(const mrpt::obs::CObservation& result) {
+    const std::string& label = result.sensorLabel;
+    const std::string suffix = suffixOf(result);
+    return suffix.empty() ? "" : label.substr(0, label.size() - suffix.size());
+}
+
+}  // namespace hagen::observations
