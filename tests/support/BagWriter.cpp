@@ -27,8 +27,7 @@ ByteString packed(const ByteString& plain, const std::string& compression) {
     if (compression == "zstd") {
         out.resize(ZSTD_compress(out.data(), out.size(), plain.data(), plain.size(), 1));
     } else if (compression == "lz4") {
-        out.resize(
-            LZ4F_compressFrame(out.data(), out.size(), plain.data(), plain.size(), nullptr));
+        out.resize(LZ4F_compressFrame(out.data(), out.size(), plain.data(), plain.size(), nullptr));
     } else if (compression == "bz2") {
         auto size = static_cast<unsigned>(out.size());
         BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(plain.data()),
@@ -132,7 +131,7 @@ SentMessage transformMessage(const std::string& topic, double time_s, const std:
 
 SentMessage stringMessage(const std::string& topic, double time_s, const std::string& text) {
     return sentMessage(topic, "std_msgs/String", time_s,
-                     [&](MessageBytes& bytes) { bytes.text(text); });
+                       [&](MessageBytes& bytes) { bytes.text(text); });
 }
 
 ByteString ros1Record(const std::vector<std::pair<std::string, ByteString>>& fields,
@@ -170,8 +169,8 @@ ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& s
             const std::uint64_t ns = nanoseconds(message.time_s);
             const ByteString time = little32(static_cast<std::uint32_t>(ns / 1000000000)) +
                                     little32(static_cast<std::uint32_t>(ns % 1000000000));
-            chunk += ros1Record({{"op", "\x02"}, {"conn", connection}, {"time", time}},
-                                message.ros1);
+            chunk +=
+                ros1Record({{"op", "\x02"}, {"conn", connection}, {"time", time}}, message.ros1);
         }
         chunks += ros1Record({{"op", "\x05"},
                               {"compression", shape.compression},
@@ -195,8 +194,8 @@ ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& s
 }
 
 ByteString mcapRecord(unsigned op, const ByteString& content) {
-    return ByteString(1, static_cast<char>(op)) + little(static_cast<std::uint64_t>(content.size())) +
-           content;
+    return ByteString(1, static_cast<char>(op)) +
+           little(static_cast<std::uint64_t>(content.size())) + content;
 }
 
 ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shape, bool is_ros1) {
@@ -213,16 +212,15 @@ ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shap
             const ByteString id = little(numbers.at(key));
             if (!is_described[key]) {
                 is_described[key] = true;
-                records += mcapRecord(
-                    3, id + mcapText(is_ros1 ? message.type : typeOfRos2(message.type)) +
-                           mcapText(is_ros1 ? "ros1msg" : "ros2msg") + mcapText(""));
+                records +=
+                    mcapRecord(3, id + mcapText(is_ros1 ? message.type : typeOfRos2(message.type)) +
+                                      mcapText(is_ros1 ? "ros1msg" : "ros2msg") + mcapText(""));
                 records += mcapRecord(4, id + id + mcapText(message.topic) +
                                              mcapText(is_ros1 ? "ros1" : "cdr") + little32(0));
             }
             const ByteString time = little(nanoseconds(message.time_s));
-            records +=
-                mcapRecord(5, id + little32(static_cast<std::uint32_t>(k)) + time + time +
-                                  (is_ros1 ? message.ros1 : message.cdr));
+            records += mcapRecord(5, id + little32(static_cast<std::uint32_t>(k)) + time + time +
+                                         (is_ros1 ? message.ros1 : message.cdr));
         }
         if (shape.messages_per_chunk == 0) {
             all += records;

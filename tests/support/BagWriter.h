@@ -19,7 +19,8 @@ class MessageBytes {
     }
     template <class Number>
     MessageBytes& number(Number value) {
-        if (is_cdr_) bytes_.resize((bytes_.size() + sizeof value - 5) / sizeof value * sizeof value + 4);
+        if (is_cdr_)
+            bytes_.resize((bytes_.size() + sizeof value - 5) / sizeof value * sizeof value + 4);
         bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
         return *this;
     }
@@ -59,7 +60,7 @@ struct SentMessage {
 /// Serialises a message both ways: `write` gets the MessageBytes to write to.
 template <class Write>
 SentMessage sentMessage(const std::string& topic, const std::string& type, double time_s,
-                      const Write& write) {
+                        const Write& write) {
     SentMessage message{topic, type, time_s, {}, {}};
     MessageBytes ros1(false), cdr(true);
     write(ros1);
@@ -84,7 +85,7 @@ SentMessage stringMessage(const std::string& topic, double time_s, const std::st
 
 /// How a bag is written; sizes and CRCs are right.
 struct BagShape {
-    std::string compression = "none";   ///< "none", "bz2", "lz4", "zstd", or a wrong one
+    std::string compression = "none";    ///< "none", "bz2", "lz4", "zstd", or a wrong one
     std::size_t messages_per_chunk = 4;  ///< of an MCAP: 0: no chunks
     bool is_closed = true;               ///< of a ROS 1 bag: it has an index
 };
