@@ -79,7 +79,10 @@ class Planner {
 
  private:
     [[noreturn]] void fail(const std::string& why) const {
-        throw std::runtime_error(file_.string() + ": " + why);
+        const std::string& broken = survey_.broken_because;
+        throw std::runtime_error(
+            file_.string() + ": " + why +
+            (broken.empty() ? "" : "; it can be read only in part: " + broken));
     }
 
     // Topics.

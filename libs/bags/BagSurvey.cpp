@@ -11,7 +11,7 @@
 namespace hagen::bags {
 namespace {
 
-constexpr std::int64_t kLeastApart_ns = 5000000;
+constexpr std::int64_t kLeastApart_ns = 10000000;
 constexpr std::size_t kMostMetadata = 1 << 20;
 
 bool endsWith(const std::string& text, const std::string& ending) {
@@ -157,15 +157,18 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
     const auto bag = openBag(file);
     Surveyor surveyor;
     bool is_whole = true;
+    std::string broken_because;
     try {
         BagMessage message;
         while ((is_whole = keep_going()) && bag->next(message)) {
             surveyor.see(message, bag->topics());
         }
-    } catch (const BrokenBag&) {
+    } catch (const BrokenBag& e) {
         is_whole = false;  // who reads the scans reports the break
+        broken_because = e.what();
     }
     BagSurvey survey = std::move(surveyor).survey();
+    survey.broken_because = broken_because;
     for (std::size_t i = survey.topics.size(); i < bag->topics().size(); ++i) {
         auto& topic = survey.topics.emplace_back();  // without messages
         topic.topic = bag->topics()[i];

@@ -253,7 +253,8 @@ std::filesystem::path writeDb3(const std::filesystem::path& file,
             throw std::runtime_error(sqlite3_errmsg(database));
         }
     };
-    run("BEGIN; CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,"
+    run("PRAGMA synchronous = OFF; BEGIN; CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT "
+        "NOT NULL, type TEXT NOT NULL,"
         " serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
         "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL,"
         " timestamp INTEGER NOT NULL, data BLOB NOT NULL);"

@@ -33,7 +33,7 @@ struct RecordedPose {
 struct PoseSeries {
     std::string source;  ///< "nav_msgs/Odometry on /odom", "transforms from odom to base_link"
     std::string parent, child;        ///< frames; child empty: not said
-    std::vector<RecordedPose> poses;  ///< at most one per 5 ms, in the order of the bag
+    std::vector<RecordedPose> poses;  ///< at most one per 10 ms, in the order of the bag
 };
 
 /// What must be known about a bag before its first scan is read. A static transform, the metadata
@@ -60,6 +60,7 @@ struct BagSurvey {
     std::map<std::string, std::string> ouster_metadata;  ///< by topic
     std::map<std::string, std::size_t> unreadable;       ///< messages of poses and frames, by topic
     bool is_whole = true;
+    std::string broken_because;  ///< empty: it was read to its end, or ended by the caller
 };
 
 /// Reads a bag to its end, to where it breaks off, or until `keep_going` returns false (is_whole is
