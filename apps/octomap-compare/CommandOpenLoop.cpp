@@ -108,12 +108,15 @@ void addOpenLoop(Program& program) {
     openloop::LogSource& source = flags->open_loop.source;
     Command sub = program.subcommand(
         "openloop", "compare world models on a recorded log: cost and correctness");
-    sub.option("-i,--input", source.log, "rawlog, capture (.pcap) or scan folder (KITTI layout)")
+    sub.option("-i,--input", source.log,
+               "rawlog, capture (.pcap), ROS recording (.bag, .mcap, .db3) or scan folder (KITTI "
+               "layout)")
         .existingPath()
         .required();
     sub.option("--sensor-json", source.sensor_json,
-               "metadata of the Ouster whose packets a capture has")
+               "metadata of the Ouster whose packets a capture or bag has")
         .existingFile();
+    sub.option("--topic", source.topics, "read only this LiDAR topic of a ROS recording").once();
     sub.option("--poses", source.poses,
                "poses of the vehicle (TUM) or of the sensor, one per scan (KITTI); overrides the "
                "poses in the log")

@@ -66,16 +66,22 @@ void declare(Program& app, Flags& flags) {
         return name.empty() ? "the name is empty" : "";
     };
 
-    app.option("-i,--input", conversion.input,
-               "a rawlog, a network capture (.pcap, .pcapng), or a scan folder (KITTI layout)")
+    app.option(
+           "-i,--input", conversion.input,
+           "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or "
+           "its folder), or a scan folder (KITTI layout)")
         .existingPath()
         .group("Input");
     app.option("--sensor-json", conversion.sensor_json,
-               "metadata of the Ouster whose packets a capture has")
+               "metadata of the Ouster whose packets a capture or bag has")
         .existingFile()
         .group("Input");
+    app.option("--topic", conversion.topics,
+               "read only this LiDAR topic of a ROS recording; may be repeated")
+        .once()
+        .group("Input");
     app.option("--from", conversion.from,
-               "first entry to convert, from 0; of a scan folder: scan; of a capture: turn")
+               "first entry to convert, from 0; of a scan folder or bag: scan; of a capture: turn")
         .notNegative()
         .group("Input");
     app.option("--to", conversion.to, "last entry to convert").notNegative().group("Input");
@@ -222,6 +228,7 @@ void learn(const Flags& flags) {
     logs::AirframeLearning learning;
     learning.input = conversion.input;
     learning.sensor_json = conversion.sensor_json;
+    learning.topics = conversion.topics;
     learning.file = flags.learned_airframe;
     learning.overwrite = conversion.overwrite;
     learning.seconds = flags.learn_seconds;
@@ -278,6 +285,7 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
         "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"
         "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
+        "  rawlog-segment -i flight.bag --topic /velodyne_points -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"
         "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     Flags flags;

@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include <hagen/captures/Remarks.h>
 #include "LivoxPacket.h"
-#include "Remarks.h"
 
 namespace hagen::captures {
 namespace {

@@ -1,14 +1,11 @@
 #include <hagen/captures/OusterCapture.h>
 #include <hagen/captures/OusterFrames.h>
-#include <hagen/observations/LocatedCloud.h>
-#include <mrpt/poses/CPose3D.h>
 
-#include <chrono>
 #include <map>
 #include <optional>
 
-#include "OusterScan.h"
-#include "Remarks.h"
+#include <hagen/captures/OusterScan.h>
+#include <hagen/captures/Remarks.h>
 
 namespace hagen::captures {
 namespace {
@@ -46,7 +43,6 @@ struct OusterCapture::Reader {
 
     void take(const Datagram& datagram);
     bool isOfSensor(const Datagram& datagram);
-    CObservationPointCloud::Ptr observationOf(const OusterFrame& frame) const;
     std::string textOfOthers() const;
     std::string whyEmpty() const;
 };
@@ -82,17 +78,6 @@ void OusterCapture::Reader::take(const Datagram& datagram) {
     } else {
         others.add(datagram);
     }
-}
-
-CObservationPointCloud::Ptr OusterCapture::Reader::observationOf(const OusterFrame& frame) const {
-    auto observation = CObservationPointCloud::Create();
-    observation->sensorLabel = "ouster";
-    observation->timestamp = timeOf(frame.time_ns);
-    const Eigen::Vector3d up_m = sensor.lidar_to_sensor.translation();
-    observation->sensorPose = mrpt::poses::CPose3D(up_m.x(), up_m.y(), up_m.z(), 0, 0, 0);
-    observation->pointcloud =
-        std::make_shared<observations::LocatedCloud>(scanOf(frame, sensor), sensor.model);
-    return observation;
 }
 
 std::string OusterCapture::Reader::textOfOthers() const {
@@ -140,7 +125,7 @@ CObservationPointCloud::Ptr OusterCapture::next() {
         if (r.is_at_end) r.frames.finish();
     }
     if (!r.frames.complete().empty()) {
-        auto observation = r.observationOf(r.frames.complete().front());
+        auto observation = observationOf(r.frames.complete().front(), r.sensor);
         r.frames.complete().pop_front();
         return observation;
     }
@@ -153,16 +138,8 @@ double OusterCapture::fractionRead() const { return reader_->capture.fractionRea
 
 std::vector<std::string> OusterCapture::remarks() const {
     const Reader& r = *reader_;
-    const OusterFrames::Counts& counts = r.frames.counts();
-    std::string text = "ouster (" + r.sensor.name + ", " + r.sensor.profile.name +
-                       "): " + counted(counts.packets, "packet") + " in " +
-                       counted(counts.frames, "turn");
-    addCount(counts.lost_frames, "turn", "lost", text);
-    addCount(counts.missing_columns, "column", "missing", text);
-    addCount(counts.invalid_columns, "column", "that the sensor calls invalid, left out", text);
-    addCount(counts.wrong_columns, "column", "with a wrong number, left out", text);
-    addCount(counts.repeated_columns, "column", "repeated, left out", text);
-    addCount(counts.late_packets, "packet", "more than a turn late, left out", text);
+    const std::string text = "ouster (" + r.sensor.name + ", " + r.sensor.profile.name +
+                             "): " + textOf(r.frames.counts());
     return {text, textOfFrames(r.capture.counts(), r.textOfOthers())};
 }
 

@@ -1,4 +1,5 @@
 #include <hagen/captures/OusterFrames.h>
+#include <hagen/captures/Remarks.h>
 
 #include <algorithm>
 
@@ -128,6 +129,17 @@ void OusterFrames::completeFirst() {
 
 void OusterFrames::finish() {
     while (!open_.empty()) completeFirst();
+}
+
+std::string textOf(const OusterFrames::Counts& counts) {
+    std::string text = counted(counts.packets, "packet") + " in " + counted(counts.frames, "turn");
+    addCount(counts.lost_frames, "turn", "lost", text);
+    addCount(counts.missing_columns, "column", "missing", text);
+    addCount(counts.invalid_columns, "column", "that the sensor calls invalid, left out", text);
+    addCount(counts.wrong_columns, "column", "with a wrong number, left out", text);
+    addCount(counts.repeated_columns, "column", "repeated, left out", text);
+    addCount(counts.late_packets, "packet", "more than a turn late, left out", text);
+    return text;
 }
 
 }  // namespace hagen::captures

@@ -1,6 +1,9 @@
-#include "OusterScan.h"
+#include <hagen/captures/OusterScan.h>
 
+#include <hagen/captures/Remarks.h>
+#include <hagen/observations/LocatedCloud.h>
 #include <hagen/range_image/Angle.h>
+#include <mrpt/poses/CPose3D.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +71,18 @@ Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor) {
     }
     scan.beams = beamSpan(*sensor.model);
     return scan;
+}
+
+mrpt::obs::CObservationPointCloud::Ptr observationOf(const OusterFrame& frame,
+                                                     const OusterSensor& sensor) {
+    auto observation = mrpt::obs::CObservationPointCloud::Create();
+    observation->sensorLabel = "ouster";
+    observation->timestamp = timeOf(frame.time_ns);
+    const Eigen::Vector3d up_m = sensor.lidar_to_sensor.translation();
+    observation->sensorPose = mrpt::poses::CPose3D(up_m.x(), up_m.y(), up_m.z(), 0, 0, 0);
+    observation->pointcloud =
+        std::make_shared<observations::LocatedCloud>(scanOf(frame, sensor), sensor.model);
+    return observation;
 }
 
 }  // namespace hagen::captures

@@ -181,13 +181,19 @@ void sortBeams(OusterSensor& sensor) {
     sensor.model = std::make_shared<const SensorModel>(std::move(model));
 }
 
+constexpr std::size_t kMostBytes = 1 << 20;
+
 std::string readText(const std::filesystem::path& file) {
-    constexpr std::size_t kMostBytes = 1 << 20;
     std::ifstream stream(file, std::ios::binary);
     std::string text(kMostBytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (!stream.is_open()) throw std::runtime_error("cannot be opened");
+    return text;
+}
+
+/// Checks a text before it is parsed.
+void checkText(const std::string& text) {
     if (text.empty()) throw std::runtime_error("is empty");
     if (text.size() > kMostBytes) throw std::runtime_error("is larger than 1 MB");
     // Readers of JSON call themselves for each level.
@@ -197,7 +203,6 @@ std::string readText(const std::filesystem::path& file) {
         if (c == ']' || c == '}') --depth;
     }
     if (deepest > 32) throw std::runtime_error("is nested too deeply");
-    return text;
 }
 
 }  // namespace
@@ -217,9 +222,10 @@ std::size_t OusterSensor::windowColumns() const {
     return (last_column + columns_per_frame - first_column) % columns_per_frame + 1;
 }
 
-OusterSensor readOusterSensor(const std::filesystem::path& file) {
+OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) {
     try {
-        const Json json = Json::parse(readText(file));
+        checkText(text);
+        const Json json = Json::parse(text);
         const Metadata metadata(json);
         if (metadata.find("beam_altitude_angles") == nullptr) {
             throw std::runtime_error(
@@ -234,8 +240,18 @@ OusterSensor readOusterSensor(const std::filesystem::path& file) {
         sortBeams(sensor);
         return sensor;
     } catch (const std::exception& e) {
+        throw std::runtime_error(origin + ": not metadata of an Ouster: " + e.what());
+    }
+}
+
+OusterSensor readOusterSensor(const std::filesystem::path& file) {
+    std::string text;
+    try {
+        text = readText(file);
+    } catch (const std::exception& e) {
         throw std::runtime_error(file.string() + ": not metadata of an Ouster: " + e.what());
     }
+    return ousterSensorOf(text, file.string());
 }
 
 }  // namespace hagen::captures

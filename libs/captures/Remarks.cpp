@@ -1,4 +1,4 @@
-#include "Remarks.h"
+#include <hagen/captures/Remarks.h>
 
 #include <algorithm>
 #include <chrono>

@@ -7,8 +7,8 @@
 #include <map>
 #include <tuple>
 
-#include "Remarks.h"
-#include "VelodyneTurns.h"
+#include <hagen/captures/Remarks.h>
+#include <hagen/captures/VelodyneTurns.h>
 
 namespace hagen::captures {
 namespace {
@@ -23,21 +23,6 @@ constexpr std::size_t kMostSensors = 16;  // more are other traffic that looks l
 
 /// A sensor by its address, the port that it sends to, and its model.
 using SensorKey = std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>;
-
-/// Whether any block has the header of a Velodyne, also that of an HDL-64E's lower block.
-bool isDataPacket(const Datagram& datagram) {
-    if (datagram.size != kPacketBytes) return false;
-    for (std::size_t at = 0; at < 1200; at += 100) {
-        const unsigned header = datagram.bytes[at] | unsigned{datagram.bytes[at + 1]} << 8;
-        if (header == 0xeeff || header == 0xddff) return true;
-    }
-    return false;
-}
-
-/// An HDL-64E sends blocks of its lower lasers; other sensors with such packets have none.
-bool isHdl64(const Datagram& datagram) {
-    return datagram.bytes[100] == 0xff && datagram.bytes[101] == 0xdd;
-}
 
 }  // namespace
 
@@ -70,14 +55,15 @@ struct VelodyneCapture::Reader {
 void VelodyneCapture::Reader::take(const Datagram& datagram) {
     if (datagram.size == kPositionBytes && datagram.to_port == kPositionPort) {
         ++position_packets;
-    } else if (!isDataPacket(datagram)) {
+    } else if (!isVelodyneData(datagram.bytes, datagram.size)) {
         others.add(datagram);
-    } else if (isHdl64(datagram)) {
+    } else if (isOfHdl64(datagram.bytes)) {
         ++hdl64_packets;
-    } else if (const auto* model = observations::findVelodyneModel(datagram.bytes[1205])) {
+    } else if (const auto* model =
+                   observations::findVelodyneModel(datagram.bytes[kVelodyneModelAt])) {
         takePacket(datagram, *model);
     } else {
-        ++unknown_ids[datagram.bytes[1205]];
+        ++unknown_ids[datagram.bytes[kVelodyneModelAt]];
     }
 }
 
@@ -179,16 +165,8 @@ std::vector<std::string> VelodyneCapture::remarks() const {
     std::vector<std::string> remarks;
     for (const SensorKey& key : r.order) {
         const Reader::Sensor& sensor = r.sensors.at(key);
-        const VelodyneTurns::Counts& counts = sensor.turns.counts();
-        std::string text = sensor.label + " (" + sensor.name +
-                           "): " + counted(counts.packets, "packet") + " in " +
-                           counted(counts.turns, "turn");
-        addCount(counts.dual, "packet", "with dual returns", text);
-        addCount(counts.lost, "packet", "lost", text);
-        addCount(counts.out_of_order, "packet", "out of order, put back", text);
-        addCount(counts.repeated, "packet", "repeated, left out", text);
-        addCount(counts.interruptions, "interruption", "or jump of the sensor's clock", text);
-        remarks.push_back(text);
+        remarks.push_back(sensor.label + " (" + sensor.name +
+                          "): " + textOf(sensor.turns.counts()));
     }
     std::string left_out;
     addCount(r.position_packets, "position packet", "(GPS)", left_out);

@@ -1,11 +1,11 @@
-#include "VelodyneTurns.h"
+#include <hagen/captures/VelodyneTurns.h>
 
 #include <hagen/range_image/SensorModel.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "Remarks.h"
+#include <hagen/captures/Remarks.h>
 
 namespace hagen::captures {
 namespace {
@@ -139,6 +139,34 @@ void VelodyneTurns::endTurn() {
     ++counts_.turns;
     complete_.push_back(std::move(turn_));
     turn_.reset();
+}
+
+std::string textOf(const VelodyneTurns::Counts& counts) {
+    std::string text = counted(counts.packets, "packet") + " in " + counted(counts.turns, "turn");
+    addCount(counts.dual, "packet", "with dual returns", text);
+    addCount(counts.lost, "packet", "lost", text);
+    addCount(counts.out_of_order, "packet", "out of order, put back", text);
+    addCount(counts.repeated, "packet", "repeated, left out", text);
+    addCount(counts.interruptions, "interruption", "or jump of the sensor's clock", text);
+    return text;
+}
+
+bool isVelodyneData(const std::uint8_t* bytes, std::size_t size) {
+    if (size != CObservationVelodyneScan::PACKET_SIZE) return false;
+    for (int block = 0; block < kBlocks; ++block) {
+        const std::uint8_t* const at = bytes + block * kBlockBytes;
+        const int header = at[0] | at[1] << 8;
+        if (header == CObservationVelodyneScan::UPPER_BANK ||
+            header == CObservationVelodyneScan::LOWER_BANK) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool isOfHdl64(const std::uint8_t* packet) {
+    const std::uint8_t* const second = packet + kBlockBytes;
+    return (second[0] | second[1] << 8) == CObservationVelodyneScan::LOWER_BANK;
 }
 
 }  // namespace hagen::captures

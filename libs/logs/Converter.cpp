@@ -1,5 +1,6 @@
 #include "Converter.h"
 
+#include <hagen/bags/BagFile.h>
 #include <hagen/captures/CaptureFile.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
@@ -50,11 +51,12 @@ bool hasTumFile(const Conversion& conversion) {
     return !conversion.poses.empty() && kindOfPoseFile(conversion.poses) == PoseFileKind::Tum;
 }
 
-/// Poses of a rawlog are read only if an output needs them, as they may cost another pass.
+/// Poses of a rawlog are read only if an output needs them, as they may cost another pass. Those of
+/// a bag are known already, and provide the attitude.
 bool needsPoses(const Conversion& conversion) {
     const bool can_level = conversion.settings.options.level_by_attitude && hasTumFile(conversion);
     return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
-           !conversion.octomaps.empty() || can_level;
+           !conversion.octomaps.empty() || can_level || bags::isBag(conversion.input);
 }
 
 }  // namespace
@@ -75,6 +77,7 @@ SourceOptions Converter::sourceOptions() {
     SourceOptions options;
     options.sensor_labels = conversion_.sensor_labels;
     options.sensor_json = conversion_.sensor_json;
+    options.topics = conversion_.topics;
     options.first_entry = conversion_.from;
     options.last_entry = conversion_.to;
     if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
@@ -304,6 +307,8 @@ ConversionReport Converter::run() {
     } catch (const BrokenScan& e) {
         endEarly(e);
     } catch (const captures::BrokenCapture& e) {
+        endEarly(e);
+    } catch (const bags::BrokenBag& e) {
         endEarly(e);
     } catch (const Interrupted& e) {
         endEarly(e);

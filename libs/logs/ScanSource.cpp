@@ -1,8 +1,10 @@
 #include <hagen/logs/ScanSource.h>
 
+#include <hagen/bags/BagFile.h>
 #include <hagen/captures/CaptureFile.h>
 #include <algorithm>
 
+#include "BagSource.h"
 #include "CaptureSource.h"
 #include "RawlogSource.h"
 #include "ScanFolderSource.h"
@@ -87,12 +89,19 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
         throw std::runtime_error(recording.string() + ": no such file or folder");
     }
     const bool is_folder = std::filesystem::is_directory(recording);
+    if (bags::isBag(recording)) return std::make_unique<BagSource>(recording, options);
+    if (!options.topics.empty()) {
+        throw std::runtime_error(recording.string() + ": is no ROS recording (.bag, .mcap, " +
+                                 ".db3 or its folder), so it has no topic '" +
+                                 options.topics.front() + "'");
+    }
     if (!is_folder && captures::isCapture(recording)) {
         return std::make_unique<CaptureSource>(recording, options);
     }
     if (!options.sensor_json.empty()) {
         throw std::runtime_error(
-            recording.string() + ": is no capture (.pcap, .pcapng), so there " +
+            recording.string() +
+            ": is no capture (.pcap, .pcapng) and no ROS recording, so there " +
             "is no sensor that " + options.sensor_json.string() + " could describe");
     }
     if (is_folder) {

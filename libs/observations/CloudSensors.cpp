@@ -1,17 +1,20 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/TableCloud.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
+#include <optional>
 #include <utility>
 
 namespace hagen::observations {
 namespace {
 
 constexpr int kFewestRows = 3;  // of the filter's image
+const std::vector<std::int32_t> kNoRings;
 
 std::size_t returnsWithRange(const Scan& scan) {
     std::size_t returns = 0;
@@ -34,17 +37,24 @@ void CloudSensors::see(const mrpt::obs::CObservation& observation) {
     } catch (const std::exception&) {
         return;  // readObservation() says why
     }
-    see(observation.sensorLabel, scan_);
+    const TableCloud* const table = tableCloudOf(observation);
+    see(observation.sensorLabel, scan_, table == nullptr ? kNoRings : table->rings());
 }
 
-void CloudSensors::see(const std::string& label, const Scan& scan) {
+void CloudSensors::see(const std::string& label, const Scan& scan,
+                       const std::vector<std::int32_t>& rings) {
     if (isSettled(label)) return;
     const std::size_t returns = returnsWithRange(scan);
     if (returns < kFewestReturnsForBeams) return;
     Seen& seen = seen_[label];
     ++seen.clouds;
     if (returns <= seen.returns) return;
-    auto recovered = recoverBeams(scan);
+    std::optional<RecoveredBeams> recovered;
+    if (!rings.empty()) recovered = ringBeams(scan, rings);
+    if (!recovered) {
+        recovered = recoverBeams(scan);
+        if (recovered) recovered->has_unfit_rings = !rings.empty();
+    }
     if (!recovered || recovered->sensor.rows() < kFewestRows) return;
     seen.returns = returns;
     seen.beams = std::make_shared<const RecoveredBeams>(std::move(*recovered));
@@ -63,11 +73,14 @@ SharedBeams CloudSensors::beamsOf(const std::string& label) const {
 std::string textOf(const SharedBeams& beams) {
     if (!beams) return "too few returns or beams to recover: VLP-16 assumed; set sensor.model";
     const SensorModel& sensor = beams->sensor;
+    const std::string unfit =
+        beams->has_unfit_rings ? "; its ring numbers do not agree with elevations: not used" : "";
     if (!sensor.has_rings) {
-        return "no beams found: " + std::to_string(sensor.rows()) + " virtual rows";
+        return "no beams found: " + std::to_string(sensor.rows()) + " virtual rows" + unfit;
     }
     const std::size_t seen = beams->seen_rad.size();
-    std::string text = std::to_string(seen) + " beams recovered";
+    std::string text = std::to_string(seen) + " beams " +
+                       (beams->row_of_ring.empty() ? "recovered" : "by its ring numbers");
     if (sensor.name != kRecoveredName) {
         text += " (" + sensor.name;
         const auto rows = static_cast<std::size_t>(sensor.rows());
@@ -76,7 +89,10 @@ std::string textOf(const SharedBeams& beams) {
     }
     // Rounded down: 100 % is all of them.
     const double tenths = std::floor(1000.0 * static_cast<double>(beams->share));
-    return text + ", " + base::fixedText(0.1 * tenths, 1) + " % of the returns lie on them";
+    return text + ", " + base::fixedText(0.1 * tenths, 1) +
+           (beams->row_of_ring.empty() ? " % of the returns lie on them"
+                                       : " % of the returns are closest to their own") +
+           unfit;
 }
 
 }  // namespace hagen::observations

@@ -2,6 +2,7 @@
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/Results.h>
+#include <hagen/observations/TableCloud.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -91,6 +92,16 @@ const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {
     return cloud == nullptr ? nullptr : dynamic_cast<const LocatedCloud*>(cloud->pointcloud.get());
 }
 
+/// The rows of the rings that a cloud's returns are numbered with, where these are known.
+void takeRings(const TableCloud& cloud, const std::vector<int>& row_of_ring, Scan& scan) {
+    const std::vector<std::int32_t>& rings = cloud.rings();
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+        const auto ring = static_cast<std::size_t>(rings[i]);
+        if (ring >= row_of_ring.size() || row_of_ring[ring] < 0) continue;
+        scan.row[i] = static_cast<std::uint8_t>(row_of_ring[ring]);
+    }
+}
+
 /// The recording's own sensor is used, but for its range limits: those are of its driver, and all
 /// returns are there.
 void takeOwnSensor(const Settings& settings, ObservedScan& observed) {
@@ -177,6 +188,12 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
     }
     takeCloudSensor(settings, beams, observed);
     locateBeams(observed.sensor, observed.scan);
+    if (const TableCloud* const table = tableCloudOf(observation)) {
+        observed.scan.time_s = table->times_s();
+        if (observed.recovered) {
+            takeRings(*table, observed.recovered->row_of_ring, observed.scan);
+        }
+    }
 }
 
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,

@@ -50,6 +50,7 @@ LoggedScans::LoggedScans(const LogSource& source) : own_reach_m_(source.own_reac
     logs::SourceOptions options;
     if (!source.sensor_label.empty()) options.sensor_labels = {source.sensor_label};
     options.sensor_json = source.sensor_json;
+    options.topics = source.topics;
     source_ = logs::openRecording(source.log, options);
 
     std::vector<TimePoint> times;

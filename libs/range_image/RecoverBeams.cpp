@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -284,7 +285,99 @@ RecoveredBeams virtualRows(const Directions& directions, const std::vector<doubl
     return recovered;
 }
 
+// Rings.
+
+constexpr std::size_t kFewestOnRing = 5;
+
+/// The elevations of the returns on each ring, ascending; and all directions.
+struct RingDirections {
+    std::map<std::int32_t, std::vector<double>> elevations_deg;
+    Directions all;
+};
+
+RingDirections directionsOfRings(const Scan& scan, const std::vector<std::int32_t>& rings) {
+    RingDirections directions;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const double x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
+        const double level_m = std::hypot(x, y);
+        if (!std::isfinite(level_m + z) || (level_m == 0 && z == 0)) continue;
+        directions.all.elevation_deg.push_back(degrees(std::atan2(z, level_m)));
+        directions.all.azimuth_deg.push_back(degrees(std::atan2(y, x)));
+        directions.elevations_deg[rings[i]].push_back(directions.all.elevation_deg.back());
+    }
+    for (auto& [ring, elevations_deg] : directions.elevations_deg) {
+        std::sort(elevations_deg.begin(), elevations_deg.end());
+    }
+    return directions;
+}
+
+/// How many returns are closest to their own beam, of beams that rise.
+std::size_t closestToOwn(const std::vector<double>& beams_deg,
+                         const std::vector<const std::vector<double>*>& elevations_deg) {
+    std::ptrdiff_t closest = 0;
+    for (std::size_t beam = 0; beam < beams_deg.size(); ++beam) {
+        auto from = elevations_deg[beam]->begin(), to = elevations_deg[beam]->end();
+        if (beam > 0) {
+            from = std::lower_bound(from, to, 0.5 * (beams_deg[beam - 1] + beams_deg[beam]));
+        }
+        if (beam + 1 < beams_deg.size()) {
+            to = std::upper_bound(from, to, 0.5 * (beams_deg[beam] + beams_deg[beam + 1]));
+        }
+        closest += to - from;
+    }
+    return static_cast<std::size_t>(closest);
+}
+
 }  // namespace
+
+std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std::int32_t>& rings) {
+    constexpr double kMostOnOthers = 0.05;
+    constexpr std::size_t kFewestRings = 3;
+    const RingDirections directions = directionsOfRings(scan, rings);
+    if (directions.all.size() < kFewestReturnsForBeams) return std::nullopt;
+    const auto returns = static_cast<double>(directions.all.size());
+    std::vector<std::int32_t> numbers;
+    std::vector<double> beams_deg;
+    std::vector<const std::vector<double>*> elevations_deg;
+    std::size_t on_rings = 0;
+    for (const auto& [ring, of_ring_deg] : directions.elevations_deg) {
+        if (ring < 0 || of_ring_deg.size() < kFewestOnRing) continue;
+        numbers.push_back(ring);
+        beams_deg.push_back(of_ring_deg[of_ring_deg.size() / 2]);
+        elevations_deg.push_back(&of_ring_deg);
+        on_rings += of_ring_deg.size();
+    }
+    if (numbers.size() < kFewestRings || numbers.size() > kMostBeams) return std::nullopt;
+    if (static_cast<double>(on_rings) < (1 - kMostOnOthers) * returns) return std::nullopt;
+    if (beams_deg.front() > beams_deg.back()) {
+        std::reverse(numbers.begin(), numbers.end());
+        std::reverse(beams_deg.begin(), beams_deg.end());
+        std::reverse(elevations_deg.begin(), elevations_deg.end());
+    }
+    for (std::size_t i = 1; i < beams_deg.size(); ++i) {
+        if (beams_deg[i] - beams_deg[i - 1] < kBin_deg) return std::nullopt;
+    }
+    const double share = static_cast<double>(closestToOwn(beams_deg, elevations_deg)) /
+                         static_cast<double>(on_rings);
+    if (share < kLeastShare) return std::nullopt;
+
+    RecoveredBeams recovered;
+    recovered.sensor = customSensorModel(beams_deg);
+    recovered.sensor.name = kRecoveredName;
+    recovered.seen_rad = recovered.sensor.elevations_rad;
+    if (auto model = modelWith(beams_deg)) recovered.sensor = std::move(*model);
+    recovered.most_columns = firingsOn(beams_deg, directions.all);
+    recovered.share = static_cast<float>(share);
+    recovered.sensor.min_range_m = 0.0f;
+    recovered.sensor.max_range_m = kFarthest_m;
+    recovered.row_of_ring.assign(
+        static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) + 1, -1);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        recovered.row_of_ring[static_cast<std::size_t>(numbers[i])] =
+            recovered.sensor.nearestRow(recovered.seen_rad[i]);
+    }
+    return recovered;
+}
 
 std::optional<RecoveredBeams> recoverBeams(const Scan& scan) {
     const Directions directions = directionsOf(scan);

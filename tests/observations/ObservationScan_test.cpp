@@ -103,7 +103,7 @@ TEST(ObservationScan, CloudsTakeTheSensorOfTheSettingsThatTheyAreReadWith) {
 }
 
 TEST(ObservationScan, RecoveredBeamsAreThoseOfACloudThatNobodyNamed) {
-    RecoveredBeams recovered{customSensorModel({-5, 0, 5}), 1.0f, {}, 300};
+    RecoveredBeams recovered{customSensorModel({-5, 0, 5}), 1.0f, {}, 300, {}, false};
     const auto beams = std::make_shared<const RecoveredBeams>(recovered);
     ObservedScan observed;
     const auto rowsWith = [&](const Settings& settings, const SharedBeams& with) {

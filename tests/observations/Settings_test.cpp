@@ -246,7 +246,7 @@ TEST_F(SettingsTest, ARecoveredSensorReplacesAPresetsModelAndTheOtherWayRound) {
     mergeSettings(kConfig / "mid360.yaml", settings);
     mergeSettings(folder_.write("a.yaml", "sensor: {model: recovered, min_range_m: 2}"), settings);
     EXPECT_FALSE(settings.sensor.model);
-    RecoveredBeams recovered{customSensorModel({-5, 0, 5}), 1.0f, {}, 300};
+    RecoveredBeams recovered{customSensorModel({-5, 0, 5}), 1.0f, {}, 300, {}, false};
     recovered.sensor.min_range_m = 0;
     recovered.sensor.max_range_m = 1000;
     EXPECT_EQ(settings.sensorModel(&recovered).rows(), 3);

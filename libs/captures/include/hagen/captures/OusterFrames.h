@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <string>
 #include <vector>
 
 namespace hagen::captures {
@@ -64,5 +65,8 @@ class OusterFrames {
     std::deque<OusterFrame> complete_;
     Counts counts_;
 };
+
+/// "64 packets in 2 turns, 16 columns missing": for remarks().
+std::string textOf(const OusterFrames::Counts& counts);
 
 }  // namespace hagen::captures

@@ -46,5 +46,7 @@ struct OusterSensor {
 /// Reads the metadata of a sensor, as the sensor or the maker's tools write it. Throws
 /// std::runtime_error naming the file and what is missing or wrong.
 OusterSensor readOusterSensor(const std::filesystem::path& file);
+/// The same for metadata that were read from `origin`, which the message names.
+OusterSensor ousterSensorOf(const std::string& text, const std::string& origin);
 
 }  // namespace hagen::captures

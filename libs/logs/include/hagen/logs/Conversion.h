@@ -16,8 +16,9 @@ namespace hagen::logs {
 
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
-    std::filesystem::path input;        ///< a rawlog, a capture, or a scan folder
-    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
+    std::filesystem::path input;        ///< a rawlog, a capture, a bag, or a scan folder
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
 
     std::filesystem::path rawlog;    ///< segmented rawlog
     std::filesystem::path folder;    ///< scan folder; with several LiDARs, one subfolder per LiDAR
@@ -98,7 +99,8 @@ struct ConversionListener {
 
 /// Segments a whole log. Holds two entries per thread in memory. Pictures are drawn on one thread.
 ///
-/// A segmented rawlog keeps every entry of the input, in order (of a capture: the scans). After
+/// A segmented rawlog keeps every entry of the input, in order (of a capture or a bag: the
+/// scans). After
 /// each LiDAR observation it has the `_roi` and `_non_roi` clouds and, if requested, the preview.
 /// In a sensory frame these join the frame. They replace those that an earlier run made of the same
 /// scan. Each scan of a scan folder becomes one observation. A

@@ -11,8 +11,9 @@ namespace hagen::logs {
 
 /// A recording to learn the airframe from, and the file to write.
 struct AirframeLearning {
-    std::filesystem::path input;        ///< a rawlog, a capture, or a scan folder
-    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
+    std::filesystem::path input;        ///< a rawlog, a capture, a bag, or a scan folder
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
     std::filesystem::path file;         ///< ends in .yaml; the picture beside it ends in .png
     bool overwrite = false;             ///< replace existing outputs
     double seconds = 10;                ///< of the recording, from the first selected scan on

@@ -32,12 +32,12 @@ struct RecordedScan {
     observations::SharedBeams beams;
 };
 
-/// An entry of a recording: an object of a rawlog, a scan of a scan folder, or a turn of a sensor
-/// in a capture.
+/// An entry of a recording: an object of a rawlog, a scan of a scan folder or a bag, or a turn of a
+/// sensor in a capture.
 struct RecordedEntry {
     std::size_t number = 0;  ///< index in the recording
-    /// The rawlog's object, or the scan of a capture. For a scan folder, an equivalent observation,
-    /// if requested.
+    /// The rawlog's object, or the scan of a capture or bag. For a scan folder, an equivalent
+    /// observation, if requested.
     mrpt::serialization::CSerializable::Ptr object;
     std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
     double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
@@ -48,10 +48,11 @@ struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
-    /// Class of the clouds in RecordedEntry::object for scans of a scan folder or of an Ouster's
-    /// capture; none: no objects.
+    /// Class of the clouds in RecordedEntry::object for scans of a scan folder, and for those of a
+    /// capture or bag that have no packets of a Velodyne; none: no objects.
     std::optional<observations::CloudClass> folder_objects;
-    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture; empty: none
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::vector<std::string> topics;    ///< LiDAR topics to read of a bag; empty: all
     /// Called before each entry is read, also in advance; false ends reading with Interrupted.
     std::function<bool()> keep_going = [] { return true; };
 };
@@ -77,7 +78,7 @@ class ScanSource {
     virtual ~ScanSource() = default;
 
     /// The next selected entry, with or without scans; none at the end. Throws BrokenRawlog,
-    /// BrokenScan or BrokenCapture naming file and entry, and Interrupted.
+    /// BrokenScan, BrokenCapture or BrokenBag naming file and entry, and Interrupted.
     virtual std::optional<RecordedEntry> nextEntry() = 0;
 
     /// The next scan of any entry; none at the end. Throws like nextEntry(). Use one of the two:
@@ -151,9 +152,10 @@ class ScanSource {
     std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
 };
 
-/// Opens a rawlog, a capture (.pcap, .pcapng) or a scan folder; files are told apart by their
-/// content. Throws std::runtime_error naming it if it does not exist or cannot be opened, or if
-/// there is a sensor_json but no capture.
+/// Opens a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder) or
+/// a scan folder; files are told apart by their content. Throws std::runtime_error naming it if it
+/// does not exist or cannot be opened, if there is a sensor_json but no capture or bag, or if there
+/// are topics but no bag.
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 

@@ -4,9 +4,11 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hagen::observations {
 
@@ -25,8 +27,11 @@ class CloudSensors {
     /// Looks at an observation, if it is a cloud: not at packets, which know their sensor, and not
     /// at a cloud that cannot be read. Does nothing once the label is settled.
     void see(const mrpt::obs::CObservation& observation);
-    /// The same for the coordinates of a cloud; other members of `scan` are not used.
-    void see(const std::string& label, const Scan& scan);
+    /// The same for the coordinates of a cloud; other members of `scan` are not used. If its
+    /// returns are numbered by ring, these show the beams, provided that they agree with the
+    /// elevations (ringBeams()).
+    void see(const std::string& label, const Scan& scan,
+             const std::vector<std::int32_t>& rings = {});
 
     /// Whether more clouds of this label would not change its beams.
     bool isSettled(const std::string& label) const;

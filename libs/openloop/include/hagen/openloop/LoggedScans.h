@@ -20,6 +20,7 @@ struct LogSource {
     observations::Settings settings;
     float own_reach_m = 0.8f;  ///< nearer returns are the vehicle's own and are left out
     std::filesystem::path sensor_json = {};  ///< metadata of the Ouster of a capture; empty: none
+    std::vector<std::string> topics = {};    ///< LiDAR topics of a bag; empty: all
 };
 
 /// A segmented scan of a log in the map frame.

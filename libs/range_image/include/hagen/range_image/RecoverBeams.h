@@ -2,6 +2,7 @@
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct RecoveredBeams {
     std::vector<float> seen_rad;
     /// The most columns per revolution that the returns fill.
     int most_columns = 0;
+    /// The row of each ring that the returns are numbered with, by its number; -1: too few returns
+    /// to tell. Empty if they are not, or if the numbers are not those of beams (ringBeams()).
+    std::vector<int> row_of_ring;
+    bool has_unfit_rings = false;  ///< numbers are there, but not of beams: not used
 };
 
 /// The name of a recovered sensor that is no known model.
@@ -51,5 +56,18 @@ constexpr std::size_t kFewestReturnsForBeams = 400;
 /// others of their column have returns (gaps of more than four pixels are sky and do not count):
 /// rings that are blurred are much closer in azimuth than in elevation.
 std::optional<RecoveredBeams> recoverBeams(const Scan& scan);
+
+/// The same from the ring of each return, as its sensor numbered them: the beam of a ring is at the
+/// median elevation of its returns. None if fewer than kFewestReturnsForBeams returns have a range,
+/// or if the numbers cannot be those of beams:
+///
+/// - There must be 3 to 256 rings with at least five returns, all others together at most 5 %.
+/// - Elevations must rise strictly with the number, or fall.
+/// - At least 85 % of the returns must be closer to their own ring than to any other: the lines of
+///   a sensor that scans without rings overlap, and a tilted cloud's do.
+///
+/// As above, the sensor is a known model if the beams are that model's. `share` is that of the
+/// returns that are closest to their own ring.
+std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std::int32_t>& rings);
 
 }  // namespace hagen

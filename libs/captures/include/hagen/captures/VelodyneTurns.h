@@ -72,4 +72,14 @@ class VelodyneTurns {
     Counts counts_;
 };
 
+/// "293 packets in 5 turns, 2 packets lost": for remarks().
+std::string textOf(const VelodyneTurns::Counts& counts);
+
+/// Whether these bytes are a data packet: of the right size, and any of its blocks has a header.
+bool isVelodyneData(const std::uint8_t* bytes, std::size_t size);
+/// Whether such a packet is of an HDL-64E, the only one to send blocks of lower lasers.
+bool isOfHdl64(const std::uint8_t* packet);
+/// Byte of the packet that holds the id of the model.
+constexpr std::size_t kVelodyneModelAt = 1205;
+
 }  // namespace hagen::captures

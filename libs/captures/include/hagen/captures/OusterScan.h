@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/captures/OusterFrames.h>
 #include <hagen/range_image/Scan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 
 namespace hagen::captures {
 
@@ -9,5 +10,10 @@ namespace hagen::captures {
 /// those of the sensor: x forward, away from the connector. Pixels without a range and invalid
 /// columns have no return.
 Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor);
+
+/// The same as an observation with the label "ouster": a LocatedCloud. Its time is that of the
+/// frame's first packet, its pose the way from the sensor's base to the origin.
+mrpt::obs::CObservationPointCloud::Ptr observationOf(const OusterFrame& frame,
+                                                     const OusterSensor& sensor);
 
 }  // namespace hagen::captures

@@ -1,0 +1,112 @@
+#include "BagFolder.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+namespace hagen::bags {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kMetadata = "metadata.yaml";
+constexpr const char* kSection = "rosbag2_bagfile_information";
+constexpr std::uintmax_t kMostMetadata = 64 << 20;
+
+std::vector<fs::path> listedFiles(const fs::path& folder) {
+    const fs::path file = folder / kMetadata;
+    std::vector<fs::path> files;
+    try {
+        if (fs::file_size(file) > kMostMetadata) throw std::runtime_error("it is too large");
+        const YAML::Node bag = YAML::LoadFile(file.string())[kSection];
+        if (bag["compression_mode"] && bag["compression_format"] &&
+            bag["compression_mode"].as<std::string>() == "FILE") {
+            throw std::runtime_error("its files are packed whole (" +
+                                     bag["compression_format"].as<std::string>() +
+                                     "): unpack them, such as by 'zstd -d', and set "
+                                     "compression_mode to NONE and the file names to theirs");
+        }
+        for (const YAML::Node& name : bag["relative_file_paths"]) {
+            // Old versions wrote the folder's own name, too; none points elsewhere.
+            files.push_back(folder / fs::path(name.as<std::string>()).filename());
+        }
+    } catch (const std::exception& e) {
+        throw BrokenBag(file.string() + ": cannot be read: " + e.what());
+    }
+    if (files.empty()) throw BrokenBag(file.string() + ": lists no files");
+    for (const fs::path& listed : files) {
+        if (fs::is_regular_file(listed)) continue;
+        throw BrokenBag(file.string() + ": lists '" + listed.filename().string() +
+                        "', which is not in the folder");
+    }
+    return files;
+}
+
+std::vector<fs::path> foundFiles(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const fs::path ending = entry.path().extension();
+        if (entry.is_regular_file() && (ending == ".mcap" || ending == ".db3")) {
+            files.push_back(entry.path());
+        }
+    }
+    // flight_2 comes before flight_10.
+    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+        const std::string x = a.filename().string(), y = b.filename().string();
+        return x.size() != y.size() ? x.size() < y.size() : x < y;
+    });
+    return files;
+}
+
+}  // namespace
+
+bool BagFolder::isOne(const fs::path& folder) {
+    std::error_code none;
+    if (fs::is_regular_file(folder / kMetadata, none)) {
+        try {
+            if (fs::file_size(folder / kMetadata) > kMostMetadata) return false;
+            const YAML::Node all = YAML::LoadFile((folder / kMetadata).string());
+            if (all.IsMap() && all[kSection]) return true;
+        } catch (const std::exception&) {
+            // Not ours, or damaged: the files decide.
+        }
+    }
+    return !fs::exists(folder / "velodyne", none) && !foundFiles(folder).empty();
+}
+
+BagFolder::BagFolder(const fs::path& folder)
+    : files_(fs::exists(folder / kMetadata) ? listedFiles(folder) : foundFiles(folder)) {
+    for (const fs::path& file : files_) {
+        share_before_.push_back(bytes_);
+        bytes_ += static_cast<double>(fs::file_size(file));
+    }
+    openFile();
+}
+
+void BagFolder::openFile() {
+    open_ = openBag(files_[file_]);
+    topic_of_.clear();
+}
+
+bool BagFolder::next(BagMessage& message) {
+    while (open_) {
+        if (open_->next(message)) {
+            const std::vector<BagTopic>& topics = open_->topics();
+            while (topic_of_.size() < topics.size()) {
+                topic_of_.push_back(topics_.indexOf(topics[topic_of_.size()]));
+            }
+            message.topic = topic_of_[message.topic];
+            return true;
+        }
+        open_.reset();
+        if (++file_ < files_.size()) openFile();
+    }
+    return false;
+}
+
+double BagFolder::fractionRead() const {
+    if (!open_ || bytes_ <= 0) return 1.0;
+    const double size = static_cast<double>(fs::file_size(files_[file_]));
+    return (share_before_[file_] + open_->fractionRead() * size) / bytes_;
+}
+
+}  // namespace hagen::bags

@@ -1,0 +1,419 @@
+#include <hagen/bags/BagScans.h>
+#include <hagen/captures/OusterFrames.h>
+#include <hagen/captures/OusterScan.h>
+#include <hagen/captures/Remarks.h>
+#include <hagen/captures/VelodyneTurns.h>
+#include <hagen/observations/LocatedCloud.h>
+#include <hagen/observations/TableCloud.h>
+#include <hagen/observations/VelodyneModel.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <iterator>
+#include <optional>
+#include <set>
+
+#include "Messages.h"
+
+namespace hagen::bags {
+namespace {
+
+using captures::addCount;
+using captures::counted;
+using captures::timeOf;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationPointCloud;
+using observations::NumberType;
+using observations::PointTable;
+
+/// What was read of a topic.
+struct TopicState {
+    std::string name;
+    const BagSensor* sensor = nullptr;
+    std::size_t messages = 0, scans = 0, unreadable = 0;
+    std::string first_unreadable;  ///< which, and why
+    // Of packets:
+    const observations::VelodyneModel* model = nullptr;
+    std::optional<captures::VelodyneTurns> turns;
+    std::unique_ptr<captures::OusterFrames> frames;
+    std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
+    std::map<unsigned, std::size_t> unknown_ids;
+};
+
+void addPoint(const LivoxPoint& point, Scan& scan) {
+    if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) return;  // no return
+    scan.x_m.push_back(point.x_m);
+    scan.y_m.push_back(point.y_m);
+    scan.z_m.push_back(point.z_m);
+    scan.intensity.push_back(static_cast<float>(point.reflectivity) / 255.0f);
+    scan.time_s.push_back(1e-9f * static_cast<float>(point.since_ns));
+}
+
+PointTable tableOf(const std::vector<LivoxPoint>& points) {
+    PointTable table;
+    table.fields = {
+        {"x", NumberType::Float32, 0, 1},           {"y", NumberType::Float32, 4, 1},
+        {"z", NumberType::Float32, 8, 1},           {"offset_time", NumberType::UInt32, 12, 1},
+        {"reflectivity", NumberType::UInt8, 16, 1}, {"tag", NumberType::UInt8, 17, 1},
+        {"line", NumberType::UInt8, 18, 1}};
+    table.bytes_per_point = 19;
+    for (const LivoxPoint& point : points) {
+        if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) continue;
+        const std::size_t at = table.bytes.size();
+        table.bytes.resize(at + table.bytes_per_point);
+        std::memcpy(&table.bytes[at], &point.x_m, 4);
+        std::memcpy(&table.bytes[at + 4], &point.y_m, 4);
+        std::memcpy(&table.bytes[at + 8], &point.z_m, 4);
+        std::memcpy(&table.bytes[at + 12], &point.since_ns, 4);
+        table.bytes[at + 16] = point.reflectivity;
+        table.bytes[at + 17] = point.tag;
+        table.bytes[at + 18] = point.line;
+        ++table.points;
+    }
+    return table;
+}
+
+/// The serial number in the header of an Ouster's packet.
+std::string serialOf(const std::uint8_t* packet) {
+    std::uint64_t serial = 0;
+    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{packet[7 + i]} << (8 * i);
+    return std::to_string(serial);
+}
+
+}  // namespace
+
+struct BagScans::Reader {
+    std::filesystem::path file;
+    const BagSurvey& survey;
+    BagPlan plan;
+    std::unique_ptr<BagFile> bag;
+    std::map<std::string, TopicState> states;  ///< by topic
+    std::vector<TopicState*> state_of;         ///< by index in the bag; null: not of a LiDAR
+    std::vector<std::uint8_t> unpacked;
+    std::deque<CObservation::Ptr> complete;
+    std::shared_ptr<const SensorModel> mid360 =
+        std::make_shared<const SensorModel>(sensorModel("Mid-360"));
+    bool is_at_end = false;
+    std::size_t scans = 0;
+    std::string broken_because;
+
+    Reader(const std::filesystem::path& name, const BagSurvey& surveyed, const BagOptions& options)
+        : file(name), survey(surveyed), plan(planOf(name, survey, options)), bag(openBag(name)) {
+        for (const auto& [topic, sensor] : plan.sensors) {
+            TopicState& state = states[topic];
+            state.name = topic;
+            state.sensor = &sensor;
+            if (sensor.ouster) {
+                state.frames = std::make_unique<captures::OusterFrames>(*sensor.ouster);
+            }
+        }
+    }
+
+    void take(const BagMessage& message);
+    void takeLidar(const BagMessage& message, const BagTopic& topic, TopicState& state);
+    void takeCloud(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeVelodyne(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeImu(const BagMessage& message, const BagTopic& topic);
+    void add(const CObservation::Ptr& scan, TopicState& state);
+    void addComplete(TopicState& state);
+    void finish();
+    std::string textOf(const TopicState& state) const;
+    std::string whyEmpty() const;
+};
+
+void BagScans::Reader::take(const BagMessage& message) {
+    const std::vector<BagTopic>& topics = bag->topics();
+    while (state_of.size() < topics.size()) {
+        const BagTopic& topic = topics[state_of.size()];
+        const auto state = states.find(topic.name);
+        const bool is_read =
+            state != states.end() && lidarKindOf(topic) == state->second.sensor->kind;
+        state_of.push_back(is_read ? &state->second : nullptr);
+    }
+    const BagTopic& topic = topics[message.topic];
+    if (TopicState* const state = state_of[message.topic]) {
+        takeLidar(message, topic, *state);
+    } else if (topic.type == "sensor_msgs/Imu" && topic.name == plan.imu_topic) {
+        takeImu(message, topic);
+    }
+}
+
+void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topic,
+                                 TopicState& state) {
+    const std::size_t number = state.messages++;
+    try {
+        const FieldReader fields = fieldsOf(message, topic.encoding, unpacked);
+        switch (state.sensor->kind) {
+            case LidarKind::Cloud:
+                takeCloud(fields, message.time_ns, state);
+                break;
+            case LidarKind::Velodyne:
+                takeVelodyne(fields, message.time_ns, state);
+                break;
+            case LidarKind::Ouster:
+                takeOuster(fields, message.time_ns, state);
+                break;
+            case LidarKind::Livox1:
+            case LidarKind::Livox2:
+                takeLivox(fields, message.time_ns, state);
+                break;
+            case LidarKind::None:
+                break;
+        }
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& e) {
+        if (state.unreadable++ > 0) return;
+        char when[48];
+        std::snprintf(when, sizeof when,
+                      " (recorded at %.3f s): ", 1e-9 * static_cast<double>(message.time_ns));
+        state.first_unreadable = "message " + std::to_string(number) + when + e.what();
+    }
+}
+
+void BagScans::Reader::add(const CObservation::Ptr& scan, TopicState& state) {
+    scan->sensorLabel = state.sensor->label;
+    ++state.scans;
+    ++scans;
+    complete.push_back(scan);
+}
+
+void BagScans::Reader::takeCloud(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
+    PointCloud2 cloud = readPointCloud2(fields);
+    const std::int64_t time_ns = cloud.header.time_ns != 0 ? cloud.header.time_ns : recorded_ns;
+    auto scan = observations::observationOf(
+        std::make_shared<const PointTable>(std::move(cloud.table)), "", timeOf(time_ns));
+    scan->sensorPose = state.sensor->on_vehicle;
+    add(scan, state);
+}
+
+void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
+    const LivoxMessage message = readLivox(fields);
+    const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
+    CObservationPointCloud::Ptr scan;
+    if (state.sensor->kind == LidarKind::Livox1) {
+        scan = observations::observationOf(
+            std::make_shared<const PointTable>(tableOf(message.points)), "", timeOf(time_ns));
+    } else {
+        Scan points;
+        for (const LivoxPoint& point : message.points) addPoint(point, points);
+        locateBeams(*mid360, points);
+        scan = CObservationPointCloud::Create();
+        scan->timestamp = timeOf(time_ns);
+        scan->pointcloud = std::make_shared<observations::LocatedCloud>(points, mid360);
+    }
+    scan->sensorPose = state.sensor->on_vehicle;
+    add(scan, state);
+}
+
+void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns,
+                                    TopicState& state) {
+    const VelodyneScanMessage message = readVelodyneScan(fields);
+    for (const VelodyneScanMessage::Packet& sent : message.packets) {
+        const std::uint8_t id = sent.bytes[captures::kVelodyneModelAt];
+        const auto* const model = observations::findVelodyneModel(id);
+        if (!captures::isVelodyneData(sent.bytes, sizeof(captures::VelodynePacket::Raw))) {
+            ++state.other_packets;
+        } else if (captures::isOfHdl64(sent.bytes)) {
+            ++state.hdl64_packets;
+        } else if (model == nullptr || (state.model != nullptr && state.model != model)) {
+            ++state.unknown_ids[id];
+        } else {
+            if (!state.turns) {
+                state.model = model;
+                state.turns.emplace(*model, state.sensor->label);
+            }
+            captures::VelodynePacket packet;
+            std::memcpy(static_cast<void*>(&packet.raw), sent.bytes, sizeof packet.raw);
+            packet.time_ns = sent.time_ns != 0             ? sent.time_ns
+                             : message.header.time_ns != 0 ? message.header.time_ns
+                                                           : recorded_ns;
+            state.turns->add(packet);
+        }
+    }
+    addComplete(state);
+}
+
+void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
+    constexpr std::size_t kImuBytes = 48;
+    const captures::OusterSensor& sensor = *state.sensor->ouster;
+    ByteView packet = readPacket(fields);
+    // The driver of ROS 1 sends a byte more than the packet has.
+    if (packet.size == sensor.packetBytes() + 1) --packet.size;
+    if (packet.size != sensor.packetBytes()) {
+        if (packet.size == kImuBytes || packet.size == kImuBytes + 1) {
+            ++state.imu_packets;
+            return;
+        }
+        throw std::runtime_error("its packet has " + std::to_string(packet.size) +
+                                 " bytes; those of the sensor have " +
+                                 std::to_string(sensor.packetBytes()) + " (profile " +
+                                 sensor.profile.name + "). Is it another sensor's metadata?");
+    }
+    if (!sensor.profile.is_legacy) {
+        if (packet.data[0] != 1 || packet.data[1] != 0) {
+            ++state.other_packets;
+            return;
+        }
+        const std::string serial = serialOf(packet.data);
+        if (!sensor.serial.empty() && serial != sensor.serial) {
+            throw std::runtime_error("its packet is of the sensor with serial number " + serial +
+                                     ", the metadata are of " + sensor.serial);
+        }
+    }
+    state.frames->add(packet.data, recorded_ns);
+    addComplete(state);
+}
+
+/// Takes the turns that are complete.
+void BagScans::Reader::addComplete(TopicState& state) {
+    if (state.turns) {
+        for (const auto& turn : state.turns->complete()) {
+            turn->sensorPose = state.sensor->on_vehicle;
+            add(turn, state);
+        }
+        state.turns->complete().clear();
+    }
+    if (state.frames) {
+        for (const captures::OusterFrame& frame : state.frames->complete()) {
+            const auto scan = captures::observationOf(frame, *state.sensor->ouster);
+            scan->sensorPose = state.sensor->on_vehicle + scan->sensorPose;
+            add(scan, state);
+        }
+        state.frames->complete().clear();
+    }
+}
+
+void BagScans::Reader::takeImu(const BagMessage& message, const BagTopic& topic) {
+    using namespace mrpt::obs;
+    try {
+        FieldReader fields = fieldsOf(message, topic.encoding, unpacked);
+        const ImuMessage imu = readImu(fields);
+        if (!imu.rotation_wxyz) return;
+        auto observation = CObservationIMU::Create();
+        observation->timestamp =
+            timeOf(imu.header.time_ns != 0 ? imu.header.time_ns : message.time_ns);
+        observation->sensorLabel = topic.name;
+        observation->sensorPose = plan.imu_on_vehicle;
+        observation->set(IMU_ORI_QUAT_W, (*imu.rotation_wxyz)[0]);
+        observation->set(IMU_ORI_QUAT_X, (*imu.rotation_wxyz)[1]);
+        observation->set(IMU_ORI_QUAT_Y, (*imu.rotation_wxyz)[2]);
+        observation->set(IMU_ORI_QUAT_Z, (*imu.rotation_wxyz)[3]);
+        complete.push_back(observation);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        // The survey counted it.
+    }
+}
+
+void BagScans::Reader::finish() {
+    is_at_end = true;
+    for (auto& [topic, state] : states) {
+        if (state.turns) state.turns->finish();
+        if (state.frames) state.frames->finish();
+        addComplete(state);
+    }
+}
+
+std::string BagScans::Reader::textOf(const TopicState& state) const {
+    std::string text = counted(state.messages, "message");
+    if (state.turns) {
+        text += ", " + state.model->name + ", " + captures::textOf(state.turns->counts());
+    } else if (state.frames) {
+        text += ", " + state.sensor->ouster->name + ", " + captures::textOf(state.frames->counts());
+    }
+    addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported", text);
+    for (const auto& [id, packets] : state.unknown_ids) {
+        char hex[8];
+        std::snprintf(hex, sizeof hex, "0x%02x", id);
+        addCount(packets, "packet",
+                 "of " + std::string(state.turns ? "another" : "an unknown") +
+                     " Velodyne (model id " + hex + "), left out",
+                 text);
+    }
+    addCount(state.imu_packets, "IMU packet", "left out", text);
+    addCount(state.other_packets, "packet", "of something else, left out", text);
+    addCount(state.unreadable, "message", "that could not be read, left out", text);
+    if (state.unreadable > 0) text += "; the first: " + state.first_unreadable;
+    return text;
+}
+
+std::string BagScans::Reader::whyEmpty() const {
+    std::string text = file.string() + ": no scan could be read";
+    for (const auto& [topic, state] : states) text += "; " + topic + ": " + textOf(state);
+    return text;
+}
+
+BagScans::BagScans(const std::filesystem::path& file, const BagSurvey& survey,
+                   const BagOptions& options)
+    : reader_(std::make_unique<Reader>(file, survey, options)) {}
+
+BagScans::~BagScans() = default;
+
+CObservation::Ptr BagScans::next() {
+    Reader& r = *reader_;
+    BagMessage message;
+    while (r.complete.empty() && !r.is_at_end) {
+        try {
+            if (r.bag->next(message)) {
+                r.take(message);
+            } else {
+                r.finish();
+            }
+        } catch (const BrokenBag& e) {
+            r.broken_because = e.what();
+            r.finish();
+        }
+    }
+    if (!r.complete.empty()) {
+        const auto observation = r.complete.front();
+        r.complete.pop_front();
+        return observation;
+    }
+    if (!r.broken_because.empty()) throw BrokenBag(r.broken_because);
+    if (r.scans == 0) throw BrokenBag(r.whyEmpty());
+    return nullptr;
+}
+
+const BagPlan& BagScans::plan() const { return reader_->plan; }
+
+double BagScans::fractionRead() const {
+    return reader_->is_at_end ? 1.0 : reader_->bag->fractionRead();
+}
+
+std::vector<std::string> BagScans::remarks() const {
+    const Reader& r = *reader_;
+    std::vector<std::string> remarks = r.plan.remarks;
+    for (const auto& [topic, state] : r.states) {
+        remarks.push_back(state.sensor->label + " (" + topic + "): " + r.textOf(state));
+    }
+    for (const auto& [topic, messages] : r.survey.unreadable) {
+        remarks.push_back(topic + ": " + counted(messages, "message") +
+                          " that could not be read, left out");
+    }
+    BagSurvey others;  // that nothing is read of
+    std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",
+                                "geometry_msgs/PoseWithCovarianceStamped", "tf2_msgs/TFMessage",
+                                "tf/tfMessage"};
+    for (const BagSurvey::Topic& topic : r.survey.topics) {
+        const std::string& name = topic.topic.name;
+        const bool is_used = r.states.count(name) > 0 || name == r.plan.imu_topic ||
+                             types.count(topic.topic.type) > 0 ||
+                             r.survey.ouster_metadata.count(name) > 0;
+        if (!is_used) others.topics.push_back(topic);
+    }
+    if (!others.topics.empty()) {
+        constexpr std::size_t kMost = 12;
+        remarks.push_back("topics that are not used: " + textOfTopics(others, kMost));
+    }
+    return remarks;
+}
+
+}  // namespace hagen::bags

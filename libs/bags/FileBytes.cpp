@@ -1,0 +1,61 @@
+#include "FileBytes.h"
+
+#include <hagen/bags/BagFile.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace hagen::bags {
+
+FileBytes::FileBytes(const std::filesystem::path& file)
+    : path_(file), file_(std::fopen(file.c_str(), "rb")) {
+    if (!file_) {
+        throw BrokenBag(file.string() + ": cannot be opened: " + std::strerror(errno));
+    }
+    size_ = std::filesystem::file_size(file);
+    std::setvbuf(file_.get(), nullptr, _IOFBF, 1 << 18);
+}
+
+double FileBytes::fractionRead() const {
+    return size_ == 0 ? 1.0 : static_cast<double>(position_) / static_cast<double>(size_);
+}
+
+void FileBytes::fail(const std::string& what, std::uint64_t byte, const std::string& why) const {
+    throw BrokenBag(path_.string() + ": " + what + " at byte " + std::to_string(byte) + ": " + why);
+}
+
+void FileBytes::checkLeft(std::uint64_t count, const std::string& what) const {
+    if (count <= left()) return;
+    fail(what, position_,
+         "is cut off: " + std::to_string(count) + " bytes are due, " + std::to_string(left()) +
+             " are left");
+}
+
+void FileBytes::readInto(std::uint8_t* bytes, std::size_t count, const std::string& what) {
+    if (std::fread(bytes, 1, count, file_.get()) != count) {
+        fail(what, position_, "cannot be read: " + std::string(std::strerror(errno)));
+    }
+    crc_ = static_cast<std::uint32_t>(crc32_z(crc_, bytes, count));
+    position_ += count;
+}
+
+void FileBytes::read(std::uint64_t count, const std::string& what,
+                     std::vector<std::uint8_t>& bytes) {
+    checkLeft(count, what);
+    bytes.resize(static_cast<std::size_t>(count));
+    if (count > 0) readInto(bytes.data(), bytes.size(), what);
+}
+
+void FileBytes::skip(std::uint64_t count, const std::string& what) {
+    checkLeft(count, what);
+    std::uint8_t some[1 << 14];
+    while (count > 0) {
+        const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, sizeof some));
+        readInto(some, part, what);
+        count -= part;
+    }
+}
+
+}  // namespace hagen::bags

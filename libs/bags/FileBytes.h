@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::bags {
+
+/// Reads a file from its start to its end, with a running CRC.
+class FileBytes {
+ public:
+    /// Throws BrokenBag naming the file if it cannot be opened.
+    explicit FileBytes(const std::filesystem::path& file);
+
+    std::uint64_t position() const { return position_; }
+    std::uint64_t left() const { return size_ > position_ ? size_ - position_ : 0; }
+    double fractionRead() const;
+
+    /// Reads exactly so many bytes; nothing is allocated if the file has fewer. `what` is being
+    /// read, for BrokenBag: "a chunk".
+    void read(std::uint64_t count, const std::string& what, std::vector<std::uint8_t>& bytes);
+    void skip(std::uint64_t count, const std::string& what);
+
+    /// CRC-32 (as in zlib) of all bytes since the last restart.
+    std::uint32_t crc() const { return crc_; }
+    void restartCrc() { crc_ = 0; }
+
+    /// Throws BrokenBag "FILE: WHAT at byte N: WHY".
+    [[noreturn]] void fail(const std::string& what, std::uint64_t byte,
+                           const std::string& why) const;
+
+ private:
+    void readInto(std::uint8_t* bytes, std::size_t count, const std::string& what);
+    void checkLeft(std::uint64_t count, const std::string& what) const;
+
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::filesystem::path path_;
+    std::unique_ptr<std::FILE, Close> file_;
+    std::uint64_t size_ = 0, position_ = 0;
+    std::uint32_t crc_ = 0;
+};
+
+}  // namespace hagen::bags

@@ -1,0 +1,55 @@
+#pragma once
+#include <hagen/bags/BagSurvey.h>
+#include <hagen/captures/OusterSensor.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::bags {
+
+/// What to read of a bag.
+struct BagOptions {
+    std::vector<std::string> topics;    ///< of LiDARs, with or without leading slash; empty: all
+    std::filesystem::path sensor_json;  ///< metadata of its Ouster; empty: those of the bag
+};
+
+/// A LiDAR topic to read.
+struct BagSensor {
+    LidarKind kind = LidarKind::None;
+    std::string label;                ///< sensor label of its scans
+    mrpt::poses::CPose3D on_vehicle;  ///< by the bag's static transforms; origin: not known
+    std::shared_ptr<const captures::OusterSensor> ouster;  ///< of Ouster packets; otherwise null
+};
+
+/// What is read of a bag.
+struct BagPlan {
+    std::map<std::string, BagSensor> sensors;  ///< by topic
+    const PoseSeries* poses = nullptr;         ///< of the vehicle, in the survey; null: none
+    std::string imu_topic;                     ///< for the attitude; empty: none
+    mrpt::poses::CPose3D imu_on_vehicle;
+    std::vector<std::string> remarks;  ///< what is not read, and why
+};
+
+/// Plans what to read.
+///
+/// Without BagOptions::topics, it is every LiDAR topic, but of a sensor that sent both packets and
+/// clouds only the packets, and no clouds in a frame that does not move with the vehicle. Labels
+/// are the topics without leading slash, and with '_' for '/'.
+///
+/// Poses are those of the odometry topic with the most; without one, of the pose topic with the
+/// most; without one, of the transforms that move the frame on which the LiDAR hangs. Series with
+/// poses farther apart than half a second on average come last.
+///
+/// The vehicle's frame is the child frame of the odometry, otherwise base_link, base_footprint, or
+/// the frame on which a sensor hangs in the end.
+///
+/// Throws std::runtime_error naming the file if a topic is not there or is not a LiDAR's, if none
+/// is, or if metadata of an Ouster are missing or wrong. `survey` must outlive the plan.
+BagPlan planOf(const std::filesystem::path& file, const BagSurvey& survey,
+               const BagOptions& options);
+
+}  // namespace hagen::bags

@@ -1,0 +1,120 @@
+#include "BagSource.h"
+
+#include <hagen/captures/Remarks.h>
+#include <hagen/logs/PoseFile.h>
+
+#include "ScanObject.h"
+
+namespace hagen::logs {
+namespace {
+
+/// Poses of a bag as a trajectory. Frames of ROS have the z axis up (REP 103).
+RawlogSurvey posesOf(const bags::PoseSeries& series) {
+    RawlogSurvey survey;
+    survey.source = series.source;
+    for (const bags::RecordedPose& pose : series.poses) {
+        survey.trajectory.add(
+            captures::timeOf(pose.time_ns),
+            mrpt::poses::CPose3D(mrpt::math::CQuaternionDouble(pose.qw, pose.qx, pose.qy, pose.qz),
+                                 pose.x_m, pose.y_m, pose.z_m));
+    }
+    return survey;
+}
+
+}  // namespace
+
+BagSource::BagSource(const std::filesystem::path& bag, const SourceOptions& options)
+    : ScanSource(options), file_(bag), survey_(surveyInAdvance()), scans_(openScans()) {}
+
+bags::BagSurvey BagSource::surveyInAdvance() const {
+    bool is_interrupted = false;
+    bags::BagSurvey survey = bags::surveyBag(file_, [&] {
+        is_interrupted = !options_.keep_going();
+        return !is_interrupted;
+    });
+    if (is_interrupted) throw Interrupted("interrupted");
+    return survey;
+}
+
+std::unique_ptr<bags::BagScans> BagSource::openScans() const {
+    return std::make_unique<bags::BagScans>(
+        file_, survey_, bags::BagOptions{options_.topics, options_.sensor_json});
+}
+
+std::optional<RecordedEntry> BagSource::nextEntry() {
+    while (scans_read_ <= options_.last_entry) {
+        checkInterruption();
+        const auto observation = scans_->next();
+        is_read_to_end_ = observation == nullptr;
+        if (!observation) return std::nullopt;
+        see(*observation);
+        if (!observations::isLidarScan(*observation)) continue;
+        RecordedEntry entry;
+        entry.number = scans_read_++;
+        if (skips(entry.number)) continue;
+        entry.object = objectOf(observation, options_.folder_objects);
+        entry.fraction_read = scans_->fractionRead();
+        addIfScan(observation, "", entry);
+        return entry;
+    }
+    return std::nullopt;
+}
+
+RawlogSurvey BagSource::surveyScans() const {
+    RawlogSurvey survey;
+    const auto ahead = openScans();
+    try {
+        while (const auto scan = ahead->next()) {
+            checkInterruption();
+            if (!observations::isLidarScan(*scan)) continue;
+            survey.scans[scan->sensorLabel].push_back(
+                {scan->timestamp, mrpt::poses::CPose3D(scan->sensorPose())});
+        }
+    } catch (const bags::BrokenBag&) {
+        survey.is_whole = false;  // nextEntry() reports the break
+    }
+    return survey;
+}
+
+LogPoses BagSource::readPoses(const std::filesystem::path& file) {
+    if (file.empty()) {
+        const bags::PoseSeries* const poses = scans_->plan().poses;
+        return posesOfRawlog(poses == nullptr ? RawlogSurvey() : posesOf(*poses), file);
+    }
+    if (kindOfPoseFile(file) == PoseFileKind::Tum) return posesOfRawlog(RawlogSurvey(), file);
+    RawlogSurvey selected = surveyScans();
+    for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
+        scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
+    }
+    return posesOfRawlog(selected, file);
+}
+
+bool BagSource::showClouds(observations::CloudSensors& sensors) {
+    if (!ahead_) ahead_ = openScans();
+    try {
+        const auto observation = ahead_->next();
+        if (!observation) return false;
+        sensors.see(*observation);
+        return true;
+    } catch (const bags::BrokenBag&) {
+        return false;  // nextEntry() reports the break
+    }
+}
+
+std::map<std::string, std::vector<mrpt::Clock::time_point>> BagSource::scanTimes() {
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
+    for (const auto& [label, places] : surveyScans().scans) {
+        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
+    }
+    return times;
+}
+
+std::vector<std::string> BagSource::remarks() const {
+    std::vector<std::string> remarks = scans_->remarks();
+    if (!is_read_to_end_ && scans_read_ > options_.last_entry) {
+        for (std::string& remark : remarks) remark += " (up to the last entry converted)";
+    }
+    return remarks;
+}
+
+}  // namespace hagen::logs

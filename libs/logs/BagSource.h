@@ -1,0 +1,37 @@
+#pragma once
+#include <hagen/bags/BagScans.h>
+#include <hagen/logs/RawlogSurvey.h>
+#include <hagen/logs/ScanSource.h>
+
+namespace hagen::logs {
+
+/// A ROS recording as a source of scans: each is an entry. It is read in advance once, for what
+/// may come after the first scan: poses, frames, metadata.
+class BagSource : public ScanSource {
+ public:
+    BagSource(const std::filesystem::path& bag, const SourceOptions& options);
+
+    std::optional<RecordedEntry> nextEntry() override;
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
+    std::size_t entriesKnown() const override { return scans_read_; }
+    std::vector<std::string> remarks() const override;
+
+ protected:
+    LogPoses readPoses(const std::filesystem::path& file) override;
+    bool showClouds(observations::CloudSensors& sensors) override;
+
+ private:
+    /// Reads the times of all scans, up to where the bag breaks off.
+    RawlogSurvey surveyScans() const;
+    bags::BagSurvey surveyInAdvance() const;
+    std::unique_ptr<bags::BagScans> openScans() const;
+
+    std::filesystem::path file_;
+    bags::BagSurvey survey_;
+    std::unique_ptr<bags::BagScans> scans_;
+    std::unique_ptr<bags::BagScans> ahead_;  ///< of showClouds(); made on demand
+    std::size_t scans_read_ = 0;
+    bool is_read_to_end_ = false;
+};
+
+}  // namespace hagen::logs

@@ -1,0 +1,67 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hagen::observations {
+
+enum class NumberType : std::uint8_t {
+    Int8,
+    UInt8,
+    Int16,
+    UInt16,
+    Int32,
+    UInt32,
+    Int64,
+    UInt64,
+    Float32,
+    Float64
+};
+
+std::size_t bytesOf(NumberType type);
+/// "uint16", "float64".
+const char* nameOf(NumberType type);
+
+/// A field of all points of a table.
+struct PointField {
+    std::string name;
+    NumberType type = NumberType::Float32;
+    std::size_t offset = 0;  ///< bytes from the start of a point
+    std::size_t count = 1;   ///< numbers per point, one after the other
+};
+
+/// Points as records of named numbers, as in sensor_msgs/PointCloud2 or a point cloud file: point i
+/// begins at byte i * bytes_per_point. There may be bytes between fields.
+struct PointTable {
+    std::vector<PointField> fields;
+    std::size_t points = 0;
+    std::size_t bytes_per_point = 0;
+    bool is_big_endian = false;
+    std::vector<std::uint8_t> bytes;
+};
+
+/// Throws std::runtime_error naming the field if a field has no name or no numbers or does not fit
+/// into a point, if two have the same name, or if the points do not fit into the bytes. A table
+/// from a file should be checked before anything else reads it.
+void check(const PointTable& table);
+
+/// The first of these names that is a field, without regard to case; null if there is none.
+const PointField* findField(const PointTable& table, const std::vector<std::string>& names);
+
+/// The numbers of a field of a checked table, one per point: those at `element` of its count.
+std::vector<double> columnOf(const PointTable& table, const PointField& field,
+                             std::size_t element = 0);
+
+/// Appends a field with these numbers, one per point: those of a checked table in little-endian
+/// order. Numbers are converted as by a cast, so they must be in the type's range.
+void addColumn(const std::string& name, NumberType type, const std::vector<double>& numbers,
+               PointTable& table);
+
+/// The table in the byte order of this machine.
+PointTable inNativeOrder(PointTable table);
+
+/// "x, y, z, intensity": for messages.
+std::string namesOf(const PointTable& table);
+
+}  // namespace hagen::observations

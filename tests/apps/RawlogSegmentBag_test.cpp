@@ -1,0 +1,288 @@
+// rawlog-segment on ROS recordings, as a user would run it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/logs/RawlogWriter.h>
+#include <hagen/logs/ScanSource.h>
+#include <hagen/observations/ObservationScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/BagWriter.h"
+#include "support/ProgramTest.h"
+
+namespace hagen {
+namespace {
+
+using test::SentMessage;
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+class RawlogSegmentBag : public test::ProgramTest {
+ protected:
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
+        return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
+    }
+    static fs::path recording() {
+        return fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
+    }
+    /// The recording's scans as packets, as clouds, or as both.
+    static std::vector<SentMessage> messagesOfRecording(bool has_packets, bool has_clouds) {
+        std::vector<SentMessage> messages;
+        const auto source = logs::openRecording(recording());
+        while (const auto scan = source->nextScan()) {
+            const auto& velodyne =
+                dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*scan->observation);
+            const double time_s = mrpt::Clock::toDouble(velodyne.timestamp);
+            if (has_packets) {
+                messages.push_back(test::velodyneMessage("/velodyne_packets", time_s, "velodyne",
+                                                         velodyne, 1.327e-3));
+            }
+            if (!has_clouds) continue;
+            observations::ObservedScan observed;
+            observations::readObservation(velodyne, {}, observed);
+            std::vector<float> xyzi;
+            for (std::size_t i = 0; i < observed.scan.size(); ++i) {
+                for (const float number : {observed.scan.x_m[i], observed.scan.y_m[i],
+                                           observed.scan.z_m[i], observed.scan.intensity[i]}) {
+                    xyzi.push_back(number);
+                }
+            }
+            messages.push_back(test::cloudMessage("/velodyne_points", time_s, "velodyne", xyzi));
+        }
+        return messages;
+    }
+    /// The labels of a scan folder that the program makes of an input.
+    std::string labelsOf(const std::string& input,
+                         const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments{"-q",      "-i",           input,
+                                           "--kitti", path("labels"), "--overwrite"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        std::set<fs::path> names;
+        for (const auto& file : fs::directory_iterator(path("labels") + "/labels")) {
+            names.insert(file.path());
+        }
+        std::string all;
+        for (const fs::path& name : names) {
+            all += name.filename().string() + ":" + test::readFile(name);
+        }
+        return all;
+    }
+};
+
+TEST_F(RawlogSegmentBag, PacketsGiveTheLabelsOfTheRawlogInEveryFormat) {
+    const auto messages = messagesOfRecording(true, false);
+    const std::string due = labelsOf(recording());
+    EXPECT_GT(due.size(), 100000u);
+    const std::string bag =
+        test::writeBytes(path("flight.bag"), test::ros1BagOf(messages, {"lz4"}));
+    EXPECT_EQ(labelsOf(bag), due);
+    EXPECT_EQ(labelsOf(test::writeBytes(path("flight.mcap"), test::mcapOf(messages, {"zstd"}))),
+              due);
+    EXPECT_EQ(labelsOf(test::writeDb3(path("flight.db3"), messages)), due);
+    fs::create_directory(path("folder"));
+    fs::copy(path("flight.db3"), path("folder") + "/folder_0.db3");
+    EXPECT_EQ(labelsOf(path("folder")), due);
+    // Names do not matter.
+    fs::rename(bag, path("flight.rawlog"));
+    EXPECT_EQ(labelsOf(path("flight.rawlog")), due);
+}
+
+TEST_F(RawlogSegmentBag, CloudsGiveTheLabelsOfTheSameCloudsInARawlog) {
+    const auto messages = messagesOfRecording(false, true);
+    logs::RawlogWriter writer(path("clouds.rawlog"), true);
+    const auto source = logs::openRecording(recording());
+    while (const auto scan = source->nextScan()) {
+        observations::ObservedScan observed;
+        observations::readObservation(*scan->observation, {}, observed);
+        writer.write(*observations::observationOf(observed.scan, "velodyne_points",
+                                                  scan->observation->timestamp));
+    }
+    writer.commit();
+    const std::string due = labelsOf(path("clouds.rawlog"));
+    EXPECT_EQ(labelsOf(test::writeBytes(path("flight.mcap"), test::mcapOf(messages))), due);
+    EXPECT_EQ(labelsOf(test::writeBytes(path("flight.bag"), test::ros1BagOf(messages))), due);
+}
+
+TEST_F(RawlogSegmentBag, TheSummaryAndTheOutputsSayWhatWasRead) {
+    auto messages = messagesOfRecording(true, true);
+    const double start_s = messages.front().time_s;
+    for (int i = 0; i < 100; ++i) {
+        messages.push_back(test::odometryMessage("/odom", start_s - 1 + 0.1 * i, "odom",
+                                                 "base_link", 0.1 * i, 0, 2));
+    }
+    messages.push_back(
+        test::transformMessage("/tf_static", start_s, "base_link", "velodyne", 1, 0, 0.5));
+    const std::string bag = test::writeBytes(path("flight.bag"), test::ros1BagOf(messages));
+    const auto outcome = run({"-i", bag, "-o", path("out.rawlog"), "--octomap", path("map.bt")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("sensor velodyne_packets: VLP-16, 16 beams"));
+    EXPECT_THAT(outcome.out, HasSubstr("nav_msgs/Odometry on /odom"));
+    EXPECT_THAT(outcome.err, HasSubstr("the recording: velodyne_packets (/velodyne_packets): "));
+    EXPECT_THAT(outcome.err, HasSubstr("/velodyne_points is not read: "));
+    logs::RawlogReader reader(path("out.rawlog"));
+    const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(reader.next());
+    ASSERT_TRUE(scan);
+    EXPECT_NEAR(scan->sensorPose.x(), 1, 1e-9);
+    EXPECT_NEAR(scan->sensorPose.z(), 0.5, 1e-9);
+    const auto clouds =
+        run({"-i", bag, "--topic", "velodyne_points", "-o", path("clouds.rawlog"), "--to", "1"});
+    ASSERT_EQ(clouds.exit_code, 0) << clouds.err;
+    EXPECT_THAT(clouds.out, HasSubstr("2 LiDAR scans in 2 entries (0 to 1 of the input"));
+    EXPECT_THAT(clouds.out, HasSubstr("sensor velodyne_points: 16 beams recovered (VLP-16)"));
+}
+
+TEST_F(RawlogSegmentBag, TheSameBytesForAnyNumberOfThreads) {
+    const std::string bag =
+        test::writeBytes(path("flight.bag"), test::ros1BagOf(messagesOfRecording(false, true)));
+    for (const std::string jobs : {"1", "3"}) {
+        ASSERT_EQ(run({"-q", "-i", bag, "-o", path(jobs + ".rawlog"), "--jobs", jobs}).exit_code,
+                  0);
+    }
+    EXPECT_EQ(test::readFile(path("1.rawlog")), test::readFile(path("3.rawlog")));
+}
+
+TEST_F(RawlogSegmentBag, ACutBagKeepsWhatIsBeforeTheCut) {
+    test::BagShape shape;
+    shape.messages_per_chunk = 1;
+    for (const std::string name : {"flight.bag", "flight.mcap", "flight.db3"}) {
+        const auto messages = messagesOfRecording(true, false);
+        if (name == "flight.bag") test::writeBytes(path(name), test::ros1BagOf(messages, shape));
+        if (name == "flight.mcap") test::writeBytes(path(name), test::mcapOf(messages, shape));
+        if (name == "flight.db3") test::writeDb3(path(name), messages);
+        fs::resize_file(path(name), fs::file_size(path(name)) * 3 / 4);
+        const auto outcome = run({"-i", path(name), "-o", path("out.rawlog"), "--overwrite"});
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_THAT(outcome.err, HasSubstr(path(name) + ": "));
+        EXPECT_THAT(outcome.err, HasSubstr("before it are in " + path("out.partial.rawlog")));
+        EXPECT_FALSE(fs::exists(path("out.rawlog")));
+        logs::RawlogReader reader(path("out.partial.rawlog"));
+        while (reader.next()) {
+        }
+        EXPECT_GE(reader.entries(), 9u) << name;
+    }
+}
+
+TEST_F(RawlogSegmentBag, NoCutCrashesIt) {
+    for (const std::string& whole : {test::ros1BagOf(messagesOfRecording(true, false), {"lz4"}),
+                                     test::mcapOf(messagesOfRecording(false, true), {"zstd"})}) {
+        for (std::size_t cut = 1; cut < 12; ++cut) {
+            test::writeBytes(path("cut"), whole.substr(0, cut * whole.size() / 12));
+            const auto outcome = run({"-i", path("cut"), "--stats", path("s.json"), "--overwrite"});
+            EXPECT_EQ(outcome.exit_code, 1);
+            EXPECT_THAT(outcome.err, HasSubstr("at byte "));
+        }
+    }
+}
+
+TEST_F(RawlogSegmentBag, WrongTopicsAndInputsAreNamed) {
+    const std::string bag = test::writeBytes(
+        path("flight.bag"), test::ros1BagOf({test::stringMessage("/text", 1700000000, "a")}));
+    const std::string out = path("out.rawlog");
+    expectFailure({"-i", bag, "-o", out}, 1,
+                  "flight.bag: has no topic of a LiDAR (sensor_msgs/PointCloud2, ");
+    expectFailure({"-i", bag, "-o", out, "--topic", "/points"}, 1,
+                  "has no topic '/points'; it has: /text (std_msgs/String, 1 message)");
+    expectFailure({"-i", bag, "-o", out, "--topic", "/text"}, 1, "not of a LiDAR");
+    expectFailure({"-i", recording(), "-o", out, "--topic", "/points"}, 1,
+                  "is no ROS recording (.bag, .mcap, .db3 or its folder), so it has no topic");
+    expectFailure({"-i", bag, "-o", out, "--topic"}, 2, "--topic");
+    const std::string text = test::writeBytes(path("flight.mcap"), "no recording at all");
+    expectFailure({"-i", text, "-o", out}, 1, "flight.mcap");
+    const std::string cloud = test::writeBytes(
+        path("few.bag"),
+        test::ros1BagOf({test::cloudMessage("/points", 1700000000, "lidar", {1, 2, 3, 4})}));
+    expectFailure({"-i", cloud, "-o", out, "--octomap", path("a.bt")}, 1, "has no poses");
+}
+
+/// Bags written by other programs, if they are installed.
+class BagsOfOtherPrograms : public RawlogSegmentBag {
+ protected:
+    static std::string base64(const std::string& bytes) {
+        constexpr const char* kDigits =
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        std::string text;
+        for (std::size_t i = 0; i < bytes.size(); i += 3) {
+            std::uint32_t three = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto byte =
+                    i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
+                three = three << 8 | byte;
+            }
+            for (std::size_t k = 0; k < 4; ++k) {
+                text += i + k > bytes.size() ? '=' : kDigits[three >> (18 - 6 * k) & 63];
+            }
+        }
+        return text;
+    }
+    /// The recording's packets as lines for the scripts in tests/bags.
+    std::string lines() const {
+        std::string lines;
+        const auto source = logs::openRecording(recording());
+        while (const auto scan = source->nextScan()) {
+            const auto& velodyne =
+                dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*scan->observation);
+            auto time_ns = std::llround(1e9 * mrpt::Clock::toDouble(velodyne.timestamp));
+            const nlohmann::json header{{"stamp", {{"time_ns", time_ns}}},
+                                        {"frame_id", "velodyne"}};
+            nlohmann::json packets = nlohmann::json::array();
+            for (const auto& packet : velodyne.scan_packets) {
+                packets.push_back({{"stamp", {{"time_ns", time_ns}}},
+                                   {"data", {{"base64", base64(test::bytesOf(packet))}}}});
+                time_ns += 1327000;
+            }
+            const nlohmann::json message{{"topic", "/velodyne_packets"},
+                                         {"type", "velodyne_msgs/VelodyneScan"},
+                                         {"time_ns", time_ns},
+                                         {"fields", {{"header", header}, {"packets", packets}}}};
+            lines += message.dump() + "\n";
+        }
+        return folder_.write("messages.jsonl", lines);
+    }
+    static std::string script(const std::string& name) {
+        return fs::path(HAGEN_SOURCE_DIR) / "tests/bags" / name;
+    }
+};
+
+TEST_F(BagsOfOtherPrograms, Rosbag) {
+    if (test::run("/usr/bin/python3", {"-c", "import rosbag"}).exit_code != 0) {
+        GTEST_SKIP() << "python3-rosbag is not installed";
+    }
+    const std::string messages = lines(), due = labelsOf(recording());
+    for (const std::string compression : {"none", "bz2", "lz4"}) {
+        const auto made = test::run("/usr/bin/python3", {script("write_ros1_bag.py"), messages,
+                                                         path("a.bag"), compression});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        EXPECT_EQ(labelsOf(path("a.bag")), due) << compression;
+    }
+}
+
+TEST_F(BagsOfOtherPrograms, Mcap) {
+    const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
+    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with @mcap/core";
+    const std::string messages = lines(), due = labelsOf(recording());
+    for (const std::string kind : {"none", "zstd", "lz4", "plain", "ros1"}) {
+        const auto made =
+            test::run("/usr/bin/env", {"-C", modules.string(), "node", script("write_ros2_bag.mjs"),
+                                       messages, path("a.mcap"), kind});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        EXPECT_EQ(labelsOf(path("a.mcap")), due) << kind;
+    }
+    ASSERT_EQ(test::run("/usr/bin/env", {"-C", modules.string(), "node",
+                                         script("write_ros2_bag.mjs"), messages, path("cdr.jsonl")})
+                  .exit_code,
+              0);
+    ASSERT_EQ(test::run("/usr/bin/env",
+                        {"python3", script("write_db3.py"), path("cdr.jsonl"), path("a.db3")})
+                  .exit_code,
+              0);
+    EXPECT_EQ(labelsOf(path("a.db3")), due);
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,106 @@
+#pragma once
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/CaptureWriter.h"
+
+namespace hagen::test {
+
+/// The bytes of a message, field by field: as ROS 1 or as CDR.
+class MessageBytes {
+ public:
+    explicit MessageBytes(bool is_cdr) : is_cdr_(is_cdr) {
+        if (is_cdr) bytes_ = std::string("\0\1\0\0", 4);
+    }
+    template <class Number>
+    MessageBytes& number(Number value) {
+        if (is_cdr_)
+            bytes_.resize((bytes_.size() + sizeof value - 5) / sizeof value * sizeof value + 4);
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+        return *this;
+    }
+    MessageBytes& text(const std::string& text) {
+        number(static_cast<std::uint32_t>(text.size() + is_cdr_));
+        bytes_ += text;
+        if (is_cdr_) bytes_ += '\0';
+        return *this;
+    }
+    /// Bytes whose number is fixed; with a count before them otherwise.
+    MessageBytes& raw(const ByteString& bytes) {
+        bytes_ += bytes;
+        return *this;
+    }
+    MessageBytes& counted(const ByteString& bytes) {
+        return number(static_cast<std::uint32_t>(bytes.size())).raw(bytes);
+    }
+    MessageBytes& time(double time_s);
+    /// std_msgs/Header.
+    MessageBytes& header(double time_s, const std::string& frame);
+    /// A position, and a rotation about z.
+    MessageBytes& pose(double x, double y, double z, double yaw_rad = 0);
+    const ByteString& bytes() const { return bytes_; }
+
+ private:
+    bool is_cdr_;
+    ByteString bytes_;
+};
+
+/// A message to write, in both serialisations.
+struct SentMessage {
+    std::string topic, type;  ///< "sensor_msgs/PointCloud2"
+    double time_s = 0;        ///< when it was recorded
+    ByteString ros1, cdr;
+};
+
+/// Serialises a message both ways: `write` gets the MessageBytes to write to.
+template <class Write>
+SentMessage sentMessage(const std::string& topic, const std::string& type, double time_s,
+                        const Write& write) {
+    SentMessage message{topic, type, time_s, {}, {}};
+    MessageBytes ros1(false), cdr(true);
+    write(ros1);
+    write(cdr);
+    message.ros1 = ros1.bytes();
+    message.cdr = cdr.bytes();
+    return message;
+}
+
+/// A cloud with the fields x, y, z and intensity (float32).
+SentMessage cloudMessage(const std::string& topic, double time_s, const std::string& frame,
+                         const std::vector<float>& xyzi);
+/// velodyne_msgs/VelodyneScan with the packets of a scan.
+SentMessage velodyneMessage(const std::string& topic, double time_s, const std::string& frame,
+                            const mrpt::obs::CObservationVelodyneScan& scan, double period_s);
+SentMessage odometryMessage(const std::string& topic, double time_s, const std::string& frame,
+                            const std::string& child, double x, double y, double z);
+/// One transform on /tf or /tf_static.
+SentMessage transformMessage(const std::string& topic, double time_s, const std::string& parent,
+                             const std::string& child, double x, double y, double z);
+SentMessage stringMessage(const std::string& topic, double time_s, const std::string& text);
+
+/// How a bag is written; sizes and CRCs are right.
+struct BagShape {
+    std::string compression = "none";    ///< "none", "bz2", "lz4", "zstd", or a wrong one
+    std::size_t messages_per_chunk = 4;  ///< of an MCAP: 0: no chunks
+    bool is_closed = true;               ///< of a ROS 1 bag: it has an index
+};
+
+/// A bag of ROS 1, an MCAP of ROS 2 (or with messages of ROS 1).
+ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& shape = {});
+ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shape = {},
+                  bool is_ros1 = false);
+/// Writes a database of ROS 2.
+std::filesystem::path writeDb3(const std::filesystem::path& file,
+                               const std::vector<SentMessage>& messages);
+
+/// A record of a ROS 1 bag, and of an MCAP.
+ByteString ros1Record(const std::vector<std::pair<std::string, ByteString>>& fields,
+                      const ByteString& data);
+ByteString mcapRecord(unsigned op, const ByteString& content);
+
+}  // namespace hagen::test
