@@ -64,7 +64,7 @@ SqliteBag::SqliteBag(const fs::path& file) : file_(file), cut_because_(whyCut(fi
     checkTables();
     readTopics();
     const Query range = prepare("SELECT min(id), max(id) FROM messages");
-    if (step(range)) {
+    if (sqlite3_step(range.get()) == SQLITE_ROW) {  // not if the end is cut off
         first_row_ = sqlite3_column_int64(range.get(), 0);
         last_row_ = sqlite3_column_int64(range.get(), 1);
     }
