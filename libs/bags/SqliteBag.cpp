@@ -97,6 +97,10 @@ void SqliteBag::open() {
     sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    // Otherwise SQLite refuses a file that is shorter than it says.
+    if (!cut_because_.empty()) {
+        sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+    }
 }
 
 SqliteBag::Query SqliteBag::prepare(const std::string& sql) const {
