@@ -46,8 +46,8 @@ std::string labelOf(const std::string& topic, std::set<std::string>& taken) {
 /// Whether poses are close enough to place scans with them.
 bool isDense(const PoseSeries& series) {
     if (series.poses.size() < 2) return false;
-    const double seconds =
-        1e-9 * static_cast<double>(series.poses.back().time_ns - series.poses.front().time_ns);
+    const double seconds = 1e-9 * (static_cast<double>(series.poses.back().time_ns) -
+                                   static_cast<double>(series.poses.front().time_ns));
     return seconds <= kFarApart_s * static_cast<double>(series.poses.size() - 1);
 }
 

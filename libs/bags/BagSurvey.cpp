@@ -3,7 +3,6 @@
 #include <hagen/captures/VelodyneTurns.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include "Messages.h"
@@ -11,7 +10,7 @@
 namespace hagen::bags {
 namespace {
 
-constexpr std::int64_t kLeastApart_ns = 10000000;
+constexpr double kLeastApart_ns = 1e7;
 constexpr std::size_t kMostMetadata = 1 << 20;
 
 bool endsWith(const std::string& text, const std::string& ending) {
@@ -23,10 +22,12 @@ void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& s
     const auto pose = message.pose();
     if (!pose) throw std::runtime_error("its pose is not finite or has no rotation");
     const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
-    if (!series.poses.empty() &&
-        std::llabs(time_ns - series.poses.back().time_ns) < kLeastApart_ns) {
-        return;
-    }
+    // As doubles: times of a broken file may be too far apart for integers.
+    const auto apart_ns = [&] {
+        return std::abs(static_cast<double>(time_ns) -
+                        static_cast<double>(series.poses.back().time_ns));
+    };
+    if (!series.poses.empty() && apart_ns() < kLeastApart_ns) return;
     mrpt::math::CQuaternionDouble q;
     pose->getAsQuaternion(q);
     series.poses.push_back({time_ns, pose->x(), pose->y(), pose->z(), q.r(), q.x(), q.y(), q.z()});

@@ -9,8 +9,8 @@
 
 namespace hagen::bags {
 
-FileBytes::FileBytes(const std::filesystem::path& file)
-    : path_(file), file_(std::fopen(file.c_str(), "rb")) {
+FileBytes::FileBytes(const std::filesystem::path& file, bool has_crc)
+    : path_(file), file_(std::fopen(file.c_str(), "rb")), has_crc_(has_crc) {
     if (!file_) {
         throw BrokenBag(file.string() + ": cannot be opened: " + std::strerror(errno));
     }
@@ -37,7 +37,7 @@ void FileBytes::readInto(std::uint8_t* bytes, std::size_t count, const std::stri
     if (std::fread(bytes, 1, count, file_.get()) != count) {
         fail(what, position_, "cannot be read: " + std::string(std::strerror(errno)));
     }
-    crc_ = static_cast<std::uint32_t>(crc32_z(crc_, bytes, count));
+    if (has_crc_) crc_ = static_cast<std::uint32_t>(crc32_z(crc_, bytes, count));
     position_ += count;
 }
 

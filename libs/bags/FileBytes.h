@@ -9,11 +9,11 @@
 
 namespace hagen::bags {
 
-/// Reads a file from its start to its end, with a running CRC.
+/// Reads a file from its start to its end, with a running CRC on request.
 class FileBytes {
  public:
     /// Throws BrokenBag naming the file if it cannot be opened.
-    explicit FileBytes(const std::filesystem::path& file);
+    explicit FileBytes(const std::filesystem::path& file, bool has_crc = false);
 
     std::uint64_t position() const { return position_; }
     std::uint64_t left() const { return size_ > position_ ? size_ - position_ : 0; }
@@ -42,6 +42,7 @@ class FileBytes {
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
     std::uint64_t size_ = 0, position_ = 0;
+    bool has_crc_;
     std::uint32_t crc_ = 0;
 };
 

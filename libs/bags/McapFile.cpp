@@ -58,7 +58,7 @@ bool McapFile::isOne(const std::string& start) {
     return start.compare(0, kMagic.size(), kMagic) == 0;
 }
 
-McapFile::McapFile(const std::filesystem::path& file) : file_(file) {
+McapFile::McapFile(const std::filesystem::path& file) : file_(file, true) {
     file_.skip(kMagic.size(), "the format's name");
 }
 

@@ -64,7 +64,7 @@ SqliteBag::SqliteBag(const fs::path& file) : file_(file), cut_because_(whyCut(fi
     checkTables();
     readTopics();
     const Query range = prepare("SELECT min(id), max(id) FROM messages");
-    if (step(range)) {
+    if (sqlite3_step(range.get()) == SQLITE_ROW) {  // not if the end is cut off
         first_row_ = sqlite3_column_int64(range.get(), 0);
         last_row_ = sqlite3_column_int64(range.get(), 1);
     }
@@ -97,6 +97,10 @@ void SqliteBag::open() {
     sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    // Otherwise SQLite refuses a file that is shorter than it says.
+    if (!cut_because_.empty()) {
+        sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+    }
 }
 
 SqliteBag::Query SqliteBag::prepare(const std::string& sql) const {

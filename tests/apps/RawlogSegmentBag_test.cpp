@@ -156,12 +156,13 @@ TEST_F(RawlogSegmentBag, ACutBagKeepsWhatIsBeforeTheCut) {
         if (name == "flight.mcap") test::writeBytes(path(name), test::mcapOf(messages, shape));
         if (name == "flight.db3") test::writeDb3(path(name), messages);
         fs::resize_file(path(name), fs::file_size(path(name)) * 3 / 4);
-        const auto outcome = run({"-i", path(name), "-o", path("out.rawlog"), "--overwrite"});
+        const std::string out = path("of_" + name);
+        const auto outcome = run({"-i", path(name), "-o", out + ".rawlog"});
         EXPECT_EQ(outcome.exit_code, 1);
         EXPECT_THAT(outcome.err, HasSubstr(path(name) + ": "));
-        EXPECT_THAT(outcome.err, HasSubstr("before it are in " + path("out.partial.rawlog")));
-        EXPECT_FALSE(fs::exists(path("out.rawlog")));
-        logs::RawlogReader reader(path("out.partial.rawlog"));
+        EXPECT_THAT(outcome.err, HasSubstr("before it are in " + out + ".partial.rawlog"));
+        EXPECT_FALSE(fs::exists(out + ".rawlog"));
+        logs::RawlogReader reader(out + ".partial.rawlog");
         while (reader.next()) {
         }
         EXPECT_GE(reader.entries(), 9u) << name;
@@ -171,8 +172,8 @@ TEST_F(RawlogSegmentBag, ACutBagKeepsWhatIsBeforeTheCut) {
 TEST_F(RawlogSegmentBag, NoCutCrashesIt) {
     for (const std::string& whole : {test::ros1BagOf(messagesOfRecording(true, false), {"lz4"}),
                                      test::mcapOf(messagesOfRecording(false, true), {"zstd"})}) {
-        for (std::size_t cut = 1; cut < 12; ++cut) {
-            test::writeBytes(path("cut"), whole.substr(0, cut * whole.size() / 12));
+        for (std::size_t cut = 1; cut < 6; ++cut) {
+            test::writeBytes(path("cut"), whole.substr(0, cut * whole.size() / 6));
             const auto outcome = run({"-i", path("cut"), "--stats", path("s.json"), "--overwrite"});
             EXPECT_EQ(outcome.exit_code, 1);
             EXPECT_THAT(outcome.err, HasSubstr("at byte "));

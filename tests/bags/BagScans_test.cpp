@@ -282,6 +282,27 @@ TEST_F(BagScansTest, MessagesThatCannotBeReadAreCountedAndNamed) {
                           "claims 4294967295 x 1 points of 16 bytes, but has 32 bytes"));
 }
 
+TEST_F(BagScansTest, MessagesOfADatabaseMayBePackedOneByOne) {
+    std::vector<SentMessage> messages{cloud("/points"), cloud("/points", 0.1)};
+    messages[0].cdr = test::packed(messages[0].cdr, "zstd");
+    const ReadBag bag = readBag(test::writeDb3(folder_ / "flight.db3", messages));
+    EXPECT_EQ(bag.failed_because, "");
+    ASSERT_EQ(bag.observations.size(), 2u);
+    EXPECT_EQ(xOf(bag.observations[0]), (std::vector<float>{1, 5}));
+}
+
+TEST_F(BagScansTest, SerialisationsThatAreNotKnownAreNamed) {
+    SentMessage message = cloud("/points");
+    message.cdr[1] = '\7';  // XCDR2
+    EXPECT_THAT(readBag(test::writeDb3(folder_ / "flight.db3", {message})).failed_because,
+                HasSubstr("it is no plain CDR (its header is 0 7)"));
+    const ReadBag cut = readBag(test::writeDb3(
+        folder_ / "flight.db3",
+        {test::sentMessage("/points", "sensor_msgs/PointCloud2", kStart_s,
+                           [](test::MessageBytes& bytes) { bytes.number(std::uint32_t{0}); })}));
+    EXPECT_THAT(cut.failed_because, HasSubstr("it ends "));
+}
+
 TEST_F(BagScansTest, PosesComeFromOdometryThenFromTransforms) {
     const ReadBag odometry_only =
         read({cloud("/points", 0, "base_link"), odometry(0, 1), odometry(0.1, 2),

@@ -203,7 +203,8 @@ TEST_F(OusterSourceTest, MetadataAreForCapturesOnly) {
     writer.write(mrpt::obs::CObservationPointCloud());
     writer.commit();
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "a.rawlog", options_); }),
-                HasSubstr("a.rawlog: is no capture (.pcap, .pcapng), so there is no sensor that "));
+                HasSubstr("a.rawlog: is no capture (.pcap, .pcapng) and no ROS recording, so there "
+                          "is no sensor "));
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_.path(), options_); }),
                 HasSubstr("is no capture"));
     options_.sensor_json = folder_ / "none.json";

@@ -22,23 +22,6 @@ std::uint64_t nanoseconds(double time_s) {
     return static_cast<std::uint64_t>(std::llround(1e6 * time_s)) * 1000;
 }
 
-ByteString packed(const ByteString& plain, const std::string& compression) {
-    ByteString out(plain.size() + plain.size() / 50 + 70000, '\0');
-    if (compression == "zstd") {
-        out.resize(ZSTD_compress(out.data(), out.size(), plain.data(), plain.size(), 1));
-    } else if (compression == "lz4") {
-        out.resize(LZ4F_compressFrame(out.data(), out.size(), plain.data(), plain.size(), nullptr));
-    } else if (compression == "bz2") {
-        auto size = static_cast<unsigned>(out.size());
-        BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(plain.data()),
-                                 static_cast<unsigned>(plain.size()), 1, 0, 0);
-        out.resize(size);
-    } else {
-        return plain;
-    }
-    return out;
-}
-
 std::uint32_t crcOf(const ByteString& bytes) {
     return static_cast<std::uint32_t>(
         crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
@@ -132,6 +115,23 @@ SentMessage transformMessage(const std::string& topic, double time_s, const std:
 SentMessage stringMessage(const std::string& topic, double time_s, const std::string& text) {
     return sentMessage(topic, "std_msgs/String", time_s,
                        [&](MessageBytes& bytes) { bytes.text(text); });
+}
+
+ByteString packed(const ByteString& plain, const std::string& compression) {
+    ByteString out(plain.size() + plain.size() / 50 + 70000, '\0');
+    if (compression == "zstd") {
+        out.resize(ZSTD_compress(out.data(), out.size(), plain.data(), plain.size(), 1));
+    } else if (compression == "lz4") {
+        out.resize(LZ4F_compressFrame(out.data(), out.size(), plain.data(), plain.size(), nullptr));
+    } else if (compression == "bz2") {
+        auto size = static_cast<unsigned>(out.size());
+        BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(plain.data()),
+                                 static_cast<unsigned>(plain.size()), 1, 0, 0);
+        out.resize(size);
+    } else {
+        return plain;
+    }
+    return out;
 }
 
 ByteString ros1Record(const std::vector<std::pair<std::string, ByteString>>& fields,

@@ -98,6 +98,9 @@ ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shap
 std::filesystem::path writeDb3(const std::filesystem::path& file,
                                const std::vector<SentMessage>& messages);
 
+/// Bytes packed by "bz2", "lz4" or "zstd"; by anything else: as they are.
+ByteString packed(const ByteString& plain, const std::string& compression);
+
 /// A record of a ROS 1 bag, and of an MCAP.
 ByteString ros1Record(const std::vector<std::pair<std::string, ByteString>>& fields,
                       const ByteString& data);
