@@ -71,6 +71,10 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     };
     output("segmented rawlog", conversion.rawlog);
     output("scans and labels", conversion.folder);
+    if (!conversion.clouds.empty()) {
+        std::printf("labelled clouds: %s (%s, %zu points)\n", conversion.clouds.c_str(),
+                    counted(report.clouds, "file", "files").c_str(), report.cloud_points);
+    }
     output("pictures", conversion.pictures);
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);

@@ -67,7 +67,8 @@ void declare(Program& app, Flags& flags) {
     };
 
     app.option("-i,--input", conversion.input,
-               "a rawlog, a network capture (.pcap, .pcapng), or a scan folder (KITTI layout)")
+               "a rawlog, a network capture (.pcap, .pcapng), a scan folder (KITTI layout), a "
+               "point cloud (.pcd, .ply, .las, .npy, .bin) or a folder of them")
         .existingPath()
         .group("Input");
     app.option("--sensor-json", conversion.sensor_json,
@@ -75,7 +76,7 @@ void declare(Program& app, Flags& flags) {
         .existingFile()
         .group("Input");
     app.option("--from", conversion.from,
-               "first entry to convert, from 0; of a scan folder: scan; of a capture: turn")
+               "first entry to convert, from 0; of a folder: scan; of a capture: turn")
         .notNegative()
         .group("Input");
     app.option("--to", conversion.to, "last entry to convert").notNegative().group("Input");
@@ -108,6 +109,19 @@ void declare(Program& app, Flags& flags) {
                "scan folder: velodyne/*.bin, labels/*.label; one subfolder per LiDAR if there "
                "are several")
         .check(not_empty, "PATH")
+        .group("Output");
+    const Flag labelled_clouds =
+        app.option("--clouds", conversion.clouds,
+                   "folder of labelled clouds, one file per scan: all fields of the input, label "
+                   "(0, 1 ROU, 2 RoI) and obstacle; one subfolder per LiDAR if there are several")
+            .check(not_empty, "PATH")
+            .group("Output");
+    app.choice<clouds::OutputFormat>(
+           "--cloud-format", conversion.cloud_format,
+           {{"ply", clouds::OutputFormat::Ply}, {"pcd", clouds::OutputFormat::Pcd}},
+           "format of --clouds, binary (default: ply)")
+        .valueName("ply|pcd")
+        .needs(labelled_clouds)
         .group("Output");
     const Flag pictures =
         app.option("--pictures", conversion.pictures,
@@ -196,10 +210,11 @@ void check(const Flags& flags) {
     if (conversion.input.empty()) throw UsageError("--input is required");
     const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
                             !conversion.pictures.empty() || !conversion.octomaps.empty() ||
-                            !conversion.stats.empty();
+                            !conversion.clouds.empty() || !conversion.stats.empty();
     if (!has_output && flags.learned_airframe.empty()) {
         throw UsageError(
-            "an output (-o, --kitti, --pictures, --octomap, --stats or --learn-airframe) is "
+            "an output (-o, --kitti, --clouds, --pictures, --octomap, --stats or --learn-airframe) "
+            "is "
             "required");
     }
     if (has_output && !flags.learned_airframe.empty()) {
@@ -275,6 +290,7 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
         "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"
+        "  rawlog-segment -i clouds_folder --clouds labelled --cloud-format pcd\n"
         "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"
         "\n"
