@@ -78,6 +78,10 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         output("scans and labels", conversion.folder);
         output("pictures", conversion.pictures);
     }
+    if (report.clouds > 0) {
+        std::printf("labelled clouds: %s (%s, %zu points)\n", conversion.clouds.c_str(),
+                    counted(report.clouds, "file", "files").c_str(), report.cloud_points);
+    }
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);
 }

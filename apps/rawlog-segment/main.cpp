@@ -66,10 +66,10 @@ void declare(Program& app, Flags& flags) {
         return name.empty() ? "the name is empty" : "";
     };
 
-    app.option(
-           "-i,--input", conversion.input,
-           "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or "
-           "its folder), or a scan folder (KITTI layout)")
+    app.option("-i,--input", conversion.input,
+               "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 "
+               "or its folder), a scan folder (KITTI layout), a point cloud (.pcd, .ply, .las, "
+               ".npy, .bin) or a folder of them")
         .existingPath()
         .group("Input");
     app.option("--sensor-json", conversion.sensor_json,
@@ -81,7 +81,7 @@ void declare(Program& app, Flags& flags) {
         .once()
         .group("Input");
     app.option("--from", conversion.from,
-               "first entry to convert, from 0; of a scan folder or bag: scan; of a capture: turn")
+               "first entry to convert, from 0; of a folder or bag: scan; of a capture: turn")
         .notNegative()
         .group("Input");
     app.option("--to", conversion.to, "last entry to convert").notNegative().group("Input");
@@ -114,6 +114,19 @@ void declare(Program& app, Flags& flags) {
                "scan folder: velodyne/*.bin, labels/*.label; one subfolder per LiDAR if there "
                "are several")
         .check(not_empty, "PATH")
+        .group("Output");
+    const Flag labelled_clouds =
+        app.option("--clouds", conversion.clouds,
+                   "folder of labelled clouds, one file per scan: all fields of the input, label "
+                   "(0, 1 ROU, 2 RoI) and obstacle; one subfolder per LiDAR if there are several")
+            .check(not_empty, "PATH")
+            .group("Output");
+    app.choice<clouds::OutputFormat>(
+           "--cloud-format", conversion.cloud_format,
+           {{"ply", clouds::OutputFormat::Ply}, {"pcd", clouds::OutputFormat::Pcd}},
+           "format of --clouds, binary (default: ply)")
+        .valueName("ply|pcd")
+        .needs(labelled_clouds)
         .group("Output");
     const Flag pictures =
         app.option("--pictures", conversion.pictures,
@@ -202,10 +215,11 @@ void check(const Flags& flags) {
     if (conversion.input.empty()) throw UsageError("--input is required");
     const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
                             !conversion.pictures.empty() || !conversion.octomaps.empty() ||
-                            !conversion.stats.empty();
+                            !conversion.clouds.empty() || !conversion.stats.empty();
     if (!has_output && flags.learned_airframe.empty()) {
         throw UsageError(
-            "an output (-o, --kitti, --pictures, --octomap, --stats or --learn-airframe) is "
+            "an output (-o, --kitti, --clouds, --pictures, --octomap, --stats or --learn-airframe) "
+            "is "
             "required");
     }
     if (has_output && !flags.learned_airframe.empty()) {
@@ -284,6 +298,7 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
         "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"
+        "  rawlog-segment -i clouds_folder --clouds labelled --cloud-format pcd\n"
         "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
         "  rawlog-segment -i flight.bag --topic /velodyne_points -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"

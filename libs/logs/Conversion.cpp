@@ -38,8 +38,8 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
         throw std::runtime_error(conversion.input.string() + ": no such file or folder");
     }
     std::vector<fs::path> outputs = conversion.octomaps;
-    outputs.insert(outputs.end(),
-                   {conversion.rawlog, conversion.folder, conversion.pictures, conversion.stats});
+    outputs.insert(outputs.end(), {conversion.rawlog, conversion.folder, conversion.clouds,
+                                   conversion.pictures, conversion.stats});
     base::checkApart(outputs, {conversion.input, conversion.poses, conversion.sensor_json});
     useExternals(conversion, listener);
     return Converter(conversion, listener).run();

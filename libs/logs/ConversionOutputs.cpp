@@ -25,6 +25,9 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
     if (!conversion.folder.empty()) {
         folders_.emplace(conversion.folder, kScanFolders, overwrite);
     }
+    if (!conversion.clouds.empty()) {
+        clouds_.emplace(conversion.clouds, conversion.cloud_format, overwrite);
+    }
     if (!conversion.pictures.empty()) {
         pictures_.emplace(conversion.pictures, pictures::kStagePictures, overwrite);
     }
@@ -37,8 +40,10 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
 }
 
 std::string ConversionOutputs::writeScan(
-    const observations::ObservationSegmenter::Output& segmented, const std::string& sensor_label,
-    const std::string& name, const observations::Settings& settings) {
+    const observations::ObservationSegmenter::Output& segmented,
+    const mrpt::obs::CObservation& observation, const std::string& name,
+    const observations::Settings& settings) {
+    const std::string& sensor_label = observation.sensorLabel;
     const std::size_t number = scans_[sensor_label]++;
     const std::string own_name = name.empty() ? scanName(number) : name;
     if (folders_) {
@@ -57,6 +62,7 @@ std::string ConversionOutputs::writeScan(
                              *segmented.sensor, time_s, segmented.pose.sensor_pose,
                              !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);
     }
+    if (clouds_) clouds_->write(own_name, segmented, observation);
     if (pictures_) {
         const fs::path folder = pictures_->folderOf(sensor_label) / own_name;
         fs::create_directory(folder);
@@ -83,6 +89,7 @@ void ConversionOutputs::commit(const ConversionReport& report) {
     if (stats_) stats_->commit();
     if (map_) map_->commit();
     if (pictures_) pictures_->commit();
+    if (clouds_) clouds_->commit();
     if (folders_) folders_->commit();
     if (rawlog_) rawlog_->commit();
 }
@@ -95,6 +102,7 @@ std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
     };
     keep(rawlog_);
     keep(folders_);
+    keep(clouds_);
     keep(pictures_);
     if (map_) names += map_->keepPartial();
     keep(stats_);

@@ -8,6 +8,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "CloudOutput.h"
 
 namespace hagen::logs {
 
@@ -25,11 +28,14 @@ class ConversionOutputs {
     }
     void writeMember(const Bytes& packed) { rawlog_->writeMember(packed); }
 
-    /// Adds a segmented scan to the sensor's scan folder and pictures. An empty name stands for the
-    /// next number. Returns the name used.
+    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures. An empty name stands
+    /// for the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
-                          const std::string& sensor_label, const std::string& name,
+                          const mrpt::obs::CObservation& observation, const std::string& name,
                           const observations::Settings& settings);
+
+    /// The labelled clouds written so far; null if there are none to write.
+    const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
 
     /// Adds a scan to the map, if there is one.
     bool wantsMap() const { return map_.has_value(); }
@@ -45,6 +51,7 @@ class ConversionOutputs {
     const Conversion& conversion_;
     std::optional<RawlogWriter> rawlog_;
     std::optional<SensorFolders> folders_, pictures_;
+    std::optional<CloudOutput> clouds_;
     std::optional<MapOutput> map_;
     std::optional<base::OutputPath> stats_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label

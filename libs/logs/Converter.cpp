@@ -239,8 +239,8 @@ void Converter::account(ScanInConversion& scan) {
         ScanReport report = reportOf(scan.segmented);
         report.entry = scan.recorded.entry;
         report.sensor_label = scan.recorded.observation->sensorLabel;
-        report.name =
-            outputs_.writeScan(scan.segmented, report.sensor_label, scan.recorded.name, settings_);
+        report.name = outputs_.writeScan(scan.segmented, *scan.recorded.observation,
+                                         scan.recorded.name, settings_);
         count(scan.segmented, report);
     }
     scan.segmenter.reset();
@@ -352,6 +352,13 @@ void Converter::finishSensorCheck() {
 
 void Converter::remarkOnRecording() {
     for (const std::string& remark : source_->remarks()) listener_.remark("the recording", remark);
+    if (const CloudOutput* const clouds = outputs_.clouds()) {
+        report_.clouds = clouds->files();
+        report_.cloud_points = clouds->points();
+        for (const std::string& remark : clouds->remarks()) {
+            listener_.remark("the labelled clouds", remark);
+        }
+    }
 }
 
 /// Keeps what was converted so far, and adds its location to the error.

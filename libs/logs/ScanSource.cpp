@@ -2,10 +2,12 @@
 
 #include <hagen/bags/BagFile.h>
 #include <hagen/captures/CaptureFile.h>
+#include <hagen/clouds/CloudFile.h>
 #include <algorithm>
 
 #include "BagSource.h"
 #include "CaptureSource.h"
+#include "CloudFileSource.h"
 #include "RawlogSource.h"
 #include "ScanFolderSource.h"
 
@@ -105,7 +107,18 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
             "is no sensor that " + options.sensor_json.string() + " could describe");
     }
     if (is_folder) {
-        return std::make_unique<ScanFolderSource>(recording, options);
+        if (std::filesystem::is_directory(recording / "velodyne")) {
+            return std::make_unique<ScanFolderSource>(recording, options);
+        }
+        if (CloudFileSource::hasClouds(recording)) {
+            return std::make_unique<CloudFileSource>(recording, options);
+        }
+        throw std::runtime_error(recording.string() +
+                                 ": not a scan folder (no subfolder 'velodyne'), and no folder of "
+                                 "point clouds (no .pcd, .ply, .las, .npy or .bin)");
+    }
+    if (clouds::cloudFormatOf(recording) || clouds::hasCloudName(recording)) {
+        return std::make_unique<CloudFileSource>(recording, options);
     }
     return std::make_unique<RawlogSource>(recording, options);
 }

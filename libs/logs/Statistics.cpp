@@ -92,6 +92,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
     Json json{{"hagen", HAGEN_VERSION}, {"input", conversion.input.string()}};
     for (const auto& [what, path] : {std::pair{"rawlog", conversion.rawlog},
                                      {"folder", conversion.folder},
+                                     {"clouds", conversion.clouds},
                                      {"pictures", conversion.pictures}}) {
         if (!path.empty()) json["outputs"][what] = path.string();
     }
@@ -102,6 +103,9 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
     json["recovered_sensors"] = recoveredOf(report);
     json["poses"] = {{"source", report.poses}, {"scans_with_pose", report.scans_with_pose}};
     if (!conversion.octomaps.empty()) json["scans_in_map"] = report.scans_in_map;
+    if (!conversion.clouds.empty()) {
+        json["clouds"] = {{"files", report.clouds}, {"points", report.cloud_points}};
+    }
     json["entries"] = report.entries;
     json["unreadable_scans"] = report.unreadable_scans;
     json["results_replaced"] = report.results_replaced;

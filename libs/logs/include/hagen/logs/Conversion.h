@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/clouds/WriteCloud.h>
 #include <hagen/logs/ScanSource.h>
 #include <hagen/mapping/ScanMap.h>
 #include <hagen/observations/ObservationScan.h>
@@ -16,12 +17,14 @@ namespace hagen::logs {
 
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
-    std::filesystem::path input;        ///< a rawlog, a capture, a bag, or a scan folder
+    std::filesystem::path input;        ///< as for openRecording()
     std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
 
-    std::filesystem::path rawlog;    ///< segmented rawlog
-    std::filesystem::path folder;    ///< scan folder; with several LiDARs, one subfolder per LiDAR
+    std::filesystem::path rawlog;  ///< segmented rawlog
+    std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
+    std::filesystem::path clouds;  ///< labelled clouds with all fields, a file per scan
+    clouds::OutputFormat cloud_format = clouds::OutputFormat::Ply;
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
     std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
     mapping::ScanMapOptions octomap;              ///< resolution and contents of the map
@@ -43,8 +46,8 @@ struct Conversion {
 /// Results of one scan.
 struct ScanReport {
     std::size_t entry;         ///< index of its entry in the input; in a scan folder, of the scan
-    std::string sensor_label;  ///< "velodyne" for a scan folder
-    std::string name;          ///< file name in a scan folder
+    std::string sensor_label;  ///< "velodyne" for a scan folder, "lidar" for cloud files
+    std::string name;          ///< of its files, without extension
     double time_s;
     std::size_t returns, roi, rou, unclassified;
     std::size_t returns_masked;  ///< of the unclassified: those of the airframe of the settings
@@ -73,8 +76,9 @@ struct ConversionReport {
     std::map<std::string, Recovered> recovered;  ///< by sensor label
     std::string poses;  ///< source of the poses; empty: not needed or not available
     std::size_t scans_with_pose = 0;
-    std::size_t scans_in_map = 0;         ///< scans in the OctoMap: those with a pose
-    std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
+    std::size_t clouds = 0, cloud_points = 0;  ///< files and points of the labelled clouds
+    std::size_t scans_in_map = 0;              ///< scans in the OctoMap: those with a pose
+    std::size_t scans_with_attitude = 0;       ///< scans with known roll and pitch
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
     observations::Settings
@@ -105,7 +109,7 @@ struct ConversionListener {
 /// In a sensory frame these join the frame. They replace those that an earlier run made of the same
 /// scan. Each scan of a scan folder becomes one observation. A
 /// written scan folder keeps the names and the point order of an input folder; scans of a rawlog
-/// are numbered.
+/// are numbered. So are labelled clouds.
 ///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.

@@ -27,7 +27,7 @@ struct RecordedScan {
     mrpt::obs::CObservation::ConstPtr observation;  ///< with sensor label, time and mounting pose
     observations::ScanPose pose;
     std::size_t entry = 0;  ///< index of its entry in the recording
-    std::string name;       ///< file name in a scan folder; empty for others
+    std::string name;       ///< of its file, without extension; empty for rawlogs and captures
     /// The recovered beams of a cloud whose sensor nobody named; null otherwise (useSettings()).
     observations::SharedBeams beams;
 };
@@ -48,8 +48,8 @@ struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
-    /// Class of the clouds in RecordedEntry::object for scans of a scan folder, and for those of a
-    /// capture or bag that have no packets of a Velodyne; none: no objects.
+    /// Class of the clouds in RecordedEntry::object for scans of a scan folder, for clouds of files,
+    /// and for those of a capture or bag that have no packets of a Velodyne; none: no objects.
     std::optional<observations::CloudClass> folder_objects;
     std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics to read of a bag; empty: all
@@ -152,10 +152,11 @@ class ScanSource {
     std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
 };
 
-/// Opens a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder) or
-/// a scan folder; files are told apart by their content. Throws std::runtime_error naming it if it
-/// does not exist or cannot be opened, if there is a sensor_json but no capture or bag, or if there
-/// are topics but no bag.
+/// Opens a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
+/// scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
+/// are told apart by their content. Throws std::runtime_error naming it if it does not exist or
+/// cannot be opened, if there is a sensor_json but no capture or bag, or if there are topics but no
+/// bag.
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 

@@ -1,0 +1,136 @@
+#include <hagen/clouds/CloudFile.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <utility>
+
+#include "Readers.h"
+
+namespace hagen::clouds {
+namespace {
+
+constexpr std::size_t kStart = 4096;  // bytes that tell the format
+
+bool startsWith(const Bytes& bytes, std::string_view text) {
+    return bytes.size() >= text.size() &&
+           std::equal(text.begin(), text.end(), bytes.begin(), [](char c, std::uint8_t byte) {
+               return static_cast<std::uint8_t>(c) == byte;
+           });
+}
+
+/// The first line that is no comment begins like those of a PCD header.
+bool isPcd(const Bytes& bytes) {
+    TextLines lines(bytes);
+    while (const auto line = lines.next()) {
+        const auto words = wordsOf(*line);
+        if (words.empty() || words[0][0] == '#') {
+            if (line->substr(0, 6) == "# .PCD") return true;
+            continue;
+        }
+        return words[0] == "VERSION" || words[0] == "FIELDS" || words[0] == "COLUMNS";
+    }
+    return false;
+}
+
+/// Whether these are points of a LiDAR: float32 x, y, z, intensity.
+bool arePoints(const Bytes& bytes) {
+    constexpr float kFarthest_m = 1000.0f, kMostIntensity = 65535.0f;
+    const std::size_t points = bytes.size() / 16;
+    if (points == 0 || startsWith(bytes, "\x1f\x8b") || startsWith(bytes, "\x28\xb5\x2f\xfd")) {
+        return false;
+    }
+    bool is_all_zero = true;
+    for (std::size_t i = 0; i < points; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto number = numberAt<float>(bytes, 16 * i + 4 * k);
+            const float most = k < 3 ? kFarthest_m : kMostIntensity;
+            if (std::isfinite(number) && std::abs(number) > most) return false;
+            if (std::fpclassify(number) == FP_SUBNORMAL) return false;  // of text and integers
+            is_all_zero = is_all_zero && number == 0.0f;
+        }
+    }
+    return !is_all_zero;
+}
+
+std::optional<CloudFormat> formatOf(const Bytes& start, std::size_t size) {
+    if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return CloudFormat::Ply;
+    if (startsWith(start, "LASF")) return CloudFormat::Las;
+    if (startsWith(start, "\x93NUMPY")) return CloudFormat::Npy;
+    if (isPcd(start)) return CloudFormat::Pcd;
+    if (size % 16 == 0 && arePoints(start)) return CloudFormat::Bin;
+    return std::nullopt;
+}
+
+std::string extensionOf(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return extension;
+}
+
+CloudFile read(const std::filesystem::path& file) {
+    Bytes bytes = readBytes(file);
+    const Bytes start(bytes.begin(),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
+    const auto format = formatOf(start, bytes.size());
+    if (!format) {
+        // An empty .bin is a scan without returns, and one that was cut still a .bin.
+        const bool is_cut = bytes.size() % 16 != 0;
+        if (extensionOf(file) == ".bin" && (bytes.empty() || is_cut)) {
+            return readBin(file, std::move(bytes));
+        }
+        if (bytes.empty()) throw BrokenCloud(file.string() + ": is empty");
+        throw BrokenCloud(file.string() +
+                          ": byte 0: is no PCD, PLY, LAS or NPY, and its first points are none "
+                          "that a LiDAR sees (.bin)");
+    }
+    switch (*format) {
+        case CloudFormat::Pcd:
+            return readPcd(file, std::move(bytes));
+        case CloudFormat::Ply:
+            return readPly(file, std::move(bytes));
+        case CloudFormat::Las:
+            return readLas(file, bytes);
+        case CloudFormat::Npy:
+            return readNpy(file, std::move(bytes));
+        case CloudFormat::Bin:
+            break;
+    }
+    return readBin(file, std::move(bytes));
+}
+
+}  // namespace
+
+std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+    const auto size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
+    std::ifstream in(file, std::ios::binary);
+    Bytes start(std::min(size, kStart));
+    in.read(reinterpret_cast<char*>(start.data()), static_cast<std::streamsize>(start.size()));
+    if (error || !in) return std::nullopt;
+    return formatOf(start, size);
+}
+
+bool hasCloudName(const std::filesystem::path& file) {
+    const std::string extension = extensionOf(file);
+    for (const char* const known : {".pcd", ".ply", ".las", ".laz", ".npy", ".bin"}) {
+        if (extension == known) return true;
+    }
+    return false;
+}
+
+CloudFile readCloud(const std::filesystem::path& file) {
+    CloudFile cloud = read(file);
+    try {
+        check(cloud.table);
+    } catch (const std::runtime_error& e) {
+        throw BrokenCloud(file.string() + ": " + e.what());
+    }
+    cloud.table = inNativeOrder(std::move(cloud.table));
+    return cloud;
+}
+
+}  // namespace hagen::clouds

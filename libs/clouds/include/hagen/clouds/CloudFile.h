@@ -1,0 +1,58 @@
+#pragma once
+#include <hagen/observations/PointTable.h>
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hagen::clouds {
+
+/// Formats of files with one cloud each.
+enum class CloudFormat {
+    Pcd,  ///< Point Cloud Library, 0.6 and 0.7: ascii, binary, binary_compressed
+    Ply,  ///< Stanford polygon file: ascii, binary little and big endian; its vertices
+    Las,  ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10, not compressed
+    Npy,  ///< NumPy array: N x 3 or more floats, or a structured one with fields
+    Bin   ///< float32 x, y, z, intensity, as of KITTI; it has no header
+};
+
+/// A cloud file cannot be read; the message names file and place.
+struct BrokenCloud : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A cloud as a file holds it.
+struct CloudFile {
+    observations::PointTable table;  ///< checked, in the byte order of this machine
+    /// The sensor's position and orientation (w, x, y, z) of a PCD, if it is another than the
+    /// origin.
+    std::string viewpoint;
+    /// What is in the file but not in the table, for the user.
+    std::vector<std::string> remarks;
+};
+
+/// The format of a file by its content; none if it is none of these. A .bin has no magic: its size
+/// is a multiple of 16, no other format begins like it, and the first 4096 bytes are points that a
+/// LiDAR can see: not farther than 1 km, or not finite, and not all zero. None if it cannot be
+/// read.
+std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
+
+/// Whether a name ends like those of cloud files: .pcd, .ply, .las, .laz, .npy, .bin.
+bool hasCloudName(const std::filesystem::path& file);
+
+/// Reads a cloud file, told by its content. Nothing larger than the file, as unpacked by a factor
+/// of 256 at most, is ever allocated. Throws BrokenCloud.
+///
+/// - PCD: fields named "_" are padding and left out.
+/// - PLY: elements other than `vertex`, and lists, are left out and named in the remarks.
+/// - LAS: x, y, z are float64, as scaled and moved by the header; with the fields intensity
+///   (uint16), return_number, number_of_returns, classification (uint8), scan_angle [degrees]
+///   (float32), user_data (uint8), point_source_id (uint16), and as the point format has them
+///   gps_time (float64), red, green, blue, nir (uint16). Extra bytes are named in the remarks.
+/// - NPY: columns of a plain array are x, y, z, intensity, and field_4 and so on. Fields of a
+///   structured array keep their names; those that are not plain numbers are left out and named.
+CloudFile readCloud(const std::filesystem::path& file);
+
+}  // namespace hagen::clouds

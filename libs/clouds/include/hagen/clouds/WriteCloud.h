@@ -1,0 +1,31 @@
+#pragma once
+#include <hagen/observations/PointTable.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hagen::clouds {
+
+/// Binary formats that clouds are written in.
+enum class OutputFormat { Ply, Pcd };
+
+/// ".ply", ".pcd".
+const char* extensionOf(OutputFormat format);
+
+/// Writes a checked table in the byte order of this machine: binary little-endian PLY 1.0, or
+/// binary PCD 0.7 with the points in one row. Coordinates come first; they are written as float32,
+/// so that every reader takes them, and all other fields in their order and type.
+///
+/// PLY knows no 64-bit integers and no arrays: these become float64 and several fields,
+/// `name_0`, `name_1`. Names lose blanks, which the formats' headers cannot hold.
+///
+/// Throws std::runtime_error naming the file if it cannot be written, and if there is no x, y or z.
+void writeCloud(const std::filesystem::path& file, OutputFormat format,
+                const observations::PointTable& table);
+
+/// What of a table changes when it is written, for the user: rounded numbers. Empty: nothing.
+std::vector<std::string> changesWhenWritten(OutputFormat format,
+                                            const observations::PointTable& table);
+
+}  // namespace hagen::clouds

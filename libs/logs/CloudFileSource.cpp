@@ -1,0 +1,197 @@
+#include "CloudFileSource.h"
+
+#include <hagen/clouds/CloudFile.h>
+#include <hagen/logs/PoseFile.h>
+#include <hagen/observations/TableCloud.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "CloudTimes.h"
+
+namespace hagen::logs {
+namespace {
+
+namespace fs = std::filesystem;
+using observations::PointTable;
+
+std::string counted(std::size_t number, const std::string& what) {
+    return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+/// The fields that no class of clouds in a rawlog holds; empty if there are none.
+std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass cloud_class) {
+    std::vector<const observations::PointField*> kept;
+    for (const char* const name : {"x", "y", "z"}) kept.push_back(findField(table, {name}));
+    if (cloud_class == observations::CloudClass::WithIntensity) {
+        kept.push_back(findField(table, {"intensity", "i", "reflectivity", "remission"}));
+    }
+    std::string names;
+    for (const observations::PointField& field : table.fields) {
+        if (std::find(kept.begin(), kept.end(), &field) != kept.end()) continue;
+        names += (names.empty() ? "" : ", ") + field.name;
+    }
+    return names;
+}
+
+/// By number if all names have one, otherwise by name.
+void sortByName(std::vector<fs::path>& files) {
+    const bool are_numbered = std::all_of(files.begin(), files.end(), [](const fs::path& file) {
+        return numberOfName(file.stem().string()) >= 0;
+    });
+    std::sort(files.begin(), files.end());
+    if (!are_numbered) return;
+    std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+        return numberOfName(a.stem().string()) < numberOfName(b.stem().string());
+    });
+}
+
+}  // namespace
+
+CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOptions& options)
+    : ScanSource(options) {
+    if (fs::is_directory(file_or_folder)) {
+        for (const auto& entry : fs::directory_iterator(file_or_folder)) {
+            if (!entry.is_regular_file()) continue;
+            if (clouds::hasCloudName(entry.path())) {
+                files_.push_back(entry.path());
+            } else {
+                ++other_files_;
+            }
+        }
+        if (files_.empty()) {
+            throw std::runtime_error(file_or_folder.string() + ": contains no point cloud files");
+        }
+        sortByName(files_);
+    } else {
+        files_ = {file_or_folder};
+    }
+    std::set<std::string> stems;
+    for (const fs::path& file : files_) stems.insert(file.stem().string());
+    for (const fs::path& file : files_) {
+        const bool are_unique = stems.size() == files_.size();
+        names_.push_back((are_unique ? file.stem() : file.filename()).string());
+    }
+    std::vector<std::string> numbered;
+    for (const fs::path& file : files_) numbered.push_back(file.stem().string());
+    CloudTimes times = timesOfNames(numbered);
+    times_s_ = std::move(times.times_s);
+    time_remark_ = std::move(times.how);
+}
+
+bool CloudFileSource::hasClouds(const fs::path& folder) {
+    const fs::directory_iterator entries(folder);
+    return std::any_of(begin(entries), end(entries), [](const auto& entry) {
+        return entry.is_regular_file() && clouds::hasCloudName(entry.path());
+    });
+}
+
+mrpt::obs::CObservationPointCloud::Ptr CloudFileSource::read(std::size_t i) {
+    try {
+        clouds::CloudFile file = clouds::readCloud(files_[i]);
+        auto table = std::make_shared<const PointTable>(std::move(file.table));
+        auto observation = observations::observationOf(std::move(table), kCloudLabel,
+                                                       mrpt::Clock::fromDouble(times_s_[i]));
+        const observations::TableCloud& cloud = *observations::tableCloudOf(*observation);
+        std::vector<std::string> remarks = file.remarks;
+        remarks.insert(remarks.end(), cloud.remarks().begin(), cloud.remarks().end());
+        if (!file.viewpoint.empty()) {
+            remarks.push_back(
+                "the file has a VIEWPOINT, which is not used: points are taken to be in the "
+                "sensor's frame");
+        }
+        if (options_.folder_objects) {
+            const std::string lost = fieldsNotInRawlog(cloud.table(), *options_.folder_objects);
+            if (!lost.empty()) {
+                remarks.push_back("fields that the output rawlog does not hold (--clouds does): " +
+                                  lost);
+            }
+        }
+        for (const std::string& remark : remarks) {
+            if (with_remark_[remark]++ == 0) remarks_.push_back(remark);
+        }
+        ++clouds_;
+        points_not_finite_ += cloud.pointsNotFinite();
+        clouds_with_them_ += cloud.pointsNotFinite() > 0;
+        return observation;
+    } catch (const clouds::BrokenCloud& e) {
+        throw BrokenScan(e.what());
+    } catch (const std::runtime_error& e) {
+        throw BrokenScan(files_[i].string() + ": " + e.what());
+    }
+}
+
+std::optional<RecordedEntry> CloudFileSource::nextEntry() {
+    while (next_ < files_.size() && next_ <= options_.last_entry) {
+        const std::size_t i = next_++;
+        checkInterruption();
+        if (skips(i)) continue;
+        const auto observation = read(i);
+        RecordedEntry entry;
+        entry.number = i;
+        entry.fraction_read = static_cast<double>(i + 1) / static_cast<double>(files_.size());
+        if (options_.folder_objects) {
+            Scan scan;
+            observations::readCloudPoints(*observation, scan);
+            entry.object = observations::observationOf(scan, kCloudLabel, observation->timestamp,
+                                                       *options_.folder_objects);
+        }
+        addIfScan(observation, names_[i], entry);
+        for (RecordedScan& scan : entry.scans) scan.pose.is_of_sensor = true;
+        return entry;
+    }
+    return std::nullopt;
+}
+
+std::map<std::string, std::vector<mrpt::Clock::time_point>> CloudFileSource::scanTimes() {
+    std::vector<mrpt::Clock::time_point> times;
+    for (const double time_s : times_s_) times.push_back(mrpt::Clock::fromDouble(time_s));
+    return {{kCloudLabel, times}};
+}
+
+LogPoses CloudFileSource::readPoses(const fs::path& file) {
+    RawlogSurvey survey;
+    for (const double time_s : times_s_) {
+        survey.scans[kCloudLabel].push_back({mrpt::Clock::fromDouble(time_s), {}});
+    }
+    return posesOfRawlog(survey, file);
+}
+
+bool CloudFileSource::showClouds(observations::CloudSensors& sensors) {
+    if (next_shown_ >= files_.size()) return false;
+    const std::size_t i = next_shown_++;
+    try {
+        clouds::CloudFile file = clouds::readCloud(files_[i]);
+        sensors.see(
+            *observations::observationOf(std::make_shared<const PointTable>(std::move(file.table)),
+                                         kCloudLabel, mrpt::Clock::fromDouble(times_s_[i])));
+    } catch (const std::runtime_error&) {
+        return true;  // nextEntry() reports it
+    }
+    return true;
+}
+
+std::vector<std::string> CloudFileSource::remarks() const {
+    std::vector<std::string> remarks{time_remark_};
+    for (const std::string& remark : remarks_) {
+        const std::size_t with_it = with_remark_.at(remark);
+        remarks.push_back(with_it == clouds_ ? remark
+                                             : remark + " (" + std::to_string(with_it) + " of " +
+                                                   counted(clouds_, "cloud") + ")");
+    }
+    if (points_not_finite_ > 0) {
+        remarks.push_back(counted(points_not_finite_, "point") +
+                          " with a coordinate that is not finite, in " +
+                          counted(clouds_with_them_, "cloud") +
+                          ": left out of the scans (--clouds writes them, with the label 0)");
+    }
+    if (other_files_ > 0) {
+        remarks.push_back(counted(other_files_, "file") +
+                          " of the folder with another ending than .pcd, .ply, .las, .npy and "
+                          ".bin: not read");
+    }
+    return remarks;
+}
+
+}  // namespace hagen::logs

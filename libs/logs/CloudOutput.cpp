@@ -1,0 +1,96 @@
+#include "CloudOutput.h"
+
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/TableCloud.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace hagen::logs {
+namespace {
+
+namespace fs = std::filesystem;
+using observations::NumberType;
+using observations::PointTable;
+
+constexpr const char *kLabel = "label", *kObstacle = "obstacle";
+
+/// The fields without labels, and the point of each return.
+struct Unlabelled {
+    PointTable table;
+    std::vector<std::uint32_t> point_of_return;
+};
+
+Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmented,
+                      const mrpt::obs::CObservation& observation) {
+    Unlabelled points;
+    if (const auto* const cloud = observations::tableCloudOf(observation)) {
+        points.table = inNativeOrder(cloud->table());
+        points.point_of_return = cloud->pointOfReturn();
+        return points;
+    }
+    const Scan& scan = *segmented.scan;
+    points.table = observations::tableOf(scan);
+    points.point_of_return.resize(scan.size());
+    std::iota(points.point_of_return.begin(), points.point_of_return.end(), 0u);
+    if (!observations::isCloud(observation) && segmented.sensor->has_rings) {
+        addColumn("ring", NumberType::UInt16, {scan.row.begin(), scan.row.end()}, points.table);
+    }
+    return points;
+}
+
+}  // namespace
+
+const base::OutputKind kClouds{"a folder of labelled clouds", [](const fs::path& within) {
+                                   return within.extension() == ".ply" ||
+                                          within.extension() == ".pcd";
+                               }};
+
+PointTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
+                         const mrpt::obs::CObservation& observation) {
+    Unlabelled points = unlabelled(segmented, observation);
+    for (observations::PointField& field : points.table.fields) {
+        if (field.name == kLabel || field.name == kObstacle) field.name = "input_" + field.name;
+    }
+    const LabelledReturns& returns = segmented.result->returns;
+    std::vector<double> labels(points.table.points, 0), obstacles(points.table.points, 0);
+    for (std::size_t k = 0; k < points.point_of_return.size(); ++k) {
+        const std::uint32_t i = points.point_of_return[k];
+        labels[i] = static_cast<double>(returns.label[k]);
+        obstacles[i] = std::max(returns.component[k], 0);
+    }
+    addColumn(kLabel, NumberType::UInt8, labels, points.table);
+    addColumn(kObstacle, NumberType::UInt32, obstacles, points.table);
+    return std::move(points.table);
+}
+
+CloudOutput::CloudOutput(const fs::path& folder, clouds::OutputFormat format, bool overwrite)
+    : format_(format), folders_(folder, kClouds, overwrite) {}
+
+void CloudOutput::write(const std::string& name,
+                        const observations::ObservationSegmenter::Output& segmented,
+                        const mrpt::obs::CObservation& observation) {
+    const PointTable table = labelledTable(segmented, observation);
+    for (const std::string& change : changesWhenWritten(format_, table)) ++changes_[change];
+    for (const char* const name_of_ours : {"input_label", "input_obstacle"}) {
+        if (findField(table, {name_of_ours}) == nullptr) continue;
+        ++changes_[std::string("a field of the input has the name of a field of labels: it is '") +
+                   name_of_ours + "'"];
+    }
+    writeCloud(folders_.folderOf(observation.sensorLabel) / (name + extensionOf(format_)), format_,
+               table);
+    ++files_;
+    points_ += table.points;
+}
+
+std::vector<std::string> CloudOutput::remarks() const {
+    std::vector<std::string> remarks;
+    for (const auto& [change, files] : changes_) {
+        remarks.push_back(change + (files == files_ ? ""
+                                                    : " (" + std::to_string(files) + " of " +
+                                                          std::to_string(files_) + " clouds)"));
+    }
+    return remarks;
+}
+
+}  // namespace hagen::logs

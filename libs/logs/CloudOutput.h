@@ -1,0 +1,52 @@
+#pragma once
+#include <hagen/clouds/WriteCloud.h>
+#include <hagen/logs/SensorFolders.h>
+#include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/observations/PointTable.h>
+#include <mrpt/obs/CObservation.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hagen::logs {
+
+/// A folder of labelled clouds, or a folder of such folders, as an output.
+extern const base::OutputKind kClouds;
+
+/// The points of a segmented scan with their labels: all fields of the observation's cloud, or x,
+/// y, z, intensity, `time` [s] if it is known, and of a sensor's own packets `ring`, counted from
+/// the lowest beam; then `label` (uint8: 0 unclassified, 1 ROU, 2 RoI) and `obstacle` (uint32: the
+/// RoI component, 0 none). All points of the input are there, in its order; those that were no
+/// returns have the label 0. Fields of the input with one of these names become `input_label`,
+/// `input_obstacle`.
+observations::PointTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
+                                       const mrpt::obs::CObservation& observation);
+
+/// Writes labelled clouds, one file per scan and one folder per LiDAR if there are several.
+class CloudOutput {
+ public:
+    /// Throws std::runtime_error naming the folder; see OutputPath.
+    CloudOutput(const std::filesystem::path& folder, clouds::OutputFormat format, bool overwrite);
+
+    /// Writes a scan as NAME.ply or NAME.pcd. Throws std::runtime_error naming the file.
+    void write(const std::string& name, const observations::ObservationSegmenter::Output& segmented,
+               const mrpt::obs::CObservation& observation);
+
+    std::size_t files() const { return files_; }
+    std::size_t points() const { return points_; }
+    /// What was changed in the files, for the user.
+    std::vector<std::string> remarks() const;
+
+    void commit() { folders_.commit(); }
+    std::filesystem::path keepPartial() { return folders_.keepPartial(); }
+
+ private:
+    clouds::OutputFormat format_;
+    SensorFolders folders_;
+    std::size_t files_ = 0, points_ = 0;
+    std::map<std::string, std::size_t> changes_;  ///< files with them
+};
+
+}  // namespace hagen::logs

@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace hagen::logs {
+
+/// When clouds were taken, as told by the names of their files.
+struct CloudTimes {
+    std::vector<double> times_s;  ///< one per name
+    std::string how;              ///< "from the names of the files", for the user
+};
+
+/// Names are file names without extension. Their number may follow letters, as in "cloud_12". It is
+/// a time, of all files or of none, if the times ascend:
+///
+/// - "1317617735.25", "12.5": seconds.
+/// - "1317617735_250000000": seconds, and nanoseconds as nine digits.
+/// - "1317617735": seconds, 13 digits: milliseconds, 16: microseconds, 19: nanoseconds.
+///
+/// Otherwise clouds are 0.1 s apart: by number if the names are whole numbers that ascend, such as
+/// "000042", else one after the other.
+CloudTimes timesOfNames(const std::vector<std::string>& names);
+
+/// The number at the end of a name, for sorting: "cloud_12" is 12; -1 if there is none.
+double numberOfName(const std::string& name);
+
+}  // namespace hagen::logs

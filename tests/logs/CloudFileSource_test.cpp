@@ -1,0 +1,205 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/logs/PoseFile.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanSource.h>
+#include <hagen/observations/TableCloud.h>
+
+#include <limits>
+
+#include "support/CloudFiles.h"
+#include "support/Program.h"
+
+namespace hagen::logs {
+namespace {
+
+namespace fs = std::filesystem;
+using test::filePoints;
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class CloudFileSourceTest : public testing::Test {
+ protected:
+    fs::path write(const std::string& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        test::writeFile(folder_ / name, text);
+        return folder_ / name;
+    }
+    /// A folder of clouds with these names.
+    fs::path folderOf(const std::vector<std::string>& names) const {
+        for (const std::string& name : names) write("clouds/" + name, test::bin(filePoints()));
+        return folder_ / "clouds";
+    }
+    /// Names of the scans, and their times.
+    static std::pair<std::vector<std::string>, std::vector<double>> scansOf(const fs::path& input) {
+        std::pair<std::vector<std::string>, std::vector<double>> scans;
+        const auto source = openRecording(input);
+        while (const auto scan = source->nextScan()) {
+            scans.first.push_back(scan->name);
+            scans.second.push_back(mrpt::Clock::toDouble(scan->observation->timestamp));
+        }
+        return scans;
+    }
+    std::vector<std::string> remarksOn(const fs::path& input,
+                                       const SourceOptions& options = {}) const {
+        const auto source = openRecording(input, options);
+        while (source->nextEntry()) {
+        }
+        return source->remarks();
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(CloudFileSourceTest, AFileOfEachFormatIsAnEntryWithItsPoints) {
+    for (const auto& [name, text] : test::cloudFiles()) {
+        SCOPED_TRACE(name);
+        const auto source = openRecording(write(name, text));
+        const auto entry = source->nextEntry();
+        ASSERT_TRUE(entry);
+        ASSERT_EQ(entry->scans.size(), 1u);
+        EXPECT_EQ(entry->object, nullptr);
+        EXPECT_EQ(entry->scans[0].name, name.substr(0, name.find('.')));
+        EXPECT_EQ(entry->scans[0].observation->sensorLabel, "lidar");
+        const auto* const cloud = observations::tableCloudOf(*entry->scans[0].observation);
+        ASSERT_NE(cloud, nullptr);
+        EXPECT_FLOAT_EQ(cloud->getPointsBufferRef_y()[2], -4.5f);
+        EXPECT_EQ(entry->fraction_read, 1.0);
+        EXPECT_FALSE(source->nextEntry());
+    }
+}
+
+TEST_F(CloudFileSourceTest, AFolderIsReadInTheOrderOfItsNumbers) {
+    const auto [names, times] = scansOf(folderOf({"a_10.bin", "a_9.bin", "a_11.bin"}));
+    EXPECT_THAT(names, ElementsAre("a_9", "a_10", "a_11"));
+    EXPECT_THAT(times, ElementsAre(testing::DoubleNear(0.9, 1e-6), testing::DoubleNear(1.0, 1e-6),
+                                   testing::DoubleNear(1.1, 1e-6)));
+}
+
+TEST_F(CloudFileSourceTest, NamesMayBeTimes) {
+    const auto near = [](double time_s) { return testing::DoubleNear(time_s, 1e-6); };
+    const std::vector<std::vector<std::string>> kNames{
+        {"1700000000.25.bin", "1700000000.5.bin"},
+        {"1700000000_250000000.bin", "1700000000_500000000.bin"},
+        {"scan1700000000250.bin", "scan1700000000500.bin"},
+        {"1700000000250000.bin", "1700000000500000.bin"},
+        {"1700000000250000000.bin", "1700000000500000000.bin"}};
+    for (const auto& names : kNames) {
+        SCOPED_TRACE(names[0]);
+        const fs::path folder = folderOf(names);
+        EXPECT_THAT(scansOf(folder).second, ElementsAre(near(1700000000.25), near(1700000000.5)));
+        EXPECT_THAT(remarksOn(folder), Contains(HasSubstr("in the names of the files")));
+        fs::remove_all(folder);
+    }
+}
+
+TEST_F(CloudFileSourceTest, WithoutTimesCloudsAreATenthOfASecondApartAndThisIsTold) {
+    const std::vector<std::vector<std::string>> kNames{{"left.bin", "right.bin"},
+                                                       {"0000.bin", "1.bin"},
+                                                       {"1_5.bin", "front.bin"},
+                                                       {"1700000000.5.bin", "7.bin"}};
+    for (const auto& names : kNames) {
+        SCOPED_TRACE(names[0]);
+        const fs::path folder = folderOf(names);
+        const std::vector<double> times = scansOf(folder).second;
+        ASSERT_EQ(times.size(), 2u);
+        EXPECT_THAT(remarksOn(folder), Contains(HasSubstr("0.1 s apart")));
+        fs::remove_all(folder);
+    }
+    EXPECT_THAT(scansOf(folderOf({"same.bin", "same.pcd"})).second,
+                ElementsAre(0.0, testing::DoubleNear(0.1, 1e-6)));
+}
+
+TEST_F(CloudFileSourceTest, FilesOfOneNameKeepTheirEndings) {
+    EXPECT_THAT(scansOf(folderOf({"1.bin", "1.pcd"})).first, ElementsAre("1.bin", "1.pcd"));
+}
+
+TEST_F(CloudFileSourceTest, AScanFolderIsStillOne) {
+    const fs::path folder = folderOf({"1.bin"});
+    write("clouds/velodyne/000000.bin", test::bin(filePoints()));
+    EXPECT_EQ(openRecording(folder)->nextScan()->observation->sensorLabel, kFolderLabel);
+    // Its subfolder alone is a folder of clouds.
+    EXPECT_EQ(openRecording(folder / "velodyne")->nextScan()->observation->sensorLabel, "lidar");
+}
+
+TEST_F(CloudFileSourceTest, OnlyTheEntriesAskedForAreRead) {
+    const fs::path folder = folderOf({"1.bin", "2.bin", "3.bin", "4.bin"});
+    write("clouds/1.bin", "x");  // broken, but not asked for
+    SourceOptions options;
+    options.first_entry = 1;
+    options.last_entry = 2;
+    const auto source = openRecording(folder, options);
+    EXPECT_EQ(source->nextScan()->name, "2");
+    EXPECT_EQ(source->nextScan()->name, "3");
+    EXPECT_FALSE(source->nextScan());
+    EXPECT_EQ(source->entriesSkipped(), 1u);
+    EXPECT_EQ(source->entriesKnown(), 4u);
+}
+
+TEST_F(CloudFileSourceTest, ABrokenFileIsNamedAndThoseBeforeItAreRead) {
+    const fs::path folder = folderOf({"1.bin", "3.bin"});
+    write("clouds/2.pcd", test::binaryPcd(filePoints()).substr(0, 300));
+    const auto source = openRecording(folder);
+    EXPECT_TRUE(source->nextScan());
+    try {
+        source->nextScan();
+        FAIL();
+    } catch (const BrokenScan& e) {
+        EXPECT_THAT(e.what(), HasSubstr("2.pcd: the header says 12 points"));
+    }
+}
+
+TEST_F(CloudFileSourceTest, ACloudWithoutCoordinatesIsNamedWithItsFields) {
+    const fs::path file = write(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float u\nend_header\n1\n");
+    const auto source = openRecording(file);
+    EXPECT_THAT(test::messageOf([&] { source->nextScan(); }),
+                AllOf(HasSubstr("a.ply: "), HasSubstr("they have: u")));
+}
+
+TEST_F(CloudFileSourceTest, WhatIsLeftOutIsTold) {
+    auto points = filePoints();
+    points[3].x_m = std::numeric_limits<float>::quiet_NaN();
+    points[5].z_m = std::numeric_limits<float>::infinity();
+    write("clouds/1.npy", test::structuredNpy(points));
+    write("clouds/2.las", test::las(filePoints(), true));
+    write("clouds/notes.txt", "hello");
+    SourceOptions options;
+    options.folder_objects = observations::CloudClass::Simple;
+    const auto remarks = remarksOn(folder_ / "clouds", options);
+    EXPECT_THAT(remarks,
+                Contains(HasSubstr("2 points with a coordinate that is not finite, in 1 cloud")));
+    EXPECT_THAT(remarks, Contains(AllOf(HasSubstr("4 extra bytes"), HasSubstr("(1 of 2 clouds)"))));
+    EXPECT_THAT(remarks, Contains(HasSubstr("1 file of the folder")));
+    EXPECT_THAT(remarks, Contains(HasSubstr("does not hold (--clouds does): ring, t")));
+    EXPECT_THAT(remarksOn(folder_ / "clouds"), Not(Contains(HasSubstr("does not hold"))));
+}
+
+TEST_F(CloudFileSourceTest, ARawlogsObjectHasThePointsThatAreReturns) {
+    auto points = filePoints();
+    points[3].x_m = std::numeric_limits<float>::quiet_NaN();
+    SourceOptions options;
+    options.folder_objects = observations::CloudClass::Simple;
+    const auto entry = openRecording(write("1.pcd", test::binaryPcd(points)), options)->nextEntry();
+    const auto object = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(entry->object);
+    ASSERT_TRUE(object);
+    EXPECT_EQ(object->pointcloud->size(), 11u);
+}
+
+TEST_F(CloudFileSourceTest, PosesComeFromAFile) {
+    const fs::path folder = folderOf({"1.bin", "2.bin"});
+    writeTumPoses(folder_ / "poses.tum", {{0.1, {}}, {0.25, mrpt::poses::CPose3D(3, 0, 0)}});
+    const auto source = openRecording(folder);
+    source->usePoses(folder_ / "poses.tum");
+    source->nextScan();
+    const auto scan = source->nextScan();
+    ASSERT_TRUE(scan->pose.sensor_pose);
+    EXPECT_NEAR(scan->pose.sensor_pose->x(), 2.0, 1e-3);
+    EXPECT_THAT(source->scanTimes().at("lidar"), testing::SizeIs(2));
+}
+
+}  // namespace
+}  // namespace hagen::logs
