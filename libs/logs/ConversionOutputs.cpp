@@ -40,12 +40,11 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
 }
 
 std::string ConversionOutputs::writeScan(
-    const observations::ObservationSegmenter::Output& segmented,
-    const mrpt::obs::CObservation& observation, const std::string& name,
+    const observations::ObservationSegmenter::Output& segmented, const RecordedScan& recorded,
     const observations::Settings& settings) {
-    const std::string& sensor_label = observation.sensorLabel;
+    const std::string& sensor_label = recorded.observation->sensorLabel;
     const std::size_t number = scans_[sensor_label]++;
-    const std::string own_name = name.empty() ? scanName(number) : name;
+    const std::string own_name = recorded.name.empty() ? scanName(number) : recorded.name;
     if (folders_) {
         auto writer = folder_writers_.find(sensor_label);
         if (writer == folder_writers_.end()) {
@@ -62,17 +61,24 @@ std::string ConversionOutputs::writeScan(
                              *segmented.sensor, time_s, segmented.pose.sensor_pose,
                              !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);
     }
-    if (clouds_) clouds_->write(own_name, segmented, observation);
-    if (pictures_) {
-        const fs::path folder = pictures_->folderOf(sensor_label) / own_name;
-        fs::create_directory(folder);
-        const std::string title =
-            conversion_.input.filename().string() + ", " + sensor_label + ", scan " + own_name;
-        pictures::drawStages({*segmented.scan, *segmented.sensor, *segmented.options,
-                              *segmented.result, title, conversion_.picture_azimuth_deg},
-                             folder);
-    }
+    if (clouds_) clouds_->write(own_name, segmented, *recorded.observation);
+    if (pictures_) drawPictures(segmented, recorded);
     return own_name;
+}
+
+/// Into a folder named by the entry, so that --from finds it again.
+void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::Output& segmented,
+                                     const RecordedScan& recorded) {
+    const std::string& label = recorded.observation->sensorLabel;
+    const bool is_named = !recorded.name.empty();
+    const std::string name = is_named ? recorded.name : scanName(recorded.entry);
+    fs::path folder = pictures_->folderOf(label) / name;
+    while (!fs::create_directory(folder)) folder += "_";  // a second scan in a sensory frame
+    const std::string title = conversion_.input.filename().string() + ", " + label +
+                              (is_named ? ", scan " : ", entry ") + name;
+    pictures::drawStages({*segmented.scan, *segmented.sensor, *segmented.options, *segmented.result,
+                          title, conversion_.picture_azimuth_deg},
+                         folder);
 }
 
 void ConversionOutputs::finish(const ConversionReport& report) {

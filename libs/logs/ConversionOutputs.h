@@ -31,8 +31,7 @@ class ConversionOutputs {
     /// Adds a segmented scan to the sensor's scan folder, clouds and pictures. An empty name stands
     /// for the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
-                          const mrpt::obs::CObservation& observation, const std::string& name,
-                          const observations::Settings& settings);
+                          const RecordedScan& recorded, const observations::Settings& settings);
 
     /// The labelled clouds written so far; null if there are none to write.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
@@ -46,6 +45,8 @@ class ConversionOutputs {
     std::string keepPartial(const ConversionReport& report);
 
  private:
+    void drawPictures(const observations::ObservationSegmenter::Output& segmented,
+                      const RecordedScan& recorded);
     void finish(const ConversionReport& report);
 
     const Conversion& conversion_;

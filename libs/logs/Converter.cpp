@@ -239,8 +239,7 @@ void Converter::account(ScanInConversion& scan) {
         ScanReport report = reportOf(scan.segmented);
         report.entry = scan.recorded.entry;
         report.sensor_label = scan.recorded.observation->sensorLabel;
-        report.name = outputs_.writeScan(scan.segmented, *scan.recorded.observation,
-                                         scan.recorded.name, settings_);
+        report.name = outputs_.writeScan(scan.segmented, scan.recorded, settings_);
         count(scan.segmented, report);
     }
     scan.segmenter.reset();

@@ -406,7 +406,7 @@ TEST_F(RawlogSegment, DrawsTheStagesOfAScan) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     for (const char* name : {"1_depth.png", "2_maxima.png", "3_merged.png", "4_range_angle.png",
                              "5_smoothed.png", "6_labels.png", "7_top_view.png", "stages.png"}) {
-        EXPECT_GT(fs::file_size(folder_ / "pictures/000000" / name), 5000u) << name;
+        EXPECT_GT(fs::file_size(folder_ / "pictures/000001" / name), 5000u) << name;
     }
 }
 
