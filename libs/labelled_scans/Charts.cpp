@@ -12,7 +12,7 @@
 namespace hagen::labelled_scans {
 namespace {
 
-constexpr int kWidth_px = 900, kHeight_px = 400;
+constexpr int kWidth_px = 900, kHeight_px = 400, kLegendWidth_px = 190;
 constexpr std::size_t kMostLines = 7;
 // Colour-blind safe palette (Okabe and Ito).
 constexpr std::array<const char*, kMostLines> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -35,14 +35,13 @@ struct Panel {
     bool has_lines = true;   ///< values are connected
 };
 
-/// The minimum value or bound, rounded down; adjacent panels share it.
+/// The minimum value, rounded down; adjacent panels share it. Intervals may reach below the axis:
+/// those of few obstacles would press the values of all methods into a line.
 double leastOf(const std::vector<Line>& lines) {
     double least = 0.8;
     for (const Line& line : lines) {
         for (const Value& value : line.values) {
-            for (const double y : {value.y, value.interval.low}) {
-                if (y < least) least = std::floor(y * 10) / 10;  // false for NaN
-            }
+            if (value.y < least) least = std::floor(value.y * 10) / 10;  // false for NaN
         }
     }
     return least;
@@ -50,14 +49,17 @@ double leastOf(const std::vector<Line>& lines) {
 
 class Chart {
  public:
-    /// `bottom`: fraction of the height for the axis labels and the legend.
-    Chart(std::string name, int width_px, int panels, double bottom) : name_(std::move(name)) {
+    /// `panels_px`: width without the legend. `bottom`: fraction of the height for the axis labels.
+    Chart(std::string name, int panels_px, int panels, double bottom, bool has_legend)
+        : name_(std::move(name)), has_legend_(has_legend) {
         text_.imbue(std::locale::classic());
+        const int legend_px = has_legend ? kLegendWidth_px : 0;
+        const int width_px = panels_px + legend_px;
         text_ << "set terminal svg size " << width_px << "," << kHeight_px
               << " font 'sans,14' background '#FFFFFF'\nset output "
               << pictures::gnuplotString(name_) << "\nset multiplot layout 1," << panels
-              << " margins screen " << 80.0 / width_px << ", 0.97, " << bottom
-              << ", 0.88 spacing screen " << 90.0 / width_px << "\n";
+              << " margins screen " << 80.0 / width_px << ", " << 1 - (legend_px + 20.0) / width_px
+              << ", " << bottom << ", 0.88 spacing screen " << 90.0 / width_px << "\n";
     }
 
     void add(const Panel& panel) {
@@ -68,10 +70,9 @@ class Chart {
               << "\nset grid y lc rgb '#DDDDDD' lw 1 lt 1\nset tics nomirror out scale 0.5\n"
               << "set border 3 lc rgb '#333333'\nset offsets graph 0.06, graph 0.06, 0, 0\n"
               << "set yrange [" << panel.least_y << ":1]\n"
-              << "set key at screen 0.5, screen 0.02 center bottom horizontal noenhanced "
-                 "samplen 1.5 maxrows 2\n";
-        const bool has_legend = panel_ == 0 && panel.lines.size() > 1;  // one for all panels
-        if (!has_legend) text_ << "unset key\n";
+              << "set key at screen 0.995, screen 0.88 right top vertical Left reverse noenhanced "
+                 "samplen 1.5 width -2\n";
+        if (!has_legend_ || panel_ > 0) text_ << "unset key\n";  // one for all panels
         writeTics(panel);
         writePlot(panel);
         ++panel_;
@@ -135,7 +136,7 @@ class Chart {
         for (std::size_t l = 0; l < panel.lines.size(); ++l) {
             const std::string colour = std::string(" lc rgb '") + kColours[l % kMostLines] + "'";
             text_ << (l == 0 ? "" : ", ") << block(l)
-                  << " using 1:2:3:4 with yerrorbars pt 7 ps 0.5 lw 1.2" << colour << " notitle, "
+                  << " using 1:2:3:4 with yerrorbars pt 7 ps 0 lw 0.7" << colour << " notitle, "
                   << block(l) << " using 1:2 with " << (panel.has_lines ? "linespoints" : "points")
                   << " pt 7 ps 0.6 lw 2" << colour << " title "
                   << pictures::gnuplotString(panel.lines[l].name);
@@ -144,6 +145,7 @@ class Chart {
     }
 
     std::string name_;
+    bool has_legend_;
     std::size_t panel_ = 0;
     std::ostringstream text_;
 };
@@ -182,7 +184,7 @@ void drawPart(const std::filesystem::path& folder, const Summary& summary, const
     const std::vector<Line> roi = linesOf(summary, part, roiF1);
     const std::vector<Line> rou = linesOf(summary, part, rouF1);
     const double least = std::min(leastOf(roi), leastOf(rou));
-    Chart chart(name, kWidth_px, 2, 0.28);
+    Chart chart(name, kWidth_px, 2, 0.2, roi.size() > 1);
     chart.add({"Region of interest", x_title, "F1", roi, least});
     chart.add({"Region of uninterest", x_title, "F1", rou, least});
     chart.draw(folder);
@@ -191,8 +193,8 @@ void drawPart(const std::filesystem::path& folder, const Summary& summary, const
 void drawKinds(const std::filesystem::path& folder, const Summary& summary) {
     const auto part = &ScoreTotals::by_kind;
     if ((summary.methods.front().returns.*part).empty()) return;
-    Chart chart("by_kind.svg", kWidth_px, 1, 0.42);
     const std::vector<Line> lines = linesOf(summary, part, recall);
+    Chart chart("by_kind.svg", kWidth_px, 1, 0.3, lines.size() > 1);
     Panel panel{"Recall of each kind of object", "", "share found", lines, leastOf(lines)};
     panel.has_lines = false;
     chart.add(panel);
@@ -228,7 +230,7 @@ void drawSweep(const std::filesystem::path& folder, const std::string& key,
                   [](const Value& a, const Value& b) { return a.x < b.x; });
     }
     panel.least_y = leastOf(panel.lines);
-    Chart chart("sweep_" + key + ".svg", kWidth_px / 2, 1, 0.25);
+    Chart chart("sweep_" + key + ".svg", kWidth_px / 2, 1, 0.2, true);
     chart.add(panel);
     chart.draw(folder);
 }

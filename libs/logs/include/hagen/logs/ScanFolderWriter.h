@@ -38,8 +38,9 @@ class ScanFolderWriter {
                const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,
                bool pose_has_horizon = true);
 
-    /// Writes times.txt (seconds, by the recording's clock); poses.tum with the known poses, if all of
-    /// them have a horizon, because readers level with them; and poses.txt if all poses are known.
+    /// Writes times.txt (seconds, by the recording's clock); poses.tum with the known poses, if all
+    /// of them have a horizon, because readers level with them; and poses.txt if all poses are
+    /// known.
     void finish() const;
 
  private:

@@ -48,8 +48,9 @@ struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
-    /// Class of the clouds in RecordedEntry::object for scans of a scan folder, for clouds of files,
-    /// and for those of a capture or bag that have no packets of a Velodyne; none: no objects.
+    /// Class of the clouds in RecordedEntry::object for scans of a scan folder, for clouds of
+    /// files, and for those of a capture or bag that have no packets of a Velodyne; none: no
+    /// objects.
     std::optional<observations::CloudClass> folder_objects;
     std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics to read of a bag; empty: all
