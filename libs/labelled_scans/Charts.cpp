@@ -136,7 +136,7 @@ class Chart {
         for (std::size_t l = 0; l < panel.lines.size(); ++l) {
             const std::string colour = std::string(" lc rgb '") + kColours[l % kMostLines] + "'";
             text_ << (l == 0 ? "" : ", ") << block(l)
-                  << " using 1:2:3:4 with yerrorbars pt 7 ps 0 lw 0.7" << colour << " notitle, "
+                  << " using 1:2:3:4 with yerrorbars pt 7 ps 0.2 lw 0.7" << colour << " notitle, "
                   << block(l) << " using 1:2 with " << (panel.has_lines ? "linespoints" : "points")
                   << " pt 7 ps 0.6 lw 2" << colour << " title "
                   << pictures::gnuplotString(panel.lines[l].name);
