@@ -1,8 +1,11 @@
 #include "Reports.h"
 
+#include <hagen/base/NumberText.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -13,6 +16,29 @@ using hagen::logs::ConversionReport;
 
 std::string counted(std::size_t number, const std::string& one, const std::string& many) {
     return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+/// Of a file or of all files in a folder: "12.3 MB".
+std::string sizeText(const std::filesystem::path& path) {
+    namespace fs = std::filesystem;
+    std::error_code unreadable;  // another program may take it away meanwhile
+    double bytes = 0;
+    if (fs::is_directory(path, unreadable)) {
+        for (const auto& file : fs::recursive_directory_iterator(path, unreadable)) {
+            if (!file.is_regular_file(unreadable)) continue;
+            bytes += static_cast<double>(file.file_size(unreadable));
+        }
+    } else {
+        bytes = static_cast<double>(fs::file_size(path, unreadable));
+    }
+    const char* unit = "kB";
+    double size = bytes / 1e3;
+    for (const char* larger : {"MB", "GB"}) {
+        if (size < 1000) break;
+        size /= 1e3;
+        unit = larger;
+    }
+    return hagen::base::fixedText(size, 1) + " " + unit;
 }
 
 void printEntries(const Conversion& conversion, const ConversionReport& report) {
@@ -71,7 +97,8 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
                     report.scans_with_attitude, counted(report.scans, "scan", "scans").c_str());
     }
     const auto output = [](const char* what, const std::filesystem::path& path) {
-        if (!path.empty()) std::printf("%s: %s\n", what, path.c_str());
+        if (path.empty()) return;
+        std::printf("%s: %s (%s)\n", what, path.c_str(), sizeText(path).c_str());
     };
     output("segmented rawlog", conversion.rawlog);
     if (report.scans > 0) {  // otherwise there are no folders
@@ -79,7 +106,8 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         output("pictures", conversion.pictures);
     }
     if (report.clouds > 0) {
-        std::printf("labelled clouds: %s (%s, %zu points)\n", conversion.clouds.c_str(),
+        std::printf("labelled clouds: %s (%s, %s, %zu points)\n", conversion.clouds.c_str(),
+                    sizeText(conversion.clouds).c_str(),
                     counted(report.clouds, "file", "files").c_str(), report.cloud_points);
     }
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);

@@ -44,6 +44,10 @@ void ProgressLine::show(std::size_t done, std::size_t all) {
     is_shown_ = true;
     last_ = done;
     last_time_ = Clock::now();
+    if (done >= all && is_on_terminal_) {  // what is printed next must not follow on the line
+        std::cerr << "\r\033[K" << std::flush;
+        return;
+    }
     std::ostringstream line;
     line << thing_ << " " << done << " of " << all;
     if (done > 0 && done < all) {

@@ -5,9 +5,9 @@
 
 namespace hagen::command_line {
 
-/// Reports the progress of a long command on standard error. On a terminal, updates one line;
-/// otherwise, as in a cluster job's log, prints a line at the start, after every tenth of the work
-/// and at least every minute.
+/// Reports the progress of a long command on standard error. On a terminal, updates one line,
+/// which vanishes when all is done; otherwise, as in a cluster job's log, prints a line at the
+/// start, after every tenth of the work and at least every minute.
 class ProgressLine {
  public:
     /// `thing`: the unit that is counted, such as "run".
