@@ -136,7 +136,7 @@ struct BagScans::Reader {
     void add(const CObservation::Ptr& scan, TopicState& state);
     void addComplete(TopicState& state);
     void finish();
-    std::string textOf(const TopicState& state) const;
+    static std::string textOf(const TopicState& state);
     std::string whyEmpty() const;
 };
 
@@ -341,7 +341,7 @@ void BagScans::Reader::finish() {
     }
 }
 
-std::string BagScans::Reader::textOf(const TopicState& state) const {
+std::string BagScans::Reader::textOf(const TopicState& state) {
     std::string text = counted(state.messages, "message");
     if (state.turns) {
         text += ", " + state.model->name + ", " + captures::textOf(state.turns->counts());
@@ -411,7 +411,7 @@ std::vector<std::string> BagScans::remarks() const {
     const Reader& r = *reader_;
     std::vector<std::string> remarks = r.plan.remarks;
     for (const auto& [topic, state] : r.states) {
-        remarks.push_back(state.sensor->label + " (" + topic + "): " + r.textOf(state));
+        remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
     }
     for (const auto& [topic, messages] : r.survey.unreadable) {
         remarks.push_back(topic + ": " + counted(messages, "message") +

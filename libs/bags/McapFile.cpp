@@ -48,7 +48,7 @@ void checkCrc(std::uint32_t due, std::uint32_t found, const std::string& of) {
 }
 
 /// "cdr", "ros1": how the messages of a channel are serialised.
-std::string encodingOf(std::string message_encoding) {
+std::string encodingOf(const std::string& message_encoding) {
     return message_encoding == "ros1msg" ? "ros1" : message_encoding;
 }
 
