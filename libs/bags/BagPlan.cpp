@@ -87,7 +87,7 @@ class Planner {
 
     // Topics.
 
-    std::string textOfKnownTypes() const {
+    static std::string textOfKnownTypes() {
         return "sensor_msgs/PointCloud2, velodyne_msgs/VelodyneScan, PacketMsg of an Ouster, "
                "CustomMsg of a Livox";
     }

@@ -9,6 +9,10 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -77,6 +81,14 @@ PointTable tableOf(const std::vector<LivoxPoint>& points) {
     return table;
 }
 
+/// Gives memory back to the system. glibc keeps what was freed, for each thread apart; large clouds
+/// that one thread makes and another one frees would add up.
+void trimHeap() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 /// The serial number in the header of an Ouster's packet.
 std::string serialOf(const std::uint8_t* packet) {
     std::uint64_t serial = 0;
@@ -99,6 +111,7 @@ struct BagScans::Reader {
         std::make_shared<const SensorModel>(sensorModel("Mid-360"));
     bool is_at_end = false;
     std::size_t scans = 0;
+    std::size_t bytes_untrimmed = 0;  ///< of scans read since trimHeap()
     std::string broken_because;
 
     Reader(const std::filesystem::path& name, const BagSurvey& surveyed, const BagOptions& options)
@@ -123,7 +136,7 @@ struct BagScans::Reader {
     void add(const CObservation::Ptr& scan, TopicState& state);
     void addComplete(TopicState& state);
     void finish();
-    std::string textOf(const TopicState& state) const;
+    static std::string textOf(const TopicState& state);
     std::string whyEmpty() const;
 };
 
@@ -146,6 +159,12 @@ void BagScans::Reader::take(const BagMessage& message) {
 
 void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topic,
                                  TopicState& state) {
+    constexpr std::size_t kTrimEvery = 8 << 20;
+    bytes_untrimmed += message.size;
+    if (bytes_untrimmed > kTrimEvery) {
+        trimHeap();
+        bytes_untrimmed = 0;
+    }
     const std::size_t number = state.messages++;
     try {
         const FieldReader fields = fieldsOf(message, topic.encoding, unpacked);
@@ -322,7 +341,7 @@ void BagScans::Reader::finish() {
     }
 }
 
-std::string BagScans::Reader::textOf(const TopicState& state) const {
+std::string BagScans::Reader::textOf(const TopicState& state) {
     std::string text = counted(state.messages, "message");
     if (state.turns) {
         text += ", " + state.model->name + ", " + captures::textOf(state.turns->counts());
@@ -392,7 +411,7 @@ std::vector<std::string> BagScans::remarks() const {
     const Reader& r = *reader_;
     std::vector<std::string> remarks = r.plan.remarks;
     for (const auto& [topic, state] : r.states) {
-        remarks.push_back(state.sensor->label + " (" + topic + "): " + r.textOf(state));
+        remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
     }
     for (const auto& [topic, messages] : r.survey.unreadable) {
         remarks.push_back(topic + ": " + counted(messages, "message") +

@@ -44,7 +44,12 @@ void FileBytes::readInto(std::uint8_t* bytes, std::size_t count, const std::stri
 void FileBytes::read(std::uint64_t count, const std::string& what,
                      std::vector<std::uint8_t>& bytes) {
     checkLeft(count, what);
-    bytes.resize(static_cast<std::size_t>(count));
+    const auto size = static_cast<std::size_t>(count);
+    if (bytes.capacity() < size) {  // chunks differ a little: not one allocation for each
+        bytes = {};
+        bytes.reserve(size + size / 4);
+    }
+    bytes.resize(size);
     if (count > 0) readInto(bytes.data(), bytes.size(), what);
 }
 

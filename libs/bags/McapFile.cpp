@@ -48,7 +48,7 @@ void checkCrc(std::uint32_t due, std::uint32_t found, const std::string& of) {
 }
 
 /// "cdr", "ros1": how the messages of a channel are serialised.
-std::string encodingOf(std::string message_encoding) {
+std::string encodingOf(const std::string& message_encoding) {
     return message_encoding == "ros1msg" ? "ros1" : message_encoding;
 }
 
@@ -147,12 +147,13 @@ void McapFile::takeChunk(FieldReader fields) {
     const std::string compression = fields.text();
     const auto packed_size = fields.number<std::uint64_t>();
     if (packed_size > fields.left()) throw TooShort("its records are cut off");
-    unpack(compression, fields.take(static_cast<std::size_t>(packed_size)), size, chunk_);
+    const ByteView records =
+        unpack(compression, fields.take(static_cast<std::size_t>(packed_size)), size, chunk_);
     if (crc != 0) {
-        checkCrc(crc, static_cast<std::uint32_t>(crc32_z(0, chunk_.data(), chunk_.size())),
+        checkCrc(crc, static_cast<std::uint32_t>(crc32_z(0, records.data, records.size)),
                  "the chunk");
     }
-    in_chunk_ = FieldReader(ByteView{chunk_.data(), chunk_.size()});
+    in_chunk_ = FieldReader(records);
 }
 
 void McapFile::takeChannel(FieldReader fields) {

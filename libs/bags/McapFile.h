@@ -37,7 +37,7 @@ class McapFile : public BagFile {
     std::map<std::uint16_t, std::size_t> topic_of_;  ///< by channel
     std::uint64_t record_at_ = 0;                    ///< byte of the record that is being read
     std::vector<std::uint8_t> head_, content_, chunk_;
-    FieldReader in_chunk_{ByteView()};  ///< what is left of the chunk
+    FieldReader in_chunk_{ByteView()};  ///< what is left of the chunk, in the buffers above
     bool is_data_ended_ = false, is_at_end_ = false;
     std::uint64_t summary_at_ = 0;
 };

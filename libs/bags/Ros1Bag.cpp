@@ -153,9 +153,8 @@ void Ros1Bag::readBagHeader(const Fields& fields) {
 
 void Ros1Bag::readChunk(const Fields& fields) {
     ++chunks_;
-    unpack(at(fields, "compression"), {data_.data(), data_.size()},
-           numberAt<std::uint32_t>(fields, "size"), chunk_);
-    in_chunk_ = FieldReader(ByteView{chunk_.data(), chunk_.size()});
+    in_chunk_ = FieldReader(unpack(at(fields, "compression"), {data_.data(), data_.size()},
+                                   numberAt<std::uint32_t>(fields, "size"), chunk_));
 }
 
 /// Reads a record of the chunk; true if it is a message.

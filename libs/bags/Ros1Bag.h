@@ -36,7 +36,7 @@ class Ros1Bag : public BagFile {
     std::map<std::uint32_t, std::size_t> topic_of_;  ///< by connection
     std::uint64_t record_at_ = 0;                    ///< byte of the record that is being read
     std::vector<std::uint8_t> header_, data_, chunk_;
-    FieldReader in_chunk_{ByteView()};  ///< what is left of the chunk
+    FieldReader in_chunk_{ByteView()};  ///< what is left of the chunk, in the buffers above
     bool has_header_ = false;
     std::uint64_t index_at_ = 0;
     std::uint32_t chunks_due_ = 0, chunks_ = 0, chunk_infos_ = 0;

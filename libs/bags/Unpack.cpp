@@ -113,17 +113,23 @@ void unpackBz2(ByteView packed, Growing& plain) {
 
 }  // namespace
 
-void unpack(const std::string& compression, ByteView packed, std::uint64_t size,
-            std::vector<std::uint8_t>& plain) {
+ByteView unpack(const std::string& compression, ByteView packed, std::uint64_t size,
+                std::vector<std::uint8_t>& plain) {
     if (size > kMostUnpacked) {
         failPacked("it claims to hold " + std::to_string(size) + " bytes, more than " +
                    std::to_string(kMostUnpacked));
     }
-    Growing growing(plain, size);
+    const auto checkSize = [&](std::size_t found) {
+        if (found == size) return;
+        failPacked("it holds " + std::to_string(found) + " bytes and claims " +
+                   std::to_string(size));
+    };
     if (compression.empty() || compression == "none") {
-        plain.assign(packed.data, packed.data + packed.size);
-        growing.add(packed.size);
-    } else if (compression == "zstd") {
+        checkSize(packed.size);
+        return packed;
+    }
+    Growing growing(plain, size);
+    if (compression == "zstd") {
         unpackZstd(packed, growing);
     } else if (compression == "lz4") {
         unpackLz4(packed, growing);
@@ -134,9 +140,8 @@ void unpack(const std::string& compression, ByteView packed, std::uint64_t size,
                    "' is not known; known are none, zstd, lz4 and bz2");
     }
     growing.finish();
-    if (plain.size() == size) return;
-    failPacked("it holds " + std::to_string(plain.size()) + " bytes and claims " +
-               std::to_string(size));
+    checkSize(plain.size());
+    return {plain.data(), plain.size()};
 }
 
 void unpackZstd(ByteView packed, std::vector<std::uint8_t>& plain) {

@@ -47,6 +47,7 @@ std::optional<RecordedEntry> BagSource::nextEntry() {
         const auto observation = scans_->next();
         is_read_to_end_ = observation == nullptr;
         if (!observation) return std::nullopt;
+        if (++seen_ > shown_) ahead_.reset();  // it is rarely needed again, and holds a chunk
         see(*observation);
         if (!observations::isLidarScan(*observation)) continue;
         RecordedEntry entry;
@@ -90,8 +91,12 @@ LogPoses BagSource::readPoses(const std::filesystem::path& file) {
 }
 
 bool BagSource::showClouds(observations::CloudSensors& sensors) {
-    if (!ahead_) ahead_ = openScans();
     try {
+        if (!ahead_) {
+            ahead_ = openScans();
+            for (std::size_t i = 0; i < shown_; ++i) ahead_->next();
+        }
+        ++shown_;
         const auto observation = ahead_->next();
         if (!observation) return false;
         sensors.see(*observation);

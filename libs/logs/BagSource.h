@@ -29,7 +29,8 @@ class BagSource : public ScanSource {
     std::filesystem::path file_;
     bags::BagSurvey survey_;
     std::unique_ptr<bags::BagScans> scans_;
-    std::unique_ptr<bags::BagScans> ahead_;  ///< of showClouds(); made on demand
+    std::unique_ptr<bags::BagScans> ahead_;  ///< of showClouds(); while it is ahead
+    std::size_t shown_ = 0, seen_ = 0;       ///< observations read by ahead_, and by scans_
     std::size_t scans_read_ = 0;
     bool is_read_to_end_ = false;
 };
