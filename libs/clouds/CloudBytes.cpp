@@ -20,8 +20,8 @@ bool put(std::string_view word, std::uint8_t* to) {
     if constexpr (std::is_integral_v<Number>) {
         // "7.0" and "1e3" are integers, too.
         const auto real = number ? std::nullopt : base::numberFrom<double>(word);
-        constexpr double kBeyond = 2.0 * (std::numeric_limits<Number>::max() / 2 + 1);
-        if (real && *real == std::floor(*real) && *real < kBeyond &&
+        const double beyond = std::ldexp(1.0, std::numeric_limits<Number>::digits);
+        if (real && *real == std::floor(*real) && *real < beyond &&
             *real >= static_cast<double>(std::numeric_limits<Number>::min())) {
             number = static_cast<Number>(*real);
         }

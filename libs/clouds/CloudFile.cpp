@@ -90,7 +90,7 @@ CloudFile read(const std::filesystem::path& file) {
         case CloudFormat::Pcd:
             return readPcd(file, std::move(bytes));
         case CloudFormat::Ply:
-            return readPly(file, std::move(bytes));
+            return readPly(file, bytes);
         case CloudFormat::Las:
             return readLas(file, bytes);
         case CloudFormat::Npy:

@@ -294,7 +294,7 @@ void readRows(const std::filesystem::path& file, const Header& header, Rows rows
 
 }  // namespace
 
-CloudFile readPly(const std::filesystem::path& file, Bytes bytes) {
+CloudFile readPly(const std::filesystem::path& file, const Bytes& bytes) {
     const Header header = readHeader(file, bytes);
     CloudFile cloud;
     if (header.data == Header::Data::Ascii) {

@@ -1,7 +1,9 @@
 #include "CloudOutput.h"
 
+#include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/TableCloud.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 
 #include <algorithm>
 #include <numeric>
@@ -21,6 +23,18 @@ struct Unlabelled {
     std::vector<std::uint32_t> point_of_return;
 };
 
+/// Those of a rawlog of MRPT 3.
+void addOtherFields(const mrpt::obs::CObservation& observation, PointTable& table) {
+    const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
+    if (cloud == nullptr || !cloud->pointcloud) return;
+    const PointTable* const others = observations::otherFieldsOf(*cloud->pointcloud);
+    if (others == nullptr || others->points != table.points) return;
+    for (const observations::PointField& field : others->fields) {
+        if (findField(table, {field.name}) != nullptr) continue;
+        addColumn(field.name, field.type, columnOf(*others, field), table);
+    }
+}
+
 Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmented,
                       const mrpt::obs::CObservation& observation) {
     Unlabelled points;
@@ -33,6 +47,7 @@ Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmente
     points.table = observations::tableOf(scan);
     points.point_of_return.resize(scan.size());
     std::iota(points.point_of_return.begin(), points.point_of_return.end(), 0u);
+    addOtherFields(observation, points.table);
     if (!observations::isCloud(observation) && segmented.sensor->has_rings) {
         addColumn("ring", NumberType::UInt16, {scan.row.begin(), scan.row.end()}, points.table);
     }

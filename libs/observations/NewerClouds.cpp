@@ -101,6 +101,7 @@ class SimpleCloud : public CSimplePointsMap {
 class GenericCloud : public CPointsMapXYZI {
  public:
     std::vector<std::string> fields_not_kept;
+    PointTable other_fields;
 
  private:
     static constexpr std::uint8_t kNewestVersion = 4;
@@ -110,6 +111,8 @@ class GenericCloud : public CPointsMapXYZI {
         if (version > kNewestVersion) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
         fields_not_kept.clear();
         Coordinates(in).copyTo(*this);
+        other_fields = {};
+        other_fields.points = size();
         readFields<float>(in, version);
         if (version >= 1) readFields<double>(in, version);
         readFields<std::uint16_t>(in, version);
@@ -117,6 +120,19 @@ class GenericCloud : public CPointsMapXYZI {
         if (version >= 4) readFields<std::uint32_t>(in, version);
         readInsertionOptions(in, insertionOptions);
         likelihoodOptions.readFromStream(in);
+    }
+
+    template <class Number>
+    void keep(const std::string& name, const std::vector<double>& values) {
+        if (values.size() != size() || name.empty() || findField(other_fields, {name}) != nullptr) {
+            return;
+        }
+        const NumberType type = std::is_same_v<Number, float>           ? NumberType::Float32
+                                : std::is_same_v<Number, double>        ? NumberType::Float64
+                                : std::is_same_v<Number, std::uint16_t> ? NumberType::UInt16
+                                : std::is_same_v<Number, std::uint8_t>  ? NumberType::UInt8
+                                                                        : NumberType::UInt32;
+        addColumn(name, type, values, other_fields);
     }
 
     /// The fields of one type.
@@ -135,6 +151,7 @@ class GenericCloud : public CPointsMapXYZI {
                     throw std::runtime_error("a cloud has too many fields");
                 }
                 fields_not_kept.push_back(name);
+                keep<Number>(name, {values.begin(), values.end()});
                 continue;
             }
             for (std::size_t i = 0; i < std::min(values.size(), size()); ++i) {
@@ -170,10 +187,16 @@ std::vector<std::string> fieldsNotKept(const CPointsMap& cloud) {
     return generic == nullptr ? std::vector<std::string>() : generic->fields_not_kept;
 }
 
+const PointTable* otherFieldsOf(const CPointsMap& cloud) {
+    const auto* generic = dynamic_cast<const GenericCloud*>(&cloud);
+    return generic == nullptr ? nullptr : &generic->other_fields;
+}
+
 #else
 
 void registerNewerClouds() {}
 std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap&) { return {}; }
+const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap&) { return nullptr; }
 
 #endif
 }  // namespace hagen::observations

@@ -84,7 +84,8 @@ std::string remarkOnFields(const CObservationPointCloud& observation) {
     std::string names;
     for (const std::string& field : fields) names += (names.empty() ? "" : ", ") + field;
     if (names.empty()) return "";
-    return "fields of its cloud are not used, and not in an output rawlog: " + names;
+    return "fields of its cloud are not used, and not in an output rawlog (--clouds holds them): " +
+           names;
 }
 
 const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/logs/ScanFolder.h>
+#include <hagen/range_image/Angle.h>
 #include <hagen/range_image/Scan.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -199,6 +201,27 @@ TEST_F(RawlogSegmentClouds, TheSameBytesForAnyNumberOfThreads) {
     for (const char* const name : {"/1.ply", "/2.ply", "/3.ply"}) {
         EXPECT_EQ(test::readFile(path("out1") + name), test::readFile(path("out3") + name));
     }
+}
+
+TEST_F(RawlogSegmentClouds, FieldsOfMrpt3ReachTheLabelledClouds) {
+    const fs::path data = test::dataFolder("HAGEN_MRPT3_DATA");
+    if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA names no folder of logs of MRPT 3";
+    const std::string log = (data / "sample_mrpt3.rawlog").string();
+    ASSERT_EQ(run({"-q", "-i", log, "--clouds", path("out")}).exit_code, 0);
+    const auto table = clouds::readCloud(path("out") + "/cloud/000000.ply").table;
+    EXPECT_EQ(namesOf(table), "x, y, z, intensity, t, ring, label, obstacle");
+    // Its rings are a VLP-16's laser numbers, which do not rise with the elevation.
+    const auto column = [&](const char* name) {
+        return columnOf(table, *findField(table, {name}));
+    };
+    const auto x_m = column("x"), y_m = column("y"), z_m = column("z"), rings = column("ring");
+    for (std::size_t i = 0; i < table.points; ++i) {
+        const int laser = static_cast<int>(rings[i]);
+        const double elevation_deg = degrees(std::atan2(z_m[i], std::hypot(x_m[i], y_m[i])));
+        ASSERT_NEAR(elevation_deg, laser % 2 == 0 ? laser - 15 : laser, 0.1);
+    }
+    const auto again = run({"-i", path("out") + "/cloud", "--clouds", path("again")});
+    EXPECT_THAT(again.out, HasSubstr("its ring numbers do not agree with elevations"));
 }
 
 // Failures

@@ -102,6 +102,12 @@ TEST(NewerClouds, AGenericCloudIsReadAndWrittenAsOneWithIntensities) {
     ASSERT_NE(cloud, nullptr);
     EXPECT_THAT(cloud->getPointsBufferRef_intensity(), ElementsAre(0.25f, 0.75f));
     EXPECT_THAT(fieldsNotKept(*cloud), ElementsAre("t", "gps_time", "ring", "color_r", "rgba"));
+    const PointTable* const others = otherFieldsOf(*cloud);
+    ASSERT_NE(others, nullptr);
+    EXPECT_EQ(namesOf(*others), "t, gps_time, ring, color_r, rgba");
+    EXPECT_THAT(columnOf(*others, others->fields[2]), ElementsAre(7, 8));
+    EXPECT_THAT(columnOf(*others, others->fields[3]), ElementsAre(255, 0));
+    EXPECT_EQ(others->fields[4].type, NumberType::UInt32);
     EXPECT_EQ(cloud->likelihoodOptions.decimation, 10u);
 
     const std::string written = bytesOf(*cloud);
@@ -142,7 +148,8 @@ TEST(NewerClouds, IntensitiesOfAnyTypeAreScaledWhenTheScanIsRead) {
         std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(genericCloud()));
     readObservation(observation, {}, observed);
     EXPECT_EQ(observed.remark,
-              "fields of its cloud are not used, and not in an output rawlog: t, gps_time, ring, "
+              "fields of its cloud are not used, and not in an output rawlog (--clouds holds "
+              "them): t, gps_time, ring, "
               "color_r, rgba");
 }
 

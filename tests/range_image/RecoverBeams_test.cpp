@@ -397,5 +397,58 @@ TEST(RecoverBeams, DeskewedRealScansHaveNoRings) {
     }
 }
 
+// Rings
+
+/// The rings of scanOf() without dropouts: beams by turns.
+std::vector<std::int32_t> ringsOf(const Scan& scan, int beams) {
+    std::vector<std::int32_t> rings;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        rings.push_back(static_cast<std::int32_t>(i % static_cast<std::size_t>(beams)));
+    }
+    return rings;
+}
+
+TEST(RingBeams, ABeamIsAtTheMedianOfItsRing) {
+    Spin spin;
+    spin.columns = 200;
+    spin.jitter_deg = 0.2;
+    const std::vector<double> beams_deg{-7, -3, 0, 1.5, 8};
+    const Scan scan = scanOf(beams_deg, spin);
+    const auto found = ringBeams(scan, ringsOf(scan, 5));
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->sensor.rows(), 5);
+    for (std::size_t row = 0; row < 5; ++row) {
+        EXPECT_NEAR(degrees(static_cast<double>(found->sensor.elevations_rad[row])), beams_deg[row],
+                    0.1);
+        EXPECT_EQ(found->row_of_ring[row], static_cast<int>(row));
+    }
+    EXPECT_EQ(found->sensor.name, kRecoveredName);
+    EXPECT_NEAR(found->most_columns, 200, 2);
+    EXPECT_GT(found->share, 0.99f);
+}
+
+TEST(RingBeams, NumbersOfOtherThingsAreRefused) {
+    const Scan scan = scanOf({-7, -3, 0, 1.5, 8}, {});
+    const auto rings = ringsOf(scan, 5);
+    ASSERT_TRUE(ringBeams(scan, rings));
+    auto one = rings, two = rings, swapped = rings, blurred = rings, rare = rings;
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+        one[i] = 0;
+        two[i] = rings[i] / 3;
+        if (rings[i] == 1 || rings[i] == 2) swapped[i] = 3 - rings[i];
+        if (i % 5 == 0 && i % 2 == 0) blurred[i] = 4;           // a tenth: still rings
+        if (i % 11 == 0) rare[i] = 1000 + static_cast<int>(i);  // rings of one return
+    }
+    EXPECT_FALSE(ringBeams(scan, one));
+    EXPECT_FALSE(ringBeams(scan, two));
+    EXPECT_FALSE(ringBeams(scan, swapped));
+    EXPECT_TRUE(ringBeams(scan, blurred));
+    EXPECT_FALSE(ringBeams(scan, rare));
+    Spin few;
+    few.columns = 79;
+    const Scan small = scanOf({-7, -3, 0, 1.5, 8}, few);
+    EXPECT_FALSE(ringBeams(small, ringsOf(small, 5)));
+}
+
 }  // namespace
 }  // namespace hagen

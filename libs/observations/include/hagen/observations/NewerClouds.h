@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/observations/PointTable.h>
 #include <mrpt/maps/CPointsMap.h>
 
 #include <string>
@@ -13,7 +14,10 @@ namespace hagen::observations {
 void registerNewerClouds();
 
 /// The fields of a cloud that was read as a CGenericPointsMap other than coordinates and intensity.
-/// They are not kept.
+/// They are not kept when it is written.
 std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap& cloud);
+/// The same fields with their numbers, a point of the table for each of the cloud; those with
+/// another number of values are left out. Null if it was read as another class.
+const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud);
 
 }  // namespace hagen::observations
