@@ -82,6 +82,11 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         std::printf("labelled clouds: %s (%s, %zu points)\n", conversion.clouds.c_str(),
                     counted(report.clouds, "file", "files").c_str(), report.cloud_points);
     }
+    if (report.mcap.scans > 0) {
+        std::printf("MCAP: %s (%s, %zu points, %s, %zu messages)\n", conversion.mcap.c_str(),
+                    counted(report.mcap.scans, "scan", "scans").c_str(), report.mcap.points,
+                    counted(report.mcap.boxes, "box", "boxes").c_str(), report.mcap.messages);
+    }
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);
 }

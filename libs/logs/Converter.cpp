@@ -56,7 +56,8 @@ bool hasTumFile(const Conversion& conversion) {
 bool needsPoses(const Conversion& conversion) {
     const bool can_level = conversion.settings.options.level_by_attitude && hasTumFile(conversion);
     return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
-           !conversion.octomaps.empty() || can_level || bags::isBag(conversion.input);
+           !conversion.octomaps.empty() || !conversion.mcap.empty() || can_level ||
+           bags::isBag(conversion.input);
 }
 
 }  // namespace
@@ -358,6 +359,10 @@ void Converter::remarkOnRecording() {
         for (const std::string& remark : clouds->remarks()) {
             listener_.remark("the labelled clouds", remark);
         }
+    }
+    if (const McapOutput* const mcap = outputs_.mcap()) {
+        report_.mcap = {mcap->scans(), mcap->points(), mcap->boxes(), mcap->messages()};
+        for (const std::string& remark : mcap->remarks()) listener_.remark("the MCAP", remark);
     }
 }
 
