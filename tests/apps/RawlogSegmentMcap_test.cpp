@@ -55,7 +55,8 @@ TEST_F(RawlogSegmentMcap, ItsOutputIsSegmentedToTheSameLabels) {
         EXPECT_EQ(columnOf("b", field), due) << field;
     }
     EXPECT_EQ(columnOf("b", "obstacle"), columnOf("a", "obstacle"));
-    EXPECT_EQ(columnOf("b", "input_label"), columnOf("a", "label"));
+    EXPECT_EQ(columnOf("b", "input_label"), columnOf("a", "input_label"));
+    EXPECT_EQ(columnOf("b", "input_label_"), columnOf("a", "label"));
     EXPECT_THAT(again.out, HasSubstr("poses of 10 of 10 scans: geometry_msgs/PoseStamped on "));
 }
 
