@@ -2,27 +2,28 @@
 // @foxglove/rosmsg2-serialization. Prints a line of JSON per message, in the order of the file, then one with the
 // summary: node read_mcap.mjs IN.mcap
 //
-// Modules are found from the folder that HAGEN_NODE_MODULES names, or else from the working directory (npm install
-// @mcap/core @foxglove/rosmsg @foxglove/rosmsg2-serialization fzstd). Exit code 77: they are not there.
+// Modules are found from the working directory (npm install @mcap/core @foxglove/rosmsg
+// @foxglove/rosmsg2-serialization). zstd is the program of that name. Exit code 77: something of this is not there.
+import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 
-const folder = process.env.HAGEN_NODE_MODULES ?? path.join(process.cwd(), "node_modules");
-const require = createRequire(path.join(folder, "none.js"));
-let core, rosmsg, cdr, fzstd;
+const require = createRequire(path.join(process.cwd(), "package.json"));
+let core, rosmsg, cdr;
 try {
   core = require("@mcap/core");
   rosmsg = require("@foxglove/rosmsg");
   cdr = require("@foxglove/rosmsg2-serialization");
-  fzstd = require("fzstd");
+  execFileSync("zstd", ["-q", "--version"], { stdio: "ignore" });
 } catch (error) {
-  console.error(`a package is missing: ${error.message.split("\n")[0]}`);
+  console.error(`something is missing: ${error.message.split("\n")[0]}`);
   process.exit(77);
 }
 
 const bytes = fs.readFileSync(process.argv[2]);
-const decompressHandlers = { zstd: (packed, size) => fzstd.decompress(packed, new Uint8Array(Number(size))) };
+const unpack = (packed) => new Uint8Array(execFileSync("zstd", ["-dq"], { input: packed, maxBuffer: 1 << 30 }));
+const decompressHandlers = { zstd: unpack };
 
 // As it streams: every CRC is checked.
 const streamed = [];
