@@ -43,13 +43,13 @@ std::string sizeText(const std::filesystem::path& path) {
 
 void printEntries(const Conversion& conversion, const ConversionReport& report) {
     const std::size_t last = report.left_out_before + report.entries - 1;
-    const bool is_cut =
-        conversion.from > 0 || conversion.to < std::numeric_limits<std::size_t>::max();
+    // A recording that ends before --to has no entries behind it.
+    const bool is_cut = report.left_out_before > 0 || last == conversion.to;
     std::printf("%s in %s%s, %zu returns:\n",
                 counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
                 counted(report.entries, "entry", "entries").c_str(),
                 is_cut ? (" (" + std::to_string(report.left_out_before) + " to " +
-                          std::to_string(last) + " of the input; the others are skipped)")
+                          std::to_string(last) + " of the input; others are skipped)")
                              .c_str()
                        : "",
                 report.returns);
@@ -109,6 +109,11 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         std::printf("labelled clouds: %s (%s, %s, %zu points)\n", conversion.clouds.c_str(),
                     sizeText(conversion.clouds).c_str(),
                     counted(report.clouds, "file", "files").c_str(), report.cloud_points);
+    }
+    if (report.mcap.scans > 0) {
+        std::printf("MCAP: %s (%s, %zu points, %s, %zu messages)\n", conversion.mcap.c_str(),
+                    counted(report.mcap.scans, "scan", "scans").c_str(), report.mcap.points,
+                    counted(report.mcap.boxes, "box", "boxes").c_str(), report.mcap.messages);
     }
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);

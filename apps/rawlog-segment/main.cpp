@@ -37,7 +37,7 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
-                  << ": ignored: only --kitti and --octomap need it; angles are "
+                  << ": ignored: only --kitti, --mcap and --octomap need it; angles are "
                      "gravity-aligned only with timed poses (TUM)\n";
     }
     return report;
@@ -128,6 +128,17 @@ void declare(Program& app, Flags& flags) {
         .valueName("ply|pcd")
         .needs(labelled_clouds)
         .group("Output");
+    app.option("--mcap", conversion.mcap,
+               "MCAP for Foxglove and ROS 2: clouds with all fields, label and obstacle, boxes of "
+               "the obstacles, and poses if they are known")
+        .check(
+            [](const std::string& name) {
+                return std::filesystem::path(name).extension() == ".mcap"
+                           ? ""
+                           : name + " does not end in .mcap";
+            },
+            "PATH")
+        .group("Output");
     const Flag pictures =
         app.option("--pictures", conversion.pictures,
                    "folder of PNGs, one subfolder per scan: the result of each stage")
@@ -215,12 +226,12 @@ void check(const Flags& flags) {
     if (conversion.input.empty()) throw UsageError("--input is required");
     const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
                             !conversion.pictures.empty() || !conversion.octomaps.empty() ||
-                            !conversion.clouds.empty() || !conversion.stats.empty();
+                            !conversion.clouds.empty() || !conversion.mcap.empty() ||
+                            !conversion.stats.empty();
     if (!has_output && flags.learned_airframe.empty()) {
         throw UsageError(
-            "an output (-o, --kitti, --clouds, --pictures, --octomap, --stats or --learn-airframe) "
-            "is "
-            "required");
+            "an output (-o, --kitti, --clouds, --mcap, --pictures, --octomap, --stats or "
+            "--learn-airframe) is required");
     }
     if (has_output && !flags.learned_airframe.empty()) {
         throw UsageError("--learn-airframe",
@@ -299,6 +310,7 @@ int main(int argc, char** argv) {
         "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
         "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"
         "  rawlog-segment -i clouds_folder --clouds labelled --cloud-format pcd\n"
+        "  rawlog-segment -i flight.bag --mcap segmented.mcap\n"
         "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
         "  rawlog-segment -i flight.bag --topic /velodyne_points -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"

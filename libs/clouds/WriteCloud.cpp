@@ -27,6 +27,17 @@ struct WrittenField {
     std::size_t element;  ///< the first one of `from`
 };
 
+/// What a format cannot hold.
+struct Limits {
+    const char* format;
+    bool has_long_integers, has_arrays;
+};
+
+Limits limitsOf(OutputFormat format) {
+    return format == OutputFormat::Ply ? Limits{"PLY", false, false} : Limits{"PCD", true, true};
+}
+constexpr Limits kPointCloud2{"PointCloud2", false, true};
+
 /// Headers are made of words.
 std::string asWord(std::string name) {
     std::replace_if(
@@ -47,13 +58,13 @@ NumberType coordinateType(const PointTable& table, const PointField& field) {
     return is_wide && hasFarPoints(table, field) ? NumberType::Float64 : NumberType::Float32;
 }
 
-NumberType typeIn(OutputFormat format, NumberType type) {
+NumberType typeIn(const Limits& limits, NumberType type) {
     const bool is_unknown =
-        format == OutputFormat::Ply && (type == NumberType::Int64 || type == NumberType::UInt64);
+        !limits.has_long_integers && (type == NumberType::Int64 || type == NumberType::UInt64);
     return is_unknown ? NumberType::Float64 : type;
 }
 
-std::vector<WrittenField> fieldsOf(OutputFormat format, const PointTable& table) {
+std::vector<WrittenField> fieldsOf(const Limits& limits, const PointTable& table) {
     std::vector<WrittenField> fields;
     std::vector<const PointField*> coordinates;
     for (const char* const name : {"x", "y", "z"}) {
@@ -66,12 +77,12 @@ std::vector<WrittenField> fieldsOf(OutputFormat format, const PointTable& table)
     for (const PointField& field : table.fields) {
         if (std::find(coordinates.begin(), coordinates.end(), &field) != coordinates.end())
             continue;
-        const bool is_split = format == OutputFormat::Ply && field.count > 1;
+        const bool is_split = !limits.has_arrays && field.count > 1;
         for (std::size_t k = 0; k < (is_split ? field.count : 1); ++k) {
             std::string name = asWord(field.name) + (is_split ? "_" + std::to_string(k) : "");
             while (!names.insert(name).second) name += "_";
             fields.push_back(
-                {name, typeIn(format, field.type), is_split ? 1 : field.count, field, k});
+                {name, typeIn(limits, field.type), is_split ? 1 : field.count, field, k});
         }
     }
     return fields;
@@ -168,23 +179,10 @@ std::string recordsOf(const std::vector<WrittenField>& fields, const PointTable&
     return records;
 }
 
-}  // namespace
-
-const char* extensionOf(OutputFormat format) {
-    return format == OutputFormat::Ply ? ".ply" : ".pcd";
-}
-
-void writeCloud(const std::filesystem::path& file, OutputFormat format, const PointTable& table) {
-    const std::vector<WrittenField> fields = fieldsOf(format, table);
-    const std::string header = format == OutputFormat::Ply ? plyHeader(fields, table.points)
-                                                           : pcdHeader(fields, table.points);
-    base::writeText(header + recordsOf(fields, table), file, file);
-}
-
-std::vector<std::string> changesWhenWritten(OutputFormat format, const PointTable& table) {
+std::vector<std::string> changesWithin(const Limits& limits, const PointTable& table) {
     constexpr double kExact = 9007199254740992.0;  // 2^53
     std::vector<std::string> changes;
-    for (const WrittenField& field : fieldsOf(format, table)) {
+    for (const WrittenField& field : fieldsOf(limits, table)) {
         if (field.type == field.from.type || field.from.type == NumberType::Float64) continue;
         if (bytesOf(field.from.type) < 8) continue;
         const std::vector<double> numbers = columnOf(table, field.from, field.element);
@@ -193,9 +191,43 @@ std::vector<std::string> changesWhenWritten(OutputFormat format, const PointTabl
         });
         if (!is_rounded) continue;
         changes.push_back("the field '" + field.name + "' is " + nameOf(field.from.type) +
-                          ", which PLY does not know: it is rounded to float64");
+                          ", which " + limits.format + " does not know: it is rounded to float64");
     }
     return changes;
+}
+
+}  // namespace
+
+const char* extensionOf(OutputFormat format) {
+    return format == OutputFormat::Ply ? ".ply" : ".pcd";
+}
+
+void writeCloud(const std::filesystem::path& file, OutputFormat format, const PointTable& table) {
+    const std::vector<WrittenField> fields = fieldsOf(limitsOf(format), table);
+    const std::string header = format == OutputFormat::Ply ? plyHeader(fields, table.points)
+                                                           : pcdHeader(fields, table.points);
+    base::writeText(header + recordsOf(fields, table), file, file);
+}
+
+std::vector<std::string> changesWhenWritten(OutputFormat format, const PointTable& table) {
+    return changesWithin(limitsOf(format), table);
+}
+
+PointTable tableForPointCloud2(const PointTable& table) {
+    const std::vector<WrittenField> fields = fieldsOf(kPointCloud2, table);
+    PointTable written;
+    for (const WrittenField& field : fields) {
+        written.fields.push_back({field.name, field.type, written.bytes_per_point, field.count});
+        written.bytes_per_point += field.count * bytesOf(field.type);
+    }
+    written.points = table.points;
+    const std::string records = recordsOf(fields, table);
+    written.bytes.assign(records.begin(), records.end());
+    return written;
+}
+
+std::vector<std::string> changesInPointCloud2(const PointTable& table) {
+    return changesWithin(kPointCloud2, table);
 }
 
 }  // namespace hagen::clouds

@@ -1,5 +1,7 @@
 #include "CloudFileSource.h"
 
+#include "CloudOutput.h"
+
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/observations/TableCloud.h>
@@ -57,7 +59,7 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
             if (clouds::hasCloudName(entry.path())) {
                 files_.push_back(entry.path());
             } else {
-                ++other_files_;
+                other_files_ += entry.path().filename() != kCloudsMarker;
             }
         }
         if (files_.empty()) {

@@ -56,10 +56,13 @@ Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmente
 
 }  // namespace
 
-const base::OutputKind kClouds{"a folder of labelled clouds", [](const fs::path& within) {
+// Clouds of the user have such names, too: only the marker tells.
+const base::OutputKind kClouds{"a folder of labelled clouds",
+                               [](const fs::path& within) {
                                    return within.extension() == ".ply" ||
-                                          within.extension() == ".pcd";
-                               }};
+                                          within.extension() == ".pcd" || within == kCloudsMarker;
+                               },
+                               kCloudsMarker};
 
 PointTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
                          const mrpt::obs::CObservation& observation) {
@@ -79,6 +82,31 @@ PointTable labelledTable(const observations::ObservationSegmenter::Output& segme
     return std::move(points.table);
 }
 
+std::vector<std::string> renamedFields(const PointTable& labelled) {
+    std::vector<std::string> renamed;
+    for (const char* const name : {"input_label", "input_obstacle"}) {
+        if (findField(labelled, {name}) == nullptr) continue;
+        renamed.push_back("a field of the input has the name of a field of labels: it is '" +
+                          std::string(name) + "'");
+    }
+    return renamed;
+}
+
+void CloudChanges::add(const std::vector<std::string>& changes) {
+    for (const std::string& change : changes) ++clouds_[change];
+}
+
+std::vector<std::string> CloudChanges::texts(std::size_t all_clouds) const {
+    std::vector<std::string> texts;
+    for (const auto& [change, clouds] : clouds_) {
+        texts.push_back(change + (clouds == all_clouds
+                                      ? ""
+                                      : " (" + std::to_string(clouds) + " of " +
+                                            std::to_string(all_clouds) + " clouds)"));
+    }
+    return texts;
+}
+
 CloudOutput::CloudOutput(const fs::path& folder, clouds::OutputFormat format, bool overwrite)
     : format_(format), folders_(folder, kClouds, overwrite) {}
 
@@ -86,26 +114,12 @@ void CloudOutput::write(const std::string& name,
                         const observations::ObservationSegmenter::Output& segmented,
                         const mrpt::obs::CObservation& observation) {
     const PointTable table = labelledTable(segmented, observation);
-    for (const std::string& change : changesWhenWritten(format_, table)) ++changes_[change];
-    for (const char* const name_of_ours : {"input_label", "input_obstacle"}) {
-        if (findField(table, {name_of_ours}) == nullptr) continue;
-        ++changes_[std::string("a field of the input has the name of a field of labels: it is '") +
-                   name_of_ours + "'"];
-    }
+    changes_.add(renamedFields(table));
+    changes_.add(changesWhenWritten(format_, table));
     writeCloud(folders_.folderOf(observation.sensorLabel) / (name + extensionOf(format_)), format_,
                table);
     ++files_;
     points_ += table.points;
-}
-
-std::vector<std::string> CloudOutput::remarks() const {
-    std::vector<std::string> remarks;
-    for (const auto& [change, files] : changes_) {
-        remarks.push_back(change + (files == files_ ? ""
-                                                    : " (" + std::to_string(files) + " of " +
-                                                          std::to_string(files_) + " clouds)"));
-    }
-    return remarks;
 }
 
 }  // namespace hagen::logs

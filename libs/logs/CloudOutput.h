@@ -14,6 +14,8 @@ namespace hagen::logs {
 
 /// A folder of labelled clouds, or a folder of such folders, as an output.
 extern const base::OutputKind kClouds;
+/// The file that tells such a folder from one with clouds of the user.
+constexpr const char* kCloudsMarker = "made_by.txt";
 
 /// The points of a segmented scan with their labels: all fields of the observation's cloud, or x,
 /// y, z, intensity, `time` [s] if it is known, and of a sensor's own packets `ring`, counted from
@@ -23,6 +25,21 @@ extern const base::OutputKind kClouds;
 /// `input_obstacle`.
 observations::PointTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
                                        const mrpt::obs::CObservation& observation);
+
+/// The fields of a labelled table that were renamed, for the user.
+std::vector<std::string> renamedFields(const observations::PointTable& labelled);
+
+/// What was changed in clouds when they were written, and in how many.
+class CloudChanges {
+ public:
+    /// The changes in one cloud.
+    void add(const std::vector<std::string>& changes);
+    /// For the user, with the number of clouds if these are not all.
+    std::vector<std::string> texts(std::size_t all_clouds) const;
+
+ private:
+    std::map<std::string, std::size_t> clouds_;  ///< by change
+};
 
 /// Writes labelled clouds, one file per scan and one folder per LiDAR if there are several.
 class CloudOutput {
@@ -37,7 +54,7 @@ class CloudOutput {
     std::size_t files() const { return files_; }
     std::size_t points() const { return points_; }
     /// What was changed in the files, for the user.
-    std::vector<std::string> remarks() const;
+    std::vector<std::string> remarks() const { return changes_.texts(files_); }
 
     void commit() { folders_.commit(); }
     std::filesystem::path keepPartial() { return folders_.keepPartial(); }
@@ -46,7 +63,7 @@ class CloudOutput {
     clouds::OutputFormat format_;
     SensorFolders folders_;
     std::size_t files_ = 0, points_ = 0;
-    std::map<std::string, std::size_t> changes_;  ///< files with them
+    CloudChanges changes_;
 };
 
 }  // namespace hagen::logs

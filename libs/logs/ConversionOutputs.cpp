@@ -28,6 +28,7 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
     if (!conversion.clouds.empty()) {
         clouds_.emplace(conversion.clouds, conversion.cloud_format, overwrite);
     }
+    if (!conversion.mcap.empty()) mcap_.emplace(conversion.mcap, overwrite);
     if (!conversion.pictures.empty()) {
         pictures_.emplace(conversion.pictures, pictures::kStagePictures, overwrite);
     }
@@ -62,6 +63,7 @@ std::string ConversionOutputs::writeScan(
                              !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);
     }
     if (clouds_) clouds_->write(own_name, segmented, *recorded.observation);
+    if (mcap_) mcap_->write(segmented, *recorded.observation);
     if (pictures_) drawPictures(segmented, recorded);
     return own_name;
 }
@@ -86,6 +88,7 @@ void ConversionOutputs::finish(const ConversionReport& report) {
         writer.finish();
         markAsPredictions(folders_->folderOf(label));
     }
+    if (mcap_) mcap_->finish();
     if (map_) map_->write();
     if (stats_) writeStatistics(stats_->temporary(), conversion_, report);
 }
@@ -95,6 +98,7 @@ void ConversionOutputs::commit(const ConversionReport& report) {
     if (stats_) stats_->commit();
     if (map_) map_->commit();
     if (pictures_) pictures_->commit();
+    if (mcap_) mcap_->commit();
     if (clouds_) clouds_->commit();
     if (folders_) folders_->commit();
     if (rawlog_) rawlog_->commit();
@@ -109,6 +113,7 @@ std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
     keep(rawlog_);
     keep(folders_);
     keep(clouds_);
+    keep(mcap_);
     keep(pictures_);
     if (map_) names += map_->keepPartial();
     keep(stats_);

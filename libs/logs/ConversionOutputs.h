@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "CloudOutput.h"
+#include "McapOutput.h"
 
 namespace hagen::logs {
 
@@ -28,13 +29,16 @@ class ConversionOutputs {
     }
     void writeMember(const Bytes& packed) { rawlog_->writeMember(packed); }
 
-    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures. An empty name stands
-    /// for the next number. Returns the name used.
+    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
+    /// empty name stands for the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const RecordedScan& recorded, const observations::Settings& settings);
 
     /// The labelled clouds written so far; null if there are none to write.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
+
+    /// The MCAP written so far; null if there is none to write.
+    const McapOutput* mcap() const { return mcap_ ? &*mcap_ : nullptr; }
 
     /// Adds a scan to the map, if there is one.
     bool wantsMap() const { return map_.has_value(); }
@@ -53,6 +57,7 @@ class ConversionOutputs {
     std::optional<RawlogWriter> rawlog_;
     std::optional<SensorFolders> folders_, pictures_;
     std::optional<CloudOutput> clouds_;
+    std::optional<McapOutput> mcap_;
     std::optional<MapOutput> map_;
     std::optional<base::OutputPath> stats_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label

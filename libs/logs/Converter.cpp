@@ -56,7 +56,28 @@ bool hasTumFile(const Conversion& conversion) {
 bool needsPoses(const Conversion& conversion) {
     const bool can_level = conversion.settings.options.level_by_attitude && hasTumFile(conversion);
     return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
-           !conversion.octomaps.empty() || can_level || bags::isBag(conversion.input);
+           !conversion.octomaps.empty() || !conversion.mcap.empty() || can_level ||
+           bags::isBag(conversion.input);
+}
+
+/// Takes out of a sensory frame what an earlier run made of its scans: the new results replace it.
+/// Results of other LiDARs stay, and so do those of a scan that could not be segmented this time.
+void takeOutResults(EntryInConversion& entry) {
+    const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object);
+    if (!frame) return;
+    const auto isReplaced = [&](const CObservation& part) {
+        return observations::isResult(part) &&
+               std::any_of(entry.scans.begin(), entry.scans.end(), [&](const auto& scan) {
+                   const CObservation& of = *scan.recorded.observation;
+                   return scan.is_segmented && of.timestamp == part.timestamp &&
+                          of.sensorLabel == observations::scanLabelOf(part);
+               });
+    };
+    for (auto part = frame->begin(); part != frame->end();) {
+        const bool is_replaced = isReplaced(**part);
+        entry.results_replaced += is_replaced;
+        part = is_replaced ? frame->erase(part) : std::next(part);
+    }
 }
 
 }  // namespace
@@ -110,38 +131,10 @@ bool Converter::read(EntryInConversion& entry) {
         for (RecordedScan& scan : recorded->scans) {
             entry.scans.emplace_back().recorded = std::move(scan);
         }
-        takeOutResults(entry);
         return true;
     } catch (...) {
         end_ = std::current_exception();  // rethrown once the entries before are converted
         return false;
-    }
-}
-
-/// Takes out what an earlier run made of scans that are segmented again: the new results replace
-/// it. Results of other LiDARs, and those without their scan, stay.
-void Converter::takeOutResults(EntryInConversion& entry) {
-    for (const ScanInConversion& scan : entry.scans) {
-        const CObservation& observation = *scan.recorded.observation;
-        last_scans_[observation.sensorLabel] = observation.timestamp;
-    }
-    const auto isReplaced = [this](const CObservation& observation) {
-        if (!observations::isResult(observation)) return false;
-        const std::string label = observations::scanLabelOf(observation);
-        return std::any_of(last_scans_.begin(), last_scans_.end(), [&](const auto& scan) {
-            return (label.empty() || label == scan.first) && observation.timestamp == scan.second;
-        });
-    };
-    if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object)) {
-        for (auto part = frame->begin(); part != frame->end();) {
-            const bool is_replaced = isReplaced(**part);
-            entry.results_replaced += is_replaced;
-            part = is_replaced ? frame->erase(part) : std::next(part);
-        }
-    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry.object)) {
-        if (!isReplaced(*observation)) return;
-        entry.object.reset();
-        entry.results_replaced = 1;
     }
 }
 
@@ -188,6 +181,7 @@ void Converter::serialiseAll(EntryInConversion& entry) const {
 void Converter::segment(EntryInConversion& entry) {
     try {
         for (ScanInConversion& scan : entry.scans) segment(scan);
+        takeOutResults(entry);
         serialiseAll(entry);
     } catch (...) {
         entry.failure = std::current_exception();
@@ -245,9 +239,25 @@ void Converter::account(ScanInConversion& scan) {
     scan.segmenter.reset();
 }
 
+/// Whether an entry is a result of an earlier run whose scan, before it, was segmented again.
+bool Converter::isReplaced(const EntryInConversion& entry) const {
+    const auto observation = std::dynamic_pointer_cast<CObservation>(entry.object);
+    if (!observation || !observations::isResult(*observation)) return false;
+    const auto scan = last_segmented_.find(observations::scanLabelOf(*observation));
+    return scan != last_segmented_.end() && scan->second == observation->timestamp;
+}
+
 void Converter::account(EntryInConversion& entry) {
     if (entry.failure) std::rethrow_exception(entry.failure);
-    for (ScanInConversion& scan : entry.scans) account(scan);
+    for (ScanInConversion& scan : entry.scans) {
+        const CObservation& observation = *scan.recorded.observation;
+        if (scan.is_segmented) last_segmented_[observation.sensorLabel] = observation.timestamp;
+        account(scan);
+    }
+    if (isReplaced(entry)) {
+        entry.bytes.clear();
+        ++entry.results_replaced;
+    }
     outputs_.gather(entry.bytes, entry.member);
     // The MRPT objects are no longer needed.
     entry.scans.clear();
@@ -334,12 +344,21 @@ ConversionReport Converter::finish() {
                          "the airframe of the settings masks none of its returns; is it that of "
                          "this vehicle, in the frame of the sensor?");
     }
+    remarkOnNothingFound();
     remarkOnRecording();
     outputs_.commit(report_);
     return std::move(report_);
 }
 
 void Converter::finishSensorCheck() {
+    const observations::Settings::Sensor &wanted = conversion_.settings.sensor,
+                                         &used = settings_.sensor;
+    if (wanted.model &&
+        (wanted.model != used.model || wanted.elevations_deg != used.elevations_deg)) {
+        listener_.remark(
+            "the log",
+            "its sensor.yaml is used instead of the settings' sensor.model " + *wanted.model);
+    }
     for (const auto& [label, remark] : sensor_check_.finish()) {
         listener_.remark("sensor " + label, remark);
     }
@@ -347,6 +366,18 @@ void Converter::finishSensorCheck() {
         const std::string fit = sensor_check_.textOf(label);
         if (!fit.empty()) sensor += ", " + fit;
     }
+}
+
+/// Labels that are all the same look as if nothing happened.
+void Converter::remarkOnNothingFound() {
+    if (report_.returns == 0 || report_.roi > 0) return;
+    if (report_.rou == 0) {
+        listener_.remark("the log", "no return has a range: all are unclassified");
+        return;
+    }
+    listener_.remark("the log",
+                     "no return is RoI. If there should be obstacles: are the coordinates metres, "
+                     "relative to the sensor (x forward, z up), not to a map?");
 }
 
 void Converter::remarkOnRecording() {
@@ -357,6 +388,10 @@ void Converter::remarkOnRecording() {
         for (const std::string& remark : clouds->remarks()) {
             listener_.remark("the labelled clouds", remark);
         }
+    }
+    if (const McapOutput* const mcap = outputs_.mcap()) {
+        report_.mcap = {mcap->scans(), mcap->points(), mcap->boxes(), mcap->messages()};
+        for (const std::string& remark : mcap->remarks()) listener_.remark("the MCAP", remark);
     }
 }
 

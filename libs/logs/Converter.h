@@ -46,7 +46,6 @@ class Converter {
  private:
     // The steps of the pipeline (OrderedPipeline.h), and their parts.
     bool read(EntryInConversion& entry);
-    void takeOutResults(EntryInConversion& entry);
     void segment(EntryInConversion& entry);
     void account(EntryInConversion& entry);
 
@@ -59,8 +58,10 @@ class Converter {
     void insertIntoMap(const ScanInConversion& scan);
     void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan);
     ConversionReport finish();
+    bool isReplaced(const EntryInConversion& entry) const;
     void checkSensor(const ScanInConversion& scan);
     void finishSensorCheck();
+    void remarkOnNothingFound();
     void remarkOnRecording();
     void checkLabels() const;
     template <class Error>
@@ -73,8 +74,8 @@ class Converter {
     const observations::Settings settings_;  ///< with those of the recording's own sensor
     ConversionOutputs outputs_;
     SegmenterPool segmenters_;
-    /// Time of the last scan read, by sensor label.
-    std::map<std::string, mrpt::Clock::time_point> last_scans_;
+    /// Time of the last scan that was segmented, by sensor label.
+    std::map<std::string, mrpt::Clock::time_point> last_segmented_;
     SensorCheck sensor_check_;
     ConversionReport report_;
     std::exception_ptr end_;  ///< why reading ended early

@@ -8,6 +8,8 @@
 namespace hagen::logs {
 namespace {
 
+const std::string kNoObject = "it is not an MRPT object";
+
 /// Derives from MRPT's message why an entry cannot be read.
 std::string reasonOf(const std::exception& exception) {
     const std::string text = observations::messageOf(exception);
@@ -16,7 +18,7 @@ std::string reasonOf(const std::exception& exception) {
         return text + " (this program supports the classes of mrpt-obs and mrpt-maps)";
     }
     if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
-    return "it is not an MRPT object";
+    return kNoObject;
 }
 
 void checkReadable(const std::filesystem::path& file) {
@@ -62,7 +64,12 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
         if (entries_ == 0) throw BrokenRawlog(file_.string() + ": contains no rawlog entries");
         return nullptr;
     } catch (const std::exception& e) {
-        throw broken(reasonOf(e));
+        const std::string reason = reasonOf(e);
+        if (entries_ == 0 && reason == kNoObject) {
+            throw BrokenRawlog(file_.string() + ": is no recording: no rawlog (" + reason +
+                               "), and by its content no capture, ROS recording or point cloud");
+        }
+        throw broken(reason);
     }
     if (!object) throw broken("it is an empty object");
     ++entries_;

@@ -1,3 +1,4 @@
+#include <hagen/base/WriteFile.h>
 #include <hagen/logs/SensorFolders.h>
 
 #include <cctype>
@@ -20,7 +21,7 @@ std::string fileName(const std::string& sensor_label) {
 }  // namespace
 
 SensorFolders::SensorFolders(const fs::path& folder, const base::OutputKind& kind, bool overwrite)
-    : path_(folder, kind, overwrite) {
+    : marker_(kind.marker), path_(folder, kind, overwrite) {
     fs::create_directory(path_.temporary());
 }
 
@@ -46,11 +47,19 @@ void SensorFolders::unwrapOnlyFolder() {
 void SensorFolders::commit() {
     if (folders_.empty()) return;
     unwrapOnlyFolder();
+    writeMarker();
     path_.commit();
+}
+
+void SensorFolders::writeMarker() const {
+    if (marker_ == nullptr) return;
+    base::writeText("Made by rawlog-segment, which may replace this folder.\n",
+                    path_.temporary() / marker_, path_.path() / marker_);
 }
 
 fs::path SensorFolders::keepPartial() {
     unwrapOnlyFolder();
+    writeMarker();
     return path_.keepPartial();
 }
 

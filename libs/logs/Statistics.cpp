@@ -93,6 +93,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
     for (const auto& [what, path] : {std::pair{"rawlog", conversion.rawlog},
                                      {"folder", conversion.folder},
                                      {"clouds", conversion.clouds},
+                                     {"mcap", conversion.mcap},
                                      {"pictures", conversion.pictures}}) {
         if (!path.empty()) json["outputs"][what] = path.string();
     }
@@ -105,6 +106,12 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
     if (!conversion.octomaps.empty()) json["scans_in_map"] = report.scans_in_map;
     if (!conversion.clouds.empty()) {
         json["clouds"] = {{"files", report.clouds}, {"points", report.cloud_points}};
+    }
+    if (!conversion.mcap.empty()) {
+        json["mcap"] = {{"scans", report.mcap.scans},
+                        {"points", report.mcap.points},
+                        {"boxes", report.mcap.boxes},
+                        {"messages", report.mcap.messages}};
     }
     json["entries"] = report.entries;
     json["unreadable_scans"] = report.unreadable_scans;

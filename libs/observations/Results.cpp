@@ -1,7 +1,7 @@
 #include <hagen/observations/Results.h>
 
 #include <mrpt/obs/CObservation3DScene.h>
-#include <mrpt/opengl/CRenderizable.h>
+#include <mrpt/opengl/CSetOfObjects.h>
 
 #include <cmath>
 
@@ -38,9 +38,12 @@ std::string suffixOf(const mrpt::obs::CObservation& observation) {
     return "";
 }
 
-bool isPreview(const mrpt::obs::CObservation& observation) {
+/// The object of a preview; null: the observation is none.
+mrpt::opengl::CSetOfObjects::Ptr previewIn(const mrpt::obs::CObservation& observation) {
     const auto* scene = dynamic_cast<const mrpt::obs::CObservation3DScene*>(&observation);
-    return scene != nullptr && scene->scene && scene->scene->getByName(kPreviewName);
+    if (scene == nullptr || !scene->scene) return nullptr;
+    return std::dynamic_pointer_cast<mrpt::opengl::CSetOfObjects>(
+        scene->scene->getByName(kPreviewName));
 }
 
 }  // namespace
@@ -57,10 +60,17 @@ CObservationPointCloud::Ptr resultOf(const mrpt::obs::CObservation& scan, bool i
 }
 
 bool isResult(const mrpt::obs::CObservation& observation) {
-    return !suffixOf(observation).empty() || isPreview(observation);
+    return !suffixOf(observation).empty() || previewIn(observation) != nullptr;
 }
 
 std::string scanLabelOf(const mrpt::obs::CObservation& result) {
+    if (const auto preview = previewIn(result)) {
+        for (const auto& part : *preview) {
+            const std::string& name = part->getName();
+            if (name.rfind(kPreviewOfPrefix, 0) == 0) return name.substr(kPreviewOfPrefix.size());
+        }
+        return "";
+    }
     const std::string& label = result.sensorLabel;
     const std::string suffix = suffixOf(result);
     return suffix.empty() ? "" : label.substr(0, label.size() - suffix.size());

@@ -8,14 +8,10 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/stock_objects.h>
 
-#include <algorithm>
-#include <vector>
-
 namespace hagen::observations {
 namespace {
 
 const mrpt::img::TColor kZoneColor(240, 240, 240), kBoxColor(255, 190, 120);
-constexpr std::uint32_t kLeastBoxed = 30;  // returns; boxes around fewer only hide them
 constexpr float kRoiPixels = 4.0f, kNonRoiPixels = 2.0f;
 
 mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& points,
@@ -45,24 +41,6 @@ void addEdges(const Eigen::AlignedBox3f& box, mrpt::opengl::CSetOfLines& lines) 
     }
 }
 
-/// The boxes of the larger obstacles. A box inside another one would only hide its points.
-std::vector<Eigen::AlignedBox3f> boxesToDraw(const std::vector<RoiBox>& boxes) {
-    std::vector<Eigen::AlignedBox3f> drawn;
-    for (const RoiBox& box : boxes) {
-        if (box.returns < kLeastBoxed) continue;
-        const auto holds = [&](const Eigen::AlignedBox3f& other) {
-            return other.contains(box.extents_m);
-        };
-        if (std::any_of(drawn.begin(), drawn.end(), holds)) continue;
-        drawn.erase(
-            std::remove_if(drawn.begin(), drawn.end(),
-                           [&](const auto& other) { return box.extents_m.contains(other); }),
-            drawn.end());
-        drawn.push_back(box.extents_m);
-    }
-    return drawn;
-}
-
 }  // namespace
 
 mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& observation,
@@ -78,11 +56,12 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     frames->setName("obstacles");
     frames->setColor_u8(kBoxColor);
     const auto boxes = boxRoiComponents(*segmented.scan, segmented.result->returns);
-    for (const Eigen::AlignedBox3f& box : boxesToDraw(boxes)) addEdges(box, *frames);
+    for (const RoiBox& box : boxesToDraw(boxes)) addEdges(box.extents_m, *frames);
     sensor->insert(frames);
     sensor->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 2.0f));
     auto zone = mrpt::opengl::CDisk::Create(zone_m, zone_m - 0.15f, 100);
     zone->setColor_u8(kZoneColor);
+    zone->setName(kPreviewOfPrefix + observation.sensorLabel);
     sensor->insert(zone);
 
     auto preview = mrpt::obs::CObservation3DScene::Create();

@@ -1,5 +1,6 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/range_image/BeamFit.h>
+#include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/RecoverBeams.h>
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,15 @@ namespace {
 
 const float kTolerance_rad = static_cast<float>(radians(kBeamFitTolerance_deg));
 
-bool isOnABeam(float elevation_rad, const SensorModel& sensor) {
-    const float beam_rad = sensor.elevations_rad[sensor.nearestRow(elevation_rad)];
-    return std::abs(elevation_rad - beam_rad) <= kTolerance_rad;
+/// Of the row that a quarter of the rows exceed. Image: row * columns + column.
+float filledOf(const std::vector<bool>& has_return, std::size_t rows, std::size_t columns) {
+    std::vector<std::ptrdiff_t> filled(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const auto first = has_return.begin() + static_cast<std::ptrdiff_t>(row * columns);
+        filled[row] = std::count(first, first + static_cast<std::ptrdiff_t>(columns), true);
+    }
+    std::sort(filled.begin(), filled.end());
+    return static_cast<float>(filled[3 * (rows - 1) / 4]) / static_cast<float>(columns);
 }
 
 /// How many of the beams shown are beams of the sensor, each of which stands for one at most. Both
@@ -37,19 +44,27 @@ float BeamFit::share() const {
     return std::min(returns_share, static_cast<float>(beams_seen) / static_cast<float>(most));
 }
 
-std::optional<BeamFit> fitBeams(const Scan& scan, const SensorModel& sensor) {
+std::optional<BeamFit> fitBeams(const Scan& scan, const SensorModel& sensor, int columns) {
     if (!sensor.has_rings) return std::nullopt;
     const auto shown = recoverBeams(scan);
     if (!shown) return std::nullopt;
     BeamFit fit;
     std::size_t on_beams = 0;
+    const auto rows = static_cast<std::size_t>(sensor.rows());
+    const auto width = static_cast<std::size_t>(columns);
+    std::vector<bool> has_return(rows * width, false);
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const float x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
         const float level_m = std::hypot(x, y);
         if (!std::isfinite(level_m + z) || (level_m == 0 && z == 0)) continue;
         ++fit.returns;
-        on_beams += isOnABeam(std::atan2(z, level_m), sensor);
+        const float elevation_rad = std::atan2(z, level_m);
+        const auto row = static_cast<std::size_t>(sensor.nearestRow(elevation_rad));
+        on_beams += std::abs(elevation_rad - sensor.elevations_rad[row]) <= kTolerance_rad;
+        const auto column = static_cast<std::size_t>(nearestColumn(std::atan2(y, x), columns));
+        has_return[row * width + column] = true;
     }
+    fit.filled = filledOf(has_return, rows, width);
     fit.returns_share = static_cast<float>(on_beams) / static_cast<float>(fit.returns);
     if (!shown->sensor.has_rings) return fit;
     const std::vector<float>& shown_rad = shown->seen_rad;

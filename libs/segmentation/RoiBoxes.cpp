@@ -3,6 +3,11 @@
 #include <limits>
 
 namespace hagen {
+namespace {
+
+constexpr std::uint32_t kLeastDrawn = 30;  // returns
+
+}  // namespace
 
 std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& returns) {
     std::int32_t components = 0;
@@ -21,6 +26,24 @@ std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& re
         box.extents_m.extend(Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]));
     }
     return boxes;
+}
+
+std::vector<RoiBox> boxesToDraw(const std::vector<RoiBox>& boxes) {
+    std::vector<RoiBox> drawn;
+    for (const RoiBox& box : boxes) {
+        if (box.returns < kLeastDrawn) continue;
+        const auto holds = [&](const RoiBox& other) {
+            return other.extents_m.contains(box.extents_m);
+        };
+        if (std::any_of(drawn.begin(), drawn.end(), holds)) continue;
+        drawn.erase(std::remove_if(drawn.begin(), drawn.end(),
+                                   [&](const RoiBox& other) {
+                                       return box.extents_m.contains(other.extents_m);
+                                   }),
+                    drawn.end());
+        drawn.push_back(box);
+    }
+    return drawn;
 }
 
 }  // namespace hagen

@@ -268,7 +268,12 @@ TEST_F(RawlogSegmentClouds, WrongUsageIsToldFromFailure) {
     expectFailure({"-i", file, "--clouds", path("taken")}, 1, "taken exists");
     fs::create_directory(path("notes"));
     write("notes/notes.txt", "mine");
-    expectFailure({"-i", file, "--clouds", path("notes"), "--overwrite"}, 1, "'notes.txt'");
+    expectFailure({"-i", file, "--clouds", path("notes"), "--overwrite"}, 1, "'made_by.txt'");
+    // Clouds of the user, which have the same names as labelled ones.
+    fs::create_directory(path("mine"));
+    fs::copy_file(file, path("mine/000000.pcd"));
+    expectFailure({"-i", file, "--clouds", path("mine"), "--overwrite"}, 1, "has no 'made_by.txt'");
+    EXPECT_TRUE(fs::exists(path("mine/000000.pcd")));
     expectFailure({"-i", file, "--clouds", folder_.path().string(), "--overwrite"}, 1,
                   "is or contains the input");
     expectFailure(

@@ -146,5 +146,29 @@ TEST(WriteCloud, APlyIsWhatTheFormatSays) {
     fs::remove(file);
 }
 
+TEST(TableForPointCloud2, HasCoordinatesFirstAndNoGapsAndNoLongIntegers) {
+    PointTable input = twoPoints();
+    addColumn("ns", NumberType::Int64, {9007199254740994.0, -1}, input);
+    const PointTable table = tableForPointCloud2(input);
+    EXPECT_NO_THROW(check(table));
+    EXPECT_EQ(namesOf(table), "x, y, z, my_ring, t, label, ns");
+    EXPECT_EQ(table.points, 2u);
+    EXPECT_EQ(table.bytes_per_point, 12u + 2 + 8 + 1 + 8);
+    EXPECT_EQ(findField(table, {"z"})->type, NumberType::Float32);
+    EXPECT_EQ(findField(table, {"my_ring"})->type, NumberType::UInt16);
+    EXPECT_EQ(findField(table, {"t"})->type, NumberType::Float64);
+    EXPECT_EQ(columnOf(table, *findField(table, {"y"})), (Numbers{-3, 4}));
+    EXPECT_EQ(columnOf(table, *findField(table, {"my_ring"})), (Numbers{258, 65535}));
+    EXPECT_EQ(columnOf(table, *findField(table, {"t"})), (Numbers{7, 9}));
+    EXPECT_EQ(columnOf(table, *findField(table, {"label"})), (Numbers{0, 2}));
+    EXPECT_THAT(changesInPointCloud2(input),
+                ElementsAre("the field 'ns' is int64, which PointCloud2 does not know: it is "
+                            "rounded to float64"));
+    PointTable flat;
+    flat.points = 1;
+    addColumn("x", NumberType::Float32, {0}, flat);
+    EXPECT_THROW(tableForPointCloud2(flat), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace hagen::clouds

@@ -176,9 +176,10 @@ TEST_P(ConversionTest, ResultsOfAnotherLidarAndResultsWithoutTheirScanStay) {
     cut.input = folder_ / "out.rawlog";
     cut.rawlog = folder_ / "cut.rawlog";
     cut.from = 1;
-    EXPECT_EQ(convert(cut).results_replaced, 2u);
-    EXPECT_EQ(entriesOf(cut.rawlog), (std::vector<std::string>{"front_roi", "front_non_roi", "rear",
-                                                               "rear_roi", "rear_non_roi"}));
+    EXPECT_EQ(convert(cut).results_replaced, 3u);
+    EXPECT_EQ(entriesOf(cut.rawlog),
+              (std::vector<std::string>{"front_roi", "front_non_roi", "", "rear", "rear_roi",
+                                        "rear_non_roi"}));
 }
 
 TEST_P(ConversionTest, AScanLabelledLikeAResultIsAScan) {

@@ -47,7 +47,7 @@ TEST_F(ScenePreview, IsToldFromOtherScenesAfterARawlogToo) {
     const auto read = afterARawlog(*preview_, bytes);
     EXPECT_TRUE(isResult(*preview_));
     EXPECT_TRUE(isResult(*read));
-    EXPECT_EQ(scanLabelOf(*read), "");
+    EXPECT_EQ(scanLabelOf(*read), "front");
     mrpt::obs::CObservation3DScene other;
     EXPECT_FALSE(isResult(other));
     other.scene = mrpt::opengl::COpenGLScene::Create();

@@ -46,25 +46,38 @@ TEST(BeamFit, EveryKnownModelFitsItself) {
         for (const float beam_rad : sensor.elevations_rad) {
             beams_deg.push_back(degrees(static_cast<double>(beam_rad)));
         }
-        const auto fit = fitBeams(scanOf(beams_deg), sensor);
+        const auto fit = fitBeams(scanOf(beams_deg), sensor, 600);
         ASSERT_EQ(fit.has_value(), sensor.has_rings);
         if (!fit) continue;
         EXPECT_EQ(fit->returns, 600 * beams_deg.size());
         EXPECT_EQ(fit->beams, beams_deg.size());
         EXPECT_EQ(fit->beams_seen, beams_deg.size());
         EXPECT_EQ(fit->share(), 1.0f);
+        EXPECT_EQ(fit->filled, 1.0f);
     }
+}
+
+TEST(BeamFit, FewerBeamsLeaveRowsEmptyEvenIfTheirReturnsAreBlurred) {
+    // Sixteen blurred beams, taken for 64 between which nothing is farther than the tolerance.
+    const auto beams_deg = beamsEvery(2, -15, 15);
+    const auto fit =
+        fitBeams(scanOf(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -15, 16.5)), 600);
+    ASSERT_TRUE(fit);
+    EXPECT_GT(fit->share(), 0.99f);
+    EXPECT_NEAR(fit->filled, 0.25, 0.05);  // a return every fourth row
+    // With the beams that it has, no row lacks returns.
+    EXPECT_GT(fitBeams(scanOf(beams_deg, 0.5f), sensorModel("VLP-16"), 600)->filled, 0.99f);
 }
 
 TEST(BeamFit, ReturnsWithinTheToleranceCount) {
     // Uniform jitter of 0.8 degrees: half of the returns are within 0.4.
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15), 0.8f), sensorModel("VLP-16"));
+    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15), 0.8f), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->returns_share, 0.5, 0.02);
 }
 
 TEST(BeamFit, ShiftedBeamsDoNotFit) {
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -14, 16)), sensorModel("VLP-16"));
+    const auto fit = fitBeams(scanOf(beamsEvery(2, -14, 16)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->returns_share, 0.0f);
     EXPECT_EQ(fit->beams_seen, 0u);
@@ -75,7 +88,7 @@ TEST(BeamFit, ShiftedBeamsDoNotFit) {
 TEST(BeamFit, ElevationsInRadiansDoNotFit) {
     std::vector<double> wrong;
     for (const double beam_deg : beamsEvery(2, -15, 15)) wrong.push_back(radians(beam_deg));
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15)), customSensorModel(wrong));
+    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15)), customSensorModel(wrong), 600);
     ASSERT_TRUE(fit);
     // Only the beams at -1 and 1 degree are near +-0.26.
     EXPECT_LT(fit->share(), 0.15f);
@@ -83,14 +96,14 @@ TEST(BeamFit, ElevationsInRadiansDoNotFit) {
 
 TEST(BeamFit, AnotherNumberOfBeamsShowsEvenIfAllReturnsLieOnBeams) {
     const std::vector<double> half_deg = beamsEvery(4, -15, 15);
-    const auto fewer = fitBeams(scanOf(half_deg), sensorModel("VLP-16"));
+    const auto fewer = fitBeams(scanOf(half_deg), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fewer);
     EXPECT_EQ(fewer->returns_share, 1.0f);
     EXPECT_EQ(fewer->beams_seen, 8u);
     EXPECT_EQ(fewer->beams, 15u);  // from -15 to 13 degrees
     EXPECT_FLOAT_EQ(fewer->share(), 8.0f / 15.0f);
 
-    const auto more = fitBeams(scanOf(beamsEvery(2, -15, 15)), customSensorModel(half_deg));
+    const auto more = fitBeams(scanOf(beamsEvery(2, -15, 15)), customSensorModel(half_deg), 600);
     ASSERT_TRUE(more);
     EXPECT_EQ(more->beams_shown, 16u);
     EXPECT_EQ(more->beams_seen, 8u);
@@ -98,14 +111,14 @@ TEST(BeamFit, AnotherNumberOfBeamsShowsEvenIfAllReturnsLieOnBeams) {
 }
 
 TEST(BeamFit, BeamsThatSeeOnlySkyAreNotMissed) {
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 1)), sensorModel("VLP-16"));
+    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 1)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams, 9u);
     EXPECT_EQ(fit->share(), 1.0f);
 }
 
 TEST(BeamFit, ACloudWithoutBeamsIsJudgedByItsReturns) {
-    const auto fit = fitBeams(scanOf(beamsEvery(0.05, -15, 15)), sensorModel("VLP-16"));
+    const auto fit = fitBeams(scanOf(beamsEvery(0.05, -15, 15)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams_shown, 0u);
     EXPECT_NEAR(fit->share(), 0.4, 0.03);  // 0.8 of every 2 degrees
@@ -116,9 +129,9 @@ TEST(BeamFit, TooFewReturnsSayNothing) {
     scan.x_m.resize(kFewestReturnsForBeams);
     scan.y_m.resize(kFewestReturnsForBeams);
     scan.z_m.resize(kFewestReturnsForBeams);
-    EXPECT_TRUE(fitBeams(scan, sensorModel("VLP-16")));
+    EXPECT_TRUE(fitBeams(scan, sensorModel("VLP-16"), 600));
     scan.x_m.back() = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_FALSE(fitBeams(scan, sensorModel("VLP-16")));
+    EXPECT_FALSE(fitBeams(scan, sensorModel("VLP-16"), 600));
 }
 
 }  // namespace

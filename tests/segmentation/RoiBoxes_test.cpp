@@ -41,5 +41,26 @@ TEST(RoiBoxes, WithoutObstaclesThereIsNone) {
     EXPECT_TRUE(boxesOf({}, {}).empty());
 }
 
+RoiBox box(std::int32_t component, std::uint32_t returns, float size_m) {
+    const Eigen::Vector3f corner = Eigen::Vector3f::Constant(size_m);
+    return {component, returns, 1.0f, {-corner, corner}};
+}
+
+std::vector<std::int32_t> drawn(const std::vector<RoiBox>& boxes) {
+    std::vector<std::int32_t> components;
+    for (const RoiBox& box : boxesToDraw(boxes)) components.push_back(box.component);
+    return components;
+}
+
+TEST(RoiBoxes, DrawnAreLargeOnesThatAreNotInsideOthers) {
+    using Components = std::vector<std::int32_t>;
+    EXPECT_EQ(drawn({box(1, 30, 1), box(2, 29, 9)}), Components{1});
+    EXPECT_EQ(drawn({box(1, 30, 1), box(2, 30, 2), box(3, 30, 0.5f)}), Components{2});
+    RoiBox aside = box(2, 30, 1);
+    aside.extents_m.translate(Eigen::Vector3f(0.5f, 0, 0));
+    EXPECT_EQ(drawn({box(1, 30, 1), aside}), (Components{1, 2}));
+    EXPECT_EQ(drawn({}), Components{});
+}
+
 }  // namespace
 }  // namespace hagen

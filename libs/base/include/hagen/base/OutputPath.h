@@ -11,6 +11,9 @@ struct OutputKind {
     /// True if a file belongs to such a folder, by its path within the folder; null for outputs
     /// that are files.
     bool (*holds)(const std::filesystem::path& within);
+    /// A file that each such folder has, where the names of the others do not tell whose they are.
+    /// Null: none.
+    const char* marker = nullptr;
 };
 constexpr OutputKind kFile{"a file", nullptr};
 

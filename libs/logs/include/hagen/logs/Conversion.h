@@ -25,6 +25,7 @@ struct Conversion {
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
     std::filesystem::path clouds;  ///< labelled clouds with all fields, a file per scan
     clouds::OutputFormat cloud_format = clouds::OutputFormat::Ply;
+    std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as messages of ROS 2
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
     std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
     mapping::ScanMapOptions octomap;              ///< resolution and contents of the map
@@ -77,8 +78,12 @@ struct ConversionReport {
     std::string poses;  ///< source of the poses; empty: not needed or not available
     std::size_t scans_with_pose = 0;
     std::size_t clouds = 0, cloud_points = 0;  ///< files and points of the labelled clouds
-    std::size_t scans_in_map = 0;              ///< scans in the OctoMap: those with a pose
-    std::size_t scans_with_attitude = 0;       ///< scans with known roll and pitch
+    struct Mcap {
+        std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
+    };
+    Mcap mcap;                            ///< what the MCAP holds
+    std::size_t scans_in_map = 0;         ///< scans in the OctoMap: those with a pose
+    std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
     observations::Settings

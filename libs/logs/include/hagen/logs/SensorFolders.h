@@ -24,7 +24,9 @@ class SensorFolders {
 
  private:
     void unwrapOnlyFolder();
+    void writeMarker() const;
 
+    const char* marker_;  ///< of the kind; null: none
     base::OutputPath path_;
     std::map<std::string, std::filesystem::path> folders_;  ///< by sensor label
 };

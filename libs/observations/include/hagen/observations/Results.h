@@ -12,8 +12,10 @@ const mrpt::img::TColor kRoiColor(213, 94, 0), kNonRoiColor(150, 190, 230);
 
 constexpr const char* kRoiSuffix = "_roi";
 constexpr const char* kNonRoiSuffix = "_non_roi";
-/// Name of the object in the scene of a preview.
+/// Name of the object in the scene of a preview. One of its parts is named after the scan, as
+/// rawlogs do not keep the label of a scene.
 constexpr const char* kPreviewName = "hagen preview";
+const std::string kPreviewOfPrefix = "zone of ";
 
 /// A cloud as a result of the filter: its label is that of the scan and a suffix, its time and pose
 /// are those of the scan. The mark of a result is the colour in its cloud's renderOptions, which
@@ -25,8 +27,7 @@ mrpt::obs::CObservationPointCloud::Ptr resultOf(const mrpt::obs::CObservation& s
 /// alone does not tell: a scan may be labelled "front_roi".
 bool isResult(const mrpt::obs::CObservation& observation);
 
-/// The label of the scan that a result comes from; empty for a preview, as rawlogs do not keep the
-/// label of a scene.
+/// The label of the scan that a result comes from.
 std::string scanLabelOf(const mrpt::obs::CObservation& result);
 
 }  // namespace hagen::observations

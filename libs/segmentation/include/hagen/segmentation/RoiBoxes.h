@@ -18,4 +18,8 @@ struct RoiBox {
 /// One box per component, ordered by number. Requires `returns` of this scan.
 std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& returns);
 
+/// Those worth drawing, in their order: of 30 returns or more, and not inside another such box.
+/// Boxes around fewer, and boxes in boxes, would only hide points.
+std::vector<RoiBox> boxesToDraw(const std::vector<RoiBox>& boxes);
+
 }  // namespace hagen
