@@ -215,14 +215,32 @@ std::vector<std::string> changesWhenWritten(OutputFormat format, const PointTabl
 
 PointTable tableForPointCloud2(const PointTable& table) {
     const std::vector<WrittenField> fields = fieldsOf(kPointCloud2, table);
+    const auto aligned = [](std::size_t offset, std::size_t size) {
+        return (offset + size - 1) / size * size;
+    };
     PointTable written;
-    for (const WrittenField& field : fields) {
-        written.fields.push_back({field.name, field.type, written.bytes_per_point, field.count});
-        written.bytes_per_point += field.count * bytesOf(field.type);
-    }
     written.points = table.points;
+    std::size_t packed_size = 0, widest = 1;
+    for (const WrittenField& field : fields) {
+        const std::size_t size = bytesOf(field.type);
+        const std::size_t offset = aligned(written.bytes_per_point, size);
+        written.fields.push_back({field.name, field.type, offset, field.count});
+        written.bytes_per_point = offset + field.count * size;
+        packed_size += field.count * size;
+        widest = std::max(widest, size);
+    }
+    written.bytes_per_point = aligned(written.bytes_per_point, widest);
+    written.bytes.resize(written.points * written.bytes_per_point);
     const std::string records = recordsOf(fields, table);
-    written.bytes.assign(records.begin(), records.end());
+    std::size_t packed_offset = 0;
+    for (const PointField& field : written.fields) {
+        const std::size_t size = field.count * bytesOf(field.type);
+        for (std::size_t i = 0; i < written.points; ++i) {
+            std::memcpy(written.bytes.data() + i * written.bytes_per_point + field.offset,
+                        records.data() + i * packed_size + packed_offset, size);
+        }
+        packed_offset += size;
+    }
     return written;
 }
 

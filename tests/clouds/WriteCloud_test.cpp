@@ -146,14 +146,17 @@ TEST(WriteCloud, APlyIsWhatTheFormatSays) {
     fs::remove(file);
 }
 
-TEST(TableForPointCloud2, HasCoordinatesFirstAndNoGapsAndNoLongIntegers) {
+TEST(TableForPointCloud2, HasCoordinatesFirstAlignedAndNoLongIntegers) {
     PointTable input = twoPoints();
     addColumn("ns", NumberType::Int64, {9007199254740994.0, -1}, input);
     const PointTable table = tableForPointCloud2(input);
     EXPECT_NO_THROW(check(table));
     EXPECT_EQ(namesOf(table), "x, y, z, my_ring, t, label, ns");
     EXPECT_EQ(table.points, 2u);
-    EXPECT_EQ(table.bytes_per_point, 12u + 2 + 8 + 1 + 8);
+    for (const auto& field : table.fields) {
+        EXPECT_EQ(field.offset % bytesOf(field.type), 0u) << field.name;
+    }
+    EXPECT_EQ(table.bytes_per_point, 40u);  // 12, 2 and a gap of 2, 8, 1 and a gap of 7, 8
     EXPECT_EQ(findField(table, {"z"})->type, NumberType::Float32);
     EXPECT_EQ(findField(table, {"my_ring"})->type, NumberType::UInt16);
     EXPECT_EQ(findField(table, {"t"})->type, NumberType::Float64);

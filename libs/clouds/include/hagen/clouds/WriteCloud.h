@@ -29,9 +29,9 @@ std::vector<std::string> changesWhenWritten(OutputFormat format,
                                             const observations::PointTable& table);
 
 /// A checked table, in the byte order of this machine, as a sensor_msgs/PointCloud2 holds it:
-/// coordinates come first, as in writeCloud(), then the other fields without gaps. It knows no
-/// 64-bit integers either; these become float64. Throws std::runtime_error if there is no x, y or
-/// z.
+/// coordinates come first, as in writeCloud(), then the other fields, each aligned to its size, as
+/// many programs read them through pointers. It knows no 64-bit integers either; these become
+/// float64. Throws std::runtime_error if there is no x, y or z.
 observations::PointTable tableForPointCloud2(const observations::PointTable& table);
 /// What of it changes, as of changesWhenWritten().
 std::vector<std::string> changesInPointCloud2(const observations::PointTable& table);
