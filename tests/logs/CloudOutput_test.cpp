@@ -162,7 +162,7 @@ TEST_P(CloudOutputTest, SeveralLidarsHaveAFolderEach) {
     }
     const std::string ending = extensionOf(GetParam());
     EXPECT_THAT(names, UnorderedElementsAre("front/000000" + ending, "front/000001" + ending,
-                                            "rear/000000" + ending));
+                                            "rear/000000" + ending, "made_by.txt"));
 }
 
 TEST_P(CloudOutputTest, AnOlderOutputIsReplacedOnlyIfAskedAndNothingElseIs) {
