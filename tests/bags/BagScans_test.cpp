@@ -408,5 +408,39 @@ TEST_F(BagScansTest, WhereABagBreaksOffTheTurnInProgressComesFirst) {
                        HasSubstr("only in part: " + (folder_ / "cut.bag").string() + ": ")));
 }
 
+TEST_F(BagScansTest, TransformsThatNeverChangeAreNotThePoses) {
+    std::vector<SentMessage> messages{cloud("/points"),
+                                      transform("/tf_static", "base_link", "lidar", 5)};
+    for (const double since_s : {0.0, 0.1, 0.2}) {
+        messages.push_back(transform("/tf", "base_footprint", "base_link", 0.5, since_s));
+        messages.push_back(transform("/tf", "odom", "base_footprint", 10 * since_s, since_s));
+    }
+    const ReadBag bag = read(messages);
+    ASSERT_TRUE(bag.scans->plan().poses);
+    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base_footprint");
+    EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5.5, 1e-9);
+    // Whatever the vehicle's frame is called.
+    const ReadBag body =
+        read({cloud("/points"), transform("/tf", "body", "lidar", 3),
+              transform("/tf", "body", "lidar", 3, 0.1), transform("/tf", "earth", "body", 1),
+              transform("/tf", "earth", "body", 2, 0.1)});
+    EXPECT_EQ(body.scans->plan().poses->source, "transforms from earth to body");
+    EXPECT_NEAR(CPose3D(body.of("points")[0]->sensorPose()).x(), 3, 1e-9);
+    // Nothing moves: the vehicle stands still.
+    const ReadBag parked =
+        read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
+              transform("/tf", "odom", "lidar", 1, 0.1), transform("/tf", "map", "odom", 1)});
+    EXPECT_EQ(parked.scans->plan().poses->source, "transforms from odom to lidar");
+}
+
+TEST_F(BagScansTest, TransformsThatMoveAMapAreNotThePoses) {
+    const ReadBag bag =
+        read({cloud("/map_cloud", 0, "map"), cloud("/points", 0, "base"),
+              transform("/tf", "earth", "map", 1), transform("/tf", "earth", "map", 2, 0.1),
+              transform("/tf", "odom", "base", 3), transform("/tf", "odom", "base", 4, 0.1)});
+    EXPECT_THAT(bag.labels(), ElementsAre("points"));
+    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base");
+}
+
 }  // namespace
 }  // namespace hagen::bags

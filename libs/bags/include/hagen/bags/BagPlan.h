@@ -41,8 +41,9 @@ struct BagPlan {
 /// are the topics without leading slash, and with '_' for '/'.
 ///
 /// Poses are those of the odometry topic with the most; without one, of the pose topic with the
-/// most; without one, of the transforms that move the frame on which the LiDAR hangs. Series with
-/// poses farther apart than half a second on average come last.
+/// most; without one, of the transforms that move the frame on which the LiDAR hangs. Transforms
+/// on the way there that never change count as static; they are the poses only if nothing moves.
+/// Series with poses farther apart than half a second on average come last.
 ///
 /// The vehicle's frame is the child frame of the odometry, otherwise base_link, base_footprint, or
 /// the frame on which a sensor hangs in the end.
