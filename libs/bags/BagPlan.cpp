@@ -354,8 +354,9 @@ class Planner {
         for (const std::string& vehicle : vehicles) {
             if (const auto pose = frames_.poseIn(frame, vehicle)) return pose;
         }
-        if (frames_.has(frame)) return frames_.poseIn(frame, frames_.rootOf(frame));
-        return std::nullopt;
+        // Poses of another frame say nothing about the one that it hangs on in the end.
+        if (plan_.poses != nullptr || !frames_.has(frame)) return std::nullopt;
+        return frames_.poseIn(frame, frames_.rootOf(frame));
     }
 
     void mountSensors() {

@@ -442,5 +442,30 @@ TEST_F(BagScansTest, TransformsThatMoveAMapAreNotThePoses) {
     EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base");
 }
 
+TEST_F(BagScansTest, ASensorThatHangsOnAnotherFrameThanTheVehicleHasNoMount) {
+    const SentMessage imu =
+        test::sentMessage("/imu", "sensor_msgs/Imu", kStart_s, [](test::MessageBytes& bytes) {
+            bytes.header(kStart_s, "imu");
+            for (const double part : {0.0, 0.0, 0.0, 1.0}) bytes.number(part);
+            for (int i = 0; i < 9 + 2 * (3 + 9); ++i) bytes.number(0.0);
+        });
+    std::vector<SentMessage> messages{cloud("/points"), imu,
+                                      transform("/tf_static", "os_sensor", "lidar", 5),
+                                      transform("/tf_static", "imu_case", "imu", 5)};
+    // Without poses, any frame will do.
+    const ReadBag alone = read(messages);
+    EXPECT_NEAR(CPose3D(alone.of("points")[0]->sensorPose()).x(), 5, 1e-9);
+    EXPECT_EQ(alone.scans->plan().imu_topic, "/imu");
+    EXPECT_THAT(alone.scans->plan().remarks, testing::IsEmpty());
+    messages.push_back(odometry(0, 0));
+    messages.push_back(odometry(0.1, 1));
+    const ReadBag bag = read(messages);
+    EXPECT_EQ(CPose3D(bag.of("points")[0]->sensorPose()).x(), 0);
+    EXPECT_EQ(bag.scans->plan().imu_topic, "");
+    EXPECT_THAT(bag.scans->plan().remarks,
+                ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of "
+                                      "/points to 'base_link'")));
+}
+
 }  // namespace
 }  // namespace hagen::bags
