@@ -40,6 +40,9 @@ struct TopicState {
     const BagSensor* sensor = nullptr;
     std::size_t messages = 0, scans = 0, unreadable = 0;
     std::string first_unreadable;  ///< which, and why
+    // Of tables of points:
+    std::size_t points_not_finite = 0;
+    std::map<std::string, std::size_t> clouds_with;  ///< by remark
     // Of packets:
     const observations::VelodyneModel* model = nullptr;
     std::optional<captures::VelodyneTurns> turns;
@@ -47,6 +50,14 @@ struct TopicState {
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
 };
+
+/// Takes over what a table has that is not used.
+void note(const CObservation& scan, TopicState& state) {
+    const observations::TableCloud* const cloud = observations::tableCloudOf(scan);
+    if (cloud == nullptr) return;
+    state.points_not_finite += cloud->pointsNotFinite();
+    for (const std::string& remark : cloud->remarks()) ++state.clouds_with[remark];
+}
 
 void addPoint(const LivoxPoint& point, Scan& scan) {
     if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) return;  // no return
@@ -198,6 +209,7 @@ void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topi
 
 void BagScans::Reader::add(const CObservation::Ptr& scan, TopicState& state) {
     scan->sensorLabel = state.sensor->label;
+    note(*scan, state);
     ++state.scans;
     ++scans;
     complete.push_back(scan);
@@ -359,8 +371,17 @@ std::string BagScans::Reader::textOf(const TopicState& state) {
     }
     addCount(state.imu_packets, "IMU packet", "left out", text);
     addCount(state.other_packets, "packet", "of something else, left out", text);
+    addCount(state.points_not_finite, "point",
+             "with a coordinate that is not finite, left out of the scans (--clouds writes them, "
+             "with the label 0)",
+             text);
     addCount(state.unreadable, "message", "that could not be read, left out", text);
     if (state.unreadable > 0) text += "; the first: " + state.first_unreadable;
+    for (const auto& [remark, clouds] : state.clouds_with) {
+        text += "; " + remark;
+        if (clouds == state.scans) continue;
+        text += " (" + std::to_string(clouds) + " of " + counted(state.scans, "cloud") + ")";
+    }
     return text;
 }
 

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <limits>
 #include <map>
 
 #include "support/BagWriter.h"
@@ -465,6 +466,25 @@ TEST_F(BagScansTest, ASensorThatHangsOnAnotherFrameThanTheVehicleHasNoMount) {
     EXPECT_THAT(bag.scans->plan().remarks,
                 ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of "
                                       "/points to 'base_link'")));
+}
+
+TEST_F(BagScansTest, FieldsThatAreNotUsedAndPointsThatAreNotFiniteAreTold) {
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    const auto withRing = [](double since_s, float ring, float x) {
+        SentMessage message = test::cloudMessage("/points", kStart_s + since_s, "lidar",
+                                                 {x, 2, 3, ring, kNone, 6, 7, 8});
+        const std::string intensity("\x09\0\0\0intensity", 13);
+        message.ros1.replace(message.ros1.find(intensity), intensity.size(),
+                             std::string("\x04\0\0\0ring", 8));
+        return message;
+    };
+    const ReadBag bag = read({withRing(0, 1, 1), withRing(0.1, 0.5, 1), withRing(0.2, 2, kNone)});
+    EXPECT_EQ(xOf(bag.of("points")[1]), std::vector<float>{1});
+    EXPECT_THAT(
+        bag.scans->remarks(),
+        Contains("points (/points): 3 messages, 4 points with a coordinate that is not finite, "
+                 "left out of the scans (--clouds writes them, with the label 0); the field 'ring' "
+                 "is not a number of a beam, and is not used (1 of 3 clouds)"));
 }
 
 }  // namespace
