@@ -200,10 +200,7 @@ void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topi
         throw;
     } catch (const std::exception& e) {
         if (state.unreadable++ > 0) return;
-        char when[48];
-        std::snprintf(when, sizeof when,
-                      " (recorded at %.3f s): ", 1e-9 * static_cast<double>(message.time_ns));
-        state.first_unreadable = "message " + std::to_string(number) + when + e.what();
+        state.first_unreadable = nameOf(number, message.time_ns) + e.what();
     }
 }
 
@@ -434,9 +431,16 @@ std::vector<std::string> BagScans::remarks() const {
     for (const auto& [topic, state] : r.states) {
         remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
     }
-    for (const auto& [topic, messages] : r.survey.unreadable) {
-        remarks.push_back(topic + ": " + counted(messages, "message") +
-                          " that could not be read, left out");
+    for (const auto& [topic, left_out] : r.survey.left_out) {
+        const auto tell = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
+                                             const std::string& why) {
+            if (kind.number == 0) return;
+            remarks.push_back(name + ": " + counted(kind.number, one) + why +
+                              ", left out; the first: " + kind.first);
+        };
+        tell(left_out.messages, "message", " that could not be read");
+        tell(left_out.transforms, "transform", " that could not be read");
+        tell(left_out.other_parents, "transform", " of a frame that had another parent before");
     }
     BagSurvey others;  // that nothing is read of
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",

@@ -487,5 +487,55 @@ TEST_F(BagScansTest, FieldsThatAreNotUsedAndPointsThatAreNotFiniteAreTold) {
                  "is not a number of a beam, and is not used (1 of 3 clouds)"));
 }
 
+TEST_F(BagScansTest, ATransformThatCannotBeReadCostsNoOther) {
+    const auto transforms = [](const std::string& topic) {
+        return test::sentMessage(
+            topic, "tf2_msgs/TFMessage", kStart_s, [](test::MessageBytes& bytes) {
+                bytes.number(std::uint32_t{3});
+                bytes.header(kStart_s, "base_link").text("front").pose(1, 0, 0);
+                bytes.header(kStart_s, "base_link").text("broken");
+                for (int i = 0; i < 7; ++i) bytes.number(0.0);
+                bytes.header(kStart_s, "base_link").text("rear").pose(-1, 0, 0);
+            });
+    };
+    const std::vector<SentMessage> clouds{cloud("/front", 0, "front"), cloud("/rear", 0, "rear"),
+                                          odometry(0, 0), odometry(0.1, 1)};
+    for (const std::string topic : {"/tf_static", "/tf"}) {
+        std::vector<SentMessage> messages = clouds;
+        messages.push_back(transforms(topic));
+        const ReadBag bag = read(messages);
+        EXPECT_NEAR(CPose3D(bag.of("front")[0]->sensorPose()).x(), 1, 1e-9) << topic;
+        EXPECT_NEAR(CPose3D(bag.of("rear")[0]->sensorPose()).x(), -1, 1e-9) << topic;
+        EXPECT_THAT(bag.scans->remarks(),
+                    Contains(topic + ": 1 transform that could not be read, left out; the first: "
+                                     "message 0 (recorded at 1700000000.000 s): from 'base_link' "
+                                     "to 'broken': it is not finite or has no rotation"));
+    }
+}
+
+TEST_F(BagScansTest, PosesThatCannotBeReadAreNamedWithTheReason) {
+    SentMessage cut = odometry(0.1, 1);
+    cut.ros1.resize(60);
+    const ReadBag bag = read({cloud("/points"), odometry(0, 0), cut, odometry(0.2, 2), cut});
+    EXPECT_EQ(bag.scans->plan().poses->poses.size(), 2u);
+    EXPECT_THAT(bag.scans->remarks(),
+                Contains(HasSubstr("/odom: 2 messages that could not be read, left out; the first: "
+                                   "message 1 (recorded at 1700000000.100 s): it ends ")));
+}
+
+TEST_F(BagScansTest, TransformsOfOneFrameFromTwoParentsAreNotMixed) {
+    const ReadBag bag = read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
+                              transform("/tf", "map", "lidar", 100, 0.05),
+                              transform("/tf", "odom", "lidar", 2, 0.1),
+                              transform("/tf", "map", "lidar", 101, 0.15)});
+    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to lidar");
+    ASSERT_EQ(bag.scans->plan().poses->poses.size(), 2u);
+    EXPECT_EQ(bag.scans->plan().poses->poses[1].x_m, 2);
+    EXPECT_THAT(bag.scans->remarks(),
+                Contains("/tf: 2 transforms of a frame that had another parent before, left out; "
+                         "the first: message 1 (recorded at 1700000000.050 s): from 'map' to "
+                         "'lidar', before from 'odom'"));
+}
+
 }  // namespace
 }  // namespace hagen::bags
