@@ -335,5 +335,24 @@ TEST_F(BagFolderTest, ABreakInAFileIsReported) {
     EXPECT_THAT(read.broken_because, HasSubstr("bag_9.mcap: "));
 }
 
+TEST_F(BagFileTest, AMessageThatADatabaseMakesUpIsNotUnpacked) {
+    const fs::path file = folder_ / "large.db3";
+    test::writeDb3(file, someMessages());
+    sqlite3* database = nullptr;
+    sqlite3_open(file.c_str(), &database);
+    const int state = sqlite3_exec(
+        database,
+        "DROP TABLE messages; CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, "
+        "timestamp INTEGER, data BLOB GENERATED ALWAYS AS (zeroblob(900000000)));"
+        "INSERT INTO messages (topic_id, timestamp) VALUES (1, 1)",
+        nullptr, nullptr, nullptr);
+    sqlite3_close(database);
+    ASSERT_EQ(state, SQLITE_OK);
+    const Read read = readAll(file);
+    EXPECT_EQ(read.messages.size(), 0u);
+    EXPECT_THAT(read.broken_because,
+                HasSubstr("after 0 messages (id 0): a message has more than 512 MB"));
+}
+
 }  // namespace
 }  // namespace hagen::bags
