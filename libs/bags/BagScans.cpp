@@ -39,7 +39,8 @@ struct TopicState {
     std::string name;
     const BagSensor* sensor = nullptr;
     std::size_t messages = 0, scans = 0, unreadable = 0;
-    std::string first_unreadable;  ///< which, and why
+    std::string first_unreadable;          ///< which, and why
+    std::size_t points_without_range = 0;  ///< of a Livox
     // Of tables of points:
     std::size_t points_not_finite = 0;
     std::map<std::string, std::size_t> clouds_with;  ///< by remark
@@ -60,7 +61,6 @@ void note(const CObservation& scan, TopicState& state) {
 }
 
 void addPoint(const LivoxPoint& point, Scan& scan) {
-    if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) return;  // no return
     scan.x_m.push_back(point.x_m);
     scan.y_m.push_back(point.y_m);
     scan.z_m.push_back(point.z_m);
@@ -77,7 +77,6 @@ PointTable tableOf(const std::vector<LivoxPoint>& points) {
         {"line", NumberType::UInt8, 18, 1}};
     table.bytes_per_point = 19;
     for (const LivoxPoint& point : points) {
-        if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) continue;
         const std::size_t at = table.bytes.size();
         table.bytes.resize(at + table.bytes_per_point);
         std::memcpy(&table.bytes[at], &point.x_m, 4);
@@ -222,7 +221,13 @@ void BagScans::Reader::takeCloud(FieldReader fields, std::int64_t recorded_ns, T
 }
 
 void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
-    const LivoxMessage message = readLivox(fields);
+    LivoxMessage message = readLivox(fields);
+    const auto first_none = std::remove_if(
+        message.points.begin(), message.points.end(),
+        [](const LivoxPoint& point) { return point.x_m == 0 && point.y_m == 0 && point.z_m == 0; });
+    const auto without_range =
+        static_cast<std::size_t>(std::distance(first_none, message.points.end()));
+    message.points.erase(first_none, message.points.end());
     const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
     CObservationPointCloud::Ptr scan;
     if (state.sensor->kind == LidarKind::Livox1) {
@@ -237,6 +242,7 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
         scan->pointcloud = std::make_shared<observations::LocatedCloud>(points, mid360);
     }
     scan->sensorPose = state.sensor->on_vehicle;
+    state.points_without_range += without_range;
     add(scan, state);
 }
 
@@ -368,6 +374,7 @@ std::string BagScans::Reader::textOf(const TopicState& state) {
     }
     addCount(state.imu_packets, "IMU packet", "left out", text);
     addCount(state.other_packets, "packet", "of something else, left out", text);
+    addCount(state.points_without_range, "point", "without a range, left out", text);
     addCount(state.points_not_finite, "point",
              "with a coordinate that is not finite, left out of the scans (--clouds writes them, "
              "with the label 0)",

@@ -537,5 +537,29 @@ TEST_F(BagScansTest, TransformsOfOneFrameFromTwoParentsAreNotMixed) {
                          "'lidar', before from 'odom'"));
 }
 
+TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
+    const auto livox = [](const std::string& driver) {
+        return test::sentMessage("/" + driver, driver + "/CustomMsg", kStart_s,
+                                 [](test::MessageBytes& bytes) {
+                                     bytes.header(kStart_s, "livox").number(std::uint64_t{0});
+                                     bytes.number(std::uint32_t{3}).raw(std::string(4, '\0'));
+                                     bytes.number(std::uint32_t{3});
+                                     for (const float x_m : {0.0f, 4.0f, 0.0f}) {
+                                         bytes.number(std::uint32_t{0});
+                                         for (const float part : {x_m, 0.0f, 0.0f})
+                                             bytes.number(part);
+                                         bytes.raw(std::string(3, '\1'));
+                                     }
+                                 });
+    };
+    const ReadBag bag = read({livox("livox_ros_driver"), livox("livox_ros_driver2")});
+    for (const std::string driver : {"livox_ros_driver", "livox_ros_driver2"}) {
+        EXPECT_EQ(xOf(bag.of(driver).at(0)), std::vector<float>{4});
+        EXPECT_THAT(
+            bag.scans->remarks(),
+            Contains(driver + " (/" + driver + "): 1 message, 2 points without a range, left out"));
+    }
+}
+
 }  // namespace
 }  // namespace hagen::bags
