@@ -434,7 +434,8 @@ double BagScans::fractionRead() const {
 
 std::vector<std::string> BagScans::remarks() const {
     const Reader& r = *reader_;
-    std::vector<std::string> remarks = r.plan.remarks;
+    std::vector<std::string> remarks = r.bag->remarks();
+    remarks.insert(remarks.end(), r.plan.remarks.begin(), r.plan.remarks.end());
     for (const auto& [topic, state] : r.states) {
         remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
     }

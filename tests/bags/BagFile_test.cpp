@@ -312,10 +312,8 @@ TEST_F(BagFolderTest, WrongMetadataAreNamed) {
     // None points outside the folder.
     writeMetadata("", "[../../etc/passwd]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("lists 'passwd', which is not"));
-    test::writeBytes(folder_ / "bag/metadata.yaml", "a: [");
-    EXPECT_TRUE(isBag(folder_ / "bag"));
-    EXPECT_THAT(readAll(folder_ / "bag").broken_because,
-                HasSubstr("metadata.yaml: cannot be read"));
+    writeMetadata("", "{a: b}");
+    EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("metadata.yaml: "));
 }
 
 TEST_F(BagFolderTest, OtherFoldersAreNone) {
@@ -352,6 +350,28 @@ TEST_F(BagFileTest, AMessageThatADatabaseMakesUpIsNotUnpacked) {
     EXPECT_EQ(read.messages.size(), 0u);
     EXPECT_THAT(read.broken_because,
                 HasSubstr("after 0 messages (id 0): a message has more than 512 MB"));
+}
+
+TEST_F(BagFolderTest, MetadataThatAreOfNoBagAreIgnoredWithARemark) {
+    EXPECT_THAT(openBag(folder_ / "bag")->remarks(), testing::IsEmpty());
+    for (const std::string text : {"", "a: [", "title: photos\n", "- a\n", "just text"}) {
+        test::writeBytes(folder_ / "bag/metadata.yaml", text);
+        EXPECT_TRUE(isBag(folder_ / "bag")) << text;
+        const Read read = readAll(folder_ / "bag");
+        EXPECT_EQ(read.messages, expected(false)) << text;
+        EXPECT_EQ(read.broken_because, "") << text;
+        EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
+                    testing::ElementsAre(HasSubstr("metadata.yaml is not used")))
+            << text;
+    }
+    writeMetadata();
+    EXPECT_THAT(openBag(folder_ / "bag")->remarks(), testing::IsEmpty());
+}
+
+TEST_F(BagFolderTest, AFolderWithoutFilesIsNamed) {
+    fs::create_directory(folder_ / "none");
+    EXPECT_THAT(readAll(folder_ / "none").broken_because,
+                HasSubstr("none: has no .mcap and no .db3 files"));
 }
 
 }  // namespace

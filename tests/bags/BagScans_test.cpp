@@ -561,5 +561,14 @@ TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
     }
 }
 
+TEST_F(BagScansTest, MetadataOfAFolderThatAreNotUsedAreTold) {
+    fs::create_directory(folder_ / "bag");
+    test::writeBytes(folder_ / "bag/bag_0.mcap", test::mcapOf({cloud("/points")}));
+    test::writeBytes(folder_ / "bag/metadata.yaml", "");
+    const ReadBag bag = readBag(folder_ / "bag");
+    EXPECT_EQ(bag.of("points").size(), 1u);
+    EXPECT_THAT(bag.scans->remarks(), Contains(HasSubstr("metadata.yaml is not used")));
+}
+
 }  // namespace
 }  // namespace hagen::bags
