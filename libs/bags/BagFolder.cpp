@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace hagen::bags {
 namespace {
@@ -12,12 +13,30 @@ constexpr const char* kMetadata = "metadata.yaml";
 constexpr const char* kSection = "rosbag2_bagfile_information";
 constexpr std::uintmax_t kMostMetadata = 64 << 20;
 
-std::vector<fs::path> listedFiles(const fs::path& folder) {
+/// What a metadata.yaml says about a bag.
+struct Metadata {
+    std::optional<YAML::Node> bag;
+    std::string why_none;  ///< empty: there is no such file
+};
+
+Metadata metadataOf(const fs::path& folder) {
+    const fs::path file = folder / kMetadata;
+    std::error_code none;
+    if (!fs::is_regular_file(file, none)) return {};
+    try {
+        if (fs::file_size(file) > kMostMetadata) return {std::nullopt, "it is too large"};
+        const YAML::Node all = YAML::LoadFile(file.string());
+        if (all.IsMap() && all[kSection] && all[kSection].IsMap()) return {all[kSection], ""};
+    } catch (const std::exception& e) {
+        return {std::nullopt, e.what()};
+    }
+    return {std::nullopt, std::string("it has no section '") + kSection + "'"};
+}
+
+std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag) {
     const fs::path file = folder / kMetadata;
     std::vector<fs::path> files;
     try {
-        if (fs::file_size(file) > kMostMetadata) throw std::runtime_error("it is too large");
-        const YAML::Node bag = YAML::LoadFile(file.string())[kSection];
         if (bag["compression_mode"] && bag["compression_format"] &&
             bag["compression_mode"].as<std::string>() == "FILE") {
             throw std::runtime_error("its files are packed whole (" +
@@ -61,20 +80,22 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
 
 bool BagFolder::isOne(const fs::path& folder) {
     std::error_code none;
-    if (fs::is_regular_file(folder / kMetadata, none)) {
-        try {
-            if (fs::file_size(folder / kMetadata) > kMostMetadata) return false;
-            const YAML::Node all = YAML::LoadFile((folder / kMetadata).string());
-            if (all.IsMap() && all[kSection]) return true;
-        } catch (const std::exception&) {
-            // Not ours, or damaged: the files decide.
-        }
-    }
+    if (metadataOf(folder).bag) return true;
+    // Otherwise the files decide.
     return !fs::exists(folder / "velodyne", none) && !foundFiles(folder).empty();
 }
 
-BagFolder::BagFolder(const fs::path& folder)
-    : files_(fs::exists(folder / kMetadata) ? listedFiles(folder) : foundFiles(folder)) {
+BagFolder::BagFolder(const fs::path& folder) {
+    const Metadata metadata = metadataOf(folder);
+    files_ = metadata.bag ? listedFiles(folder, *metadata.bag) : foundFiles(folder);
+    if (files_.empty()) {
+        throw BrokenBag(folder.string() + ": has no .mcap and no .db3 files");
+    }
+    if (!metadata.why_none.empty()) {
+        remarks_.push_back(std::string(kMetadata) + " is not used (" + metadata.why_none +
+                           "): the .mcap and .db3 files of the folder are read in the order of "
+                           "their numbers");
+    }
     for (const fs::path& file : files_) {
         share_before_.push_back(bytes_);
         bytes_ += static_cast<double>(fs::file_size(file));

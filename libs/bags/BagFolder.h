@@ -6,7 +6,8 @@
 namespace hagen::bags {
 
 /// A ROS 2 bag as a folder: the files that metadata.yaml lists, one after the other; without
-/// metadata, its .mcap or .db3 files in the order of their numbers.
+/// metadata, or with some that are damaged or of something else, its .mcap or .db3 files in the
+/// order of their numbers.
 class BagFolder : public BagFile {
  public:
     static bool isOne(const std::filesystem::path& folder);
@@ -15,11 +16,13 @@ class BagFolder : public BagFile {
     bool next(BagMessage& message) override;
     const std::vector<BagTopic>& topics() const override { return topics_.all(); }
     double fractionRead() const override;
+    std::vector<std::string> remarks() const override { return remarks_; }
 
  private:
     void openFile();
 
     std::vector<std::filesystem::path> files_;
+    std::vector<std::string> remarks_;
     std::vector<double> share_before_;  ///< of all bytes, by file
     double bytes_ = 0;
     std::size_t file_ = 0;

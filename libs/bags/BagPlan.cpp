@@ -14,6 +14,7 @@ using Topic = BagSurvey::Topic;
 using mrpt::poses::CPose3D;
 
 constexpr double kFarApart_s = 0.5;
+constexpr int kDeepest = 64;                       // frames on frames
 constexpr const char* kOusterFrame = "os_sensor";  // of the maker's driver, whose packets name none
 
 std::string withSlash(const std::string& topic) {
@@ -252,22 +253,61 @@ class Planner {
         }
     }
 
-    /// The transforms that move the frame on which a LiDAR hangs.
+    /// Whether a topic may be read: poses are chosen before the topics.
+    bool mayBeRead(const Topic& topic) const {
+        if (topic.kind == LidarKind::None) return false;
+        if (options_.topics.empty()) return !isFixed(topic.frame);
+        return std::any_of(options_.topics.begin(), options_.topics.end(),
+                           [&](const std::string& name) {
+                               return withSlash(name) == withSlash(topic.topic.name);
+                           });
+    }
+
+    using Way = std::vector<const PoseSeries*>;
+
+    /// The first transforms that move, on the way from a frame up the tree; null: none. Those
+    /// before them, which never change, are added to `way`.
+    const PoseSeries* firstMoving(const std::string& frame, Way& way) const {
+        std::string at = frame;
+        for (int depth = 0; depth < kDeepest; ++depth) {
+            const auto next = survey_.transforms.find(frames_.rootOf(at));
+            if (next == survey_.transforms.end() || next->second.poses.empty()) return nullptr;
+            if (!isStill(next->second)) return &next->second;
+            way.push_back(&next->second);
+            at = next->second.parent;
+        }
+        return nullptr;
+    }
+
+    void addAsStatic(const Way& way) {
+        for (const PoseSeries* step : way) {
+            const RecordedPose& pose = step->poses.front();
+            frames_.add(step->parent, step->child,
+                        CPose3D(mrpt::math::CQuaternionDouble(pose.qw, pose.qx, pose.qy, pose.qz),
+                                pose.x_m, pose.y_m, pose.z_m));
+        }
+    }
+
+    /// The transforms that move the frame on which a LiDAR hangs. Only if nothing moves they are
+    /// some that never change: the vehicle stands still.
     void takeTransforms() {
         if (plan_.poses != nullptr) return;
-        std::vector<std::string> children;
+        std::vector<std::string> frames;
         for (const Topic& topic : survey_.topics) {
-            if (topic.kind == LidarKind::None) continue;
-            children.push_back(
-                frames_.rootOf(topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame));
+            if (!mayBeRead(topic)) continue;
+            frames.push_back(topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame);
         }
-        children.insert(children.end(), {"base_link", "base_footprint"});
-        for (const std::string& child : children) {
-            const auto found = survey_.transforms.find(child);
-            if (found == survey_.transforms.end() || found->second.poses.empty()) continue;
-            plan_.poses = &found->second;
-            return;
+        frames.insert(frames.end(), {"base_link", "base_footprint"});
+        const PoseSeries* moving = nullptr;
+        const PoseSeries* still = nullptr;
+        for (const std::string& frame : frames) {
+            Way way;
+            const PoseSeries* const found = firstMoving(frame, way);
+            if (still == nullptr && !way.empty()) still = way.front();
+            if (moving == nullptr) moving = found;
+            if (found != nullptr && found == moving) addAsStatic(way);
         }
+        plan_.poses = moving != nullptr ? moving : still;
     }
 
     void choosePoses() {
@@ -286,9 +326,9 @@ class Planner {
         for (const auto& [topic, series] : survey_.odometry) vehicles.insert(series.child);
         for (const Topic& topic : survey_.topics) {
             if (topic.kind == LidarKind::None) continue;
-            std::vector<const PoseSeries*> way;
+            Way way;
             std::string at = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
-            for (int depth = 0; depth < 64 && vehicles.count(at) == 0; ++depth) {
+            for (int depth = 0; depth < kDeepest && vehicles.count(at) == 0; ++depth) {
                 at = frames_.rootOf(at);
                 const auto next = survey_.transforms.find(at);
                 if (vehicles.count(at) > 0 || next == survey_.transforms.end() ||
@@ -298,14 +338,7 @@ class Planner {
                 way.push_back(&next->second);
                 at = next->second.parent;
             }
-            if (vehicles.count(at) == 0) continue;
-            for (const PoseSeries* step : way) {
-                const RecordedPose& pose = step->poses.front();
-                frames_.add(
-                    step->parent, step->child,
-                    CPose3D(mrpt::math::CQuaternionDouble(pose.qw, pose.qx, pose.qy, pose.qz),
-                            pose.x_m, pose.y_m, pose.z_m));
-            }
+            if (vehicles.count(at) > 0) addAsStatic(way);
         }
     }
 
@@ -321,8 +354,9 @@ class Planner {
         for (const std::string& vehicle : vehicles) {
             if (const auto pose = frames_.poseIn(frame, vehicle)) return pose;
         }
-        if (frames_.has(frame)) return frames_.poseIn(frame, frames_.rootOf(frame));
-        return std::nullopt;
+        // Poses of another frame say nothing about the one that it hangs on in the end.
+        if (plan_.poses != nullptr || !frames_.has(frame)) return std::nullopt;
+        return frames_.poseIn(frame, frames_.rootOf(frame));
     }
 
     void mountSensors() {

@@ -39,7 +39,11 @@ struct TopicState {
     std::string name;
     const BagSensor* sensor = nullptr;
     std::size_t messages = 0, scans = 0, unreadable = 0;
-    std::string first_unreadable;  ///< which, and why
+    std::string first_unreadable;          ///< which, and why
+    std::size_t points_without_range = 0;  ///< of a Livox
+    // Of tables of points:
+    std::size_t points_not_finite = 0;
+    std::map<std::string, std::size_t> clouds_with;  ///< by remark
     // Of packets:
     const observations::VelodyneModel* model = nullptr;
     std::optional<captures::VelodyneTurns> turns;
@@ -48,8 +52,15 @@ struct TopicState {
     std::map<unsigned, std::size_t> unknown_ids;
 };
 
+/// Takes over what a table has that is not used.
+void note(const CObservation& scan, TopicState& state) {
+    const observations::TableCloud* const cloud = observations::tableCloudOf(scan);
+    if (cloud == nullptr) return;
+    state.points_not_finite += cloud->pointsNotFinite();
+    for (const std::string& remark : cloud->remarks()) ++state.clouds_with[remark];
+}
+
 void addPoint(const LivoxPoint& point, Scan& scan) {
-    if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) return;  // no return
     scan.x_m.push_back(point.x_m);
     scan.y_m.push_back(point.y_m);
     scan.z_m.push_back(point.z_m);
@@ -66,7 +77,6 @@ PointTable tableOf(const std::vector<LivoxPoint>& points) {
         {"line", NumberType::UInt8, 18, 1}};
     table.bytes_per_point = 19;
     for (const LivoxPoint& point : points) {
-        if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) continue;
         const std::size_t at = table.bytes.size();
         table.bytes.resize(at + table.bytes_per_point);
         std::memcpy(&table.bytes[at], &point.x_m, 4);
@@ -189,15 +199,13 @@ void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topi
         throw;
     } catch (const std::exception& e) {
         if (state.unreadable++ > 0) return;
-        char when[48];
-        std::snprintf(when, sizeof when,
-                      " (recorded at %.3f s): ", 1e-9 * static_cast<double>(message.time_ns));
-        state.first_unreadable = "message " + std::to_string(number) + when + e.what();
+        state.first_unreadable = nameOf(number, message.time_ns) + e.what();
     }
 }
 
 void BagScans::Reader::add(const CObservation::Ptr& scan, TopicState& state) {
     scan->sensorLabel = state.sensor->label;
+    note(*scan, state);
     ++state.scans;
     ++scans;
     complete.push_back(scan);
@@ -213,7 +221,13 @@ void BagScans::Reader::takeCloud(FieldReader fields, std::int64_t recorded_ns, T
 }
 
 void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
-    const LivoxMessage message = readLivox(fields);
+    LivoxMessage message = readLivox(fields);
+    const auto first_none = std::remove_if(
+        message.points.begin(), message.points.end(),
+        [](const LivoxPoint& point) { return point.x_m == 0 && point.y_m == 0 && point.z_m == 0; });
+    const auto without_range =
+        static_cast<std::size_t>(std::distance(first_none, message.points.end()));
+    message.points.erase(first_none, message.points.end());
     const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
     CObservationPointCloud::Ptr scan;
     if (state.sensor->kind == LidarKind::Livox1) {
@@ -228,6 +242,7 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
         scan->pointcloud = std::make_shared<observations::LocatedCloud>(points, mid360);
     }
     scan->sensorPose = state.sensor->on_vehicle;
+    state.points_without_range += without_range;
     add(scan, state);
 }
 
@@ -359,8 +374,18 @@ std::string BagScans::Reader::textOf(const TopicState& state) {
     }
     addCount(state.imu_packets, "IMU packet", "left out", text);
     addCount(state.other_packets, "packet", "of something else, left out", text);
+    addCount(state.points_without_range, "point", "without a range, left out", text);
+    addCount(state.points_not_finite, "point",
+             "with a coordinate that is not finite, left out of the scans (--clouds writes them, "
+             "with the label 0)",
+             text);
     addCount(state.unreadable, "message", "that could not be read, left out", text);
     if (state.unreadable > 0) text += "; the first: " + state.first_unreadable;
+    for (const auto& [remark, clouds] : state.clouds_with) {
+        text += "; " + remark;
+        if (clouds == state.scans) continue;
+        text += " (" + std::to_string(clouds) + " of " + counted(state.scans, "cloud") + ")";
+    }
     return text;
 }
 
@@ -409,13 +434,21 @@ double BagScans::fractionRead() const {
 
 std::vector<std::string> BagScans::remarks() const {
     const Reader& r = *reader_;
-    std::vector<std::string> remarks = r.plan.remarks;
+    std::vector<std::string> remarks = r.bag->remarks();
+    remarks.insert(remarks.end(), r.plan.remarks.begin(), r.plan.remarks.end());
     for (const auto& [topic, state] : r.states) {
         remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
     }
-    for (const auto& [topic, messages] : r.survey.unreadable) {
-        remarks.push_back(topic + ": " + counted(messages, "message") +
-                          " that could not be read, left out");
+    for (const auto& [topic, left_out] : r.survey.left_out) {
+        const auto tell = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
+                                             const std::string& why) {
+            if (kind.number == 0) return;
+            remarks.push_back(name + ": " + counted(kind.number, one) + why +
+                              ", left out; the first: " + kind.first);
+        };
+        tell(left_out.messages, "message", " that could not be read");
+        tell(left_out.transforms, "transform", " that could not be read");
+        tell(left_out.other_parents, "transform", " of a frame that had another parent before");
     }
     BagSurvey others;  // that nothing is read of
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",

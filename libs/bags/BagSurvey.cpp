@@ -43,9 +43,10 @@ class Surveyor {
             read(message, topic);
         } catch (const std::bad_alloc&) {
             throw;
-        } catch (const std::exception&) {
+        } catch (const std::exception& e) {
             // Those of LiDARs are counted by who reads the scans.
-            if (topic.kind == LidarKind::None) ++survey_.unreadable[topic.topic.name];
+            if (topic.kind != LidarKind::None) return;
+            count(survey_.left_out[topic.topic.name].messages, message, topic, e.what());
         }
     }
     void addTopic(const BagTopic& topic) {
@@ -56,6 +57,12 @@ class Surveyor {
     BagSurvey survey() && { return std::move(survey_); }
 
  private:
+    static void count(LeftOut::Kind& kind, const BagMessage& message, const BagSurvey::Topic& topic,
+                      const std::string& why) {
+        if (kind.number++ > 0) return;
+        kind.first = nameOf(topic.messages - 1, message.time_ns) + why;
+    }
+
     void read(const BagMessage& message, BagSurvey::Topic& topic) {
         const std::string& type = topic.topic.type;
         if (topic.kind != LidarKind::None) {
@@ -74,7 +81,7 @@ class Surveyor {
             BagSurvey::Imu& seen = survey_.imus[topic.topic.name];
             if (seen.orientations++ == 0) seen.frame = imu.header.frame;
         } else if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
-            readFrames(message, topic.topic);
+            readFrames(message, topic);
         } else if (type == "std_msgs/String" && endsWith(topic.topic.name, "metadata") &&
                    message.size <= kMostMetadata) {
             FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
@@ -110,13 +117,20 @@ class Surveyor {
         addPose(pose, message.time_ns, series);
     }
 
-    void readFrames(const BagMessage& message, const BagTopic& topic) {
-        FieldReader fields = fieldsOf(message, topic.encoding, unpacked_);
+    void readFrames(const BagMessage& message, const BagSurvey::Topic& topic) {
+        FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
+        const bool is_static = endsWith(topic.topic.name, "tf_static");
         for (const PoseMessage& transform : readTransforms(fields)) {
-            if (endsWith(topic.name, "tf_static")) {
-                const auto pose = transform.pose();
-                if (!pose) throw std::runtime_error("it has no rotation");
-                survey_.frames.add(transform.header.frame, transform.child, *pose);
+            const std::string& parent = transform.header.frame;
+            const std::string which = "from '" + parent + "' to '" + transform.child + "'";
+            const auto pose = transform.pose();
+            if (!pose) {
+                count(survey_.left_out[topic.topic.name].transforms, message, topic,
+                      which + ": it is not finite or has no rotation");
+                continue;
+            }
+            if (is_static) {
+                survey_.frames.add(parent, transform.child, *pose);
                 continue;
             }
             constexpr std::size_t kMostFrames = 1000;
@@ -124,9 +138,15 @@ class Surveyor {
             if (!is_known && survey_.transforms.size() >= kMostFrames) continue;
             PoseSeries& series = survey_.transforms[transform.child];
             if (series.poses.empty()) {
-                series.parent = transform.header.frame;
+                series.parent = parent;
                 series.child = transform.child;
                 series.source = "transforms from " + series.parent + " to " + series.child;
+            }
+            // Two publishers contradict each other; mixed, their poses would jump.
+            if (series.parent != parent) {
+                count(survey_.left_out[topic.topic.name].other_parents, message, topic,
+                      which + ", before from '" + series.parent + "'");
+                continue;
             }
             addPose(transform, message.time_ns, series);
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -128,6 +129,13 @@ FieldReader fieldsOf(const BagMessage& message, const std::string& encoding,
         bytes = {unpacked.data(), unpacked.size()};
     }
     return FieldReader::ofCdr(bytes);
+}
+
+std::string nameOf(std::size_t number, std::int64_t recorded_ns) {
+    char when[48];
+    std::snprintf(when, sizeof when,
+                  " (recorded at %.3f s): ", 1e-9 * static_cast<double>(recorded_ns));
+    return "message " + std::to_string(number) + when;
 }
 
 Header readHeader(FieldReader& fields) {

@@ -19,6 +19,9 @@ namespace hagen::bags {
 FieldReader fieldsOf(const BagMessage& message, const std::string& encoding,
                      std::vector<std::uint8_t>& unpacked);
 
+/// "message 3 (recorded at 1700000000.100 s): ".
+std::string nameOf(std::size_t number, std::int64_t recorded_ns);
+
 /// The readers below read the messages of that name from their first field on. All throw TooShort
 /// or another std::runtime_error that says what is wrong; counts are checked against the bytes that
 /// are there.

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "Unpack.h"
+
 namespace hagen::bags {
 namespace {
 
@@ -97,6 +99,8 @@ void SqliteBag::open() {
     sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    // A few bytes of a schema can stand for a blob of any size.
+    sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostUnpacked));
     // Otherwise SQLite refuses a file that is shorter than it says.
     if (!cut_because_.empty()) {
         sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
@@ -114,6 +118,9 @@ SqliteBag::Query SqliteBag::prepare(const std::string& sql) const {
 bool SqliteBag::step(const Query& query) const {
     const int state = sqlite3_step(query.get());
     if (state == SQLITE_ROW) return true;
+    if (state == SQLITE_TOOBIG) {
+        fail("a message has more than " + std::to_string(kMostUnpacked >> 20) + " MB");
+    }
     if (state != SQLITE_DONE) fail(sqlite3_errmsg(database_.get()));
     return false;
 }

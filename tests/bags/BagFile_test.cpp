@@ -312,10 +312,8 @@ TEST_F(BagFolderTest, WrongMetadataAreNamed) {
     // None points outside the folder.
     writeMetadata("", "[../../etc/passwd]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("lists 'passwd', which is not"));
-    test::writeBytes(folder_ / "bag/metadata.yaml", "a: [");
-    EXPECT_TRUE(isBag(folder_ / "bag"));
-    EXPECT_THAT(readAll(folder_ / "bag").broken_because,
-                HasSubstr("metadata.yaml: cannot be read"));
+    writeMetadata("", "{a: b}");
+    EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("metadata.yaml: "));
 }
 
 TEST_F(BagFolderTest, OtherFoldersAreNone) {
@@ -333,6 +331,47 @@ TEST_F(BagFolderTest, ABreakInAFileIsReported) {
     const Read read = readAll(folder_ / "bag");
     EXPECT_EQ(read.messages.size(), 8u);
     EXPECT_THAT(read.broken_because, HasSubstr("bag_9.mcap: "));
+}
+
+TEST_F(BagFileTest, AMessageThatADatabaseMakesUpIsNotUnpacked) {
+    const fs::path file = folder_ / "large.db3";
+    test::writeDb3(file, someMessages());
+    sqlite3* database = nullptr;
+    sqlite3_open(file.c_str(), &database);
+    const int state = sqlite3_exec(
+        database,
+        "DROP TABLE messages; CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, "
+        "timestamp INTEGER, data BLOB GENERATED ALWAYS AS (zeroblob(900000000)));"
+        "INSERT INTO messages (topic_id, timestamp) VALUES (1, 1)",
+        nullptr, nullptr, nullptr);
+    sqlite3_close(database);
+    ASSERT_EQ(state, SQLITE_OK);
+    const Read read = readAll(file);
+    EXPECT_EQ(read.messages.size(), 0u);
+    EXPECT_THAT(read.broken_because,
+                HasSubstr("after 0 messages (id 0): a message has more than 512 MB"));
+}
+
+TEST_F(BagFolderTest, MetadataThatAreOfNoBagAreIgnoredWithARemark) {
+    EXPECT_THAT(openBag(folder_ / "bag")->remarks(), testing::IsEmpty());
+    for (const std::string text : {"", "a: [", "title: photos\n", "- a\n", "just text"}) {
+        test::writeBytes(folder_ / "bag/metadata.yaml", text);
+        EXPECT_TRUE(isBag(folder_ / "bag")) << text;
+        const Read read = readAll(folder_ / "bag");
+        EXPECT_EQ(read.messages, expected(false)) << text;
+        EXPECT_EQ(read.broken_because, "") << text;
+        EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
+                    testing::ElementsAre(HasSubstr("metadata.yaml is not used")))
+            << text;
+    }
+    writeMetadata();
+    EXPECT_THAT(openBag(folder_ / "bag")->remarks(), testing::IsEmpty());
+}
+
+TEST_F(BagFolderTest, AFolderWithoutFilesIsNamed) {
+    fs::create_directory(folder_ / "none");
+    EXPECT_THAT(readAll(folder_ / "none").broken_because,
+                HasSubstr("none: has no .mcap and no .db3 files"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <limits>
 #include <map>
 
 #include "support/BagWriter.h"
@@ -406,6 +407,167 @@ TEST_F(BagScansTest, WhereABagBreaksOffTheTurnInProgressComesFirst) {
         readBag(folder_ / "cut.bag", {{"/rear"}, {}}).failed_because,
         testing::AllOf(HasSubstr("has no topic '/rear'; it has: /velodyne_packets"),
                        HasSubstr("only in part: " + (folder_ / "cut.bag").string() + ": ")));
+}
+
+TEST_F(BagScansTest, TransformsThatNeverChangeAreNotThePoses) {
+    std::vector<SentMessage> messages{cloud("/points"),
+                                      transform("/tf_static", "base_link", "lidar", 5)};
+    for (const double since_s : {0.0, 0.1, 0.2}) {
+        messages.push_back(transform("/tf", "base_footprint", "base_link", 0.5, since_s));
+        messages.push_back(transform("/tf", "odom", "base_footprint", 10 * since_s, since_s));
+    }
+    const ReadBag bag = read(messages);
+    ASSERT_TRUE(bag.scans->plan().poses);
+    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base_footprint");
+    EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5.5, 1e-9);
+    // Whatever the vehicle's frame is called.
+    const ReadBag body =
+        read({cloud("/points"), transform("/tf", "body", "lidar", 3),
+              transform("/tf", "body", "lidar", 3, 0.1), transform("/tf", "earth", "body", 1),
+              transform("/tf", "earth", "body", 2, 0.1)});
+    EXPECT_EQ(body.scans->plan().poses->source, "transforms from earth to body");
+    EXPECT_NEAR(CPose3D(body.of("points")[0]->sensorPose()).x(), 3, 1e-9);
+    // Nothing moves: the vehicle stands still.
+    const ReadBag parked =
+        read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
+              transform("/tf", "odom", "lidar", 1, 0.1), transform("/tf", "map", "odom", 1)});
+    EXPECT_EQ(parked.scans->plan().poses->source, "transforms from odom to lidar");
+}
+
+TEST_F(BagScansTest, TransformsThatMoveAMapAreNotThePoses) {
+    const ReadBag bag =
+        read({cloud("/map_cloud", 0, "map"), cloud("/points", 0, "base"),
+              transform("/tf", "earth", "map", 1), transform("/tf", "earth", "map", 2, 0.1),
+              transform("/tf", "odom", "base", 3), transform("/tf", "odom", "base", 4, 0.1)});
+    EXPECT_THAT(bag.labels(), ElementsAre("points"));
+    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base");
+}
+
+TEST_F(BagScansTest, ASensorThatHangsOnAnotherFrameThanTheVehicleHasNoMount) {
+    const SentMessage imu =
+        test::sentMessage("/imu", "sensor_msgs/Imu", kStart_s, [](test::MessageBytes& bytes) {
+            bytes.header(kStart_s, "imu");
+            for (const double part : {0.0, 0.0, 0.0, 1.0}) bytes.number(part);
+            for (int i = 0; i < 9 + 2 * (3 + 9); ++i) bytes.number(0.0);
+        });
+    std::vector<SentMessage> messages{cloud("/points"), imu,
+                                      transform("/tf_static", "os_sensor", "lidar", 5),
+                                      transform("/tf_static", "imu_case", "imu", 5)};
+    // Without poses, any frame will do.
+    const ReadBag alone = read(messages);
+    EXPECT_NEAR(CPose3D(alone.of("points")[0]->sensorPose()).x(), 5, 1e-9);
+    EXPECT_EQ(alone.scans->plan().imu_topic, "/imu");
+    EXPECT_THAT(alone.scans->plan().remarks, testing::IsEmpty());
+    messages.push_back(odometry(0, 0));
+    messages.push_back(odometry(0.1, 1));
+    const ReadBag bag = read(messages);
+    EXPECT_EQ(CPose3D(bag.of("points")[0]->sensorPose()).x(), 0);
+    EXPECT_EQ(bag.scans->plan().imu_topic, "");
+    EXPECT_THAT(bag.scans->plan().remarks,
+                ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of "
+                                      "/points to 'base_link'")));
+}
+
+TEST_F(BagScansTest, FieldsThatAreNotUsedAndPointsThatAreNotFiniteAreTold) {
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    const auto withRing = [](double since_s, float ring, float x) {
+        SentMessage message = test::cloudMessage("/points", kStart_s + since_s, "lidar",
+                                                 {x, 2, 3, ring, kNone, 6, 7, 8});
+        const std::string intensity("\x09\0\0\0intensity", 13);
+        message.ros1.replace(message.ros1.find(intensity), intensity.size(),
+                             std::string("\x04\0\0\0ring", 8));
+        return message;
+    };
+    const ReadBag bag = read({withRing(0, 1, 1), withRing(0.1, 0.5, 1), withRing(0.2, 2, kNone)});
+    EXPECT_EQ(xOf(bag.of("points")[1]), std::vector<float>{1});
+    EXPECT_THAT(
+        bag.scans->remarks(),
+        Contains("points (/points): 3 messages, 4 points with a coordinate that is not finite, "
+                 "left out of the scans (--clouds writes them, with the label 0); the field 'ring' "
+                 "is not a number of a beam, and is not used (1 of 3 clouds)"));
+}
+
+TEST_F(BagScansTest, ATransformThatCannotBeReadCostsNoOther) {
+    const auto transforms = [](const std::string& topic) {
+        return test::sentMessage(
+            topic, "tf2_msgs/TFMessage", kStart_s, [](test::MessageBytes& bytes) {
+                bytes.number(std::uint32_t{3});
+                bytes.header(kStart_s, "base_link").text("front").pose(1, 0, 0);
+                bytes.header(kStart_s, "base_link").text("broken");
+                for (int i = 0; i < 7; ++i) bytes.number(0.0);
+                bytes.header(kStart_s, "base_link").text("rear").pose(-1, 0, 0);
+            });
+    };
+    const std::vector<SentMessage> clouds{cloud("/front", 0, "front"), cloud("/rear", 0, "rear"),
+                                          odometry(0, 0), odometry(0.1, 1)};
+    for (const std::string topic : {"/tf_static", "/tf"}) {
+        std::vector<SentMessage> messages = clouds;
+        messages.push_back(transforms(topic));
+        const ReadBag bag = read(messages);
+        EXPECT_NEAR(CPose3D(bag.of("front")[0]->sensorPose()).x(), 1, 1e-9) << topic;
+        EXPECT_NEAR(CPose3D(bag.of("rear")[0]->sensorPose()).x(), -1, 1e-9) << topic;
+        EXPECT_THAT(bag.scans->remarks(),
+                    Contains(topic + ": 1 transform that could not be read, left out; the first: "
+                                     "message 0 (recorded at 1700000000.000 s): from 'base_link' "
+                                     "to 'broken': it is not finite or has no rotation"));
+    }
+}
+
+TEST_F(BagScansTest, PosesThatCannotBeReadAreNamedWithTheReason) {
+    SentMessage cut = odometry(0.1, 1);
+    cut.ros1.resize(60);
+    const ReadBag bag = read({cloud("/points"), odometry(0, 0), cut, odometry(0.2, 2), cut});
+    EXPECT_EQ(bag.scans->plan().poses->poses.size(), 2u);
+    EXPECT_THAT(bag.scans->remarks(),
+                Contains(HasSubstr("/odom: 2 messages that could not be read, left out; the first: "
+                                   "message 1 (recorded at 1700000000.100 s): it ends ")));
+}
+
+TEST_F(BagScansTest, TransformsOfOneFrameFromTwoParentsAreNotMixed) {
+    const ReadBag bag = read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
+                              transform("/tf", "map", "lidar", 100, 0.05),
+                              transform("/tf", "odom", "lidar", 2, 0.1),
+                              transform("/tf", "map", "lidar", 101, 0.15)});
+    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to lidar");
+    ASSERT_EQ(bag.scans->plan().poses->poses.size(), 2u);
+    EXPECT_EQ(bag.scans->plan().poses->poses[1].x_m, 2);
+    EXPECT_THAT(bag.scans->remarks(),
+                Contains("/tf: 2 transforms of a frame that had another parent before, left out; "
+                         "the first: message 1 (recorded at 1700000000.050 s): from 'map' to "
+                         "'lidar', before from 'odom'"));
+}
+
+TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
+    const auto livox = [](const std::string& driver) {
+        return test::sentMessage("/" + driver, driver + "/CustomMsg", kStart_s,
+                                 [](test::MessageBytes& bytes) {
+                                     bytes.header(kStart_s, "livox").number(std::uint64_t{0});
+                                     bytes.number(std::uint32_t{3}).raw(std::string(4, '\0'));
+                                     bytes.number(std::uint32_t{3});
+                                     for (const float x_m : {0.0f, 4.0f, 0.0f}) {
+                                         bytes.number(std::uint32_t{0});
+                                         for (const float part : {x_m, 0.0f, 0.0f})
+                                             bytes.number(part);
+                                         bytes.raw(std::string(3, '\1'));
+                                     }
+                                 });
+    };
+    const ReadBag bag = read({livox("livox_ros_driver"), livox("livox_ros_driver2")});
+    for (const std::string driver : {"livox_ros_driver", "livox_ros_driver2"}) {
+        EXPECT_EQ(xOf(bag.of(driver).at(0)), std::vector<float>{4});
+        EXPECT_THAT(
+            bag.scans->remarks(),
+            Contains(driver + " (/" + driver + "): 1 message, 2 points without a range, left out"));
+    }
+}
+
+TEST_F(BagScansTest, MetadataOfAFolderThatAreNotUsedAreTold) {
+    fs::create_directory(folder_ / "bag");
+    test::writeBytes(folder_ / "bag/bag_0.mcap", test::mcapOf({cloud("/points")}));
+    test::writeBytes(folder_ / "bag/metadata.yaml", "");
+    const ReadBag bag = readBag(folder_ / "bag");
+    EXPECT_EQ(bag.of("points").size(), 1u);
+    EXPECT_THAT(bag.scans->remarks(), Contains(HasSubstr("metadata.yaml is not used")));
 }
 
 }  // namespace

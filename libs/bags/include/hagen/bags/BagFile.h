@@ -46,6 +46,8 @@ class BagFile {
     virtual const std::vector<BagTopic>& topics() const = 0;
     /// Fraction of the recording read so far, 0 ... 1.
     virtual double fractionRead() const = 0;
+    /// What the user should know of how it is read.
+    virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 /// Whether a file begins like a ROS 1 bag, an MCAP or an SQLite database, whatever its name; of a

@@ -41,11 +41,12 @@ struct BagPlan {
 /// are the topics without leading slash, and with '_' for '/'.
 ///
 /// Poses are those of the odometry topic with the most; without one, of the pose topic with the
-/// most; without one, of the transforms that move the frame on which the LiDAR hangs. Series with
-/// poses farther apart than half a second on average come last.
+/// most; without one, of the transforms that move the frame on which the LiDAR hangs. Transforms
+/// on the way there that never change count as static; they are the poses only if nothing moves.
+/// Series with poses farther apart than half a second on average come last.
 ///
-/// The vehicle's frame is the child frame of the odometry, otherwise base_link, base_footprint, or
-/// the frame on which a sensor hangs in the end.
+/// The vehicle's frame is the child frame of the poses, otherwise base_link or base_footprint, or
+/// without poses the frame on which a sensor hangs in the end.
 ///
 /// Throws std::runtime_error naming the file if a topic is not there or is not a LiDAR's, if none
 /// is, or if metadata of an Ouster are missing or wrong. `survey` must outlive the plan.

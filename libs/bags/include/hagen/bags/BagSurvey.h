@@ -36,6 +36,17 @@ struct PoseSeries {
     std::vector<RecordedPose> poses;  ///< at most one per 10 ms, in the order of the bag
 };
 
+/// What was left out of the messages of a topic of poses or frames.
+struct LeftOut {
+    struct Kind {
+        std::size_t number = 0;
+        std::string first;  ///< which, and why
+    };
+    Kind messages;       ///< that could not be read
+    Kind transforms;     ///< without a pose, in messages that could be read
+    Kind other_parents;  ///< transforms of a frame that had another parent before
+};
+
 /// What must be known about a bag before its first scan is read. A static transform, the metadata
 /// of a sensor or a pose may come after the scan that needs it.
 struct BagSurvey {
@@ -58,7 +69,7 @@ struct BagSurvey {
     };
     std::map<std::string, Imu> imus;                     ///< by topic
     std::map<std::string, std::string> ouster_metadata;  ///< by topic
-    std::map<std::string, std::size_t> unreadable;       ///< messages of poses and frames, by topic
+    std::map<std::string, LeftOut> left_out;             ///< by topic
     bool is_whole = true;
     std::string broken_because;  ///< empty: it was read to its end, or ended by the caller
 };
