@@ -173,6 +173,18 @@ TEST_F(CloudFileTest, AbsurdNumbersOfPointsAreRefusedBeforeMemoryIsTaken) {
     }
 }
 
+/// Without points, no byte has to be there: the fields themselves are limited.
+TEST_F(CloudFileTest, AbsurdFieldsAreRefusedWithoutPoints) {
+    EXPECT_THAT(complaint("a.pcd",
+                          "FIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 4000000000\n"
+                          "WIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA binary\n"),
+                AllOf(HasSubstr("'a' (4000000000 times float32)"), HasSubstr("damaged")));
+    EXPECT_THAT(complaint("a.npy", test::npy("{'descr': [('x', '<f4', (288230376151711744,))], "
+                                             "'fortran_order': False, 'shape': (0,), }",
+                                             "")),
+                HasSubstr("'x' (288230376151711744 times float32)"));
+}
+
 // PCD
 
 TEST_F(CloudFileTest, PcdPaddingIsNoField) {
