@@ -10,8 +10,8 @@ using observations::PointTable;
 
 // Places in the public header block (ASPRS LAS 1.4 R15, table 3).
 constexpr std::size_t kMinorVersion = 25, kHeaderSize = 94, kPointsStart = 96, kFormat = 104,
-                      kRecordLength = 105, kLegacyPoints = 107, kScales = 131, kOffsets = 155,
-                      kPoints = 247;
+                      kRecords = 100, kRecordLength = 105, kLegacyPoints = 107, kScales = 131,
+                      kOffsets = 155, kExtendedRecords = 243, kPoints = 247;
 constexpr std::size_t kSmallestHeader = 227, kHeaderOf14 = 375;
 
 /// A point data record format (tables 7 to 17): where its optional numbers are; 0: nowhere.
@@ -71,7 +71,11 @@ void addPoint(const Bytes& bytes, std::size_t at, const Format& format, const Sc
         columns.add(name, NumberType::UInt8, static_cast<std::uint8_t>(number));
     };
     float angle_deg = 0;
+    constexpr int kScanDirection = 0x40, kEdge = 0x80;
+    int classification_flags = 0, line_flags = 0;
     if (format.is_new) {
+        classification_flags = byte(15) & 0xf;
+        line_flags = byte(15);
         add_byte("return_number", flags & 0xf);
         add_byte("number_of_returns", flags >> 4);
         add_byte("scanner_channel", byte(15) >> 4 & 3);
@@ -80,12 +84,17 @@ void addPoint(const Bytes& bytes, std::size_t at, const Format& format, const Sc
         constexpr float kUnit_deg = 0.006f;
         angle_deg = kUnit_deg * static_cast<float>(numberAt<std::int16_t>(bytes, at + 18));
     } else {
+        classification_flags = byte(15) >> 5;
+        line_flags = flags;
         add_byte("return_number", flags & 7);
         add_byte("number_of_returns", flags >> 3 & 7);
         add_byte("classification", byte(15) & 0x1f);
         add_byte("user_data", byte(17));
         angle_deg = static_cast<float>(static_cast<std::int8_t>(byte(16)));
     }
+    add_byte("classification_flags", classification_flags);
+    add_byte("scan_direction", (line_flags & kScanDirection) != 0 ? 1 : 0);
+    add_byte("edge_of_flight_line", (line_flags & kEdge) != 0 ? 1 : 0);
     columns.add("scan_angle", NumberType::Float32, angle_deg);
     columns.add("point_source_id", NumberType::UInt16,
                 numberAt<std::uint16_t>(bytes, at + (format.is_new ? 20 : 18)));
@@ -104,6 +113,24 @@ void addPoint(const Bytes& bytes, std::size_t at, const Format& format, const Sc
                     numberAt<std::uint16_t>(bytes, at + format.near_infrared));
     }
     columns.endPoint();
+}
+
+/// What is there besides points: records before and after them.
+std::vector<std::string> remarksOnRecords(const Bytes& bytes, bool is_of_14, std::size_t rest) {
+    std::vector<std::string> remarks;
+    const auto records = numberAt<std::uint32_t>(bytes, kRecords);
+    if (records > 0) {
+        remarks.push_back("its variable length records (" + std::to_string(records) +
+                          "), such as the coordinate system, are not read");
+    }
+    const std::uint32_t extended = is_of_14 ? numberAt<std::uint32_t>(bytes, kExtendedRecords) : 0;
+    if (extended > 0) {
+        remarks.push_back("its extended variable length records (" + std::to_string(extended) +
+                          ") after the points are not read");
+        return remarks;
+    }
+    for (std::string& remark : remarkOnRest(rest)) remarks.push_back(std::move(remark));
+    return remarks;
 }
 
 }  // namespace
@@ -144,7 +171,8 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
                    " bytes; is it truncated?");
     }
     std::uint64_t points = numberAt<std::uint32_t>(bytes, kLegacyPoints);
-    if (minor == 4 && header_size >= kHeaderOf14 && bytes.size() >= kHeaderOf14) {
+    const bool is_of_14 = minor == 4 && header_size >= kHeaderOf14 && bytes.size() >= kHeaderOf14;
+    if (is_of_14) {
         const auto all = numberAt<std::uint64_t>(bytes, kPoints);
         if (all > 0) points = all;
     }
@@ -159,7 +187,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
         }
         failAt(file, "byte 131", "a scale or offset of its coordinates is 0 or not finite");
     }
-    constexpr std::size_t kMostBytes = 3 * 8 + 2 + 5 + 4 + 2 + 8 + 8;
+    constexpr std::size_t kMostBytes = 3 * 8 + 2 + 8 + 4 + 2 + 8 + 8;
     Columns columns(points, kMostBytes);
     for (std::size_t i = 0; i < points; ++i) {
         addPoint(bytes, start + i * record, format, scaling, columns);
@@ -174,6 +202,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
         cloud.table.points = 0;
         cloud.table.bytes.clear();
     }
+    cloud.remarks = remarksOnRecords(bytes, is_of_14, bytes.size() - start - points * record);
     if (format.has_waves) cloud.remarks.push_back("wave packets of its points are not read");
     if (record > format.size) {
         cloud.remarks.push_back(std::to_string(record - format.size) +

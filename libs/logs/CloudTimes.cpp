@@ -24,40 +24,71 @@ std::size_t digitsAtEnd(std::string_view text) {
 struct NameNumber {
     std::string_view whole, part;
     char mark = '\0';
+    bool is_whole_name = false;
 };
+
+constexpr std::size_t kDigitsOfSeconds = 10, kDigitsOfNanoseconds = 9;
+
+/// Whether these are seconds of today: 10 digits, of which a padded frame number has zeros first.
+bool areUnixSeconds(std::string_view digits) {
+    return digits.size() == kDigitsOfSeconds && digits[0] != '0';
+}
 
 NameNumber numberIn(std::string_view name) {
     NameNumber number;
     number.whole = name.substr(name.size() - digitsAtEnd(name));
     name.remove_suffix(number.whole.size());
+    number.is_whole_name = name.empty();
     if (number.whole.empty() || name.empty() || (name.back() != '.' && name.back() != '_')) {
         return number;
     }
     const char mark = name.back();
     name.remove_suffix(1);
-    const std::size_t digits = digitsAtEnd(name);
-    const bool are_nanoseconds = number.whole.size() == 9 && digits >= 9;
-    if (digits == 0 || (mark == '_' && !are_nanoseconds)) return number;
-    return {name.substr(name.size() - digits), number.whole, mark};
+    const std::string_view first = name.substr(name.size() - digitsAtEnd(name));
+    const std::size_t digits = number.whole.size();
+    const bool are_nanoseconds =
+        digits == kDigitsOfNanoseconds
+            ? first.size() >= kDigitsOfNanoseconds
+            : digits < kDigitsOfNanoseconds && areUnixSeconds(first);  // without leading zeros
+    if (first.empty() || (mark == '_' && !are_nanoseconds)) return number;
+    return {first, number.whole, mark, first.size() == name.size()};
+}
+
+/// Both groups as one number.
+double valueOf(const NameNumber& number) {
+    const double whole = base::numberFrom<double>(number.whole).value_or(-1.0);
+    if (number.mark == '\0') return whole;
+    if (number.mark == '_') {
+        return whole + 1e-9 * base::numberFrom<double>(number.part).value_or(0.0);
+    }
+    return whole + base::numberFrom<double>("0." + std::string(number.part)).value_or(0.0);
 }
 
 /// The time that a number is; none if it is a mere number.
 std::optional<double> timeOf(const NameNumber& number) {
-    const auto whole = base::numberFrom<double>(number.whole);
-    if (!whole) return std::nullopt;
-    if (number.mark != '\0') {
-        const auto part = base::numberFrom<double>("0." + std::string(number.part));
-        return *whole + part.value_or(0.0);
+    if (number.whole.empty()) return std::nullopt;
+    const double value = valueOf(number);
+    if (number.mark == '_') {
+        // Padded to fewer than nine digits, the second group is no nanoseconds.
+        const bool is_padded = number.part.size() > 1 && number.part[0] == '0';
+        if (is_padded && number.part.size() < kDigitsOfNanoseconds) return std::nullopt;
+        return value;
     }
+    if (number.mark == '.') {
+        // "vlp16.000001" is the first cloud of a VLP-16.
+        if (number.is_whole_name || areUnixSeconds(number.whole)) return value;
+        return std::nullopt;
+    }
+    if (number.whole[0] == '0') return std::nullopt;  // padded, as no time of today
     switch (number.whole.size()) {
-        case 10:
-            return *whole;
+        case kDigitsOfSeconds:
+            return value;
         case 13:
-            return 1e-3 * *whole;
+            return 1e-3 * value;
         case 16:
-            return 1e-6 * *whole;
+            return 1e-6 * value;
         case 19:
-            return 1e-9 * *whole;
+            return 1e-9 * value;
         default:
             return std::nullopt;
     }
@@ -73,7 +104,7 @@ bool ascend(const std::vector<double>& numbers) {
 double numberOfName(const std::string& name) {
     const NameNumber number = numberIn(name);
     if (const auto time_s = timeOf(number)) return *time_s;
-    return base::numberFrom<double>(number.whole).value_or(-1.0);
+    return valueOf(number);
 }
 
 CloudTimes timesOfNames(const std::vector<std::string>& names) {
@@ -90,7 +121,7 @@ CloudTimes timesOfNames(const std::vector<std::string>& names) {
     bool are_numbers = true;
     for (const std::string& name : names) {
         const NameNumber number = numberIn(name);
-        const double value = base::numberFrom<double>(number.whole).value_or(-1.0);
+        const double value = valueOf(number);
         are_numbers = are_numbers && number.mark == '\0' && value >= 0 && value < kMostNumber;
         times.times_s.push_back(kPeriod_s * value);
     }

@@ -13,9 +13,10 @@ struct CloudTimes {
 /// Names are file names without extension. Their number may follow letters, as in "cloud_12". It is
 /// a time, of all files or of none, if the times ascend:
 ///
-/// - "1317617735.25", "12.5": seconds.
-/// - "1317617735_250000000": seconds, and nanoseconds as nine digits.
-/// - "1317617735": seconds, 13 digits: milliseconds, 16: microseconds, 19: nanoseconds.
+/// - "1317617735.25": seconds; "12.5" only if nothing precedes it, unlike "vlp16.000001".
+/// - "1317617735_250000000", "1317617735_5": seconds and nanoseconds.
+/// - "1317617735": seconds, 13 digits: milliseconds, 16: microseconds, 19: nanoseconds. With a
+///   leading zero, as "0000000042", these are numbers.
 ///
 /// Otherwise clouds are 0.1 s apart: by number if the names are whole numbers that ascend, such as
 /// "000042", else one after the other.

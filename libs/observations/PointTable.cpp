@@ -71,11 +71,20 @@ const char* nameOf(NumberType type) {
 
 void check(const PointTable& table) {
     std::set<std::string> names;
+    std::size_t numbers = 0;
     for (const PointField& field : table.fields) {
         if (field.name.empty()) throw std::runtime_error("a field has no name");
         const std::string title = "the field '" + field.name + "'";
         if (!names.insert(field.name).second) throw std::runtime_error(title + " is there twice");
         if (field.count == 0) throw std::runtime_error(title + " has no numbers");
+        // Without points, no byte backs what a header says of its fields.
+        if (field.count > kMostNumbersPerPoint - numbers) {
+            throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
+                                     nameOf(field.type) + ") makes more than " +
+                                     std::to_string(kMostNumbersPerPoint) +
+                                     " numbers per point; is the header damaged?");
+        }
+        numbers += field.count;
         const std::size_t size = bytesOf(field.type);
         const std::size_t room = table.bytes_per_point;
         // Without products of numbers from a file, which may overflow.

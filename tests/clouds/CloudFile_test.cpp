@@ -173,6 +173,18 @@ TEST_F(CloudFileTest, AbsurdNumbersOfPointsAreRefusedBeforeMemoryIsTaken) {
     }
 }
 
+/// Without points, no byte has to be there: the fields themselves are limited.
+TEST_F(CloudFileTest, AbsurdFieldsAreRefusedWithoutPoints) {
+    EXPECT_THAT(complaint("a.pcd",
+                          "FIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 4000000000\n"
+                          "WIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA binary\n"),
+                AllOf(HasSubstr("'a' (4000000000 times float32)"), HasSubstr("damaged")));
+    EXPECT_THAT(complaint("a.npy", test::npy("{'descr': [('x', '<f4', (288230376151711744,))], "
+                                             "'fortran_order': False, 'shape': (0,), }",
+                                             "")),
+                HasSubstr("'x' (288230376151711744 times float32)"));
+}
+
 // PCD
 
 TEST_F(CloudFileTest, PcdPaddingIsNoField) {
@@ -298,6 +310,41 @@ TEST_F(CloudFileTest, LasFieldsAreThoseOfThePointFormat) {
     EXPECT_THAT(column(modern.table, "scan_angle"), ElementsAre(testing::DoubleNear(-3, 1e-5)));
     EXPECT_THAT(column(modern.table, "point_source_id"), ElementsAre(9));
     EXPECT_THAT(modern.remarks, ElementsAre(HasSubstr("4 extra bytes")));
+}
+
+TEST_F(CloudFileTest, LasFlagsOfAPointAreFields) {
+    const std::size_t old_point = 227 + 3, new_point = 375 + 3;
+    std::string text = test::las(filePoints(2));  // the class byte is 0xe2: all three flags
+    text[old_point + 14] = '\x5a';                // with the scan direction
+    text[old_point + 28 + 14] = '\x9a';           // with the edge of the flight line
+    text[old_point + 28 + 15] = '\x82';           // withheld
+    const PointTable old = read("a.las", text).table;
+    EXPECT_THAT(column(old, "classification_flags"), ElementsAre(7, 4));
+    EXPECT_THAT(column(old, "scan_direction"), ElementsAre(1, 0));
+    EXPECT_THAT(column(old, "edge_of_flight_line"), ElementsAre(0, 1));
+    EXPECT_THAT(column(old, "return_number"), ElementsAre(2, 2));
+    EXPECT_THAT(column(old, "classification"), ElementsAre(2, 2));
+
+    text = test::las(filePoints(2), true);
+    text[new_point + 15] = '\x58';       // overlap, channel 1, scan direction
+    text[new_point + 34 + 15] = '\x91';  // synthetic, channel 1, edge of the flight line
+    const PointTable modern = read("a.las", text).table;
+    EXPECT_THAT(column(modern, "classification_flags"), ElementsAre(8, 1));
+    EXPECT_THAT(column(modern, "scan_direction"), ElementsAre(1, 0));
+    EXPECT_THAT(column(modern, "edge_of_flight_line"), ElementsAre(0, 1));
+    EXPECT_THAT(column(modern, "scanner_channel"), ElementsAre(1, 1));
+}
+
+TEST_F(CloudFileTest, LasRecordsBesideThePointsAreTold) {
+    std::string text = test::las(filePoints(), true);
+    text[100] = 2;
+    text[243] = 3;
+    EXPECT_THAT(
+        read("a.las", text + std::string(80, 'r')).remarks,
+        ElementsAre(HasSubstr("its variable length records (2)"),
+                    HasSubstr("extended variable length records (3)"), HasSubstr("4 extra bytes")));
+    EXPECT_THAT(read("a.las", test::las(filePoints()) + "more").remarks,
+                ElementsAre(HasSubstr("4 bytes after its last point")));
 }
 
 TEST_F(CloudFileTest, LasWithoutPointsHasItsFields) {

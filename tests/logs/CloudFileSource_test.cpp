@@ -84,6 +84,7 @@ TEST_F(CloudFileSourceTest, NamesMayBeTimes) {
     const std::vector<std::vector<std::string>> kNames{
         {"1700000000.25.bin", "1700000000.5.bin"},
         {"1700000000_250000000.bin", "1700000000_500000000.bin"},
+        {"scan_1700000000.25.bin", "scan_1700000000.5.bin"},
         {"scan1700000000250.bin", "scan1700000000500.bin"},
         {"1700000000250000.bin", "1700000000500000.bin"},
         {"1700000000250000000.bin", "1700000000500000000.bin"}};
@@ -111,6 +112,45 @@ TEST_F(CloudFileSourceTest, WithoutTimesCloudsAreATenthOfASecondApartAndThisIsTo
     }
     EXPECT_THAT(scansOf(folderOf({"same.bin", "same.pcd"})).second,
                 ElementsAre(0.0, testing::DoubleNear(0.1, 1e-6)));
+}
+
+TEST_F(CloudFileSourceTest, NumbersThatArePaddedOrOfASensorsNameAreNoTimes) {
+    const std::vector<std::vector<std::string>> kNames{
+        {"0000000000.bin", "0000000001.bin"},  // as KITTI's raw recordings have them
+        {"0000000000000.bin", "0000000000001.bin"},
+        {"vlp16.000001.bin", "vlp16.000002.bin"},
+        {"hdl_64.000001.bin", "hdl_64.000002.bin"},
+        {"1700000000_000012.bin", "1700000000_000013.bin"}};
+    for (const auto& names : kNames) {
+        SCOPED_TRACE(names[0]);
+        const fs::path folder = folderOf(names);
+        EXPECT_THAT(remarksOn(folder), Contains(HasSubstr("0.1 s apart")));
+        const auto [scans, times] = scansOf(folder);
+        EXPECT_THAT(scans, ElementsAre(fs::path(names[0]).stem(), fs::path(names[1]).stem()));
+        EXPECT_THAT(times, ElementsAre(0.0, testing::DoubleNear(0.1, 1e-6)));
+        fs::remove_all(folder);
+    }
+}
+
+TEST_F(CloudFileSourceTest, NanosecondsMayLackTheirLeadingZeros) {
+    const fs::path folder =
+        folderOf({"1700000001_50000000.bin", "1700000000_950000000.bin", "1700000001_5.bin"});
+    const auto [names, times] = scansOf(folder);
+    EXPECT_THAT(names, ElementsAre("1700000000_950000000", "1700000001_5", "1700000001_50000000"));
+    const auto near = [](double time_s) { return testing::DoubleNear(time_s, 1e-6); };
+    EXPECT_THAT(times, ElementsAre(near(1700000000.95), near(1700000001.0), near(1700000001.05)));
+    EXPECT_THAT(remarksOn(folder), Contains(HasSubstr("in the names of the files")));
+}
+
+TEST_F(CloudFileSourceTest, CloudsOfNuScenesHaveRingsAndTimes) {
+    write("clouds/day__LIDAR_TOP__1532402927647951.pcd.bin", test::binWithRings(filePoints(20)));
+    write("clouds/day__LIDAR_TOP__1532402927697951.pcd.bin", test::binWithRings(filePoints(20)));
+    const auto [names, times] = scansOf(folder_ / "clouds");
+    EXPECT_THAT(names, ElementsAre("day__LIDAR_TOP__1532402927647951", HasSubstr("7951")));
+    EXPECT_THAT(times, ElementsAre(testing::DoubleNear(1532402927.647951, 1e-6),
+                                   testing::DoubleNear(1532402927.697951, 1e-6)));
+    const auto scan = openRecording(folder_ / "clouds")->nextScan();
+    EXPECT_EQ(observations::tableCloudOf(*scan->observation)->rings()[3], 3);
 }
 
 TEST_F(CloudFileSourceTest, FilesOfOneNameKeepTheirEndings) {

@@ -100,5 +100,24 @@ TEST(PointTable, WhatDoesNotFitIsRefused) {
     });
 }
 
+TEST(PointTable, FieldsOfNoPointsAreLimitedToo) {
+    PointTable table;
+    table.fields = {{"x", NumberType::Float32, 0, 1},
+                    {"a", NumberType::UInt8, 4, kMostNumbersPerPoint - 2},
+                    {"b", NumberType::UInt8, 4 + kMostNumbersPerPoint, 1}};
+    table.bytes_per_point = std::numeric_limits<std::size_t>::max();
+    EXPECT_NO_THROW(check(table));
+    for (const std::size_t count : {std::size_t{2}, table.bytes_per_point / 2}) {
+        table.fields[2].count = count;
+        try {
+            check(table);
+            ADD_FAILURE() << count;
+        } catch (const std::runtime_error& e) {
+            EXPECT_THAT(e.what(), testing::HasSubstr("'b' (" + std::to_string(count)));
+            EXPECT_THAT(e.what(), testing::HasSubstr("65536 numbers per point"));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hagen::observations

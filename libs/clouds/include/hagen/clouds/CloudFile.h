@@ -48,9 +48,11 @@ bool hasCloudName(const std::filesystem::path& file);
 /// - PCD: fields named "_" are padding and left out.
 /// - PLY: elements other than `vertex`, and lists, are left out and named in the remarks.
 /// - LAS: x, y, z are float64, as scaled and moved by the header; with the fields intensity
-///   (uint16), return_number, number_of_returns, classification (uint8), scan_angle [degrees]
-///   (float32), user_data (uint8), point_source_id (uint16), and as the point format has them
-///   gps_time (float64), red, green, blue, nir (uint16). Extra bytes are named in the remarks.
+///   (uint16), return_number, number_of_returns, classification, user_data, classification_flags
+///   (1: synthetic, 2: key-point, 4: withheld, 8: overlap), scan_direction (0, 1),
+///   edge_of_flight_line (0, 1) (uint8), scan_angle [degrees] (float32), point_source_id (uint16),
+///   and as the point format has them scanner_channel (uint8), gps_time (float64), red, green,
+///   blue, nir (uint16). Extra bytes and variable length records are named in the remarks.
 /// - NPY: columns of a plain array are x, y, z, intensity, and field_4 and so on. Fields of a
 ///   structured array keep their names; those that are not plain numbers are left out and named.
 CloudFile readCloud(const std::filesystem::path& file);

@@ -41,9 +41,13 @@ struct PointTable {
     std::vector<std::uint8_t> bytes;
 };
 
+/// The most numbers that the fields of a point may have together.
+constexpr std::size_t kMostNumbersPerPoint = 65536;
+
 /// Throws std::runtime_error naming the field if a field has no name or no numbers or does not fit
-/// into a point, if two have the same name, or if the points do not fit into the bytes. A table
-/// from a file should be checked before anything else reads it.
+/// into a point, if two have the same name, if there are more than kMostNumbersPerPoint, or if the
+/// points do not fit into the bytes. A table from a file should be checked before anything else
+/// reads it.
 void check(const PointTable& table);
 
 /// The first of these names that is a field, without regard to case; null if there is none.
