@@ -31,7 +31,7 @@ Number numberAt(const std::uint8_t* at, bool is_swapped) {
 /// Calls `use` with a value of the C++ type.
 template <class Use>
 void withType(NumberType type, const Use& use) {
-    switch (type) {
+    switch (type) {  // NOLINT(bugprone-branch-clone): the types differ
         case NumberType::Int8:
             return use(std::int8_t());
         case NumberType::UInt8:
