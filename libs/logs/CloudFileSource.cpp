@@ -35,15 +35,21 @@ std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass 
     return names;
 }
 
+/// A name without its ending: "a" for a.ply, and for a.pcd.bin, as nuScenes names its clouds.
+std::string stemOf(const fs::path& file) {
+    const fs::path stem = file.stem();
+    return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
+}
+
 /// By number if all names have one, otherwise by name.
 void sortByName(std::vector<fs::path>& files) {
     const bool are_numbered = std::all_of(files.begin(), files.end(), [](const fs::path& file) {
-        return numberOfName(file.stem().string()) >= 0;
+        return numberOfName(stemOf(file)) >= 0;
     });
     std::sort(files.begin(), files.end());
     if (!are_numbered) return;
     std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        return numberOfName(a.stem().string()) < numberOfName(b.stem().string());
+        return numberOfName(stemOf(a)) < numberOfName(stemOf(b));
     });
 }
 
@@ -68,13 +74,13 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
         files_ = {file_or_folder};
     }
     std::set<std::string> stems;
-    for (const fs::path& file : files_) stems.insert(file.stem().string());
+    for (const fs::path& file : files_) stems.insert(stemOf(file));
     for (const fs::path& file : files_) {
         const bool are_unique = stems.size() == files_.size();
-        names_.push_back((are_unique ? file.stem() : file.filename()).string());
+        names_.push_back(are_unique ? stemOf(file) : file.filename().string());
     }
     std::vector<std::string> numbered;
-    for (const fs::path& file : files_) numbered.push_back(file.stem().string());
+    for (const fs::path& file : files_) numbered.push_back(stemOf(file));
     CloudTimes times = timesOfNames(numbered);
     times_s_ = std::move(times.times_s);
     time_remark_ = std::move(times.how);
