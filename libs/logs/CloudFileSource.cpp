@@ -5,6 +5,7 @@
 #include <hagen/observations/TableCloud.h>
 
 #include <algorithm>
+#include <new>
 #include <set>
 #include <stdexcept>
 
@@ -125,6 +126,8 @@ mrpt::obs::CObservationPointCloud::Ptr CloudFileSource::read(std::size_t i) {
         throw BrokenScan(e.what());
     } catch (const std::runtime_error& e) {
         throw BrokenScan(files_[i].string() + ": " + e.what());
+    } catch (const std::bad_alloc&) {
+        throw BrokenScan(files_[i].string() + ": does not fit into memory");
     }
 }
 
@@ -174,6 +177,8 @@ bool CloudFileSource::showClouds(observations::CloudSensors& sensors) {
                                          kCloudLabel, mrpt::Clock::fromDouble(times_s_[i])));
     } catch (const std::runtime_error&) {
         return true;  // nextEntry() reports it
+    } catch (const std::bad_alloc&) {
+        return true;  // likewise
     }
     return true;
 }
