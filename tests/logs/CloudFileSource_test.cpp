@@ -154,7 +154,9 @@ TEST_F(CloudFileSourceTest, CloudsOfNuScenesHaveRingsAndTimes) {
     EXPECT_THAT(times, ElementsAre(testing::DoubleNear(1532402927.647951, 1e-6),
                                    testing::DoubleNear(1532402927.697951, 1e-6)));
     const auto scan = openRecording(folder_ / "clouds")->nextScan();
-    EXPECT_EQ(observations::tableCloudOf(*scan->observation)->rings()[3], 3);
+    const auto& rings = observations::tableCloudOf(*scan->observation)->rings();
+    ASSERT_EQ(rings.size(), 20u);
+    EXPECT_EQ(rings[3], 3);
 }
 
 TEST_F(CloudFileSourceTest, FilesOfOneNameKeepTheirEndings) {
