@@ -1,7 +1,6 @@
 #include <hagen/clouds/CloudFile.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -9,8 +8,6 @@
 
 namespace hagen::clouds {
 namespace {
-
-constexpr std::size_t kStart = 4096;  // bytes that tell the format
 
 bool startsWith(const Bytes& bytes, std::string_view text) {
     return bytes.size() >= text.size() &&
@@ -33,32 +30,13 @@ bool isPcd(const Bytes& bytes) {
     return false;
 }
 
-/// Whether these are points of a LiDAR: float32 x, y, z, intensity.
-bool arePoints(const Bytes& bytes) {
-    constexpr float kFarthest_m = 1000.0f, kMostIntensity = 65535.0f;
-    const std::size_t points = bytes.size() / 16;
-    if (points == 0 || startsWith(bytes, "\x1f\x8b") || startsWith(bytes, "\x28\xb5\x2f\xfd")) {
-        return false;
-    }
-    bool is_all_zero = true;
-    for (std::size_t i = 0; i < points; ++i) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto number = numberAt<float>(bytes, 16 * i + 4 * k);
-            const float most = k < 3 ? kFarthest_m : kMostIntensity;
-            if (std::isfinite(number) && std::abs(number) > most) return false;
-            if (std::fpclassify(number) == FP_SUBNORMAL) return false;  // of text and integers
-            is_all_zero = is_all_zero && number == 0.0f;
-        }
-    }
-    return !is_all_zero;
-}
-
 std::optional<CloudFormat> formatOf(const Bytes& start, std::size_t size) {
     if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return CloudFormat::Ply;
     if (startsWith(start, "LASF")) return CloudFormat::Las;
     if (startsWith(start, "\x93NUMPY")) return CloudFormat::Npy;
     if (isPcd(start)) return CloudFormat::Pcd;
-    if (size % 16 == 0 && arePoints(start)) return CloudFormat::Bin;
+    const std::size_t numbers = numbersPerBinPoint(start);
+    if (numbers > 0 && size % (sizeof(float) * numbers) == 0) return CloudFormat::Bin;
     return std::nullopt;
 }
 
@@ -77,7 +55,7 @@ CloudFile read(const std::filesystem::path& file) {
     const auto format = formatOf(start, bytes.size());
     if (!format) {
         // An empty .bin is a scan without returns, and one that was cut still a .bin.
-        const bool is_cut = bytes.size() % 16 != 0;
+        const bool is_cut = numbersPerBinPoint(start) > 0 || bytes.size() % 16 != 0;
         if (extensionOf(file) == ".bin" && (bytes.empty() || is_cut)) {
             return readBin(file, std::move(bytes));
         }

@@ -1,22 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include "Readers.h"
 
 namespace hagen::clouds {
+namespace {
 
 using observations::NumberType;
 
-CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
-    constexpr std::size_t kBytesPerPoint = 16;
-    if (bytes.size() % kBytesPerPoint != 0) {
-        throw BrokenCloud(file.string() + ": " + std::to_string(bytes.size()) +
-                          " bytes are not a multiple of 16-byte points; is it truncated?");
+bool isPacked(const Bytes& bytes) {
+    constexpr std::uint8_t kGzip[] = {0x1f, 0x8b}, kZstd[] = {0x28, 0xb5, 0x2f, 0xfd};
+    const auto starts = [&](const auto& magic) {
+        return bytes.size() >= std::size(magic) &&
+               std::equal(std::begin(magic), std::end(magic), bytes.begin());
+    };
+    return starts(kGzip) || starts(kZstd);
+}
+
+/// Whether these are points of a LiDAR, if each has so many float32: x, y, z, intensity, ....
+bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
+    constexpr float kFarthest_m = 1000.0f, kMostIntensity = 65535.0f;
+    const std::size_t numbers =
+        bytes.size() / (sizeof(float) * numbers_per_point) * numbers_per_point;
+    bool is_all_zero = true;
+    for (std::size_t i = 0; i < numbers; ++i) {
+        const auto number = numberAt<float>(bytes, sizeof(float) * i);
+        const float most = i % numbers_per_point < 3 ? kFarthest_m : kMostIntensity;
+        if (std::isfinite(number) && std::abs(number) > most) return false;
+        if (std::fpclassify(number) == FP_SUBNORMAL) return false;  // of text and integers
+        is_all_zero = is_all_zero && number == 0.0f;
     }
+    return !is_all_zero;
+}
+
+/// Whether every fifth number is that of a beam, and the coordinates are not such numbers, too, as
+/// those of a grid. Among four numbers per point, every fifth is an x, y, z or intensity by turns.
+bool haveRings(const Bytes& bytes) {
+    constexpr std::size_t kNumbers = 5, kFewestPoints = 16;
+    constexpr float kHighestRing = 255.0f;
+    const std::size_t points = bytes.size() / (sizeof(float) * kNumbers);
+    if (points < kFewestPoints) return false;
+    bool are_all_whole = true;
+    for (std::size_t i = 0; i < points; ++i) {
+        const auto number = [&](std::size_t k) {
+            return numberAt<float>(bytes, sizeof(float) * (kNumbers * i + k));
+        };
+        const float ring = number(4);
+        if (!(ring >= 0 && ring <= kHighestRing) || ring != std::floor(ring)) return false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            are_all_whole = are_all_whole && number(k) == std::floor(number(k));
+        }
+    }
+    return !are_all_whole;
+}
+
+}  // namespace
+
+std::size_t numbersPerBinPoint(const Bytes& start) {
+    if (isPacked(start)) return 0;
+    if (arePoints(start, 5) && haveRings(start)) return 5;
+    return arePoints(start, 4) ? 4 : 0;
+}
+
+CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
+    const Bytes start(bytes.begin(),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
     CloudFile cloud;
     cloud.table.fields = {{"x", NumberType::Float32, 0, 1},
                           {"y", NumberType::Float32, 4, 1},
                           {"z", NumberType::Float32, 8, 1},
                           {"intensity", NumberType::Float32, 12, 1}};
-    cloud.table.bytes_per_point = kBytesPerPoint;
-    cloud.table.points = bytes.size() / kBytesPerPoint;
+    if (numbersPerBinPoint(start) == 5) {
+        cloud.table.fields.push_back({"ring", NumberType::Float32, 16, 1});
+    }
+    const std::size_t bytes_per_point = sizeof(float) * cloud.table.fields.size();
+    if (bytes.size() % bytes_per_point != 0) {
+        throw BrokenCloud(file.string() + ": " + std::to_string(bytes.size()) +
+                          " bytes are not a multiple of " + std::to_string(bytes_per_point) +
+                          "-byte points; is it truncated?");
+    }
+    cloud.table.bytes_per_point = bytes_per_point;
+    cloud.table.points = bytes.size() / bytes_per_point;
     cloud.table.bytes = std::move(bytes);
     return cloud;
 }

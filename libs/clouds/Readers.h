@@ -3,11 +3,17 @@
 
 namespace hagen::clouds {
 
+constexpr std::size_t kStart = 4096;  ///< bytes of a file that tell its format
+
 // One reader per format, of a file's bytes. They throw BrokenCloud; the table is not checked yet.
 CloudFile readPcd(const std::filesystem::path& file, Bytes bytes);
 CloudFile readPly(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readNpy(const std::filesystem::path& file, Bytes bytes);
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes);
+
+/// How many float32 a point of a .bin has, by the first bytes of the file: 4 (x, y, z, intensity,
+/// as of KITTI) or 5 (with the ring, as of nuScenes); 0: these are no points of a LiDAR.
+std::size_t numbersPerBinPoint(const Bytes& start);
 
 }  // namespace hagen::clouds

@@ -7,6 +7,7 @@
 #include <hagen/observations/TableCloud.h>
 
 #include <algorithm>
+#include <new>
 #include <set>
 #include <stdexcept>
 
@@ -37,15 +38,21 @@ std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass 
     return names;
 }
 
+/// A name without its ending: "a" for a.ply, and for a.pcd.bin, as nuScenes names its clouds.
+std::string stemOf(const fs::path& file) {
+    const fs::path stem = file.stem();
+    return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
+}
+
 /// By number if all names have one, otherwise by name.
 void sortByName(std::vector<fs::path>& files) {
     const bool are_numbered = std::all_of(files.begin(), files.end(), [](const fs::path& file) {
-        return numberOfName(file.stem().string()) >= 0;
+        return numberOfName(stemOf(file)) >= 0;
     });
     std::sort(files.begin(), files.end());
     if (!are_numbered) return;
     std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        return numberOfName(a.stem().string()) < numberOfName(b.stem().string());
+        return numberOfName(stemOf(a)) < numberOfName(stemOf(b));
     });
 }
 
@@ -70,13 +77,13 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
         files_ = {file_or_folder};
     }
     std::set<std::string> stems;
-    for (const fs::path& file : files_) stems.insert(file.stem().string());
+    for (const fs::path& file : files_) stems.insert(stemOf(file));
     for (const fs::path& file : files_) {
         const bool are_unique = stems.size() == files_.size();
-        names_.push_back((are_unique ? file.stem() : file.filename()).string());
+        names_.push_back(are_unique ? stemOf(file) : file.filename().string());
     }
     std::vector<std::string> numbered;
-    for (const fs::path& file : files_) numbered.push_back(file.stem().string());
+    for (const fs::path& file : files_) numbered.push_back(stemOf(file));
     CloudTimes times = timesOfNames(numbered);
     times_s_ = std::move(times.times_s);
     time_remark_ = std::move(times.how);
@@ -121,6 +128,8 @@ mrpt::obs::CObservationPointCloud::Ptr CloudFileSource::read(std::size_t i) {
         throw BrokenScan(e.what());
     } catch (const std::runtime_error& e) {
         throw BrokenScan(files_[i].string() + ": " + e.what());
+    } catch (const std::bad_alloc&) {
+        throw BrokenScan(files_[i].string() + ": does not fit into memory");
     }
 }
 
@@ -170,6 +179,8 @@ bool CloudFileSource::showClouds(observations::CloudSensors& sensors) {
                                          kCloudLabel, mrpt::Clock::fromDouble(times_s_[i])));
     } catch (const std::runtime_error&) {
         return true;  // nextEntry() reports it
+    } catch (const std::bad_alloc&) {
+        return true;  // likewise
     }
     return true;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <new>
 #include <set>
 #include <stdexcept>
 
@@ -111,14 +112,18 @@ void markAsPredictions(const fs::path& folder) {
 }
 
 void readScan(const fs::path& file, Scan& scan) {
-    const auto points = readRecords<std::array<float, 4>>(file);
-    scan.clear();
-    scan.reserve(points.size());
-    for (const auto& [x, y, z, intensity] : points) {
-        scan.x_m.push_back(x);
-        scan.y_m.push_back(y);
-        scan.z_m.push_back(z);
-        scan.intensity.push_back(intensity);
+    try {
+        const auto points = readRecords<std::array<float, 4>>(file);
+        scan.clear();
+        scan.reserve(points.size());
+        for (const auto& [x, y, z, intensity] : points) {
+            scan.x_m.push_back(x);
+            scan.y_m.push_back(y);
+            scan.z_m.push_back(z);
+            scan.intensity.push_back(intensity);
+        }
+    } catch (const std::bad_alloc&) {
+        throw BrokenScan(file.string() + ": does not fit into memory");
     }
 }
 

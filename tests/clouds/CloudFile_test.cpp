@@ -444,5 +444,34 @@ TEST_F(CloudFileTest, BinFilesMayBeEmptyButNotCut) {
     EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("none that a LiDAR sees"));
 }
 
+TEST_F(CloudFileTest, BinPointsMayHaveRings) {
+    for (const int count : {20, 21, 400}) {  // of 20 points, the size is a multiple of 16, too
+        SCOPED_TRACE(count);
+        const std::vector<FilePoint> points = filePoints(count);
+        const PointTable table = read("a.pcd.bin", test::binWithRings(points)).table;
+        EXPECT_EQ(namesOf(table), "x, y, z, intensity, ring");
+        ASSERT_EQ(table.points, points.size());
+        EXPECT_NEAR(column(table, "y")[19], points[19].y_m, 1e-9);
+        EXPECT_EQ(column(table, "intensity")[19], 17);
+        EXPECT_EQ(column(table, "ring")[19], points[19].ring);
+    }
+    const std::string cut = test::binWithRings(filePoints(20)).substr(0, 384);
+    EXPECT_EQ(cloudFormatOf(write("cut", cut)), std::nullopt);
+    EXPECT_THAT(complaint("cut.bin", cut), HasSubstr("not a multiple of 20-byte points"));
+}
+
+TEST_F(CloudFileTest, BinPointsWithoutRingsAreNotTakenForSome) {
+    std::vector<FilePoint> grid;  // whole metres, up to 255
+    for (int i = 0; i < 200; ++i) {
+        const auto number = static_cast<float>(i);
+        grid.push_back({number, std::fmod(number, 7.0f), 1, static_cast<std::uint16_t>(4), 0});
+    }
+    for (const auto& points : {grid, filePoints(20), filePoints(400)}) {
+        const PointTable table = read("a.bin", test::bin(points)).table;
+        EXPECT_EQ(namesOf(table), "x, y, z, intensity");
+        EXPECT_EQ(table.points, points.size());
+    }
+}
+
 }  // namespace
 }  // namespace hagen::clouds

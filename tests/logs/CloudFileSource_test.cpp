@@ -5,6 +5,10 @@
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/TableCloud.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
 #include <limits>
 
 #include "support/CloudFiles.h"
@@ -150,7 +154,9 @@ TEST_F(CloudFileSourceTest, CloudsOfNuScenesHaveRingsAndTimes) {
     EXPECT_THAT(times, ElementsAre(testing::DoubleNear(1532402927.647951, 1e-6),
                                    testing::DoubleNear(1532402927.697951, 1e-6)));
     const auto scan = openRecording(folder_ / "clouds")->nextScan();
-    EXPECT_EQ(observations::tableCloudOf(*scan->observation)->rings()[3], 3);
+    const auto& rings = observations::tableCloudOf(*scan->observation)->rings();
+    ASSERT_EQ(rings.size(), 20u);
+    EXPECT_EQ(rings[3], 3);
 }
 
 TEST_F(CloudFileSourceTest, FilesOfOneNameKeepTheirEndings) {
@@ -189,6 +195,47 @@ TEST_F(CloudFileSourceTest, ABrokenFileIsNamedAndThoseBeforeItAreRead) {
         FAIL();
     } catch (const BrokenScan& e) {
         EXPECT_THAT(e.what(), HasSubstr("2.pcd: the header says 12 points"));
+    }
+}
+
+/// Lets the program have less memory, as long as this exists.
+class LessMemory {
+ public:
+    explicit LessMemory(rlim_t bytes) {
+        getrlimit(RLIMIT_AS, &before_);
+        const rlimit less{bytes, before_.rlim_max};
+        is_set_ = setrlimit(RLIMIT_AS, &less) == 0;
+    }
+    ~LessMemory() { setrlimit(RLIMIT_AS, &before_); }
+    LessMemory(const LessMemory&) = delete;
+    LessMemory& operator=(const LessMemory&) = delete;
+    bool isSet() const { return is_set_; }
+
+ private:
+    rlimit before_{};
+    bool is_set_ = false;
+};
+
+TEST_F(CloudFileSourceTest, AFileThatDoesNotFitIntoMemoryIsNamed) {
+    constexpr std::uintmax_t kLess = std::uintmax_t{4} << 30;
+    std::uintmax_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    if (pages == 0 || pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE)) > kLess) {
+        GTEST_SKIP() << "the program has more already, as with a sanitizer";
+    }
+    const fs::path folder = folderOf({"1.bin", "2.bin"});
+    fs::resize_file(folder / "2.bin", 2 * kLess);  // holes take no room on the disk
+    const LessMemory less(kLess);
+    ASSERT_TRUE(less.isSet());
+    // Of a folder of clouds, and of a scan folder.
+    fs::create_directories(folder_ / "scans");
+    fs::create_directory_symlink(folder, folder_ / "scans/velodyne");
+    for (const fs::path& input : {folder, folder_ / "scans"}) {
+        const auto source = openRecording(input);
+        source->useSettings({});  // looks at the first clouds, and leaves it to the reading
+        EXPECT_TRUE(source->nextScan());
+        EXPECT_THAT(test::messageOf([&] { source->nextScan(); }),
+                    HasSubstr("2.bin: does not fit into memory"));
     }
 }
 

@@ -216,6 +216,16 @@ inline std::string bin(const std::vector<FilePoint>& points) {
     return packed.text;
 }
 
+/// With rings, as of nuScenes.
+inline std::string binWithRings(const std::vector<FilePoint>& points) {
+    Packed packed;
+    for (const FilePoint& point : points) {
+        packed.add(point.x_m).add(point.y_m).add(point.z_m).add(17.0f);
+        packed.add(static_cast<float>(point.ring));
+    }
+    return packed.text;
+}
+
 /// One of each, with the extension that it has.
 inline std::vector<std::pair<std::string, std::string>> cloudFiles(
     const std::vector<FilePoint>& points = filePoints()) {

@@ -15,7 +15,7 @@ enum class CloudFormat {
     Ply,  ///< Stanford polygon file: ascii, binary little and big endian; its vertices
     Las,  ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10, not compressed
     Npy,  ///< NumPy array: N x 3 or more floats, or a structured one with fields
-    Bin   ///< float32 x, y, z, intensity, as of KITTI; it has no header
+    Bin   ///< float32 x, y, z, intensity, as of KITTI, or also ring, as of nuScenes; no header
 };
 
 /// A cloud file cannot be read; the message names file and place.
@@ -34,9 +34,10 @@ struct CloudFile {
 };
 
 /// The format of a file by its content; none if it is none of these. A .bin has no magic: its size
-/// is a multiple of 16, no other format begins like it, and the first 4096 bytes are points that a
-/// LiDAR can see: not farther than 1 km, or not finite, and not all zero. None if it cannot be
-/// read.
+/// is a multiple of 16 or 20, no other format begins like it, and the first 4096 bytes are points
+/// that a LiDAR can see: not farther than 1 km, or not finite, and not all zero. Its points have a
+/// ring if there are 16 or more, every fifth number is a whole one up to 255, and not all
+/// coordinates are. None if it cannot be read.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
 /// Whether a name ends like those of cloud files: .pcd, .ply, .las, .laz, .npy, .bin.
