@@ -179,6 +179,32 @@ TEST_F(RawlogSegment, RemarksOnBeamsThatAreOnlyPartlyThoseOfTheCloud) {
                                        "Is it this sensor?"));
 }
 
+TEST_F(RawlogSegment, RemarksThatTheFoldersOwnSensorOverridesTheSettings) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    const auto outcome =
+        run({"-i", path("scans"), "--kitti", path("labels"), "-c", kConfig + "hdl64e.yaml"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("its sensor.yaml is used instead of the settings' "
+                                       "sensor.model HDL-64E"));
+}
+
+TEST_F(RawlogSegment, RemarksThatNothingIsRoi) {
+    test::Random random(1);
+    Scan scan;
+    for (int i = 0; i < 1000; ++i) {  // in the frame of a map
+        scan.x_m.push_back(random.real(130, 150));
+        scan.y_m.push_back(random.real(-60, -40));
+        scan.z_m.push_back(random.real(10, 14));
+    }
+    scan.intensity.assign(scan.size(), 0.5f);
+    fs::create_directories(path("scans/velodyne"));
+    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    const auto outcome = run({"-i", path("scans"), "--kitti", path("labels")});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("no return is RoI"));
+    EXPECT_THAT(outcome.err, HasSubstr("relative to the sensor"));
+}
+
 TEST_F(RawlogSegment, FailsWhereTheCloudIsNotThatOfTheSensorNamed) {
     ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
     fs::remove(path("scans/sensor.yaml"));
