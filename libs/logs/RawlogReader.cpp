@@ -65,7 +65,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
         return nullptr;
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);
-        if (entries_ == 0 && reason == kNoObject) {
+        if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {
             throw BrokenRawlog(file_.string() + ": is no recording: no rawlog (" + reason +
                                "), and by its content no capture, ROS recording or point cloud");
         }

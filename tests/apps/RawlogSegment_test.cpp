@@ -556,7 +556,7 @@ TEST_F(RawlogSegment, FailsOnAnEmptyFile) {
 
 TEST_F(RawlogSegment, FailsOnWhatIsNoRawlog) {
     const auto file = folder_.write("text.rawlog", "this is no rawlog, whatever its name says\n");
-    expectFailure({"-i", file, "-o", path("out")}, 1, "text.rawlog: entry 0");
+    expectFailure({"-i", file, "-o", path("out")}, 1, "text.rawlog: is no recording: no rawlog");
 }
 
 TEST_F(RawlogSegment, FailsOnAFolderWithoutScans) {
