@@ -8,7 +8,7 @@
 namespace hagen::logs {
 namespace {
 
-const std::string kNoObject = "it is not an MRPT object";
+constexpr const char* kNoObject = "it is not an MRPT object";
 
 /// Derives from MRPT's message why an entry cannot be read.
 std::string reasonOf(const std::exception& exception) {

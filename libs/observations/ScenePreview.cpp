@@ -61,7 +61,7 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     sensor->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 2.0f));
     auto zone = mrpt::opengl::CDisk::Create(zone_m, zone_m - 0.15f, 100);
     zone->setColor_u8(kZoneColor);
-    zone->setName(kPreviewOfPrefix + observation.sensorLabel);
+    zone->setName(std::string(kPreviewOfPrefix) + observation.sensorLabel);
     sensor->insert(zone);
 
     auto preview = mrpt::obs::CObservation3DScene::Create();

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <string>
+#include <string_view>
 
 namespace hagen::observations {
 
@@ -15,7 +16,7 @@ constexpr const char* kNonRoiSuffix = "_non_roi";
 /// Name of the object in the scene of a preview. One of its parts is named after the scan, as
 /// rawlogs do not keep the label of a scene.
 constexpr const char* kPreviewName = "hagen preview";
-const std::string kPreviewOfPrefix = "zone of ";
+constexpr std::string_view kPreviewOfPrefix = "zone of ";
 
 /// A cloud as a result of the filter: its label is that of the scan and a suffix, its time and pose
 /// are those of the scan. The mark of a result is the colour in its cloud's renderOptions, which
