@@ -61,7 +61,7 @@ TEST(BeamFit, FewerBeamsLeaveRowsEmptyEvenIfTheirReturnsAreBlurred) {
     // Sixteen blurred beams, taken for 64 between which nothing is farther than the tolerance.
     const auto beams_deg = beamsEvery(2, -15, 15);
     const auto fit =
-        fitBeams(scanOf(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -15, 16.5)), 600);
+        fitBeams(scanOf(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -16, 16.5)), 600);
     ASSERT_TRUE(fit);
     EXPECT_GT(fit->share(), 0.99f);
     EXPECT_NEAR(fit->filled, 0.25, 0.05);  // a return every fourth row
