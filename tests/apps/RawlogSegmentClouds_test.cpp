@@ -95,7 +95,9 @@ class RawlogSegmentClouds : public test::ProgramTest {
     /// The labels in a folder of labelled clouds, one file after the other.
     std::vector<double> labelsOf(const std::string& folder) const {
         std::set<fs::path> files;
-        for (const auto& file : fs::directory_iterator(path(folder))) files.insert(file.path());
+        for (const auto& file : fs::directory_iterator(path(folder))) {
+            if (clouds::hasCloudName(file.path())) files.insert(file.path());
+        }
         std::vector<double> labels;
         for (const fs::path& file : files) {
             const auto table = clouds::readCloud(file).table;

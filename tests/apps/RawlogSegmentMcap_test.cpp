@@ -29,7 +29,9 @@ class RawlogSegmentMcap : public test::ProgramTest {
     /// All numbers of a field in a folder of labelled clouds.
     std::vector<double> columnOf(const std::string& folder, const char* name) const {
         std::set<fs::path> files;
-        for (const auto& file : fs::directory_iterator(path(folder))) files.insert(file.path());
+        for (const auto& file : fs::directory_iterator(path(folder))) {
+            if (clouds::hasCloudName(file.path())) files.insert(file.path());
+        }
         std::vector<double> numbers;
         for (const fs::path& file : files) {
             const auto table = clouds::readCloud(file).table;
