@@ -83,11 +83,8 @@ LogPoses BagSource::readPoses(const std::filesystem::path& file) {
         return posesOfRawlog(poses == nullptr ? RawlogSurvey() : posesOf(*poses), file);
     }
     if (kindOfPoseFile(file) == PoseFileKind::Tum) return posesOfRawlog(RawlogSurvey(), file);
-    RawlogSurvey selected = surveyScans();
-    for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
-        scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
-    }
-    return posesOfRawlog(selected, file);
+    const auto isKept = [this](const std::string& label) { return isSelected(label); };
+    return posesOfRawlog(withScansOf(surveyScans(), isKept), file);
 }
 
 bool BagSource::showClouds(observations::CloudSensors& sensors) {
@@ -107,11 +104,7 @@ bool BagSource::showClouds(observations::CloudSensors& sensors) {
 }
 
 std::map<std::string, std::vector<mrpt::Clock::time_point>> BagSource::scanTimes() {
-    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
-    for (const auto& [label, places] : surveyScans().scans) {
-        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
-    }
-    return times;
+    return scanTimesOf(surveyScans());
 }
 
 std::vector<std::string> BagSource::remarks() const {

@@ -47,19 +47,12 @@ LogPoses CaptureSource::readPoses(const std::filesystem::path& file) {
     if (file.empty() || kindOfPoseFile(file) == PoseFileKind::Tum) {
         return posesOfRawlog(RawlogSurvey(), file);
     }
-    RawlogSurvey selected = survey();
-    for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
-        scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
-    }
-    return posesOfRawlog(selected, file);
+    const auto isKept = [this](const std::string& label) { return isSelected(label); };
+    return posesOfRawlog(withScansOf(survey(), isKept), file);
 }
 
 std::map<std::string, std::vector<mrpt::Clock::time_point>> CaptureSource::scanTimes() {
-    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
-    for (const auto& [label, places] : survey().scans) {
-        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
-    }
-    return times;
+    return scanTimesOf(survey());
 }
 
 std::vector<std::string> CaptureSource::remarks() const {

@@ -64,12 +64,10 @@ LogPoses RawlogSource::readPoses(const std::filesystem::path& file) {
         return posesOfRawlog(RawlogSurvey(), file);
     }
     survey();
-    RawlogSurvey selected = std::move(*survey_);  // a long trajectory is not kept twice
+    RawlogSurvey all = std::move(*survey_);  // a long trajectory is not kept twice
     survey_.reset();
-    for (auto scans = selected.scans.begin(); scans != selected.scans.end();) {
-        scans = isSelected(scans->first) ? std::next(scans) : selected.scans.erase(scans);
-    }
-    return posesOfRawlog(selected, file);
+    const auto isKept = [this](const std::string& label) { return isSelected(label); };
+    return posesOfRawlog(withScansOf(std::move(all), isKept), file);
 }
 
 bool RawlogSource::showClouds(observations::CloudSensors& sensors) {
@@ -85,11 +83,7 @@ bool RawlogSource::showClouds(observations::CloudSensors& sensors) {
 }
 
 std::map<std::string, std::vector<mrpt::Clock::time_point>> RawlogSource::scanTimes() {
-    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
-    for (const auto& [label, places] : survey().scans) {
-        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
-    }
-    return times;
+    return scanTimesOf(survey());
 }
 
 }  // namespace hagen::logs

@@ -139,4 +139,21 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
     return survey;
 }
 
+std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimesOf(
+    const RawlogSurvey& survey) {
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> times;
+    for (const auto& [label, places] : survey.scans) {
+        for (const RawlogSurvey::ScanPlace& place : places) times[label].push_back(place.time);
+    }
+    return times;
+}
+
+RawlogSurvey withScansOf(RawlogSurvey survey,
+                         const std::function<bool(const std::string&)>& isKept) {
+    for (auto scans = survey.scans.begin(); scans != survey.scans.end();) {
+        scans = isKept(scans->first) ? std::next(scans) : survey.scans.erase(scans);
+    }
+    return survey;
+}
+
 }  // namespace hagen::logs

@@ -39,4 +39,11 @@ RawlogSurvey surveyRawlog(
     const std::filesystem::path& rawlog,
     const std::function<bool()>& keep_going = [] { return true; });
 
+/// The times of all scans, by sensor label.
+std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimesOf(const RawlogSurvey& survey);
+
+/// The survey without the scans of LiDARs that are not kept.
+RawlogSurvey withScansOf(RawlogSurvey survey,
+                         const std::function<bool(const std::string& sensor_label)>& isKept);
+
 }  // namespace hagen::logs
