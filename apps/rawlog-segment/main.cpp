@@ -104,10 +104,12 @@ void declare(Program& app, Flags& flags) {
         .group("Output");
     app.choice<observations::CloudClass>("--cloud", conversion.cloud_class,
                                          {{"simple", observations::CloudClass::Simple},
-                                          {"xyzi", observations::CloudClass::WithIntensity}},
-                                         "clouds with coordinates only (simple) or with "
-                                         "intensities (xyzi)")
-        .valueName("simple|xyzi")
+                                          {"xyzi", observations::CloudClass::WithIntensity},
+                                          {"generic", observations::CloudClass::Generic}},
+                                         "clouds with coordinates only (simple), with intensities "
+                                         "(xyzi), or with all fields, labels and colours, for MRPT "
+                                         "from 2.15 on (generic)")
+        .valueName("simple|xyzi|generic")
         .needs(rawlog)
         .group("Output");
     app.option("--kitti", conversion.folder,

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "CloudTimes.h"
+#include "ScanObject.h"
 
 namespace hagen::logs {
 namespace {
@@ -23,8 +24,9 @@ std::string counted(std::size_t number, const std::string& what) {
     return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-/// The fields that no class of clouds in a rawlog holds; empty if there are none.
+/// The fields that a class of clouds in a rawlog does not hold; empty if there are none.
 std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass cloud_class) {
+    if (cloud_class == observations::CloudClass::Generic) return "";
     std::vector<const observations::PointField*> kept;
     for (const char* const name : {"x", "y", "z"}) kept.push_back(findField(table, {name}));
     if (cloud_class == observations::CloudClass::WithIntensity) {
@@ -113,8 +115,10 @@ mrpt::obs::CObservationPointCloud::Ptr CloudFileSource::read(std::size_t i) {
         if (options_.folder_objects) {
             const std::string lost = fieldsNotInRawlog(cloud.table(), *options_.folder_objects);
             if (!lost.empty()) {
-                remarks.push_back("fields that the output rawlog does not hold (--clouds does): " +
-                                  lost);
+                remarks.push_back(
+                    "fields that the output rawlog does not hold (--cloud generic and --clouds "
+                    "do): " +
+                    lost);
             }
         }
         for (const std::string& remark : remarks) {
@@ -142,12 +146,7 @@ std::optional<RecordedEntry> CloudFileSource::nextEntry() {
         RecordedEntry entry;
         entry.number = i;
         entry.fraction_read = static_cast<double>(i + 1) / static_cast<double>(files_.size());
-        if (options_.folder_objects) {
-            Scan scan;
-            observations::readCloudPoints(*observation, scan);
-            entry.object = observations::observationOf(scan, kCloudLabel, observation->timestamp,
-                                                       *options_.folder_objects);
-        }
+        entry.object = objectOf(observation, options_.folder_objects);
         addIfScan(observation, names_[i], entry);
         for (RecordedScan& scan : entry.scans) scan.pose.is_of_sensor = true;
         return entry;

@@ -2,7 +2,6 @@
 #include <hagen/clouds/WriteCloud.h>
 #include <hagen/logs/SensorFolders.h>
 #include <hagen/observations/ObservationSegmenter.h>
-#include <hagen/observations/PointTable.h>
 #include <mrpt/obs/CObservation.h>
 
 #include <filesystem>
@@ -16,18 +15,6 @@ namespace hagen::logs {
 extern const base::OutputKind kClouds;
 /// The file that tells such a folder from one with clouds of the user.
 constexpr const char* kCloudsMarker = "made_by.txt";
-
-/// The points of a segmented scan with their labels: all fields of the observation's cloud, or x,
-/// y, z, intensity, `time` [s] if it is known, and of a sensor's own packets `ring`, counted from
-/// the lowest beam; then `label` (uint8: 0 unclassified, 1 ROU, 2 RoI) and `obstacle` (uint32: the
-/// RoI component, 0 none). All points of the input are there, in its order; those that were no
-/// returns have the label 0. Fields of the input with one of these names become `input_label`,
-/// `input_obstacle`.
-observations::PointTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
-                                       const mrpt::obs::CObservation& observation);
-
-/// The fields of a labelled table that were renamed, for the user.
-std::vector<std::string> renamedFields(const observations::PointTable& labelled);
 
 /// What was changed in clouds when they were written, and in how many.
 class CloudChanges {

@@ -17,7 +17,9 @@
 #include <new>
 #include <stdexcept>
 
+#include "LabelledTable.h"
 #include "OrderedPipeline.h"
+#include "ScanObject.h"
 
 namespace hagen::logs {
 namespace {
@@ -60,6 +62,13 @@ bool needsPoses(const Conversion& conversion) {
            bags::isBag(conversion.input);
 }
 
+/// Clouds with all fields need the observation's, and are made afterwards.
+observations::CloudClass classOfSegmenters(const Conversion& conversion) {
+    return conversion.cloud_class == observations::CloudClass::Generic
+               ? observations::CloudClass::Simple
+               : conversion.cloud_class;
+}
+
 /// Takes out of a sensory frame what an earlier run made of its scans: the new results replace it.
 /// Results of other LiDARs stay, and so do those of a scan that could not be segmented this time.
 void takeOutResults(EntryInConversion& entry) {
@@ -88,7 +97,7 @@ Converter::Converter(const Conversion& conversion, const ConversionListener& lis
       source_(openRecording(conversion.input, sourceOptions())),
       settings_(source_->useSettings(conversion.settings)),
       outputs_(conversion),
-      segmenters_(settings_, conversion.cloud_class),
+      segmenters_(settings_, classOfSegmenters(conversion)),
       sensor_check_(conversion.input.string()) {
     report_.settings = settings_;
     if (needsPoses(conversion_)) usePoses();
@@ -154,7 +163,11 @@ void Converter::segment(ScanInConversion& scan) {
         scan.unreadable_because = observations::messageOf(e);
         if (scan.unreadable_because.empty()) scan.unreadable_because = "MRPT gives no reason";
     }
-    if (scan.is_segmented && conversion_.preview && outputs_.wantsRawlog()) {
+    if (!scan.is_segmented || !outputs_.wantsRawlog()) return;
+    if (conversion_.cloud_class == observations::CloudClass::Generic) {
+        useCloudsWithFields(observation, scan.segmented);
+    }
+    if (conversion_.preview) {
         scan.preview =
             observations::previewOf(observation, scan.segmented, settings_.options.zone_m);
     }
@@ -163,6 +176,9 @@ void Converter::segment(ScanInConversion& scan) {
 void Converter::serialiseAll(EntryInConversion& entry) const {
     entry.bytes.clear();
     if (!outputs_.wantsRawlog()) return;
+    if (entry.object && conversion_.cloud_class == observations::CloudClass::Generic) {
+        keepFields(*entry.object);
+    }
     std::vector<CObservation::Ptr> added;
     for (const ScanInConversion& scan : entry.scans) {
         if (!scan.is_segmented) continue;

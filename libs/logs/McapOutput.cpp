@@ -7,6 +7,8 @@
 #include <chrono>
 #include <limits>
 
+#include "LabelledTable.h"
+
 namespace hagen::logs {
 namespace {
 

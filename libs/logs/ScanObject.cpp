@@ -1,12 +1,49 @@
 #include "ScanObject.h"
 
+#include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/TableCloud.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
 namespace hagen::logs {
+namespace {
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
+using observations::NumberType;
+using observations::PointTable;
+
+/// All that is known of the returns of a cloud.
+PointTable tableOf(const mrpt::maps::CPointsMap& cloud) {
+    if (const auto* const table = dynamic_cast<const observations::TableCloud*>(&cloud)) {
+        return pointsOf(inNativeOrder(table->table()), table->pointOfReturn());
+    }
+    PointTable table;
+    table.points = cloud.size();
+    const auto add = [&](const char* name, NumberType type, const auto& values) {
+        addColumn(name, type, {values.begin(), values.end()}, table);
+    };
+    add("x", NumberType::Float32, cloud.getPointsBufferRef_x());
+    add("y", NumberType::Float32, cloud.getPointsBufferRef_y());
+    add("z", NumberType::Float32, cloud.getPointsBufferRef_z());
+    if (const auto* const with_intensity =
+            dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
+        add("intensity", NumberType::Float32, with_intensity->getPointsBufferRef_intensity());
+    }
+    if (const auto* const located = dynamic_cast<const observations::LocatedCloud*>(&cloud)) {
+        if (located->sensor().has_rings) add("ring", NumberType::UInt16, located->rows());
+        if (!located->times_s().empty()) add("t", NumberType::Float32, located->times_s());
+    }
+    return table;
+}
+
+void writeAsGeneric(CObservation& observation) {
+    const auto* const cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
+    if (cloud != nullptr && cloud->pointcloud) observations::writeAsGeneric(*cloud->pointcloud);
+}
+
+}  // namespace
 
 mrpt::serialization::CSerializable::Ptr objectOf(
     const CObservation::Ptr& scan, const std::optional<observations::CloudClass>& cloud_class) {
@@ -25,7 +62,18 @@ mrpt::serialization::CSerializable::Ptr objectOf(
         points->mark_as_modified();
         copy->pointcloud = points;
     }
+    if (*cloud_class == observations::CloudClass::Generic) {
+        copy->pointcloud = observations::genericCloudOf(tableOf(*cloud->pointcloud));
+    }
     return copy;
+}
+
+void keepFields(mrpt::serialization::CSerializable& object) {
+    if (auto* const frame = dynamic_cast<mrpt::obs::CSensoryFrame*>(&object)) {
+        for (const CObservation::Ptr& part : *frame) writeAsGeneric(*part);
+    } else if (auto* const observation = dynamic_cast<CObservation*>(&object)) {
+        writeAsGeneric(*observation);
+    }
 }
 
 }  // namespace hagen::logs

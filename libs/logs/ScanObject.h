@@ -13,4 +13,7 @@ mrpt::serialization::CSerializable::Ptr objectOf(
     const mrpt::obs::CObservation::Ptr& scan,
     const std::optional<observations::CloudClass>& cloud_class);
 
+/// Has the clouds of an entry that were read as CGenericPointsMap written as such, with all fields.
+void keepFields(mrpt::serialization::CSerializable& object);
+
 }  // namespace hagen::logs

@@ -84,8 +84,8 @@ std::string remarkOnFields(const CObservationPointCloud& observation) {
     std::string names;
     for (const std::string& field : fields) names += (names.empty() ? "" : ", ") + field;
     if (names.empty()) return "";
-    return "fields of its cloud are not used, and not in an output rawlog (--clouds holds them): " +
-           names;
+    return "the filter does not use these fields of its cloud; --cloud generic, --clouds and --mcap "
+           "keep them: " + names;
 }
 
 const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {
@@ -199,6 +199,7 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
 
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
                                     CloudClass cloud_class) {
+    if (cloud_class == CloudClass::Generic) return genericCloudOf(pointsOf(tableOf(scan), indices));
     // Reserve first: appending points one by one costs several times as much.
     const auto fill = [&](auto points, const auto& set_more) {
         points->setSize(indices.size());

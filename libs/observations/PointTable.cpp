@@ -145,6 +145,22 @@ void addColumn(const std::string& name, NumberType type, const std::vector<doubl
     table.bytes = std::move(wider);
 }
 
+PointTable pointsOf(const PointTable& table, const std::vector<std::uint32_t>& points) {
+    PointTable some;
+    some.fields = table.fields;
+    some.points = points.size();
+    some.bytes_per_point = table.bytes_per_point;
+    some.is_big_endian = table.is_big_endian;
+    some.bytes.reserve(points.size() * table.bytes_per_point);
+    for (const std::uint32_t i : points) {
+        const auto point =
+            table.bytes.begin() + static_cast<std::ptrdiff_t>(i * table.bytes_per_point);
+        some.bytes.insert(some.bytes.end(), point,
+                          point + static_cast<std::ptrdiff_t>(table.bytes_per_point));
+    }
+    return some;
+}
+
 PointTable inNativeOrder(PointTable table) {
     if (!table.is_big_endian) return table;
     for (const PointField& field : table.fields) {

@@ -1,8 +1,10 @@
+#include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/Results.h>
 
 #include <mrpt/obs/CObservation3DScene.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hagen::observations {
@@ -24,6 +26,16 @@ bool isAbout(const mrpt::img::TColorf& a, const mrpt::img::TColorf& b) {
            std::abs(a.B - b.B) < half_step;
 }
 
+/// Whether a cloud has the mark of a result. The class that keeps all fields does not keep
+/// renderOptions: it has the colour in its fields, which also show an empty result.
+bool isMarked(const mrpt::maps::CPointsMap& cloud, bool is_roi) {
+    if (isAbout(cloud.renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) return true;
+    const PointTable* const others = otherFieldsOf(cloud);
+    if (others == nullptr || others->points > 0) return false;
+    return std::all_of(kColorFields.begin(), kColorFields.end(),
+                       [&](const char* name) { return findField(*others, {name}) != nullptr; });
+}
+
 /// The suffix of a result's label; empty: the observation is no cloud of the filter.
 std::string suffixOf(const mrpt::obs::CObservation& observation) {
     const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
@@ -31,7 +43,7 @@ std::string suffixOf(const mrpt::obs::CObservation& observation) {
     if (cloud == nullptr || cloud->pointcloud == nullptr) return "";
     for (const bool is_roi : {false, true}) {  // "_non_roi" ends in "_roi", too
         if (endsWith(cloud->sensorLabel, suffixOf(is_roi)) &&
-            isAbout(cloud->pointcloud->renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) {
+            isMarked(*cloud->pointcloud, is_roi)) {
             return suffixOf(is_roi);
         }
     }

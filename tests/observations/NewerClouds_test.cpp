@@ -133,6 +133,81 @@ TEST(NewerClouds, EveryVersionOfAGenericCloud) {
     }
 }
 
+/// A table with a field of each type that the class has, and two of others.
+PointTable tableOfAllTypes() {
+    PointTable table;
+    table.points = 2;
+    addColumn("x", NumberType::Float32, {1, 2}, table);
+    addColumn("y", NumberType::Float32, {3, 4}, table);
+    addColumn("z", NumberType::Float32, {5, 6}, table);
+    addColumn("ring", NumberType::UInt16, {7, 8}, table);
+    addColumn("intensity", NumberType::Float32, {0.25, 0.75}, table);
+    addColumn("t", NumberType::Float32, {0, 0.1}, table);
+    addColumn("gps_time", NumberType::Float64, {1, 2}, table);
+    addColumn("color_r", NumberType::UInt8, {51, 0}, table);
+    addColumn("color_g", NumberType::UInt8, {102, 0}, table);
+    addColumn("color_b", NumberType::UInt8, {255, 0}, table);
+    addColumn("range", NumberType::UInt32, {4294967295.0, 1}, table);
+    return table;
+}
+
+TEST(NewerClouds, ATableIsWrittenAsVersion3OfAGenericCloud) {
+    const auto cloud = genericCloudOf(tableOfAllTypes());
+    cloud->insertionOptions.horizontalTolerance = 0.001f;
+    const std::string two = raw(std::uint32_t{2}), three = raw(std::uint32_t{3});
+    std::string older_options = options();  // with `disableDeletion`
+    older_options[0] = 0;
+    older_options.insert(7, 1, '\1');
+    EXPECT_EQ(bytesOf(*cloud),
+              objectOf(kGeneric, 3,
+                       coordinates() + two + field<float>("intensity", {0.25f, 0.75f}) +
+                           field<float>("t", {0, 0.1f}) + two + field<double>("gps_time", {1, 2}) +
+                           field<double>("range", {4294967295.0, 1}) + kOne +
+                           field<std::uint16_t>("ring", {7, 8}) + three +
+                           field<std::uint8_t>("color_r", {51, 0}) +
+                           field<std::uint8_t>("color_g", {102, 0}) +
+                           field<std::uint8_t>("color_b", {255, 0}) + older_options));
+    EXPECT_NEAR(cloud->renderOptions.color.R, 0.2f, 1e-6);
+    EXPECT_NEAR(cloud->renderOptions.color.G, 0.4f, 1e-6);
+    EXPECT_NEAR(cloud->renderOptions.color.B, 1.0f, 1e-6);
+}
+
+TEST(NewerClouds, WhatIsWrittenAsAGenericCloudIsReadAgain) {
+    const std::string bytes = bytesOf(*genericCloudOf(tableOfAllTypes()));
+    const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(bytes));
+    ASSERT_NE(cloud, nullptr);
+    expectTwoPoints(*cloud);
+    EXPECT_NEAR(cloud->renderOptions.color.G, 0.4f, 1e-6);
+    EXPECT_THAT(fieldsNotKept(*cloud),
+                ElementsAre("t", "gps_time", "range", "ring", "color_r", "color_g", "color_b"));
+    EXPECT_EQ(bytesOf(*cloud).substr(1, 26), "mrpt::maps::CPointsMapXYZI");
+    writeAsGeneric(*cloud);
+    EXPECT_EQ(bytesOf(*cloud), bytes);
+}
+
+TEST(NewerClouds, SeveralNumbersPerPointAreFieldsOfTheirOwn) {
+    PointTable table = tableOfAllTypes();
+    PointField& t = table.fields[5];
+    ASSERT_EQ(t.name, "t");
+    t.type = NumberType::UInt16;
+    t.count = 2;
+    const std::string bytes = bytesOf(*genericCloudOf(table));
+    const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(bytes));
+    const PointTable& others = *otherFieldsOf(*cloud);
+    ASSERT_NE(findField(others, {"t_0"}), nullptr);
+    ASSERT_NE(findField(others, {"t_1"}), nullptr);
+    EXPECT_THAT(columnOf(others, *findField(others, {"t_0"})),
+                testing::ContainerEq(columnOf(table, t, 0)));
+    EXPECT_THAT(columnOf(others, *findField(others, {"t_1"})),
+                testing::ContainerEq(columnOf(table, t, 1)));
+}
+
+TEST(NewerClouds, AGenericCloudNeedsCoordinates) {
+    PointTable table = tableOfAllTypes();
+    table.fields[1].name = "why";
+    EXPECT_THROW(genericCloudOf(table), std::invalid_argument);
+}
+
 TEST(NewerClouds, IntensitiesOfAnyTypeAreScaledWhenTheScanIsRead) {
     const auto cloud = read(objectOf(kGeneric, 4,
                                      coordinates() + kNone + kNone + kOne +
@@ -148,9 +223,8 @@ TEST(NewerClouds, IntensitiesOfAnyTypeAreScaledWhenTheScanIsRead) {
         std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(genericCloud()));
     readObservation(observation, {}, observed);
     EXPECT_EQ(observed.remark,
-              "fields of its cloud are not used, and not in an output rawlog (--clouds holds "
-              "them): t, gps_time, ring, "
-              "color_r, rgba");
+              "the filter does not use these fields of its cloud; --cloud generic, --clouds and "
+              "--mcap keep them: t, gps_time, ring, color_r, rgba");
 }
 
 /// A simple cloud in the bytes of the installed MRPT, and in those of one since 2.15.3.

@@ -62,8 +62,9 @@ bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan);
 
 /// Point type of a cloud.
 enum class CloudClass {
-    Simple,        ///< CSimplePointsMap: coordinates only; readable by every MRPT from 2.5 to 3
-    WithIntensity  ///< CPointsMapXYZI: coordinates and intensities
+    Simple,         ///< CSimplePointsMap: coordinates only; readable by every MRPT from 2.5 to 3
+    WithIntensity,  ///< CPointsMapXYZI: coordinates and intensities
+    Generic  ///< CGenericPointsMap: all fields; readable by MRPT from 2.15 on (NewerClouds.h)
 };
 
 /// Returns all returns, or those with these indices, as an MRPT cloud.

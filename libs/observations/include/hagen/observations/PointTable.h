@@ -62,6 +62,9 @@ std::vector<double> columnOf(const PointTable& table, const PointField& field,
 void addColumn(const std::string& name, NumberType type, const std::vector<double>& numbers,
                PointTable& table);
 
+/// The table of these points, in this order.
+PointTable pointsOf(const PointTable& table, const std::vector<std::uint32_t>& points);
+
 /// The table in the byte order of this machine.
 PointTable inNativeOrder(PointTable table);
 

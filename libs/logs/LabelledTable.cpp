@@ -1,0 +1,137 @@
+#include "LabelledTable.h"
+
+#include <hagen/observations/NewerClouds.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/Results.h>
+#include <hagen/observations/TableCloud.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace hagen::logs {
+namespace {
+
+using observations::NumberType;
+using observations::PointTable;
+
+constexpr const char *kLabel = "label", *kObstacle = "obstacle";
+
+/// The fields without labels, and the point of each return.
+struct Unlabelled {
+    PointTable table;
+    std::vector<std::uint32_t> point_of_return;
+};
+
+/// Those of a rawlog of MRPT 3.
+void addOtherFields(const mrpt::obs::CObservation& observation, PointTable& table) {
+    const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
+    if (cloud == nullptr || !cloud->pointcloud) return;
+    const PointTable* const others = observations::otherFieldsOf(*cloud->pointcloud);
+    if (others == nullptr || others->points != table.points) return;
+    for (const observations::PointField& field : others->fields) {
+        if (findField(table, {field.name}) != nullptr) continue;
+        addColumn(field.name, field.type, columnOf(*others, field), table);
+    }
+}
+
+Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmented,
+                      const mrpt::obs::CObservation& observation) {
+    Unlabelled points;
+    if (const auto* const cloud = observations::tableCloudOf(observation)) {
+        points.table = inNativeOrder(cloud->table());
+        points.point_of_return = cloud->pointOfReturn();
+        return points;
+    }
+    const Scan& scan = *segmented.scan;
+    points.table = observations::tableOf(scan);
+    points.point_of_return.resize(scan.size());
+    std::iota(points.point_of_return.begin(), points.point_of_return.end(), 0u);
+    addOtherFields(observation, points.table);
+    if (!observations::isCloud(observation) && segmented.sensor->has_rings) {
+        addColumn("ring", NumberType::UInt16, {scan.row.begin(), scan.row.end()}, points.table);
+    }
+    return points;
+}
+
+/// Adds label and obstacle; fields of the input with their names are renamed.
+PointTable labelled(const observations::ObservationSegmenter::Output& segmented, Unlabelled points,
+                    NumberType obstacle_type) {
+    for (observations::PointField& field : points.table.fields) {
+        if (field.name == kLabel || field.name == kObstacle) field.name = "input_" + field.name;
+    }
+    const LabelledReturns& returns = segmented.result->returns;
+    std::vector<double> labels(points.table.points, 0), obstacles(points.table.points, 0);
+    for (std::size_t k = 0; k < points.point_of_return.size(); ++k) {
+        const std::uint32_t i = points.point_of_return[k];
+        labels[i] = static_cast<double>(returns.label[k]);
+        obstacles[i] = std::max(returns.component[k], 0);
+    }
+    addColumn(kLabel, NumberType::UInt8, labels, points.table);
+    addColumn(kObstacle, obstacle_type, obstacles, points.table);
+    return std::move(points.table);
+}
+
+void rename(const std::string& from, const std::string& to, PointTable& table) {
+    for (observations::PointField& field : table.fields) {
+        if (field.name == from) field.name = to;
+    }
+}
+
+/// A cloud of these points, all in one colour.
+mrpt::maps::CPointsMap::Ptr coloredCloudOf(const PointTable& table,
+                                           const std::vector<std::uint32_t>& points,
+                                           const mrpt::img::TColor& color) {
+    PointTable some = pointsOf(table, points);
+    const std::array<std::uint8_t, 3> values{color.R, color.G, color.B};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        addColumn(observations::kColorFields[i], NumberType::UInt8,
+                  std::vector<double>(some.points, values[i]), some);
+    }
+    return observations::genericCloudOf(some);
+}
+
+}  // namespace
+
+PointTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
+                         const mrpt::obs::CObservation& observation) {
+    return labelled(segmented, unlabelled(segmented, observation), NumberType::UInt32);
+}
+
+std::vector<std::string> renamedFields(const PointTable& labelled) {
+    std::vector<std::string> renamed;
+    for (const char* const name : {"input_label", "input_obstacle"}) {
+        if (findField(labelled, {name}) == nullptr) continue;
+        renamed.push_back("a field of the input has the name of a field of labels: it is '" +
+                          std::string(name) + "'");
+    }
+    return renamed;
+}
+
+void useCloudsWithFields(const mrpt::obs::CObservation& observation,
+                         observations::ObservationSegmenter::Output& segmented) {
+    Unlabelled points = unlabelled(segmented, observation);
+    for (const char* const color : observations::kColorFields) {
+        rename(color, std::string("input_") + color, points.table);
+    }
+    if (observations::tableCloudOf(observation) == nullptr &&
+        findField(points.table, {"t"}) == nullptr) {
+        rename("time", "t", points.table);
+    }
+    const std::vector<std::uint32_t> point_of_return = points.point_of_return;
+    // The class has no uint32, and there are never so many obstacles.
+    const PointTable table = labelled(segmented, std::move(points), NumberType::UInt16);
+    const auto pointsOfReturns = [&](const std::vector<std::uint32_t>& returns) {
+        std::vector<std::uint32_t> of_returns;
+        for (const std::uint32_t k : returns) of_returns.push_back(point_of_return[k]);
+        return of_returns;
+    };
+    const LabelledReturns& returns = segmented.result->returns;
+    segmented.roi->pointcloud =
+        coloredCloudOf(table, pointsOfReturns(returns.roi), observations::kRoiColor);
+    segmented.non_roi->pointcloud =
+        coloredCloudOf(table, pointsOfReturns(returns.rou), observations::kNonRoiColor);
+}
+
+}  // namespace hagen::logs
