@@ -84,8 +84,10 @@ std::string remarkOnFields(const CObservationPointCloud& observation) {
     std::string names;
     for (const std::string& field : fields) names += (names.empty() ? "" : ", ") + field;
     if (names.empty()) return "";
-    return "the filter does not use these fields of its cloud; --cloud generic, --clouds and --mcap "
-           "keep them: " + names;
+    return "the filter does not use these fields of its cloud; --cloud generic, --clouds and "
+           "--mcap "
+           "keep them: " +
+           names;
 }
 
 const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {

@@ -261,7 +261,8 @@ TEST_F(CloudFileSourceTest, WhatIsLeftOutIsTold) {
                 Contains(HasSubstr("2 points with a coordinate that is not finite, in 1 cloud")));
     EXPECT_THAT(remarks, Contains(AllOf(HasSubstr("4 extra bytes"), HasSubstr("(1 of 2 clouds)"))));
     EXPECT_THAT(remarks, Contains(HasSubstr("1 file of the folder")));
-    EXPECT_THAT(remarks, Contains(HasSubstr("does not hold (--cloud generic and --clouds do): ring, t")));
+    EXPECT_THAT(remarks,
+                Contains(HasSubstr("does not hold (--cloud generic and --clouds do): ring, t")));
     EXPECT_THAT(remarksOn(folder_ / "clouds"), Not(Contains(HasSubstr("does not hold"))));
 }
 
