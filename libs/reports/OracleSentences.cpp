@@ -86,38 +86,46 @@ std::string guidanceText(const std::string& guidance) {
 }  // namespace
 
 std::vector<std::string> oracleSentences(const Summary& summary,
-                                         const trials::Condition& reference) {
+                                         const trials::Condition& condition) {
+    std::vector<std::string> sentences;
+    for (const trials::Contender& contender : contendersUnder(summary, condition)) {
+        if (contender.model != kOracle) continue;
+        std::vector<std::string> without_gap;
+        for (const std::string& scenario : summary.scenarios) {
+            std::vector<Pairing> gaps;
+            for (const Pairing& gap : summary.to_oracle) {
+                if (gap.scenario == scenario && gap.condition == condition &&
+                    gap.second == contender) {
+                    gaps.push_back(gap);
+                }
+            }
+            if (gaps.empty()) continue;
+            if (std::all_of(gaps.begin(), gaps.end(), [](const Pairing& gap) {
+                    return answerOf(gap) == Answer::Saturated;
+                })) {
+                without_gap.push_back(scenario);
+            } else {
+                sentences.push_back(
+                    gapText(summary, *find(summary, scenario, condition, contender), gaps));
+            }
+        }
+        if (!without_gap.empty()) {
+            sentences.push_back("At " + nameOf(condition) + " " + guidanceText(contender.guidance) +
+                                ", no gap to the true scene shows in " + listed(without_gap) + ".");
+        }
+    }
+    return sentences;
+}
+
+std::vector<std::string> oracleSentencesAtOtherSpeeds(const Summary& summary,
+                                                      const trials::Condition& reference) {
     std::vector<std::string> sentences;
     for (const trials::Condition& condition : summary.conditions) {
         trials::Condition at_reference = condition;
         at_reference.speed_m_s = reference.speed_m_s;
-        if (!(at_reference == reference)) continue;
-        for (const trials::Contender& contender : contendersUnder(summary, condition)) {
-            if (contender.model != kOracle) continue;
-            std::vector<std::string> without_gap;
-            for (const std::string& scenario : summary.scenarios) {
-                std::vector<Pairing> gaps;
-                for (const Pairing& gap : summary.to_oracle) {
-                    if (gap.scenario == scenario && gap.condition == condition &&
-                        gap.second == contender) {
-                        gaps.push_back(gap);
-                    }
-                }
-                if (gaps.empty()) continue;
-                if (std::all_of(gaps.begin(), gaps.end(), [](const Pairing& gap) {
-                        return answerOf(gap) == Answer::Saturated;
-                    })) {
-                    without_gap.push_back(scenario);
-                } else {
-                    sentences.push_back(
-                        gapText(summary, *find(summary, scenario, condition, contender), gaps));
-                }
-            }
-            if (!without_gap.empty()) {
-                sentences.push_back(
-                    "At " + nameOf(condition) + " " + guidanceText(contender.guidance) +
-                    ", no gap to the true scene shows in " + listed(without_gap) + ".");
-            }
+        if (!(at_reference == reference) || condition == reference) continue;
+        for (std::string& sentence : oracleSentences(summary, condition)) {
+            sentences.push_back(std::move(sentence));
         }
     }
     return sentences;

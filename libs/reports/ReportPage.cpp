@@ -9,6 +9,7 @@
 #include <hagen/reports/ReportSentences.h>
 #include <hagen/reports/SharedCourses.h>
 #include <hagen/reports/Verdict.h>
+#include "OracleSentences.h"
 #include "ReportTables.h"
 #include "ReportTexts.h"
 #include "ScenarioSentences.h"
@@ -118,14 +119,18 @@ void addScenarioPairings(const Summary& summary, std::vector<Section>& sections)
 /// How far the models are from the true scene.
 void addGaps(const Summary& summary, std::vector<Section>& sections) {
     if (summary.to_oracle.empty()) return;
-    addUnsaturated({"Gap to the true scene",
+    Section section{"Gap to the true scene",
                     {"Each model (first) against the true scene (second) with the same guidance. "
                      "What the true scene does not reach is lost by planner and guidance, which "
                      "take the world to stand still, the "
                      "difference by the model. p (Holm) is corrected over these comparisons.",
                      leftOutSentence(summary.to_oracle, "with the true scene")},
-                    {}},
-                   summary.to_oracle, sections);
+                    {}};
+    for (std::string& sentence :
+         oracleSentencesAtOtherSpeeds(summary, summary.conditions.front())) {
+        section.paragraphs.push_back(std::move(sentence));
+    }
+    addUnsaturated(std::move(section), summary.to_oracle, sections);
 }
 
 void addPairings(const Report& report, std::vector<Section>& sections) {

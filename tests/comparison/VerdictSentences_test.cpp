@@ -506,6 +506,25 @@ TEST(Oracle, IsACeilingAndNoRival) {
                                Not(HasSubstr("full window")))));
 }
 
+// At other speeds there are many such sentences: they are with their tables.
+TEST(Oracle, SentencesAtOtherSpeedsAreWithTheirTable) {
+    Table table = flownByTheTrueScene();
+    table.add("wires", "oracle", {50, 0, 30, 20}, 6);
+    const char* const sentence = "On wires at 6 m/s, the true scene with A* succeeds on 80.0 % of ";
+    EXPECT_THAT(table.verdict(),
+                testing::Each(Not(HasSubstr("true scene with A* succeeds on 80"))));
+    EXPECT_THAT(table.verdict(), Contains(HasSubstr("In gap at 4 m/s, the true scene with A* ")));
+    reports::Report report;
+    report.flown.runs = table.runs;
+    report.summary = reports::summarize(table.runs);
+    const std::string text = reports::reportMarkdown(report);
+    const std::size_t section = text.find("\n## Gap to the true scene\n");
+    ASSERT_NE(section, std::string::npos);
+    const std::size_t at = text.find(sentence);
+    EXPECT_GT(at, section);
+    EXPECT_LT(at, text.find("\n## ", section + 1));
+}
+
 TEST(Oracle, IsInEveryTableOfSuccessAndCollision) {
     Table table = flownByTheTrueScene();
     table.add("wires", "oracle", {60, 0, 30, 10});
