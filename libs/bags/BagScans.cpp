@@ -99,13 +99,6 @@ void trimHeap() {
 #endif
 }
 
-/// The serial number in the header of an Ouster's packet.
-std::string serialOf(const std::uint8_t* packet) {
-    std::uint64_t serial = 0;
-    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{packet[7 + i]} << (8 * i);
-    return std::to_string(serial);
-}
-
 }  // namespace
 
 struct BagScans::Reader {
@@ -290,13 +283,13 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
                                  std::to_string(sensor.packetBytes()) + " (profile " +
                                  sensor.profile.name + "). Is it another sensor's metadata?");
     }
-    if (!sensor.profile.is_legacy) {
-        if (packet.data[0] != 1 || packet.data[1] != 0) {
-            ++state.other_packets;
-            return;
-        }
-        const std::string serial = serialOf(packet.data);
-        if (!sensor.serial.empty() && serial != sensor.serial) {
+    if (!captures::isOfLidar(packet.data, sensor)) {
+        ++state.other_packets;
+        return;
+    }
+    if (!sensor.profile.is_legacy && !sensor.serial.empty()) {
+        const std::string serial = std::to_string(captures::serialOf(packet.data, sensor));
+        if (serial != sensor.serial) {
             throw std::runtime_error("its packet is of the sensor with serial number " + serial +
                                      ", the metadata are of " + sensor.serial);
         }
