@@ -442,6 +442,9 @@ std::vector<std::string> BagScans::remarks() const {
         tell(left_out.messages, "message", " that could not be read");
         tell(left_out.transforms, "transform", " that could not be read");
         tell(left_out.other_parents, "transform", " of a frame that had another parent before");
+        tell(left_out.further, "transform",
+             " of frames beyond the first " + std::to_string(kMostMovingFrames) +
+                 " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
     }
     BagSurvey others;  // that nothing is read of
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",

@@ -513,6 +513,38 @@ TEST_F(BagScansTest, ATransformThatCannotBeReadCostsNoOther) {
     }
 }
 
+TEST_F(BagScansTest, TransformsOfMoreFramesThanAreKeptAreCounted) {
+    const auto transforms = [](const std::string& topic, std::size_t frames) {
+        const auto write = [&](test::MessageBytes& bytes) {
+            bytes.number(static_cast<std::uint32_t>(frames));
+            for (std::size_t i = 0; i < frames; ++i) {
+                bytes.header(kStart_s, "base_link").text("f" + std::to_string(i)).pose(1, 0, 0);
+            }
+        };
+        return test::sentMessage(topic, "tf2_msgs/TFMessage", kStart_s, write);
+    };
+    const ReadBag bag = read({cloud("/points"), transforms("/tf", kMostMovingFrames + 2),
+                              // A frame that is known already is no further one.
+                              transform("/tf", "base_link", "f0", 2, 0.1),
+                              transforms("/tf_static", FrameTree::kMostFrames + 1)});
+    EXPECT_EQ(bag.survey.transforms.size(), kMostMovingFrames);
+    EXPECT_EQ(bag.survey.transforms.at("f0").poses.size(), 2u);
+    EXPECT_THAT(bag.scans->remarks(),
+                Contains("/tf: 2 transforms of frames beyond the first 1000 (of tf_static 10000), "
+                         "left out; the first: message 0 (recorded at 1700000000.000 s): from "
+                         "'base_link' to 'f1000'"));
+    EXPECT_THAT(bag.scans->remarks(),
+                Contains(HasSubstr("/tf_static: 1 transform of frames beyond the first 1000")));
+}
+
+TEST_F(BagScansTest, AFrameOnItselfIsNamed) {
+    const ReadBag bag = read({cloud("/points"), transform("/tf_static", "lidar", "lidar", 1)});
+    EXPECT_THAT(bag.scans->remarks(),
+                Contains(HasSubstr("/tf_static: 1 transform that could not be read, left out; the "
+                                   "first: message 0 (recorded at 1700000000.000 s): from 'lidar' "
+                                   "to 'lidar': a frame cannot hang on itself")));
+}
+
 TEST_F(BagScansTest, PosesThatCannotBeReadAreNamedWithTheReason) {
     SentMessage cut = odometry(0.1, 1);
     cut.ros1.resize(60);
