@@ -230,9 +230,19 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
         Scan points;
         for (const LivoxPoint& point : message.points) addPoint(point, points);
         locateBeams(*mid360, points);
+        PointTable others;
+        others.points = message.points.size();
+        std::vector<double> tags, lines;
+        for (const LivoxPoint& point : message.points) {
+            tags.push_back(point.tag);
+            lines.push_back(point.line);
+        }
+        addColumn("tag", NumberType::UInt8, tags, others);
+        addColumn("line", NumberType::UInt8, lines, others);
         scan = CObservationPointCloud::Create();
         scan->timestamp = timeOf(time_ns);
-        scan->pointcloud = std::make_shared<observations::LocatedCloud>(points, mid360);
+        scan->pointcloud =
+            std::make_shared<observations::LocatedCloud>(points, mid360, std::move(others));
     }
     scan->sensorPose = state.sensor->on_vehicle;
     state.points_without_range += without_range;

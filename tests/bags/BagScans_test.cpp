@@ -580,7 +580,7 @@ TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
                                          bytes.number(std::uint32_t{0});
                                          for (const float part : {x_m, 0.0f, 0.0f})
                                              bytes.number(part);
-                                         bytes.raw(std::string(3, '\1'));
+                                         bytes.raw({'\1', x_m > 0 ? '\7' : '\5', '\3'});
                                      }
                                  });
     };
@@ -591,6 +591,12 @@ TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
             bag.scans->remarks(),
             Contains(driver + " (/" + driver + "): 1 message, 2 points without a range, left out"));
     }
+    const auto& cloud =
+        dynamic_cast<const CObservationPointCloud&>(*bag.of("livox_ros_driver2")[0]);
+    const auto& fields =
+        dynamic_cast<const observations::LocatedCloud&>(*cloud.pointcloud).otherFields();
+    EXPECT_THAT(columnOf(fields, *findField(fields, {"tag"})), ElementsAre(7));
+    EXPECT_THAT(columnOf(fields, *findField(fields, {"line"})), ElementsAre(3));
 }
 
 TEST_F(BagScansTest, MetadataOfAFolderThatAreNotUsedAreTold) {
