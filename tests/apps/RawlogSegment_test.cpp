@@ -556,7 +556,12 @@ TEST_F(RawlogSegment, FailsOnAnEmptyFile) {
 
 TEST_F(RawlogSegment, FailsOnWhatIsNoRawlog) {
     const auto file = folder_.write("text.rawlog", "this is no rawlog, whatever its name says\n");
-    expectFailure({"-i", file, "-o", path("out")}, 1, "text.rawlog: is no recording: no rawlog");
+    expectFailure({"-i", file, "-o", path("out")}, 1,
+                  "text.rawlog: is no recording: it seems to be text. Known are rawlogs, captures");
+    const auto picture = folder_.write("a.rawlog", "\x89PNG\r\n\x1a\n" + std::string(99, '\x81'));
+    expectFailure({"-i", picture, "-o", path("out")}, 1, "it seems to be a PNG picture");
+    const auto unknown = folder_.write("b.rawlog", std::string(99, '\x81'));
+    expectFailure({"-i", unknown, "-o", path("out")}, 1, "bytes are none of a kind that is known");
 }
 
 TEST_F(RawlogSegment, FailsOnAFolderWithoutScans) {
