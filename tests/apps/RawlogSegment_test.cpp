@@ -491,6 +491,17 @@ TEST_F(RawlogSegment, RefusesUnknownFlags) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--fast"}, 2, "--fast");
 }
 
+TEST_F(RawlogSegment, SaysWhereAValueWithoutAFlagBelongs) {
+    const std::string log = kRecording;
+    expectFailure({log, "-o", path("out")}, 2, "not expected: " + log + "; use -i " + log);
+    expectFailure({"-o", path("out"), log}, 2, "use -i " + log);
+    expectFailure(
+        {"-i", log, "--stats", path("out"), "--topic", "/a", "/b", "/c"}, 2,
+        "were not expected: /b, /c; to name several, repeat the flag: --topic /a --topic /b");
+    expectFailure({"-i", log, path("out")}, 2, "not expected: " + path("out") + "\n");
+    expectFailure({"--topik", "/a"}, 2, "not expected: --topik, /a\n");
+}
+
 TEST_F(RawlogSegment, RefusesAnInputThatIsNotThere) {
     expectFailure({"-i", path("none.rawlog"), "-o", path("out")}, 2, path("none.rawlog"));
 }
