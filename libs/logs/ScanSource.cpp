@@ -114,8 +114,7 @@ fs::path scansWithin(const fs::path& folder, int depth = 2) {
     }
     std::sort(folders.begin(), folders.end());
     for (const fs::path& within : folders) {
-        fs::directory_iterator(within, unreadable);
-        if (unreadable) continue;
+        if (fs::is_empty(within, unreadable) || unreadable) continue;
         if (fs::is_directory(within / "velodyne") || CloudFileSource::hasClouds(within)) {
             return within;
         }
