@@ -55,6 +55,17 @@ void printEntries(const Conversion& conversion, const ConversionReport& report) 
                 report.returns);
 }
 
+/// Why some scans have no attitude; empty if all have one.
+std::string whyNotAll(const ConversionReport& report) {
+    if (report.first_without_attitude.empty()) return "";
+    const std::size_t others = report.scans - report.scans_with_attitude - 1;
+    return " (not " + report.first_without_attitude +
+           (others > 0 ? " and " + std::to_string(others) + " more" : "") +
+           (report.is_attitude_of_poses
+                ? ": before or after the poses, or in a gap of more than 0.2 s between them)"
+                : ": the log has no attitude in the 0.2 s before)");
+}
+
 }  // namespace
 
 void printSummary(const Conversion& conversion, const ConversionReport& report) {
@@ -93,8 +104,9 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
                     counted(report.scans, "scan", "scans").c_str());
     }
     if (report.scans_with_attitude > 0 && report.settings.options.level_by_attitude) {
-        std::printf("gravity-aligned by the vehicle's attitude: %zu of %s\n",
-                    report.scans_with_attitude, counted(report.scans, "scan", "scans").c_str());
+        std::printf("gravity-aligned by the vehicle's attitude: %zu of %s%s\n",
+                    report.scans_with_attitude, counted(report.scans, "scan", "scans").c_str(),
+                    whyNotAll(report).c_str());
     }
     const auto output = [](const char* what, const std::filesystem::path& path) {
         if (path.empty()) return;

@@ -31,9 +31,7 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
     }
     progress.finish();
     if (!quiet && report.scans == 0) {
-        std::cerr << conversion.input.string()
-                  << ": no LiDAR scan was segmented; scans must be CObservationVelodyneScan or "
-                     "CObservationPointCloud\n";
+        std::cerr << conversion.input.string() << ": no LiDAR scan was segmented\n";
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()

@@ -99,13 +99,6 @@ void trimHeap() {
 #endif
 }
 
-/// The serial number in the header of an Ouster's packet.
-std::string serialOf(const std::uint8_t* packet) {
-    std::uint64_t serial = 0;
-    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{packet[7 + i]} << (8 * i);
-    return std::to_string(serial);
-}
-
 }  // namespace
 
 struct BagScans::Reader {
@@ -237,9 +230,19 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
         Scan points;
         for (const LivoxPoint& point : message.points) addPoint(point, points);
         locateBeams(*mid360, points);
+        PointTable others;
+        others.points = message.points.size();
+        std::vector<double> tags, lines;
+        for (const LivoxPoint& point : message.points) {
+            tags.push_back(point.tag);
+            lines.push_back(point.line);
+        }
+        addColumn("tag", NumberType::UInt8, tags, others);
+        addColumn("line", NumberType::UInt8, lines, others);
         scan = CObservationPointCloud::Create();
         scan->timestamp = timeOf(time_ns);
-        scan->pointcloud = std::make_shared<observations::LocatedCloud>(points, mid360);
+        scan->pointcloud =
+            std::make_shared<observations::LocatedCloud>(points, mid360, std::move(others));
     }
     scan->sensorPose = state.sensor->on_vehicle;
     state.points_without_range += without_range;
@@ -290,13 +293,13 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
                                  std::to_string(sensor.packetBytes()) + " (profile " +
                                  sensor.profile.name + "). Is it another sensor's metadata?");
     }
-    if (!sensor.profile.is_legacy) {
-        if (packet.data[0] != 1 || packet.data[1] != 0) {
-            ++state.other_packets;
-            return;
-        }
-        const std::string serial = serialOf(packet.data);
-        if (!sensor.serial.empty() && serial != sensor.serial) {
+    if (!captures::isOfLidar(packet.data, sensor)) {
+        ++state.other_packets;
+        return;
+    }
+    if (!sensor.profile.is_legacy && !sensor.serial.empty()) {
+        const std::string serial = std::to_string(captures::serialOf(packet.data, sensor));
+        if (serial != sensor.serial) {
             throw std::runtime_error("its packet is of the sensor with serial number " + serial +
                                      ", the metadata are of " + sensor.serial);
         }
@@ -449,6 +452,9 @@ std::vector<std::string> BagScans::remarks() const {
         tell(left_out.messages, "message", " that could not be read");
         tell(left_out.transforms, "transform", " that could not be read");
         tell(left_out.other_parents, "transform", " of a frame that had another parent before");
+        tell(left_out.further, "transform",
+             " of frames beyond the first " + std::to_string(kMostMovingFrames) +
+                 " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
     }
     BagSurvey others;  // that nothing is read of
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",

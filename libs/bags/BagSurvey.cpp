@@ -130,12 +130,20 @@ class Surveyor {
                 continue;
             }
             if (is_static) {
-                survey_.frames.add(parent, transform.child, *pose);
+                if (survey_.frames.add(parent, transform.child, *pose)) continue;
+                if (parent == transform.child) {
+                    count(survey_.left_out[topic.topic.name].transforms, message, topic,
+                          which + ": a frame cannot hang on itself");
+                } else {
+                    count(survey_.left_out[topic.topic.name].further, message, topic, which);
+                }
                 continue;
             }
-            constexpr std::size_t kMostFrames = 1000;
             const bool is_known = survey_.transforms.count(transform.child) > 0;
-            if (!is_known && survey_.transforms.size() >= kMostFrames) continue;
+            if (!is_known && survey_.transforms.size() >= kMostMovingFrames) {
+                count(survey_.left_out[topic.topic.name].further, message, topic, which);
+                continue;
+            }
             PoseSeries& series = survey_.transforms[transform.child];
             if (series.poses.empty()) {
                 series.parent = parent;

@@ -4,14 +4,16 @@ namespace hagen::bags {
 namespace {
 
 constexpr int kDeepest = 64;
-constexpr std::size_t kMostFrames = 10000;
 
 }  // namespace
 
-void FrameTree::add(const std::string& parent, const std::string& child,
+bool FrameTree::add(const std::string& parent, const std::string& child,
                     const mrpt::poses::CPose3D& pose) {
-    if (parent == child || (edges_.size() >= kMostFrames && edges_.count(child) == 0)) return;
+    if (parent == child || (edges_.size() >= kMostFrames && edges_.count(child) == 0)) {
+        return false;
+    }
     edges_[child] = {parent, pose};
+    return true;
 }
 
 bool FrameTree::has(const std::string& frame) const {

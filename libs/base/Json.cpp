@@ -88,11 +88,63 @@ Json Json::array(std::initializer_list<Json> items) {
     return json;
 }
 
+namespace {
+
+/// What the parser's words for what it expects mean to a user; empty if it says nothing useful.
+std::string expectedBy(const std::string& parser) {
+    const std::size_t at = parser.rfind("expected ");
+    // "unexpected ..." is not what is expected.
+    if (at == std::string::npos || (at > 0 && parser[at - 1] != ' ')) return "";
+    const std::string token = parser.substr(at + 9);
+    if (token == "string literal") return "a name in quotes";
+    if (token == "']'") return "',' or ']'";
+    if (token == "'}'") return "',' or '}'";
+    if (token == "end of input") return "the end of the text";
+    return token == "'[', '{', or a literal" ? "a value" : token;
+}
+
+/// The end of a line, as far as it can be printed.
+std::string printable(const std::string& line) {
+    constexpr std::size_t kMost = 20;
+    std::string text = line.size() > kMost ? "..." + line.substr(line.size() - kMost) : line;
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
+    return text;
+}
+
+/// Where and why a text is no JSON. The parser has read `bytes` of it.
+std::string faultOf(const std::string& text, std::size_t bytes, const std::string& parser) {
+    if (bytes > text.size() || parser.find("end of input; expected") != std::string::npos) {
+        return "it ends too early; is it cut?";
+    }
+    const std::string before = text.substr(0, bytes);
+    const std::size_t line_start = before.rfind('\n', bytes < 2 ? 0 : bytes - 2) + 1;
+    const std::string line = before.substr(line_start, before.find('\n', line_start) - line_start);
+    const auto number = 1 + std::count(before.begin(), before.begin() + line_start, '\n');
+    std::string what = "unexpected text";
+    if (parser.find("missing closing quote") != std::string::npos) what = "text without its \"";
+    if (parser.find("control character") != std::string::npos) {
+        what = "text that does not end in its line";
+    }
+    if (parser.find("UTF-8") != std::string::npos) what = "a byte that is no UTF-8";
+    const std::string expected = expectedBy(parser);
+    return "line " + std::to_string(number) + ", column " + std::to_string(line.size()) + ": " +
+           what + " at '" + printable(line) + "'" +
+           (expected.empty() ? "" : "; " + expected + " is expected");
+}
+
+}  // namespace
+
 Json Json::parse(const std::string& text) {
     try {
         return Text::jsonOf(Text::Value::parse(text));
+    } catch (const nlohmann::json::parse_error& e) {
+        throw std::runtime_error("is no JSON: " + faultOf(text, e.byte, e.what()));
     } catch (const nlohmann::json::exception& e) {
-        throw std::runtime_error(e.what());
+        const std::string what = e.what();  // "[json.exception...] what"
+        const std::size_t end = what.find("] ");
+        throw std::runtime_error("is no JSON: " +
+                                 what.substr(end == std::string::npos ? 0 : end + 2));
     }
 }
 
@@ -173,7 +225,14 @@ std::uint64_t Json::count() const {
 
 std::vector<double> Json::numbers() const {
     std::vector<double> numbers;
-    for (const Json& item : items()) numbers.push_back(item.number());
+    for (const Json& item : items()) {
+        if (!item.isNumber()) {
+            throw std::runtime_error("item " + std::to_string(numbers.size() + 1) + " of " +
+                                     std::to_string(items().size()) +
+                                     ": expected a number, not: " + item.dump());
+        }
+        numbers.push_back(item.number());
+    }
     return numbers;
 }
 

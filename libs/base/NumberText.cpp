@@ -1,5 +1,6 @@
 #include <hagen/base/NumberText.h>
 #include <array>
+#include <cmath>
 
 namespace hagen::base {
 namespace {
@@ -26,6 +27,10 @@ std::string fixedText(double value, int decimals) {
     const std::string text = textOf(value, std::chars_format::fixed, decimals);
     const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
     return is_zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+std::string percentText(float share) {
+    return fixedText(0.1 * std::floor(1000.0 * static_cast<double>(share)), 1) + " %";
 }
 
 }  // namespace hagen::base

@@ -125,6 +125,31 @@ fs::path OutputPath::keepPartial() {
     return name;
 }
 
+std::vector<fs::path> partialOutputs(const fs::path& path) {
+    std::vector<fs::path> found;
+    if (path.empty()) return found;
+    const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
+    // As keepPartial() names them.
+    const std::string start =
+        (fs::is_directory(path) ? path.filename() : path.stem()).string() + ".partial";
+    const std::string end = fs::is_directory(path) ? "" : path.extension().string();
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() < start.size() + end.size() || name.rfind(start, 0) != 0 ||
+            name.compare(name.size() - end.size(), end.size(), end) != 0) {
+            continue;
+        }
+        const std::string number =
+            name.substr(start.size(), name.size() - end.size() - start.size());
+        const bool is_number = number.size() > 1 && number[0] == '-' &&
+                               number.find_first_not_of("0123456789", 1) == std::string::npos;
+        if (number.empty() || is_number) found.push_back(path.parent_path() / name);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->empty()) continue;

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <hagen/captures/Remarks.h>
 #include "LivoxPacket.h"
@@ -28,6 +29,7 @@ struct Sensor {
     std::uint64_t start_ns = 0, last_ns = 0;  ///< of the scan in progress, by the sensor's clock
     std::int64_t capture_time_ns = 0;         ///< of its first packet
     Scan scan;                                ///< in progress
+    std::vector<std::uint8_t> tags;           ///< of its points
     std::size_t scan_packets = 0;
 };
 
@@ -40,7 +42,7 @@ struct LivoxCapture::Reader {
     std::map<std::uint32_t, Sensor> sensors;  ///< by address
     std::vector<std::uint32_t> order;         ///< of appearance
     std::deque<CObservationPointCloud::Ptr> complete;
-    std::size_t further_sensors = 0;
+    std::size_t further_sensors = 0, imu_packets = 0;
     OtherDatagrams others;
     bool is_at_end = false;
     std::string broken_because;
@@ -66,7 +68,9 @@ Sensor* LivoxCapture::Reader::sensorAt(std::uint32_t ip) {
 
 void LivoxCapture::Reader::take(const Datagram& datagram) {
     const auto packet = livoxPacketOf(datagram);
-    if (!packet) {
+    if (isLivoxImu(datagram)) {
+        ++imu_packets;
+    } else if (!packet) {
         others.add(datagram);
     } else if (Sensor* const sensor = sensorAt(datagram.from_ip)) {
         take(*packet, datagram.time_ns, *sensor);
@@ -111,7 +115,7 @@ void LivoxCapture::Reader::take(const LivoxPacket& packet, std::int64_t time_ns,
         sensor.last_number = packet.number;
     }
     ++sensor.scan_packets;
-    appendPoints(packet, sensor.start_ns, sensor.scan);
+    appendPoints(packet, sensor.start_ns, sensor.scan, sensor.tags);
 }
 
 void LivoxCapture::Reader::endScan(Sensor& sensor) {
@@ -123,9 +127,15 @@ void LivoxCapture::Reader::endScan(Sensor& sensor) {
     auto observation = CObservationPointCloud::Create();
     observation->sensorLabel = sensor.label;
     observation->timestamp = timeOf(sensor.capture_time_ns);
-    observation->pointcloud = std::make_shared<observations::LocatedCloud>(sensor.scan, model);
+    observations::PointTable fields;
+    fields.points = sensor.scan.size();
+    addColumn("tag", observations::NumberType::UInt8, {sensor.tags.begin(), sensor.tags.end()},
+              fields);
+    observation->pointcloud =
+        std::make_shared<observations::LocatedCloud>(sensor.scan, model, std::move(fields));
     complete.push_back(observation);
     sensor.scan.clear();
+    sensor.tags.clear();
 }
 
 LivoxCapture::LivoxCapture(const std::filesystem::path& file)
@@ -174,6 +184,7 @@ std::vector<std::string> LivoxCapture::remarks() const {
     }
     std::string left_out;
     addCount(r.further_sensors, "packet", "of further sensors", left_out);
+    addCount(r.imu_packets, "IMU packet", "(rates and accelerations, no attitude)", left_out);
     r.others.describe(left_out);
     remarks.push_back(textOfFrames(r.capture.counts(), left_out));
     return remarks;

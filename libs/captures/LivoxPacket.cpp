@@ -43,7 +43,16 @@ std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram) {
     return packet;
 }
 
-void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan) {
+bool isLivoxImu(const Datagram& datagram) {
+    constexpr std::size_t kSize = kHeader + 24;  // three rates, three accelerations, as float32
+    constexpr int kImu = 0;
+    const std::uint8_t* const bytes = datagram.bytes;
+    return datagram.size == kSize && bytes[0] == 0 && little(bytes + 1, 2) == kSize &&
+           bytes[10] == kImu;
+}
+
+void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan,
+                  std::vector<std::uint8_t>& tags) {
     const bool is_fine = packet.point_bytes == 14;
     const int bytes = is_fine ? 4 : 2;
     const float unit_m = is_fine ? 0.001f : 0.01f;
@@ -58,6 +67,7 @@ void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan)
         scan.y_m.push_back(y_m);
         scan.z_m.push_back(z_m);
         scan.intensity.push_back(static_cast<float>(at[3 * bytes]) / 255.0f);
+        tags.push_back(at[3 * bytes + 1]);
         scan.time_s.push_back(static_cast<float>(1e-9 * static_cast<double>(since_ns) +
                                                  static_cast<double>(i) * packet.point_interval_s));
     }

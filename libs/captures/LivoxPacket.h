@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace hagen::captures {
 
@@ -21,8 +22,13 @@ struct LivoxPacket {
 /// The packet in a datagram; none if it is something else. Spherical data are not supported.
 std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram);
 
-/// Appends its points, with times since `start_ns`. Points without a range, which are at the
-/// origin, are left out. Beams are not located.
-void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan);
+/// Whether a datagram is a packet of the IMU: rates and accelerations, which are no attitude.
+bool isLivoxImu(const Datagram& datagram);
+
+/// Appends its points, with times since `start_ns`, and the tag of each, which tells how sure the
+/// sensor is of it. Points without a range, which are at the origin, are left out. Beams are not
+/// located.
+void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan,
+                  std::vector<std::uint8_t>& tags);
 
 }  // namespace hagen::captures

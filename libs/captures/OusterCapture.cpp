@@ -14,12 +14,6 @@ using mrpt::obs::CObservationPointCloud;
 
 constexpr std::size_t kImuBytes = 48;
 
-std::uint64_t serialOf(const Datagram& datagram) {
-    std::uint64_t serial = 0;
-    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{datagram.bytes[7 + i]} << (8 * i);
-    return serial;
-}
-
 }  // namespace
 
 struct OusterCapture::Reader {
@@ -49,16 +43,15 @@ struct OusterCapture::Reader {
 
 /// Counts what is not of the sensor.
 bool OusterCapture::Reader::isOfSensor(const Datagram& datagram) {
-    const bool is_legacy = sensor.profile.is_legacy;
-    const bool is_lidar = is_legacy || (datagram.bytes[0] == 1 && datagram.bytes[1] == 0);
-    if (!is_lidar) {
+    if (!isOfLidar(datagram.bytes, sensor)) {
         others.add(datagram);
         return false;
     }
-    const std::string serial = is_legacy ? "" : std::to_string(serialOf(datagram));
-    if (!is_legacy && !sensor.serial.empty() && serial != sensor.serial) {
+    const std::uint64_t serial = serialOf(datagram.bytes, sensor);
+    const bool has_serial = !sensor.profile.is_legacy && !sensor.serial.empty();
+    if (has_serial && std::to_string(serial) != sensor.serial) {
         constexpr std::size_t kMostSerials = 16;
-        const std::uint64_t key = other_serials.size() < kMostSerials ? serialOf(datagram) : 0;
+        const std::uint64_t key = other_serials.size() < kMostSerials ? serial : 0;
         ++other_serials[key];
         return false;
     }

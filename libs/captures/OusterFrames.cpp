@@ -44,10 +44,9 @@ OusterFrame emptyFrame(const OusterSensor& sensor, std::uint16_t id, std::int64_
 
 void OusterFrames::add(const std::uint8_t* packet, std::int64_t time_ns) {
     const bool is_legacy = sensor_.profile.is_legacy;
-    constexpr std::size_t kLegacyFrameIdAt = 10, kFrameIdAt = 2, kPacketHeader = 32;
+    constexpr std::size_t kPacketHeader = 32;
     ++counts_.packets;
-    const auto id = little<std::uint16_t>(packet + (is_legacy ? kLegacyFrameIdAt : kFrameIdAt));
-    OusterFrame* const frame = frameOf(id, time_ns);
+    OusterFrame* const frame = frameOf(frameIdOf(packet, sensor_), time_ns);
     if (frame == nullptr) {
         ++counts_.late_packets;
         return;

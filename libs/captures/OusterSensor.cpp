@@ -1,5 +1,6 @@
 #include <hagen/captures/OusterSensor.h>
 
+#include <hagen/base/FileKind.h>
 #include <hagen/base/Json.h>
 #include <hagen/range_image/Angle.h>
 
@@ -23,8 +24,24 @@ const std::vector<OusterProfile>& profiles() {
         {"LEGACY", true, 12, 0xfffff, 0.001f, 4, 0, 0},
         {"RNG19_RFL8_SIG16_NIR16", false, 12, 0x7ffff, 0.001f, 4, 0, 0},
         {"RNG19_RFL8_SIG16_NIR16_DUAL", false, 16, 0x7ffff, 0.001f, 3, 4, 7},
-        {"RNG15_RFL8_NIR8", false, 4, 0x7fff, 0.008f, 2, 0, 0}};
+        {"RNG19_RFL8_SIG16_NIR16_ZONE16", false, 12, 0x7ffff, 0.001f, 4, 0, 0},
+        {"RNG15_RFL8_NIR8", false, 4, 0x7fff, 0.008f, 2, 0, 0},
+        {"RNG15_RFL8_WIN8", false, 4, 0x7fff, 0.008f, 2, 0, 0},
+        {"RNG15_RFL8_NIR8_ZONE16", false, 8, 0x7fff, 0.008f, 2, 0, 0},
+        {"RNG15_RFL8_NIR8_DUAL", false, 8, 0x7fff, 0.008f, 2, 4, 6},
+        {"FUSA_RNG15_RFL8_NIR8_DUAL", false, 8, 0x7fff, 0.008f, 2, 4, 6},
+        {"FIVE_WORD_PIXEL", false, 20, 0x7ffff, 0.001f, 3, 4, 7}};
     return known;
+}
+
+/// Reads a value; errors name its key.
+template <class Read>
+auto named(const std::string& key, Read read) {
+    try {
+        return read();
+    } catch (const std::runtime_error& e) {
+        throw std::runtime_error("'" + key + "': " + e.what());
+    }
 }
 
 /// Metadata as read: keys are at the top or, since firmware 3, in sections.
@@ -48,12 +65,22 @@ class Metadata {
     }
     std::string text(const std::string& key) const {
         const Json* const found = find(key);
-        return found == nullptr ? "" : found->text();
+        return found == nullptr ? "" : named(key, [&] { return found->text(); });
+    }
+    std::string requiredText(const std::string& key) const {
+        at(key);
+        return text(key);
+    }
+    double number(const std::string& key) const {
+        return named(key, [&] { return at(key).number(); });
+    }
+    std::size_t items(const std::string& key) const {
+        return named(key, [&] { return at(key).items().size(); });
     }
     /// An integer within limits.
     std::size_t count(const std::string& key, std::size_t least, std::size_t most) const {
         const Json& found = at(key);
-        const std::uint64_t value = found.count();
+        const std::uint64_t value = named(key, [&] { return found.count(); });
         if (value < least || value > most) {
             throw std::runtime_error("'" + key + "' is " + std::to_string(value) + ", not " +
                                      std::to_string(least) + " ... " + std::to_string(most));
@@ -62,7 +89,8 @@ class Metadata {
     }
     /// Numbers, all within +-`most`.
     std::vector<double> numbers(const std::string& key, std::size_t count, double most) const {
-        std::vector<double> values = at(key).numbers();
+        const Json& found = at(key);
+        std::vector<double> values = named(key, [&] { return found.numbers(); });
         if (values.size() != count) {
             throw std::runtime_error("'" + key + "' has " + std::to_string(values.size()) +
                                      " numbers, not " + std::to_string(count));
@@ -94,23 +122,34 @@ const OusterProfile& profileNamed(const std::string& name) {
         known += (known.empty() ? "" : ", ") + profile.name;
     }
     throw std::runtime_error("'udp_profile_lidar' is '" + name + "', which is not supported; " +
-                             "known are " + known);
+                             "known are " + known +
+                             ". Set one of these in the sensor's configuration and record again");
+}
+
+/// Metadata before firmware 3.2 do not name the header: then the profile tells.
+bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
+    if (profile.is_legacy) return false;
+    const std::string header = metadata.text("header_type");
+    if (header.empty()) return profile.name.rfind("FUSA_", 0) == 0;
+    if (header == "FUSA" || header == "STANDARD") return header == "FUSA";
+    throw std::runtime_error("'header_type' is '" + header + "', not 'STANDARD' or 'FUSA'");
 }
 
 void readFormat(const Metadata& metadata, OusterSensor& sensor) {
     constexpr std::size_t kMostColumns = 4096, kMostBeams = 256;
     const bool has_format = metadata.find("pixels_per_column") != nullptr;
     sensor.pixels = has_format ? metadata.count("pixels_per_column", 3, kMostBeams)
-                               : metadata.at("beam_altitude_angles").items().size();
+                               : metadata.items("beam_altitude_angles");
     if (sensor.pixels < 3 || sensor.pixels > kMostBeams) {
         throw std::runtime_error("'beam_altitude_angles' has " + std::to_string(sensor.pixels) +
                                  " numbers, not 3 ... 256");
     }
     sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMostColumns)
-                                          : columnsOfMode(metadata.at("lidar_mode").text());
+                                          : columnsOfMode(metadata.requiredText("lidar_mode"));
     sensor.columns_per_packet = has_format ? metadata.count("columns_per_packet", 1, 64) : 16;
     const std::string profile = metadata.text("udp_profile_lidar");
     sensor.profile = profileNamed(profile.empty() ? "LEGACY" : profile);
+    sensor.has_fusa_header = hasFusaHeader(metadata, sensor.profile);
     sensor.first_column = 0;
     sensor.last_column = sensor.columns_per_frame - 1;
     if (metadata.find("column_window") == nullptr) return;
@@ -133,11 +172,12 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
         const std::vector<double> to_lidar = metadata.numbers("beam_to_lidar_transform", 16, 1000);
         sensor.beam_origin_m = 1e-3 * to_lidar[3];
         sensor.beam_origin_up_m = 1e-3 * to_lidar[11];
-    } else if (const Json* const origin = metadata.find("lidar_origin_to_beam_origin_mm")) {
-        if (!(std::abs(origin->number()) <= 1000)) {
+    } else if (metadata.find("lidar_origin_to_beam_origin_mm") != nullptr) {
+        const double origin_mm = metadata.number("lidar_origin_to_beam_origin_mm");
+        if (!(std::abs(origin_mm) <= 1000)) {
             throw std::runtime_error("'lidar_origin_to_beam_origin_mm' is not within a metre");
         }
-        sensor.beam_origin_m = 1e-3 * origin->number();
+        sensor.beam_origin_m = 1e-3 * origin_mm;
     }
     // As all sensors have it, unless the metadata say otherwise.
     std::vector<double> to_sensor{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.18, 0, 0, 0, 1};
@@ -195,6 +235,9 @@ std::string readText(const std::filesystem::path& file) {
 /// Checks a text before it is parsed.
 void checkText(const std::string& text) {
     if (text.empty()) throw std::runtime_error("is empty");
+    const base::FileKind kind = base::kindOfBytes(text.substr(0, base::kFileKindBytes));
+    const bool is_text = kind.what.rfind("text", 0) == 0;
+    if (!kind.what.empty() && !is_text) throw std::runtime_error(kind.text());
     if (text.size() > kMostBytes) throw std::runtime_error("is larger than 1 MB");
     // Readers of JSON call themselves for each level.
     int depth = 0, deepest = 0;
@@ -220,6 +263,24 @@ std::size_t OusterSensor::packetBytes() const {
 
 std::size_t OusterSensor::windowColumns() const {
     return (last_column + columns_per_frame - first_column) % columns_per_frame + 1;
+}
+
+bool isOfLidar(const std::uint8_t* packet, const OusterSensor& sensor) {
+    if (sensor.profile.is_legacy) return true;
+    return packet[0] == 1 && (sensor.has_fusa_header || packet[1] == 0);
+}
+
+std::uint64_t serialOf(const std::uint8_t* packet, const OusterSensor& sensor) {
+    if (sensor.profile.is_legacy) return 0;
+    const std::size_t at = sensor.has_fusa_header ? 11 : 7;
+    std::uint64_t serial = 0;
+    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{packet[at + i]} << (8 * i);
+    return serial;
+}
+
+std::uint16_t frameIdOf(const std::uint8_t* packet, const OusterSensor& sensor) {
+    const std::size_t at = sensor.profile.is_legacy ? 10 : sensor.has_fusa_header ? 4 : 2;
+    return static_cast<std::uint16_t>(packet[at] | packet[at + 1] << 8);
 }
 
 OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) {

@@ -1,5 +1,7 @@
 #include <hagen/clouds/CloudFile.h>
 
+#include <hagen/base/FileKind.h>
+
 #include <algorithm>
 #include <fstream>
 #include <utility>
@@ -48,6 +50,22 @@ std::string extensionOf(const std::filesystem::path& file) {
     return extension;
 }
 
+/// "it seems to be a JPEG picture"; empty if it is of no kind that is known.
+std::string otherKindOf(const Bytes& start) {
+    return base::kindOfBytes({reinterpret_cast<const char*>(start.data()), start.size()}).text();
+}
+
+/// What is said of a file in no format that is read.
+std::string whyNoCloud(const Bytes& start) {
+    if (start.empty()) return "is empty";
+    const std::string known = otherKindOf(start);
+    return "is no point cloud: " +
+           (known.empty() ? "its first numbers are no points that a LiDAR sees" : known) +
+           ". Known are PCD, PLY, LAS, NPY, and .bin of float32 x, y, z, intensity (KITTI), or "
+           "also "
+           "ring (nuScenes)";
+}
+
 CloudFile read(const std::filesystem::path& file) {
     Bytes bytes = readBytes(file);
     const Bytes start(bytes.begin(),
@@ -55,14 +73,12 @@ CloudFile read(const std::filesystem::path& file) {
     const auto format = formatOf(start, bytes.size());
     if (!format) {
         // An empty .bin is a scan without returns, and one that was cut still a .bin.
-        const bool is_cut = numbersPerBinPoint(start) > 0 || bytes.size() % 16 != 0;
+        const bool is_cut =
+            numbersPerBinPoint(start) > 0 || (bytes.size() % 16 != 0 && otherKindOf(start).empty());
         if (extensionOf(file) == ".bin" && (bytes.empty() || is_cut)) {
             return readBin(file, std::move(bytes));
         }
-        if (bytes.empty()) throw BrokenCloud(file.string() + ": is empty");
-        throw BrokenCloud(file.string() +
-                          ": byte 0: is no PCD, PLY, LAS or NPY, and its first points are none "
-                          "that a LiDAR sees (.bin)");
+        throw BrokenCloud(file.string() + ": " + whyNoCloud(start));
     }
     switch (*format) {
         case CloudFormat::Pcd:
@@ -98,6 +114,18 @@ bool hasCloudName(const std::filesystem::path& file) {
         if (extension == known) return true;
     }
     return false;
+}
+
+BinStart startOfBin(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    Bytes bytes(kStart);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
+    const std::size_t numbers = numbersPerBinPoint(bytes);
+    BinStart start;
+    if (numbers == 5) start.floats_per_point = 5;
+    if (numbers == 0) start.other_kind = otherKindOf(bytes);
+    return start;
 }
 
 CloudFile readCloud(const std::filesystem::path& file) {

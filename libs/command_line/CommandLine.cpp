@@ -1,6 +1,7 @@
 #include <hagen/command_line/CommandLine.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
@@ -190,6 +191,52 @@ std::string subcommandsOf(const CLI::App& app, const std::string& program) {
     return text + " (" + program + " --help shows details)";
 }
 
+bool isFlag(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
+
+/// The command that was given, or the program.
+const CLI::App& givenCommand(const CLI::App& app) {
+    const std::vector<const CLI::App*> given =
+        app.get_subcommands([](const CLI::App* command) { return command->parsed(); });
+    return given.empty() ? app : *given.back();
+}
+
+/// What to do with a value that belongs to no flag; empty if there is nothing to say.
+std::string hintOn(const std::string& value, const std::vector<std::string>& words,
+                   const CLI::App& app) {
+    const auto at = std::find(words.begin(), words.end(), value);
+    const auto before = std::find_if(std::make_reverse_iterator(at), words.rend(), isFlag);
+    const CLI::Option* const flag =
+        before == words.rend() ? nullptr : app.get_option_no_throw(*before);
+    if (flag != nullptr && flag->get_items_expected_max() > 1 && before.base() != at) {
+        return "to name several, repeat the flag: " + *before + " " + *before.base() + " " +
+               *before + " " + value;
+    }
+    const bool is_of_unknown_flag = before != words.rend() && before.base() == at;
+    if (flag == nullptr && is_of_unknown_flag) return "";
+    const CLI::Option* const input = app.get_option_no_throw("--input");
+    if (input != nullptr && input->count() == 0) return "use -i " + value;
+    return "";
+}
+
+/// The error message about arguments that are no flags and values of none.
+std::string extrasText(const CLI::App& app, int argc, char** argv) {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    std::vector<std::string> extras = app.remaining(true);
+    // CLI11 does not keep the order.
+    std::stable_sort(extras.begin(), extras.end(), [&](const auto& a, const auto& b) {
+        return std::find(words.begin(), words.end(), a) < std::find(words.begin(), words.end(), b);
+    });
+    std::string text, hint;
+    for (const std::string& extra : extras) {
+        text += (text.empty() ? "" : ", ") + extra;
+        if (hint.empty() && !isFlag(extra)) hint = hintOn(extra, words, givenCommand(app));
+    }
+    const bool is_one = extras.size() == 1;
+    text = std::string("The following argument") + (is_one ? " was" : "s were") +
+           " not expected: " + text;
+    return hint.empty() ? text : text + "; " + hint;
+}
+
 }  // namespace
 
 Program::Program(std::string name, const std::string& description)
@@ -233,7 +280,11 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
         const bool lacks_subcommand =
             !app_->get_subcommands(nullptr).empty() && app_->get_subcommands().empty();
         if (lacks_subcommand) return fail(kWrongUsage, subcommandsOf(*app_, name_));
-        app_->exit(e);
+        if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr) {
+            app_->exit(CLI::ValidationError(extrasText(*app_, argc, argv)));
+        } else {
+            app_->exit(e);
+        }
         return kWrongUsage;
     } catch (const UsageError& e) {
         app_->exit(CLI::ValidationError(e.what()));

@@ -1,6 +1,7 @@
 #include "Converter.h"
 
 #include <hagen/bags/BagFile.h>
+#include <hagen/base/OutputPath.h>
 #include <hagen/captures/CaptureFile.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
@@ -121,6 +122,7 @@ SourceOptions Converter::sourceOptions() {
 void Converter::usePoses() {
     source_->usePoses(conversion_.poses);
     report_.poses = source_->poses().source;
+    report_.is_attitude_of_poses = source_->poses().vehicle.has_horizon;
     if (outputs_.wantsMap() && report_.poses.empty()) {
         throw std::runtime_error(conversion_.input.string() +
                                  ": has no poses, but a map needs them; add --poses "
@@ -250,7 +252,7 @@ void Converter::account(ScanInConversion& scan) {
         report.entry = scan.recorded.entry;
         report.sensor_label = scan.recorded.observation->sensorLabel;
         report.name = outputs_.writeScan(scan.segmented, scan.recorded, settings_);
-        count(scan.segmented, report);
+        count(scan.segmented, report, titleOf(scan.recorded));
     }
     scan.segmenter.reset();
 }
@@ -286,8 +288,8 @@ void Converter::account(EntryInConversion& entry) {
     listener_.progress(report_);
 }
 
-void Converter::count(const observations::ObservationSegmenter::Output& out,
-                      const ScanReport& scan) {
+void Converter::count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan,
+                      const std::string& title) {
     ++report_.scans;
     report_.returns += scan.returns;
     report_.roi += scan.roi;
@@ -296,6 +298,9 @@ void Converter::count(const observations::ObservationSegmenter::Output& out,
     report_.returns_masked += scan.returns_masked;
     report_.scans_with_pose += out.pose.sensor_pose.has_value();
     report_.scans_with_attitude += out.pose.attitude.has_value();
+    if (!out.pose.attitude && report_.first_without_attitude.empty()) {
+        report_.first_without_attitude = title;
+    }
     const bool is_known = !out.recovered && !out.is_sensor_assumed;
     report_.sensors[scan.sensor_label] =
         is_known ? out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams"
@@ -363,7 +368,24 @@ ConversionReport Converter::finish() {
     remarkOnNothingFound();
     remarkOnRecording();
     outputs_.commit(report_);
+    remarkOnPartialOutputs();
     return std::move(report_);
+}
+
+/// Outputs of runs that broke off have names of their own, so that this one does not replace them.
+void Converter::remarkOnPartialOutputs() {
+    std::vector<fs::path> outputs{conversion_.rawlog, conversion_.folder,   conversion_.clouds,
+                                  conversion_.mcap,   conversion_.pictures, conversion_.stats};
+    outputs.insert(outputs.end(), conversion_.octomaps.begin(), conversion_.octomaps.end());
+    for (const fs::path& output : outputs) {
+        std::string names;
+        for (const fs::path& partial : base::partialOutputs(output)) {
+            names += (names.empty() ? "" : ", ") + partial.string();
+        }
+        if (names.empty()) continue;
+        listener_.remark("the outputs", "earlier runs that broke off left " + names +
+                                            "; delete what you do not need");
+    }
 }
 
 void Converter::finishSensorCheck() {

@@ -56,11 +56,13 @@ class Converter {
     void account(ScanInConversion& scan);
     void reportRemarks(const ScanInConversion& scan);
     void insertIntoMap(const ScanInConversion& scan);
-    void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan);
+    void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan,
+               const std::string& title);
     ConversionReport finish();
     bool isReplaced(const EntryInConversion& entry) const;
     void checkSensor(const ScanInConversion& scan);
     void finishSensorCheck();
+    void remarkOnPartialOutputs();
     void remarkOnNothingFound();
     void remarkOnRecording();
     void checkLabels() const;

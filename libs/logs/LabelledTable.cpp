@@ -1,5 +1,6 @@
 #include "LabelledTable.h"
 
+#include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/Results.h>
@@ -24,11 +25,16 @@ struct Unlabelled {
     std::vector<std::uint32_t> point_of_return;
 };
 
-/// Those of a rawlog of MRPT 3.
+/// Fields that a scan does not have: those of a rawlog of MRPT 3, and the tags of a Livox.
+const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud) {
+    const auto* const located = dynamic_cast<const observations::LocatedCloud*>(&cloud);
+    return located != nullptr ? &located->otherFields() : observations::otherFieldsOf(cloud);
+}
+
 void addOtherFields(const mrpt::obs::CObservation& observation, PointTable& table) {
     const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
     if (cloud == nullptr || !cloud->pointcloud) return;
-    const PointTable* const others = observations::otherFieldsOf(*cloud->pointcloud);
+    const PointTable* const others = otherFieldsOf(*cloud->pointcloud);
     if (others == nullptr || others->points != table.points) return;
     for (const observations::PointField& field : others->fields) {
         if (findField(table, {field.name}) != nullptr) continue;

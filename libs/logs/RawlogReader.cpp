@@ -1,4 +1,6 @@
 #include <hagen/logs/RawlogReader.h>
+
+#include <hagen/base/FileKind.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/MrptMessage.h>
 
@@ -19,6 +21,18 @@ std::string reasonOf(const std::exception& exception) {
     }
     if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
     return kNoObject;
+}
+
+/// What is said of a file that is neither a rawlog nor, by its content, another recording.
+std::string whyNone(const std::filesystem::path& file) {
+    const base::FileKind kind = base::kindOfFile(file);
+    const std::string known = kind.text();
+    // PackedInput has unpacked these.
+    const bool is_packed = kind.what.rfind("packed by", 0) == 0;
+    if (is_packed) return "it is " + kind.what + ", and inside is no rawlog; " + kind.advice;
+    return (known.empty() ? "its first bytes are none of a kind that is known" : known) +
+           ". Known are rawlogs, captures (.pcap, .pcapng), ROS recordings (.bag, .mcap, .db3) and "
+           "point clouds (.pcd, .ply, .las, .npy, .bin)";
 }
 
 void checkReadable(const std::filesystem::path& file) {
@@ -66,8 +80,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);
         if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {
-            throw BrokenRawlog(file_.string() + ": is no recording: no rawlog (" + reason +
-                               "), and by its content no capture, ROS recording or point cloud");
+            throw BrokenRawlog(file_.string() + ": is no recording: " + whyNone(file_));
         }
         throw broken(reason);
     }

@@ -1,6 +1,7 @@
 #include "RawlogSource.h"
 
 #include <hagen/logs/PoseFile.h>
+#include <hagen/observations/Results.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <memory>
@@ -23,6 +24,13 @@ std::vector<CObservation::ConstPtr> observationsOf(
     return {};
 }
 
+/// "CObservationImage" for mrpt::obs::CObservationImage.
+std::string classOf(const mrpt::rtti::CObject& object) {
+    const std::string name = object.GetRuntimeClass()->className;
+    const std::size_t colons = name.rfind("::");
+    return colons == std::string::npos ? name : name.substr(colons + 2);
+}
+
 }  // namespace
 
 RawlogSource::RawlogSource(const std::filesystem::path& rawlog, const SourceOptions& options)
@@ -39,11 +47,29 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
         const auto all = observationsOf(entry.object);
         for (const auto& observation : all) see(*observation);
         if (skips(entry.number)) continue;
-        for (const auto& observation : all) addIfScan(observation, "", entry);
+        if (all.empty()) ++has_[classOf(*entry.object)];
+        for (const auto& observation : all) {
+            has_scans_ = has_scans_ || observations::isLidarScan(*observation);
+            const bool is_result = observations::isResult(*observation);
+            ++has_[is_result ? "results of an earlier run" : classOf(*observation)];
+            addIfScan(observation, "", entry);
+        }
         entry.fraction_read = reader_.fractionRead();
         return entry;
     }
     return std::nullopt;
+}
+
+std::vector<std::string> RawlogSource::remarks() const {
+    if (has_scans_ || has_.empty()) return {};
+    std::string found;
+    for (const auto& [name, count] : has_) {
+        found += (found.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+    }
+    return {
+        "no converted entry has a LiDAR scan (CObservationVelodyneScan or "
+        "CObservationPointCloud); they have " +
+        found};
 }
 
 const RawlogSurvey& RawlogSource::survey() {

@@ -14,6 +14,8 @@ class RawlogSource : public ScanSource {
     std::optional<RecordedEntry> nextEntry() override;
     std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
     std::size_t entriesKnown() const override { return reader_.entries(); }
+    /// Without a LiDAR scan: what the entries have instead.
+    std::vector<std::string> remarks() const override;
 
  protected:
     LogPoses readPoses(const std::filesystem::path& file) override;
@@ -24,8 +26,10 @@ class RawlogSource : public ScanSource {
 
     std::filesystem::path rawlog_;
     RawlogReader reader_;
-    std::unique_ptr<RawlogReader> ahead_;  ///< of showClouds(); made on demand
-    std::optional<RawlogSurvey> survey_;   ///< made on demand
+    bool has_scans_ = false;                  ///< among the selected entries
+    std::map<std::string, std::size_t> has_;  ///< number of objects of each class among them
+    std::unique_ptr<RawlogReader> ahead_;     ///< of showClouds(); made on demand
+    std::optional<RawlogSurvey> survey_;      ///< made on demand
 };
 
 }  // namespace hagen::logs

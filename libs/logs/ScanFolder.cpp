@@ -1,3 +1,4 @@
+#include <hagen/clouds/CloudFile.h>
 #include <hagen/logs/NumberTable.h>
 #include <hagen/logs/ScanFolder.h>
 #include <algorithm>
@@ -111,16 +112,38 @@ void markAsPredictions(const fs::path& folder) {
     base::closeWritten(out, file);
 }
 
+namespace {
+
+/// Points of so many float32, of which the first four are x, y, z and intensity. Those with a ring
+/// have intensities up to 255.
+template <std::size_t floats>
+void readPoints(const fs::path& file, Scan& scan) {
+    const auto points = readRecords<std::array<float, floats>>(file);
+    float most = 0;
+    for (const auto& point : points) most = std::max(most, point[3]);
+    const float scale = floats > 4 && most > 1 ? 255.0f : 1.0f;
+    scan.clear();
+    scan.reserve(points.size());
+    for (const auto& point : points) {
+        scan.x_m.push_back(point[0]);
+        scan.y_m.push_back(point[1]);
+        scan.z_m.push_back(point[2]);
+        scan.intensity.push_back(point[3] / scale);
+    }
+}
+
+}  // namespace
+
 void readScan(const fs::path& file, Scan& scan) {
     try {
-        const auto points = readRecords<std::array<float, 4>>(file);
-        scan.clear();
-        scan.reserve(points.size());
-        for (const auto& [x, y, z, intensity] : points) {
-            scan.x_m.push_back(x);
-            scan.y_m.push_back(y);
-            scan.z_m.push_back(z);
-            scan.intensity.push_back(intensity);
+        const clouds::BinStart start = clouds::startOfBin(file);
+        if (!start.other_kind.empty()) {
+            throw BrokenScan(file.string() + ": has no points: " + start.other_kind);
+        }
+        if (start.floats_per_point == 5) {
+            readPoints<5>(file, scan);
+        } else {
+            readPoints<4>(file, scan);
         }
     } catch (const std::bad_alloc&) {
         throw BrokenScan(file.string() + ": does not fit into memory");

@@ -1,5 +1,6 @@
 #include "ScanFolderSource.h"
 
+#include <hagen/clouds/CloudFile.h>
 #include <hagen/observations/ObservationScan.h>
 
 namespace hagen::logs {
@@ -55,6 +56,12 @@ std::map<std::string, std::vector<mrpt::Clock::time_point>> ScanFolderSource::sc
     std::vector<mrpt::Clock::time_point> times;
     for (const double time_s : times_s_) times.push_back(mrpt::Clock::fromDouble(time_s));
     return {{kFolderLabel, times}};
+}
+
+std::vector<std::string> ScanFolderSource::remarks() const {
+    if (clouds::startOfBin(folder_.scanFile(0)).floats_per_point == 4) return {};
+    return {"the rings of its points (nuScenes) are not used; as a folder of point clouds, " +
+            (folder_.path() / "velodyne").string() + ", they are"};
 }
 
 observations::Settings ScanFolderSource::settingsFor(const observations::Settings& settings) const {

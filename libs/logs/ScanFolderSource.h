@@ -12,6 +12,7 @@ class ScanFolderSource : public ScanSource {
     std::optional<RecordedEntry> nextEntry() override;
     std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
     std::size_t entriesKnown() const override { return folder_.size(); }
+    std::vector<std::string> remarks() const override;
     /// Merges the folder's sensor.yaml.
     observations::Settings settingsFor(const observations::Settings& settings) const override;
 

@@ -34,6 +34,10 @@ PointTable tableOf(const mrpt::maps::CPointsMap& cloud) {
     if (const auto* const located = dynamic_cast<const observations::LocatedCloud*>(&cloud)) {
         if (located->sensor().has_rings) add("ring", NumberType::UInt16, located->rows());
         if (!located->times_s().empty()) add("t", NumberType::Float32, located->times_s());
+        const PointTable& others = located->otherFields();
+        for (const observations::PointField& field : others.fields) {
+            addColumn(field.name, field.type, columnOf(others, field), table);
+        }
     }
     return table;
 }

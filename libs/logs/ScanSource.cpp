@@ -85,6 +85,65 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
     }
 }
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Recordings in a folder, which are read one by one, in the order of their names.
+std::vector<fs::path> recordingsIn(const fs::path& folder) {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const fs::path& path = entry.path();
+        const bool is_file = entry.is_regular_file();
+        const bool is_recording = is_file ? bags::isBag(path) || captures::isCapture(path) ||
+                                                path.extension() == ".rawlog"
+                                          : entry.is_directory() && bags::isBag(path);
+        if (is_recording) found.push_back(path);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+/// The first folder with scans in a folder, up to two levels deep; empty if there is none. Folders
+/// that may not be read are none.
+fs::path scansWithin(const fs::path& folder, int depth = 2) {
+    std::vector<fs::path> folders;
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+        if (entry.is_directory(unreadable)) folders.push_back(entry.path());
+    }
+    std::sort(folders.begin(), folders.end());
+    for (const fs::path& within : folders) {
+        if (fs::is_empty(within, unreadable) || unreadable) continue;
+        if (fs::is_directory(within / "velodyne") || CloudFileSource::hasClouds(within)) {
+            return within;
+        }
+        const fs::path deeper = depth > 1 ? scansWithin(within, depth - 1) : fs::path();
+        if (!deeper.empty()) return deeper;
+    }
+    return {};
+}
+
+/// Why a folder is none that is read, and what to read instead.
+std::string whyNoFolder(const fs::path& folder) {
+    const std::vector<fs::path> recordings = recordingsIn(folder);
+    if (recordings.size() == 1) {
+        return "is a folder with one recording, which is read by its own name: " +
+               recordings[0].string();
+    }
+    if (!recordings.empty()) {
+        return "is a folder with " + std::to_string(recordings.size()) +
+               " recordings, which are not read in one go: name one of them, such as " +
+               recordings[0].string();
+    }
+    const fs::path scans = scansWithin(folder);
+    return "not a scan folder (no subfolder 'velodyne'), and no folder of point clouds (no .pcd, "
+           ".ply, .las, .npy or .bin) or with a recording (.rawlog, .pcap, .bag, .mcap, .db3)" +
+           (scans.empty() ? "" : "; there are scans in " + scans.string());
+}
+
+}  // namespace
+
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options) {
     if (!std::filesystem::exists(recording)) {
@@ -92,6 +151,10 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
     }
     const bool is_folder = std::filesystem::is_directory(recording);
     if (bags::isBag(recording)) return std::make_unique<BagSource>(recording, options);
+    const bool is_scan_folder = is_folder && std::filesystem::is_directory(recording / "velodyne");
+    if (is_folder && !is_scan_folder && !CloudFileSource::hasClouds(recording)) {
+        throw std::runtime_error(recording.string() + ": " + whyNoFolder(recording));
+    }
     if (!options.topics.empty()) {
         throw std::runtime_error(recording.string() + ": is no ROS recording (.bag, .mcap, " +
                                  ".db3 or its folder), so it has no topic '" +
@@ -101,23 +164,15 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
         return std::make_unique<CaptureSource>(recording, options);
     }
     if (!options.sensor_json.empty()) {
+        const bool are_exchanged = captures::isCapture(options.sensor_json);
         throw std::runtime_error(
             recording.string() +
             ": is no capture (.pcap, .pcapng) and no ROS recording, so there " +
-            "is no sensor that " + options.sensor_json.string() + " could describe");
+            "is no sensor that " + options.sensor_json.string() + " could describe" +
+            (are_exchanged ? ", which is a capture itself: are the two files exchanged?" : ""));
     }
-    if (is_folder) {
-        if (std::filesystem::is_directory(recording / "velodyne")) {
-            return std::make_unique<ScanFolderSource>(recording, options);
-        }
-        if (CloudFileSource::hasClouds(recording)) {
-            return std::make_unique<CloudFileSource>(recording, options);
-        }
-        throw std::runtime_error(recording.string() +
-                                 ": not a scan folder (no subfolder 'velodyne'), and no folder of "
-                                 "point clouds (no .pcd, .ply, .las, .npy or .bin)");
-    }
-    if (clouds::cloudFormatOf(recording) || clouds::hasCloudName(recording)) {
+    if (is_scan_folder) return std::make_unique<ScanFolderSource>(recording, options);
+    if (is_folder || clouds::cloudFormatOf(recording) || clouds::hasCloudName(recording)) {
         return std::make_unique<CloudFileSource>(recording, options);
     }
     return std::make_unique<RawlogSource>(recording, options);

@@ -3,7 +3,6 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/observations/ObservationScan.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace hagen::logs {
@@ -16,12 +15,6 @@ constexpr float kErrorBelow = 0.5f;
 // 0.92 and more on real scans of 16 and 64 beams, 0.29 to 0.37 if 16 beams are taken for 64.
 constexpr float kFilledBelow = 0.5f;
 
-/// Rounded down: 100 % is all of them.
-std::string percent(float share) {
-    const double tenths = std::floor(1000.0 * static_cast<double>(share));
-    return base::fixedText(0.1 * tenths, 1) + " %";
-}
-
 }  // namespace
 
 std::string SensorCheck::judge(const std::string& title, const Seen& seen) const {
@@ -31,10 +24,12 @@ std::string SensorCheck::judge(const std::string& title, const Seen& seen) const
     if (share >= kRemarkBelow) {
         return "most pixels of " + seen.sensor + " with its " + std::to_string(seen.rows) +
                " beams are empty: three quarters of the rows have returns in " +
-               percent(fit.filled) + " of their columns or less. Is it a sensor with fewer beams?";
+               base::percentText(fit.filled) +
+               " of their columns or less. Is it a sensor with fewer beams?";
     }
-    std::string text = percent(share) + " of the cloud fits " + seen.sensor + " with its " +
-                       std::to_string(seen.rows) + " beams: " + percent(fit.returns_share) +
+    std::string text = base::percentText(share) + " of the cloud fits " + seen.sensor +
+                       " with its " + std::to_string(seen.rows) +
+                       " beams: " + base::percentText(fit.returns_share) +
                        " of the returns lie on them";
     if (fit.beams_shown > 0) {
         text += ", and of " + std::to_string(fit.beams) + " beams in view, the cloud shows " +
@@ -77,7 +72,7 @@ std::map<std::string, std::string> SensorCheck::finish() {
 std::string SensorCheck::textOf(const std::string& sensor_label) const {
     const auto seen = seen_.find(sensor_label);
     if (seen == seen_.end() || seen->second.clouds == 0) return "";
-    return percent(seen->second.best.returns_share) + " of the returns lie on them";
+    return base::percentText(seen->second.best.returns_share) + " of the returns lie on them";
 }
 
 }  // namespace hagen::logs

@@ -87,11 +87,9 @@ std::string textOf(const SharedBeams& beams) {
         if (seen < rows) text += ", which has " + std::to_string(rows);
         text += ")";
     }
-    // Rounded down: 100 % is all of them.
-    const double tenths = std::floor(1000.0 * static_cast<double>(beams->share));
-    return text + ", " + base::fixedText(0.1 * tenths, 1) +
-           (beams->row_of_ring.empty() ? " % of the returns lie on them"
-                                       : " % of the returns are closest to their own") +
+    return text + ", " + base::percentText(beams->share) +
+           (beams->row_of_ring.empty() ? " of the returns lie on them"
+                                       : " of the returns are closest to their own") +
            unfit;
 }
 

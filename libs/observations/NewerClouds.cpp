@@ -51,6 +51,19 @@ std::string readName(CArchive& in) {
     return name;
 }
 
+/// Reads what MRPT writes of a vector of numbers other than float: two names, then the numbers.
+/// MRPT's own reader makes room for as many as the file claims.
+template <class Vector>
+void readVector(CArchive& in, Vector& values) {
+    const std::string container = readName(in), type = readName(in);
+    const std::string wanted =
+        mrpt::typemeta::TTypeName<typename Vector::value_type>::get().c_str();
+    if (container != "std::vector" || type != wanted) {
+        throw std::runtime_error("the values of a field are no std::vector of " + wanted);
+    }
+    readNumbers(in, in.ReadAs<std::uint32_t>(), values);
+}
+
 /// The coordinates, with their number.
 struct Coordinates {
     std::vector<float> x_m, y_m, z_m;
@@ -244,7 +257,7 @@ class GenericCloud : public CPointsMapXYZI {
             if (version >= 3 || std::is_same_v<Number, float>) {
                 readNumbers(in, in.ReadAs<std::uint32_t>(), values);
             } else {
-                in >> values;
+                readVector(in, values);
             }
             if (name != "intensity") {
                 if (fields_not_kept.size() >= kMostFields) {

@@ -245,7 +245,9 @@ TEST_F(RawlogSegmentClouds, BrokenFilesFailNamingFileAndPlace) {
     fails("a.laz", test::las(points).replace(104, 1, "\x81"), "is compressed (LAZ)");
     fails("a.npy", test::structuredNpy(points).substr(0, 200), "the header says 12 points");
     fails("a.bin", test::bin(points) + "x", "193 bytes are not a multiple");
-    fails("a.bin", "A text of 32 bytes is no cloud.\n", "byte 0: is no PCD");
+    fails("a.bin", "A text of 32 bytes is no cloud.\n", "is no point cloud: it seems to be text");
+    fails("picture.pcd", "\xff\xd8\xff\xe0" + std::string(900, '\x81'),
+          "is no point cloud: it seems to be a JPEG picture");
 }
 
 TEST_F(RawlogSegmentClouds, ABreakInAFolderKeepsWhatWasBefore) {

@@ -491,6 +491,17 @@ TEST_F(RawlogSegment, RefusesUnknownFlags) {
     expectFailure({"-i", kRecording, "-o", path("out"), "--fast"}, 2, "--fast");
 }
 
+TEST_F(RawlogSegment, SaysWhereAValueWithoutAFlagBelongs) {
+    const std::string log = kRecording;
+    expectFailure({log, "-o", path("out")}, 2, "not expected: " + log + "; use -i " + log);
+    expectFailure({"-o", path("out"), log}, 2, "use -i " + log);
+    expectFailure(
+        {"-i", log, "--stats", path("out"), "--topic", "/a", "/b", "/c"}, 2,
+        "were not expected: /b, /c; to name several, repeat the flag: --topic /a --topic /b");
+    expectFailure({"-i", log, path("out")}, 2, "not expected: " + path("out") + "\n");
+    expectFailure({"--topik", "/a"}, 2, "not expected: --topik, /a\n");
+}
+
 TEST_F(RawlogSegment, RefusesAnInputThatIsNotThere) {
     expectFailure({"-i", path("none.rawlog"), "-o", path("out")}, 2, path("none.rawlog"));
 }
@@ -556,7 +567,12 @@ TEST_F(RawlogSegment, FailsOnAnEmptyFile) {
 
 TEST_F(RawlogSegment, FailsOnWhatIsNoRawlog) {
     const auto file = folder_.write("text.rawlog", "this is no rawlog, whatever its name says\n");
-    expectFailure({"-i", file, "-o", path("out")}, 1, "text.rawlog: is no recording: no rawlog");
+    expectFailure({"-i", file, "-o", path("out")}, 1,
+                  "text.rawlog: is no recording: it seems to be text. Known are rawlogs, captures");
+    const auto picture = folder_.write("a.rawlog", "\x89PNG\r\n\x1a\n" + std::string(99, '\x81'));
+    expectFailure({"-i", picture, "-o", path("out")}, 1, "it seems to be a PNG picture");
+    const auto unknown = folder_.write("b.rawlog", std::string(99, '\x81'));
+    expectFailure({"-i", unknown, "-o", path("out")}, 1, "bytes are none of a kind that is known");
 }
 
 TEST_F(RawlogSegment, FailsOnAFolderWithoutScans) {

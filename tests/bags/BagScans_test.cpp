@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/bags/BagScans.h>
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/TableCloud.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -12,6 +11,7 @@
 #include "support/BagWriter.h"
 #include "support/OusterPackets.h"
 #include "support/Program.h"
+#include "support/ReadBag.h"
 #include "support/SimpleFirings.h"
 
 namespace hagen::bags {
@@ -21,6 +21,8 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 using mrpt::obs::CObservationVelodyneScan;
 using mrpt::poses::CPose3D;
+using test::ReadBag;
+using test::readBag;
 using test::SentMessage;
 using testing::Contains;
 using testing::ElementsAre;
@@ -28,41 +30,7 @@ using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
 namespace fs = std::filesystem;
-constexpr double kStart_s = 1700000000;
-
-/// All that is read of a bag.
-struct ReadBag {
-    BagSurvey survey;
-    std::unique_ptr<BagScans> scans;
-    std::vector<CObservation::Ptr> observations;
-    std::string failed_because;
-
-    /// Observations with this label.
-    std::vector<CObservation::Ptr> of(const std::string& label) const {
-        std::vector<CObservation::Ptr> found;
-        for (const auto& one : observations) {
-            if (one->sensorLabel == label) found.push_back(one);
-        }
-        return found;
-    }
-    std::vector<std::string> labels() const {
-        std::vector<std::string> all;
-        for (const auto& [topic, sensor] : scans->plan().sensors) all.push_back(sensor.label);
-        return all;
-    }
-};
-
-ReadBag readBag(const fs::path& file, const BagOptions& options = {}) {
-    ReadBag read;
-    read.survey = surveyBag(file);
-    try {
-        read.scans = std::make_unique<BagScans>(file, read.survey, options);
-        while (const auto one = read.scans->next()) read.observations.push_back(one);
-    } catch (const std::runtime_error& e) {
-        read.failed_because = e.what();
-    }
-    return read;
-}
+constexpr double kStart_s = test::kBagStart_s;
 
 std::vector<float> xOf(const CObservation::Ptr& scan) {
     const auto& x_m =
@@ -167,26 +135,7 @@ TEST_P(Fixture, WrongMetadataOfAnOusterAreNamed) {
                                                     "Ouster: the key 'beam_altitude_angles'"));
 }
 
-/// Bags made by the tests.
-class BagScansTest : public testing::Test {
- protected:
-    ReadBag read(const std::vector<SentMessage>& messages, const BagOptions& options = {}) const {
-        return readBag(test::writeBytes(folder_ / "flight.bag", test::ros1BagOf(messages)),
-                       options);
-    }
-    static SentMessage cloud(const std::string& topic, double since_s = 0,
-                             const std::string& frame = "lidar") {
-        return test::cloudMessage(topic, kStart_s + since_s, frame, {1, 2, 3, 4, 5, 6, 7, 8});
-    }
-    static SentMessage odometry(double since_s, double x, const std::string& child = "base_link") {
-        return test::odometryMessage("/odom", kStart_s + since_s, "odom", child, x, 0, 0);
-    }
-    static SentMessage transform(const std::string& topic, const std::string& parent,
-                                 const std::string& child, double x, double since_s = 0) {
-        return test::transformMessage(topic, kStart_s + since_s, parent, child, x, 0, 0);
-    }
-    test::TemporaryFolder folder_;
-};
+using BagScansTest = test::BagTest;
 
 TEST_F(BagScansTest, EveryLidarTopicIsASensorWithALabelOfItsOwn) {
     const ReadBag all = read({cloud("/front/points"), cloud("/front_points"), cloud("rear"),
@@ -304,51 +253,6 @@ TEST_F(BagScansTest, SerialisationsThatAreNotKnownAreNamed) {
     EXPECT_THAT(cut.failed_because, HasSubstr("it ends "));
 }
 
-TEST_F(BagScansTest, PosesComeFromOdometryThenFromTransforms) {
-    const ReadBag odometry_only =
-        read({cloud("/points", 0, "base_link"), odometry(0, 1), odometry(0.1, 2),
-              odometry(0.102, 2.1), transform("/tf", "odom", "base_link", 7)});
-    EXPECT_EQ(odometry_only.scans->plan().poses->source, "nav_msgs/Odometry on /odom");
-    EXPECT_EQ(odometry_only.scans->plan().poses->poses.size(), 2u);  // not closer than 10 ms
-    const ReadBag moved =
-        read({cloud("/points"), transform("/tf", "map", "odom", 100),
-              transform("/tf", "odom", "base", 1, 0), transform("/tf", "odom", "base", 2, 0.1),
-              transform("/tf_static", "base", "lidar", 5)});
-    ASSERT_TRUE(moved.scans->plan().poses);
-    EXPECT_EQ(moved.scans->plan().poses->source, "transforms from odom to base");
-    EXPECT_EQ(moved.scans->plan().poses->poses.at(1).x_m, 2);
-    EXPECT_NEAR(CPose3D(moved.of("points")[0]->sensorPose()).x(), 5, 1e-9);
-    EXPECT_FALSE(read({cloud("/points")}).scans->plan().poses);
-    // A pose now and then places no scans: a goal, or the corrections of a map.
-    const auto seldom = [&](double since_s) {
-        return test::sentMessage("/goal", "geometry_msgs/PoseStamped", kStart_s + since_s,
-                                 [&](test::MessageBytes& bytes) {
-                                     bytes.header(kStart_s + since_s, "map").pose(9, 9, 9);
-                                 });
-    };
-    const ReadBag goals = read(
-        {cloud("/points"), seldom(0), seldom(5), seldom(10), transform("/tf", "odom", "lidar", 1)});
-    EXPECT_EQ(goals.scans->plan().poses->source, "transforms from odom to lidar");
-}
-
-TEST_F(BagScansTest, TheMountMayBeThroughSeveralFramesAndSidewaysInTheTree) {
-    // The odometry is of the IMU, which is beside the LiDAR on the vehicle.
-    const ReadBag bag = read({transform("/tf_static", "base_link", "lidar", 5),
-                              transform("/tf_static", "base_link", "imu", 2), odometry(0, 0, "imu"),
-                              odometry(0.1, 0, "imu"), cloud("/points")});
-    EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 3, 1e-9);
-    // In ROS 1, a transform that never changes is often repeated on tf.
-    const ReadBag still = read({transform("/tf", "base_link", "lidar", 4),
-                                transform("/tf", "base_link", "lidar", 4, 0.1), odometry(0, 0),
-                                odometry(0.1, 1), cloud("/points")});
-    EXPECT_NEAR(CPose3D(still.of("points")[0]->sensorPose()).x(), 4, 1e-9);
-    // Frames in a circle end somewhere.
-    const ReadBag circle =
-        read({transform("/tf_static", "a", "lidar", 1), transform("/tf_static", "lidar", "a", 1),
-              odometry(0, 0), cloud("/points")});
-    EXPECT_EQ(circle.failed_because, "");
-}
-
 TEST_F(BagScansTest, AnOustersMetadataMayBeInTheBag) {
     const auto sensor = captures::ousterSensorOf(test::ousterJson(), "here");
     std::vector<SentMessage> messages{cloud("/ouster/points", 0, "os_sensor"),
@@ -409,65 +313,6 @@ TEST_F(BagScansTest, WhereABagBreaksOffTheTurnInProgressComesFirst) {
                        HasSubstr("only in part: " + (folder_ / "cut.bag").string() + ": ")));
 }
 
-TEST_F(BagScansTest, TransformsThatNeverChangeAreNotThePoses) {
-    std::vector<SentMessage> messages{cloud("/points"),
-                                      transform("/tf_static", "base_link", "lidar", 5)};
-    for (const double since_s : {0.0, 0.1, 0.2}) {
-        messages.push_back(transform("/tf", "base_footprint", "base_link", 0.5, since_s));
-        messages.push_back(transform("/tf", "odom", "base_footprint", 10 * since_s, since_s));
-    }
-    const ReadBag bag = read(messages);
-    ASSERT_TRUE(bag.scans->plan().poses);
-    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base_footprint");
-    EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5.5, 1e-9);
-    // Whatever the vehicle's frame is called.
-    const ReadBag body =
-        read({cloud("/points"), transform("/tf", "body", "lidar", 3),
-              transform("/tf", "body", "lidar", 3, 0.1), transform("/tf", "earth", "body", 1),
-              transform("/tf", "earth", "body", 2, 0.1)});
-    EXPECT_EQ(body.scans->plan().poses->source, "transforms from earth to body");
-    EXPECT_NEAR(CPose3D(body.of("points")[0]->sensorPose()).x(), 3, 1e-9);
-    // Nothing moves: the vehicle stands still.
-    const ReadBag parked =
-        read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
-              transform("/tf", "odom", "lidar", 1, 0.1), transform("/tf", "map", "odom", 1)});
-    EXPECT_EQ(parked.scans->plan().poses->source, "transforms from odom to lidar");
-}
-
-TEST_F(BagScansTest, TransformsThatMoveAMapAreNotThePoses) {
-    const ReadBag bag =
-        read({cloud("/map_cloud", 0, "map"), cloud("/points", 0, "base"),
-              transform("/tf", "earth", "map", 1), transform("/tf", "earth", "map", 2, 0.1),
-              transform("/tf", "odom", "base", 3), transform("/tf", "odom", "base", 4, 0.1)});
-    EXPECT_THAT(bag.labels(), ElementsAre("points"));
-    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base");
-}
-
-TEST_F(BagScansTest, ASensorThatHangsOnAnotherFrameThanTheVehicleHasNoMount) {
-    const SentMessage imu =
-        test::sentMessage("/imu", "sensor_msgs/Imu", kStart_s, [](test::MessageBytes& bytes) {
-            bytes.header(kStart_s, "imu");
-            for (const double part : {0.0, 0.0, 0.0, 1.0}) bytes.number(part);
-            for (int i = 0; i < 9 + 2 * (3 + 9); ++i) bytes.number(0.0);
-        });
-    std::vector<SentMessage> messages{cloud("/points"), imu,
-                                      transform("/tf_static", "os_sensor", "lidar", 5),
-                                      transform("/tf_static", "imu_case", "imu", 5)};
-    // Without poses, any frame will do.
-    const ReadBag alone = read(messages);
-    EXPECT_NEAR(CPose3D(alone.of("points")[0]->sensorPose()).x(), 5, 1e-9);
-    EXPECT_EQ(alone.scans->plan().imu_topic, "/imu");
-    EXPECT_THAT(alone.scans->plan().remarks, testing::IsEmpty());
-    messages.push_back(odometry(0, 0));
-    messages.push_back(odometry(0.1, 1));
-    const ReadBag bag = read(messages);
-    EXPECT_EQ(CPose3D(bag.of("points")[0]->sensorPose()).x(), 0);
-    EXPECT_EQ(bag.scans->plan().imu_topic, "");
-    EXPECT_THAT(bag.scans->plan().remarks,
-                ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of "
-                                      "/points to 'base_link'")));
-}
-
 TEST_F(BagScansTest, FieldsThatAreNotUsedAndPointsThatAreNotFiniteAreTold) {
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     const auto withRing = [](double since_s, float ring, float x) {
@@ -487,56 +332,6 @@ TEST_F(BagScansTest, FieldsThatAreNotUsedAndPointsThatAreNotFiniteAreTold) {
                  "is not a number of a beam, and is not used (1 of 3 clouds)"));
 }
 
-TEST_F(BagScansTest, ATransformThatCannotBeReadCostsNoOther) {
-    const auto transforms = [](const std::string& topic) {
-        return test::sentMessage(
-            topic, "tf2_msgs/TFMessage", kStart_s, [](test::MessageBytes& bytes) {
-                bytes.number(std::uint32_t{3});
-                bytes.header(kStart_s, "base_link").text("front").pose(1, 0, 0);
-                bytes.header(kStart_s, "base_link").text("broken");
-                for (int i = 0; i < 7; ++i) bytes.number(0.0);
-                bytes.header(kStart_s, "base_link").text("rear").pose(-1, 0, 0);
-            });
-    };
-    const std::vector<SentMessage> clouds{cloud("/front", 0, "front"), cloud("/rear", 0, "rear"),
-                                          odometry(0, 0), odometry(0.1, 1)};
-    for (const std::string topic : {"/tf_static", "/tf"}) {
-        std::vector<SentMessage> messages = clouds;
-        messages.push_back(transforms(topic));
-        const ReadBag bag = read(messages);
-        EXPECT_NEAR(CPose3D(bag.of("front")[0]->sensorPose()).x(), 1, 1e-9) << topic;
-        EXPECT_NEAR(CPose3D(bag.of("rear")[0]->sensorPose()).x(), -1, 1e-9) << topic;
-        EXPECT_THAT(bag.scans->remarks(),
-                    Contains(topic + ": 1 transform that could not be read, left out; the first: "
-                                     "message 0 (recorded at 1700000000.000 s): from 'base_link' "
-                                     "to 'broken': it is not finite or has no rotation"));
-    }
-}
-
-TEST_F(BagScansTest, PosesThatCannotBeReadAreNamedWithTheReason) {
-    SentMessage cut = odometry(0.1, 1);
-    cut.ros1.resize(60);
-    const ReadBag bag = read({cloud("/points"), odometry(0, 0), cut, odometry(0.2, 2), cut});
-    EXPECT_EQ(bag.scans->plan().poses->poses.size(), 2u);
-    EXPECT_THAT(bag.scans->remarks(),
-                Contains(HasSubstr("/odom: 2 messages that could not be read, left out; the first: "
-                                   "message 1 (recorded at 1700000000.100 s): it ends ")));
-}
-
-TEST_F(BagScansTest, TransformsOfOneFrameFromTwoParentsAreNotMixed) {
-    const ReadBag bag = read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
-                              transform("/tf", "map", "lidar", 100, 0.05),
-                              transform("/tf", "odom", "lidar", 2, 0.1),
-                              transform("/tf", "map", "lidar", 101, 0.15)});
-    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to lidar");
-    ASSERT_EQ(bag.scans->plan().poses->poses.size(), 2u);
-    EXPECT_EQ(bag.scans->plan().poses->poses[1].x_m, 2);
-    EXPECT_THAT(bag.scans->remarks(),
-                Contains("/tf: 2 transforms of a frame that had another parent before, left out; "
-                         "the first: message 1 (recorded at 1700000000.050 s): from 'map' to "
-                         "'lidar', before from 'odom'"));
-}
-
 TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
     const auto livox = [](const std::string& driver) {
         return test::sentMessage("/" + driver, driver + "/CustomMsg", kStart_s,
@@ -548,7 +343,7 @@ TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
                                          bytes.number(std::uint32_t{0});
                                          for (const float part : {x_m, 0.0f, 0.0f})
                                              bytes.number(part);
-                                         bytes.raw(std::string(3, '\1'));
+                                         bytes.raw({'\1', x_m > 0 ? '\7' : '\5', '\3'});
                                      }
                                  });
     };
@@ -559,6 +354,12 @@ TEST_F(BagScansTest, PointsOfALivoxWithoutARangeAreCounted) {
             bag.scans->remarks(),
             Contains(driver + " (/" + driver + "): 1 message, 2 points without a range, left out"));
     }
+    const auto& cloud =
+        dynamic_cast<const CObservationPointCloud&>(*bag.of("livox_ros_driver2")[0]);
+    const auto& fields =
+        dynamic_cast<const observations::LocatedCloud&>(*cloud.pointcloud).otherFields();
+    EXPECT_THAT(columnOf(fields, *findField(fields, {"tag"})), ElementsAre(7));
+    EXPECT_THAT(columnOf(fields, *findField(fields, {"line"})), ElementsAre(3));
 }
 
 TEST_F(BagScansTest, MetadataOfAFolderThatAreNotUsedAreTold) {

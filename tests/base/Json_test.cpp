@@ -64,7 +64,34 @@ TEST(Json, SaysWhatIsExpected) {
     EXPECT_EQ(test::messageOf([&] { json.at("name").items(); }), "expected an array, not: \"x\"");
     EXPECT_EQ(test::messageOf([&] { json.at("name").members(); }),
               "expected an object, not: \"x\"");
-    EXPECT_THAT(test::messageOf([&] { Json::parse("{"); }), HasSubstr("parse error"));
+    EXPECT_EQ(test::messageOf([] { Json::parse(R"([1, "x", 2])").numbers(); }),
+              "item 2 of 3: expected a number, not: \"x\"");
+}
+
+TEST(Json, SaysWhereATextIsNoJson) {
+    const auto faultOf = [](const std::string& text) {
+        return test::messageOf([&] { Json::parse(text); });
+    };
+    EXPECT_EQ(
+        faultOf("{\n \"a\": 1,\n  b: 2}"),
+        "is no JSON: line 3, column 3: unexpected text at '  b'; a name in quotes is expected");
+    EXPECT_EQ(
+        faultOf("{\"a\": [1 2]}"),
+        "is no JSON: line 1, column 10: unexpected text at '{\"a\": [1 2'; ',' or ']' is expected");
+    EXPECT_EQ(
+        faultOf("{\"a\": 1}\n}"),
+        "is no JSON: line 2, column 1: unexpected text at '}'; the end of the text is expected");
+    EXPECT_EQ(
+        faultOf("{\"a\": \"one\ntwo\"}"),
+        "is no JSON: line 1, column 10: text that does not end in its line at '{\"a\": \"one'");
+    EXPECT_EQ(faultOf("[1e999]"), "is no JSON: number overflow parsing '1e999'");
+    // Bytes that a terminal must not see.
+    EXPECT_EQ(faultOf("\xff\x1b"), "is no JSON: line 1, column 1: unexpected text at '?'");
+    for (const std::string cut : {"{", "[1,", "{\"a\": \"b", "{\"a\"", ""}) {
+        EXPECT_EQ(faultOf(cut), "is no JSON: it ends too early; is it cut?") << cut;
+    }
+    // Only what is close to the place, however long the line is.
+    EXPECT_LT(faultOf("[" + std::string(5000, ' ') + "x").size(), 120u);
 }
 
 }  // namespace

@@ -46,5 +46,12 @@ TEST(NumberText, TwoNumbersAroundASeparator) {
     EXPECT_EQ(numbersFrom<int>("4294967297/4294967298", '/'), std::nullopt);
 }
 
+TEST(NumberText, SharesAreRoundedDown) {
+    EXPECT_EQ(percentText(1.0f), "100.0 %");
+    EXPECT_EQ(percentText(0.9999f), "99.9 %");
+    EXPECT_EQ(percentText(0.5f), "50.0 %");
+    EXPECT_EQ(percentText(0.00099f), "0.0 %");
+}
+
 }  // namespace
 }  // namespace hagen::base

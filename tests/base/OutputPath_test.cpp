@@ -93,6 +93,31 @@ TEST(OutputPath, APartNeverReplacesAnother) {
     EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "of another run");
 }
 
+TEST(OutputPath, PartsOfEarlierRunsAreFoundByTheirNames) {
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "a.rawlog", directory = folder / "out.v2";
+    EXPECT_TRUE(partialOutputs(file).empty());
+    EXPECT_TRUE(partialOutputs("").empty());
+    EXPECT_TRUE(partialOutputs(folder / "none/a.rawlog").empty());
+    for (int run = 0; run < 2; ++run) {
+        OutputPath output(file, kFile, true);
+        std::ofstream(output.temporary()) << "half";
+        output.keepPartial();
+        OutputPath parts(directory, kFile, true);
+        fs::create_directory(parts.temporary());
+        parts.keepPartial();
+    }
+    for (const char* other : {"a.partial.mcap", "a.partial-x.rawlog", "a.partial-.rawlog",
+                              "ab.partial.rawlog", "a.partial", "out.partial"}) {
+        folder.write(other, "of somebody");
+    }
+    EXPECT_THAT(partialOutputs(file),
+                testing::ElementsAre(folder / "a.partial-2.rawlog", folder / "a.partial.rawlog"));
+    fs::create_directory(directory);
+    EXPECT_THAT(partialOutputs(directory),
+                testing::ElementsAre(folder / "out.v2.partial", folder / "out.v2.partial-2"));
+}
+
 TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {
     const test::TemporaryFolder folder;
     OutputPath output(folder / "a.rawlog", kFile, false);

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/captures/LivoxCapture.h>
+#include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/ObservationScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 
 #include <cmath>
 #include <string>
@@ -22,6 +24,7 @@ using testing::HasSubstr;
 struct Point {
     int x, y, z;  ///< in the unit of the packet
     int reflectivity;
+    int tag = 0;
 };
 
 void put(std::string& bytes, std::int64_t value, int size) {
@@ -45,7 +48,7 @@ std::string packetOf(const std::vector<Point>& points, std::int64_t time_ns, int
     for (const Point& point : points) {
         for (const int value : {point.x, point.y, point.z}) put(bytes, value, size);
         put(bytes, point.reflectivity, 1);
-        put(bytes, 0, 1);
+        put(bytes, point.tag, 1);
     }
     return bytes;
 }
@@ -112,6 +115,36 @@ TEST_F(LivoxCaptureTest, PointsOfBothKindsOfData) {
         EXPECT_THAT(scan.time_s, ElementsAre(0.0f, FloatNear(320e-6f, 1e-9f)));
         EXPECT_EQ(scan.row.size(), 2u);
     }
+}
+
+TEST_F(LivoxCaptureTest, TheTagOfEachPointStaysWithIt) {
+    const std::vector<Point> first{{1000, 0, 0, 1, 16}, {0, 0, 0, 2, 99}, {2000, 0, 0, 3, 255}};
+    const auto scans =
+        read(captureOf({packetOf(first, 0, 0), packetOf({{3000, 0, 0, 4, 7}}, 480000, 1, 2),
+                        packetOf({{4000, 0, 0, 5, 8}}, 100000000, 2)})
+                 .bytes());
+    ASSERT_EQ(scans.size(), 2u);
+    const auto tagsOf = [&](std::size_t scan) {
+        const auto& observation =
+            dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*scans[scan]);
+        const observations::PointTable fields =
+            dynamic_cast<const observations::LocatedCloud&>(*observation.pointcloud).otherFields();
+        return columnOf(fields, *findField(fields, {"tag"}));
+    };
+    EXPECT_THAT(tagsOf(0), ElementsAre(16, 255, 7));
+    EXPECT_THAT(tagsOf(1), ElementsAre(8));
+}
+
+TEST_F(LivoxCaptureTest, PacketsOfTheImuAreCounted) {
+    std::string imu = packetOf({}, 0, 0, 0).substr(0, 36) + std::string(24, '\x3f');
+    imu[1] = 60;
+    std::string other = imu;
+    other[10] = 9;
+    EXPECT_EQ(read(captureOf({imu, packetOf({{1000, 0, 0, 1}}, 0, 0), imu, other}).bytes()).size(),
+              1u);
+    EXPECT_THAT(remarks_.back(),
+                HasSubstr("left out: 2 IMU packets (rates and accelerations, no attitude), 1 other "
+                          "UDP datagram"));
 }
 
 TEST_F(LivoxCaptureTest, AScanIsATenthOfASecondByTheSensorsClock) {

@@ -76,8 +76,16 @@ class OusterCaptureTest : public testing::Test {
     std::vector<std::string> remarks_;
 };
 
-const char* const kProfiles[] = {"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL",
-                                 "RNG15_RFL8_NIR8"};
+const char* const kProfiles[] = {"LEGACY",
+                                 "RNG19_RFL8_SIG16_NIR16",
+                                 "RNG19_RFL8_SIG16_NIR16_DUAL",
+                                 "RNG19_RFL8_SIG16_NIR16_ZONE16",
+                                 "RNG15_RFL8_NIR8",
+                                 "RNG15_RFL8_WIN8",
+                                 "RNG15_RFL8_NIR8_ZONE16",
+                                 "RNG15_RFL8_NIR8_DUAL",
+                                 "FUSA_RNG15_RFL8_NIR8_DUAL",
+                                 "FIVE_WORD_PIXEL"};
 
 TEST_F(OusterCaptureTest, FramesComeBackAsTheyWereSentInEveryProfile) {
     for (const std::string profile : kProfiles) {
@@ -129,7 +137,7 @@ TEST_F(OusterCaptureTest, ReturnsAreWhereTheSensorsGeometryPutsThem) {
         ASSERT_EQ(scans.size(), 1u);
         EXPECT_EQ(broken_, "");
         const Scan scan = scanOf(*scans[0]);
-        const double unit_m = profile == "RNG15_RFL8_NIR8" ? 0.008 : 0.001;
+        const double unit_m = profile.find("RNG15") == std::string::npos ? 0.001 : 0.008;
         std::size_t i = 0;
         const auto expectReturn = [&](std::size_t pixel, std::size_t column, double range_m,
                                       std::uint8_t reflectivity) {
@@ -160,6 +168,14 @@ TEST_F(OusterCaptureTest, ReturnsAreWhereTheSensorsGeometryPutsThem) {
         EXPECT_NEAR(scans[0]->sensorPose.z(), 0.03618, 1e-9);
         EXPECT_EQ(scans[0]->sensorLabel, "ouster");
     }
+}
+
+TEST_F(OusterCaptureTest, PacketsOfFunctionalSafetyOfAnotherSensorAreNamed) {
+    const OusterSensor sensor = sensorOf("FUSA_RNG15_RFL8_NIR8_DUAL");
+    const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
+    json_ = folder_.write("other.json", test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL", "123"));
+    EXPECT_TRUE(read(bytes).empty());
+    EXPECT_THAT(broken_, HasSubstr("8 packets of the sensor with serial number 992137000142"));
 }
 
 TEST_F(OusterCaptureTest, TheFirstColumnLooksForward) {

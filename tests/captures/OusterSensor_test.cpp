@@ -58,6 +58,27 @@ TEST_F(OusterSensorTest, PacketsHaveTheSizesOfTheManual) {
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16", 128), 24832u);
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_DUAL", 128), 33024u);
     EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8", 128), 8448u);
+    // Of the SDK: 32 bytes before and behind 16 columns of 12 bytes and these per pixel.
+    EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_ZONE16", 128), 64u + 16 * (12 + 128 * 12));
+    EXPECT_EQ(bytesOf("RNG15_RFL8_WIN8", 128), 64u + 16 * (12 + 128 * 4));
+    EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8_ZONE16", 128), 64u + 16 * (12 + 128 * 8));
+    EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8_DUAL", 128), 64u + 16 * (12 + 128 * 8));
+    EXPECT_EQ(bytesOf("FUSA_RNG15_RFL8_NIR8_DUAL", 128), 64u + 16 * (12 + 128 * 8));
+    EXPECT_EQ(bytesOf("FIVE_WORD_PIXEL", 128), 64u + 16 * (12 + 128 * 20));
+}
+
+TEST_F(OusterSensorTest, TheHeaderOfPacketsIsAsTheMetadataSayOrTheProfile) {
+    const auto withHeader = [&](const std::string& profile, const std::string& header) {
+        std::string json = test::ousterJson(profile);
+        json.insert(1, "\"header_type\": \"" + header + "\", ");
+        return read(json);
+    };
+    EXPECT_FALSE(read(test::ousterJson("RNG15_RFL8_NIR8_DUAL")).has_fusa_header);
+    EXPECT_TRUE(read(test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL")).has_fusa_header);
+    EXPECT_TRUE(withHeader("RNG15_RFL8_NIR8_DUAL", "FUSA").has_fusa_header);
+    EXPECT_FALSE(withHeader("FUSA_RNG15_RFL8_NIR8_DUAL", "STANDARD").has_fusa_header);
+    EXPECT_THAT(test::messageOf([&] { withHeader("RNG15_RFL8_NIR8", "NEW"); }),
+                HasSubstr("'header_type' is 'NEW', not 'STANDARD' or 'FUSA'"));
 }
 
 TEST_F(OusterSensorTest, MetadataInSectionsAsSinceFirmware3) {
@@ -98,8 +119,9 @@ TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
                 HasSubstr("larger than 1 MB"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(500000, '[')); }),
                 HasSubstr("nested too deeply"));
-    EXPECT_THAT(messageWith("\"RNG19_RFL8_SIG16_NIR16\"", "\"FIVE_WORD_PIXEL\""),
-                HasSubstr("'FIVE_WORD_PIXEL', which is not supported; known are LEGACY, RNG19"));
+    const std::string unknown = messageWith("\"RNG19_RFL8_SIG16_NIR16\"", "\"SIX_WORD_PIXEL\"");
+    EXPECT_THAT(unknown, HasSubstr("'SIX_WORD_PIXEL', which is not supported; known are LEGACY"));
+    EXPECT_THAT(unknown, HasSubstr("FIVE_WORD_PIXEL. Set one of these in the sensor's"));
     EXPECT_THAT(messageWith("\"pixels_per_column\": 4", "\"pixels_per_column\": 5"),
                 HasSubstr("'beam_altitude_angles' has 4 numbers, not 5"));
     EXPECT_THAT(messageWith("\"pixels_per_column\": 4", "\"pixels_per_column\": 4000000000"),
@@ -110,7 +132,20 @@ TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
                 HasSubstr("'columns_per_packet' is 0"));
     EXPECT_THAT(messageWith("[0, 63]", "[0, 64]"), HasSubstr("'column_window'"));
     EXPECT_THAT(messageWith("[40.0, 15.0", "[40.0, 40.0"), HasSubstr("beam_altitude_angles"));
-    EXPECT_THAT(messageWith("[40.0", "[\"up\""), HasSubstr("sensor.json: not metadata"));
+    EXPECT_THAT(messageWith("[40.0", "[\"up\""),
+                HasSubstr("sensor.json: not metadata of an Ouster: 'beam_altitude_angles': item 1 "
+                          "of 4: expected a number, not: \"up\""));
+    EXPECT_THAT(messageWith("\"OS-0-32-U1\"", "7"),
+                HasSubstr("'prod_line': expected text, not: 7"));
+    EXPECT_THAT(messageWith("\"pixels_per_column\": 4", "\"pixels_per_column\": 4.5"),
+                HasSubstr("'pixels_per_column': expected an integer of at least 0, not: 4.5"));
+    EXPECT_THAT(messageWith("27.67", "\"far\""),
+                HasSubstr("'lidar_origin_to_beam_origin_mm': expected a number"));
+    EXPECT_THAT(messageWith("\"prod_sn\"", "prod_sn"),
+                HasSubstr("sensor.json: not metadata of an Ouster: is no JSON: line 1, column 29: "
+                          "unexpected text at '...ne\": \"OS-0-32-U1\", p'"));
+    EXPECT_THAT(test::messageOf([&] { read("\xff\xd8\xff\xe0"); }),
+                HasSubstr("not metadata of an Ouster: it seems to be a JPEG picture"));
     EXPECT_THAT(messageWith("[40.0", "[140.0"), HasSubstr("outside +-90"));
     EXPECT_THAT(messageWith("[-1, 0, 0, 0,", "[-2, 0, 0, 0,"), HasSubstr("not a rigid"));
     EXPECT_THAT(messageWith("27.67", "1e300"), HasSubstr("not within a metre"));

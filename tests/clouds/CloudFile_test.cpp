@@ -441,7 +441,12 @@ TEST_F(CloudFileTest, BinFilesMayBeEmptyButNotCut) {
     EXPECT_EQ(read("a.bin", "").table.points, 0u);
     EXPECT_THAT(complaint("a", ""), HasSubstr("is empty"));
     EXPECT_THAT(complaint("a.bin", std::string(15, '\0')), HasSubstr("15 bytes"));
-    EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("none that a LiDAR sees"));
+    EXPECT_THAT(complaint("a.bin", std::string(16, '\xee')),
+                HasSubstr("no point cloud: its first numbers are no points that a LiDAR sees"));
+    EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("it seems to be text. Known"));
+    // A picture is no cut .bin, whatever its size.
+    EXPECT_THAT(complaint("a.bin", "\xff\xd8\xff\xe0" + std::string(13, '\xee')),
+                HasSubstr("it seems to be a JPEG picture"));
 }
 
 TEST_F(CloudFileTest, BinPointsMayHaveRings) {

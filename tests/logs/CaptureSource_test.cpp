@@ -206,7 +206,10 @@ TEST_F(OusterSourceTest, MetadataAreForCapturesOnly) {
                 HasSubstr("a.rawlog: is no capture (.pcap, .pcapng) and no ROS recording, so there "
                           "is no sensor "));
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_.path(), options_); }),
-                HasSubstr("is no capture"));
+                HasSubstr("is a folder with 2 recordings"));
+    options_.sensor_json = capture_;
+    EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "a.rawlog", options_); }),
+                HasSubstr("are the two files exchanged?"));
     options_.sensor_json = folder_ / "none.json";
     EXPECT_THAT(test::messageOf([&] { openRecording(capture_, options_); }),
                 HasSubstr("none.json: not metadata of an Ouster: cannot be opened"));

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/clouds/WriteCloud.h>
-#include <hagen/logs/Conversion.h>
-#include <hagen/logs/RawlogWriter.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/TableCloud.h>
@@ -11,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "support/Program.h"
-#include "support/SimpleFirings.h"
+#include "support/BagWriter.h"
+#include "support/PoleConversion.h"
 
 namespace hagen::logs {
 namespace {
@@ -20,33 +18,19 @@ namespace {
 namespace fs = std::filesystem;
 using observations::NumberType;
 using observations::PointTable;
+using test::column;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-std::vector<double> column(const PointTable& table, const char* name) {
-    const auto* const field = findField(table, {name});
-    EXPECT_NE(field, nullptr) << name;
-    return field == nullptr ? std::vector<double>() : columnOf(table, *field);
-}
-
-class CloudOutputTest : public testing::TestWithParam<clouds::OutputFormat> {
+class CloudOutputTest : public test::PoleConversion,
+                        public testing::TestWithParam<clouds::OutputFormat> {
  protected:
     CloudOutputTest() {
-        const auto packets = test::poleScanFrom(0, "lidar");
-        observations::readObservation(*packets, {}, observed_);
         conversion_.clouds = folder_ / "labelled";
         conversion_.cloud_format = GetParam();
-        conversion_.settings.sensor.model = "VLP-16";
-    }
-    ConversionReport convertCounting() {
-        ConversionListener listener;
-        listener.remark = [&](const std::string& what, const std::string& remark) {
-            remarks_.push_back(what + ": " + remark);
-        };
-        return convert(conversion_, listener);
     }
     PointTable labelled(const std::string& name) const {
         return clouds::readCloud(conversion_.clouds / (name + extensionOf(GetParam()))).table;
@@ -65,18 +49,31 @@ class CloudOutputTest : public testing::TestWithParam<clouds::OutputFormat> {
         addColumn("label", NumberType::UInt8, numbers, table);
         return table;
     }
-    fs::path writeRawlog(const std::vector<mrpt::obs::CObservation::Ptr>& scans) const {
-        RawlogWriter writer(folder_ / "in.rawlog", true);
-        for (const auto& scan : scans) writer.write(*scan);
-        writer.commit();
-        return folder_ / "in.rawlog";
-    }
-
-    test::TemporaryFolder folder_;
-    observations::ObservedScan observed_;
-    Conversion conversion_;
-    std::vector<std::string> remarks_;
 };
+
+TEST_P(CloudOutputTest, PointsOfALivoxHaveTheirTagsAndLines) {
+    const auto write = [](test::MessageBytes& bytes) {
+        bytes.header(1700000000, "livox").number(std::uint64_t{0}).number(std::uint32_t{500});
+        bytes.raw(std::string(4, '\0')).number(std::uint32_t{500});
+        for (int i = 0; i < 500; ++i) {
+            bytes.number(std::uint32_t{0}).number(5.0f).number(0.01f * static_cast<float>(i));
+            bytes.number(-1.0f).number(std::uint8_t{9});
+            bytes.number(static_cast<std::uint8_t>(i % 250));
+            bytes.number(static_cast<std::uint8_t>(i % 4));
+        }
+    };
+    conversion_.input = test::writeBytes(
+        folder_ / "in.bag", test::ros1BagOf({test::sentMessage(
+                                "/livox", "livox_ros_driver2/CustomMsg", 1700000000, write)}));
+    conversion_.settings.sensor.model = "Mid-360";
+    convertCounting();
+    const auto tags = column(labelled("000000"), "tag");
+    const auto lines = column(labelled("000000"), "line");
+    ASSERT_EQ(tags.size(), 500u);
+    EXPECT_EQ(tags[249], 249);
+    EXPECT_EQ(tags[250], 0);
+    EXPECT_EQ(lines[6], 2);
+}
 
 TEST_P(CloudOutputTest, AllFieldsOfTheInputAreThereWithTheLabelsOfTheScanFolder) {
     const PointTable input = tableOfScan();

@@ -10,6 +10,7 @@
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation3DScene.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -447,6 +448,57 @@ TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
                     HasSubstr("no converted entry has a LiDAR scan of 'rear'; there are 'front'"));
     }
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+}
+
+TEST_P(ConversionTest, ALogWithoutScansSaysWhatItHas) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(pose());
+    frame->insert(mrpt::obs::CObservationIMU::Create());
+    writeLog({pose(), mrpt::obs::CActionCollection::Create(), frame, pose(), scanFrom(0)});
+    std::vector<std::string> remarks;
+    Conversion before_the_scan = conversion();
+    before_the_scan.to = 3;
+    convert(before_the_scan, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::ElementsAre(
+                             "the recording: no converted entry has a LiDAR scan "
+                             "(CObservationVelodyneScan or CObservationPointCloud); they have "
+                             "1 CActionCollection, 1 CObservationIMU, 3 CObservationRobotPose"));
+    remarks.clear();
+    Conversion whole = conversion();
+    whole.overwrite = true;
+    convert(whole, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::Each(testing::Not(HasSubstr("no converted entry"))));
+}
+
+TEST_P(ConversionTest, AScanBeforeTheFirstAttitudeIsNamed) {
+    const auto first = scanFrom(0), second = scanFrom(1);
+    auto attitude = mrpt::obs::CObservationRobotPose::Create();
+    attitude->timestamp = second->timestamp;
+    writeLog({first, attitude, second});
+    const ConversionReport report = convert(conversion());
+    EXPECT_EQ(report.scans_with_attitude, 1u);
+    EXPECT_EQ(report.first_without_attitude, "entry 0 (lidar)");
+    EXPECT_FALSE(report.is_attitude_of_poses);
+    writeLog({attitude, second});
+    Conversion again = conversion();
+    again.overwrite = true;
+    EXPECT_EQ(convert(again).first_without_attitude, "");
+}
+
+TEST_P(ConversionTest, WhatRunsThatBrokeOffHaveLeftIsNamedByTheOneThatDoesNot) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    ConversionListener stops;
+    for (int run = 0; run < 2; ++run) {
+        stops.keep_going = [entries = 0]() mutable { return ++entries < 2; };
+        EXPECT_THROW(convert(conversion(), stops), Interrupted);
+    }
+    std::vector<std::string> remarks;
+    convert(conversion(), remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::Contains("the outputs: earlier runs that broke off left " +
+                                           (folder_ / "out.partial-2.rawlog").string() + ", " +
+                                           (folder_ / "out.partial.rawlog").string() +
+                                           "; delete what you do not need"));
+    EXPECT_TRUE(fs::exists(folder_ / "out.partial.rawlog"));
 }
 
 TEST_P(ConversionTest, EntriesFromAndToAreIncluded) {

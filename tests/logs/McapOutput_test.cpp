@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <hagen/bags/BagFile.h>
 #include <hagen/clouds/WriteCloud.h>
-#include <hagen/logs/Conversion.h>
-#include <hagen/logs/RawlogWriter.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/ObservationScan.h>
@@ -13,8 +11,7 @@
 #include <limits>
 #include <map>
 
-#include "support/Program.h"
-#include "support/SimpleFirings.h"
+#include "support/PoleConversion.h"
 
 namespace hagen::logs {
 namespace {
@@ -22,32 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 using observations::NumberType;
 using observations::PointTable;
+using test::column;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
 
-std::vector<double> column(const PointTable& table, const char* name) {
-    const auto* const field = findField(table, {name});
-    EXPECT_NE(field, nullptr) << name;
-    return field == nullptr ? std::vector<double>() : columnOf(table, *field);
-}
-
-class McapOutputTest : public testing::Test {
+class McapOutputTest : public test::PoleConversion, public testing::Test {
  protected:
-    McapOutputTest() {
-        observations::readObservation(*test::poleScanFrom(0, "lidar"), {}, observed_);
-        conversion_.mcap = folder_ / "out.mcap";
-        conversion_.settings.sensor.model = "VLP-16";
-    }
-    ConversionReport convertCounting() {
-        ConversionListener listener;
-        listener.remark = [&](const std::string& what, const std::string& remark) {
-            remarks_.push_back(what + ": " + remark);
-        };
-        return convert(conversion_, listener);
-    }
+    McapOutputTest() { conversion_.mcap = folder_ / "out.mcap"; }
     /// The scan with two points more that are no returns, and fields of other types.
     PointTable tableOfScan() const {
         const PointTable scan = observations::tableOf(observed_.scan);
@@ -72,12 +53,6 @@ class McapOutputTest : public testing::Test {
         addColumn("label", NumberType::UInt8, numbers, table);
         return table;
     }
-    fs::path writeRawlog(const std::vector<mrpt::obs::CObservation::Ptr>& scans) const {
-        RawlogWriter writer(folder_ / "in.rawlog", true);
-        for (const auto& scan : scans) writer.write(*scan);
-        writer.commit();
-        return folder_ / "in.rawlog";
-    }
     /// The clouds that our own reader finds in an output.
     static std::vector<mrpt::obs::CObservation::ConstPtr> cloudsOf(const fs::path& file,
                                                                    const std::string& topic) {
@@ -96,11 +71,6 @@ class McapOutputTest : public testing::Test {
             ++topics[bag->topics()[message.topic].name];
         return topics;
     }
-
-    test::TemporaryFolder folder_;
-    observations::ObservedScan observed_;
-    Conversion conversion_;
-    std::vector<std::string> remarks_;
 };
 
 TEST_F(McapOutputTest, OurReaderGivesBackAllPointsAndFields) {

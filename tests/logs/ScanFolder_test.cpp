@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "support/CloudFiles.h"
 #include "support/Program.h"
 #include "support/Random.h"
 
@@ -56,6 +57,34 @@ TEST_F(ScanFolderTest, ScansComeBackBitByBit) {
     EXPECT_EQ(again.y_m, scan.y_m);
 }
 
+TEST_F(ScanFolderTest, PointsOfNuScenesAreReadWithoutTheirRings) {
+    const auto points = test::filePoints(40);
+    Scan scan;
+    readScan(folder_.write("a.pcd.bin", test::binWithRings(points)), scan);
+    ASSERT_EQ(scan.size(), 40u);
+    for (std::size_t i = 0; i < 40; ++i) {
+        EXPECT_EQ(scan.x_m[i], points[i].x_m);
+        EXPECT_EQ(scan.z_m[i], points[i].z_m);
+        EXPECT_FLOAT_EQ(scan.intensity[i], 17.0f / 255);
+    }
+    const auto cut = folder_.write("cut.pcd.bin", test::binWithRings(points) + "1234");
+    EXPECT_THAT(test::messageOf([&] { readScan(cut, scan); }),
+                HasSubstr("cut.pcd.bin: 804 bytes are not a multiple of 20-byte points"));
+}
+
+TEST_F(ScanFolderTest, FilesThatAreSomethingElseAreNamed) {
+    Scan scan;
+    const auto picture = folder_.write("a.bin", "\xff\xd8\xff\xe0" + std::string(28, '\xee'));
+    EXPECT_THAT(test::messageOf([&] { readScan(picture, scan); }),
+                HasSubstr("a.bin: has no points: it seems to be a JPEG picture"));
+    // Farther than a LiDAR sees, and yet points.
+    Scan far;
+    for (auto* numbers : {&far.x_m, &far.y_m, &far.z_m, &far.intensity}) *numbers = {1e5f, 2e5f};
+    writeScan(folder_ / "far.bin", far);
+    readScan(folder_ / "far.bin", scan);
+    EXPECT_EQ(scan.x_m, far.x_m);
+}
+
 TEST_F(ScanFolderTest, LabelFilesHaveTheLabelLowAndTheComponentHigh) {
     writeLabels(folder_ / "a.label", {Label::Unclassified, Label::Rou, Label::Roi, Label::Roi},
                 {0, 0, 3, 1234567});
@@ -68,7 +97,7 @@ TEST_F(ScanFolderTest, FilesThatAreMissingOrCutOffAreNamed) {
     Scan scan;
     EXPECT_THAT(test::messageOf([&] { readScan(folder_ / "none.bin", scan); }),
                 HasSubstr("none.bin"));
-    folder_.write("cut.bin", std::string(17, 'x'));
+    folder_.write("cut.bin", std::string(17, '\x81'));
     const std::string message = test::messageOf([&] { readScan(folder_ / "cut.bin", scan); });
     EXPECT_THAT(message, HasSubstr("cut.bin"));
     EXPECT_THAT(message, HasSubstr("17 bytes"));

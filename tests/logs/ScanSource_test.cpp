@@ -23,6 +23,7 @@ namespace {
 using mrpt::poses::CPose3D;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace fs = std::filesystem;
 using Entries = std::vector<mrpt::serialization::CSerializable::Ptr>;
@@ -426,12 +427,42 @@ TEST_F(ScanSourceTest, ABrokenScanFileIsNamed) {
     EXPECT_THAT(test::messageOf([&] { source->nextScan(); }), HasSubstr("000001.bin: 10 bytes"));
 }
 
+TEST_F(ScanSourceTest, OfAFolderOfRecordingsOneIsToBeNamed) {
+    const std::string capture("\xd4\xc3\xb2\xa1", 4);
+    folder_.write("flights/notes.txt", "two flights");
+    folder_.write("flights/b.pcap", capture);
+    const auto messageOf = [&] {
+        return test::messageOf([&] { openRecording(folder_ / "flights"); });
+    };
+    EXPECT_THAT(messageOf(), HasSubstr("flights: is a folder with one recording, which is read by "
+                                       "its own name: " +
+                                       (folder_ / "flights/b.pcap").string()));
+    folder_.write("flights/a.bag", "#ROSBAG V2.0\n");
+    folder_.write("flights/c.rawlog", "");
+    EXPECT_THAT(messageOf(), HasSubstr("flights: is a folder with 3 recordings, which are not read "
+                                       "in one go: name one of them, such as " +
+                                       (folder_ / "flights/a.bag").string()));
+    // Clouds beside them are read.
+    folder_.write("flights/1.bin", "");
+    EXPECT_TRUE(openRecording(folder_ / "flights"));
+}
+
+TEST_F(ScanSourceTest, ScansDeeperInAFolderAreNamed) {
+    folder_.write("data/samples/LIDAR_TOP/1.pcd.bin", "");
+    const std::string message = test::messageOf([&] { openRecording(folder_ / "data"); });
+    EXPECT_THAT(message, HasSubstr("data: not a scan folder"));
+    EXPECT_THAT(message,
+                HasSubstr("; there are scans in " + (folder_ / "data/samples/LIDAR_TOP").string()));
+}
+
 TEST_F(ScanSourceTest, NamesWhatCannotBeOpened) {
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "none.rawlog"); }),
                 HasSubstr("none.rawlog: no such file or folder"));
     fs::create_directories(folder_ / "empty");
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "empty"); }),
                 HasSubstr("empty: not a scan folder"));
+    EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "empty"); }),
+                Not(HasSubstr("there are scans in")));
     EXPECT_THAT(test::messageOf([&] { openRecording(scanFolderOf(2, "1001\n")); }),
                 HasSubstr("times.txt: has 1 lines for 2 scans"));
 }

@@ -5,6 +5,7 @@
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/ObservationScan.h>
+#include <mrpt/core/aligned_std_vector.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/stl_serialization.h>
@@ -93,6 +94,22 @@ void expectTwoPoints(const mrpt::serialization::CSerializable& object) {
     EXPECT_THAT(cloud->getPointsBufferRef_x(), ElementsAre(1, 2));
     EXPECT_THAT(cloud->getPointsBufferRef_y(), ElementsAre(3, 4));
     EXPECT_THAT(cloud->getPointsBufferRef_z(), ElementsAre(5, 6));
+}
+
+/// A cloud of version 2, whose vectors MRPT itself writes.
+std::string cloudWithVectors() {
+    const auto vector = [](const auto& values) {
+        mrpt::io::CMemoryStream stream;
+        auto archive = mrpt::serialization::archiveFrom(stream);
+        archive << values;
+        return std::string(static_cast<const char*>(stream.getRawBufferData()),
+                           static_cast<std::size_t>(stream.getTotalBytesCount()));
+    };
+    return objectOf(
+        kGeneric, 2,
+        coordinates() + kNone + kOne + rawText("gps_time") +
+            vector(mrpt::aligned_std_vector<double>{1.5, 2.5}) + kOne + rawText("ring") +
+            vector(mrpt::aligned_std_vector<std::uint16_t>{7, 65535}) + kNone + options());
 }
 
 TEST(NewerClouds, AGenericCloudIsReadAndWrittenAsOneWithIntensities) {
@@ -271,7 +288,7 @@ TEST(NewerClouds, ANewerVersionThanKnownIsRefused) {
 }
 
 TEST(NewerClouds, ACutCloudThrowsWhereverItIsCut) {
-    for (const std::string& whole : {genericCloud(), simpleClouds().second}) {
+    for (const std::string& whole : {genericCloud(), cloudWithVectors(), simpleClouds().second}) {
         for (std::size_t size = 0; size < whole.size(); ++size) {
             EXPECT_ANY_THROW(read(whole.substr(0, size))) << size;
         }
@@ -284,10 +301,39 @@ TEST(NewerClouds, AWrongNumberOfPointsDoesNotTakeAllMemory) {
     EXPECT_ANY_THROW(read(bytes));
 }
 
+TEST(NewerClouds, VectorsThatMrptWroteAreRead) {
+    const auto object = read(cloudWithVectors());
+    expectTwoPoints(*object);
+    const PointTable* const others =
+        otherFieldsOf(dynamic_cast<const mrpt::maps::CPointsMap&>(*object));
+    ASSERT_NE(others, nullptr);
+    EXPECT_EQ(namesOf(*others), "gps_time, ring");
+    EXPECT_THAT(columnOf(*others, others->fields[0]), ElementsAre(1.5, 2.5));
+    EXPECT_THAT(columnOf(*others, others->fields[1]), ElementsAre(7, 65535));
+}
+
+TEST(NewerClouds, AWrongNumberOfValuesOrLettersDoesNotTakeAllMemory) {
+    const std::string whole = cloudWithVectors();
+    for (const std::string before : {"double", "uint16_t", "gps_time", "ring"}) {
+        std::string bytes = whole;
+        // Behind the name of a type is the number of values; behind that of a field, of letters.
+        bytes.replace(bytes.find(before) + before.size(), 4, raw(std::uint32_t{0xffffffff}));
+        try {
+            read(bytes);
+            FAIL() << before;
+        } catch (const std::bad_alloc&) {
+            FAIL() << before << ": asks for all memory";
+        } catch (const std::exception&) {
+        }
+    }
+}
+
 TEST(NewerClouds, NoDamageCrashesIt) {
     test::Random random(4);
     for (int round = 0; round < 200; ++round) {
-        std::string bytes = random.chance(0.5) ? genericCloud() : simpleClouds().second;
+        std::string bytes = random.chance(0.5)   ? genericCloud()
+                            : random.chance(0.5) ? cloudWithVectors()
+                                                 : simpleClouds().second;
         for (int i = random.whole(1, 5); i > 0; --i) {
             bytes[static_cast<std::size_t>(random.whole(0, static_cast<int>(bytes.size()) - 1))] =
                 static_cast<char>(random.whole(0, 255));

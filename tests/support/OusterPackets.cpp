@@ -20,20 +20,36 @@ void putPixel(std::string& bytes, const captures::OusterProfile& profile,
         put(pixel, frame.reflectivity[at], 2);
         put(pixel, 0x1234, 2);
         put(pixel, 0x5678, 4);
-    } else if (profile.name == "RNG19_RFL8_SIG16_NIR16") {
+    } else if (profile.name == "RNG19_RFL8_SIG16_NIR16" ||
+               profile.name == "RNG19_RFL8_SIG16_NIR16_ZONE16") {
         put(pixel, frame.range[at] | flags, 4);
-        put(pixel, frame.reflectivity[at], 2);
-        put(pixel, 0x12345678, 6);
+        put(pixel, frame.reflectivity[at], 1);
+        put(pixel, 0x12345678, 7);
     } else if (profile.name == "RNG19_RFL8_SIG16_NIR16_DUAL") {
         put(pixel, frame.range[at] | flags, 3);
         put(pixel, frame.reflectivity[at], 1);
         put(pixel, frame.second_range[at] | flags, 3);
         put(pixel, frame.second_reflectivity[at], 1);
         put(pixel, 0x123456789abcdef0, 8);
-    } else {  // RNG15_RFL8_NIR8
+    } else if (profile.name == "FIVE_WORD_PIXEL") {  // 19 bits of range, 5 of flags, 8, and again
+        put(pixel, frame.range[at] | flags, 3);
+        put(pixel, frame.reflectivity[at], 1);
+        put(pixel, frame.second_range[at] | flags, 3);
+        put(pixel, frame.second_reflectivity[at], 1);
+        put(pixel, 0x123456789abcdef0, 8);
+        put(pixel, 0xffffffff, 4);
+    } else {  // RNG15_RFL8_NIR8 and what begins like it: 15 bits of range, 1 of flags, 8, 8
         put(pixel, frame.range[at] | 0x8000, 2);
         put(pixel, frame.reflectivity[at], 1);
         put(pixel, 0x77, 1);
+        if (profile.name == "RNG15_RFL8_NIR8_ZONE16") {
+            put(pixel, 0xffffffff, 4);
+        } else if (profile.name == "RNG15_RFL8_NIR8_DUAL" ||
+                   profile.name == "FUSA_RNG15_RFL8_NIR8_DUAL") {
+            put(pixel, frame.second_range[at] | 0x8000, 2);
+            put(pixel, frame.second_reflectivity[at], 1);
+            put(pixel, 0x88, 1);
+        }
     }
     bytes += pixel;
 }
@@ -59,7 +75,14 @@ std::vector<std::string> packetsOf(const captures::OusterSensor& sensor,
     std::vector<std::string> packets;
     for (std::size_t first = 0; first < frame.columns; first += sensor.columns_per_packet) {
         std::string bytes;
-        if (!is_legacy) {
+        if (sensor.has_fusa_header) {
+            put(bytes, 1, 1);
+            put(bytes, 4711, 3);
+            put(bytes, 0x70000u + frame.id, 4);
+            put(bytes, 0x990099, 3);
+            put(bytes, sensor.serial.empty() ? 0 : std::stoull(sensor.serial), 5);
+            bytes += std::string(16, '\x55');
+        } else if (!is_legacy) {
             put(bytes, 1, 2);
             put(bytes, frame.id, 2);
             put(bytes, 4711, 3);

@@ -11,8 +11,8 @@ namespace hagen::test {
 std::string ousterJson(const std::string& profile = "RNG19_RFL8_SIG16_NIR16",
                        const std::string& serial = "992137000142");
 
-/// The packets of a frame, by the maker's manual; each holds what the frame has in its columns. The
-/// serial number is that of `sensor`.
+/// The packets of a frame, by the maker's manual and SDK; each holds what the frame has in its
+/// columns. The serial number is that of `sensor`.
 std::vector<std::string> packetsOf(const captures::OusterSensor& sensor,
                                    const captures::OusterFrame& frame);
 

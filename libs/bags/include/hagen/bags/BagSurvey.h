@@ -45,7 +45,10 @@ struct LeftOut {
     Kind messages;       ///< that could not be read
     Kind transforms;     ///< without a pose, in messages that could be read
     Kind other_parents;  ///< transforms of a frame that had another parent before
+    Kind further;        ///< transforms of frames beyond the most that are kept
 };
+
+constexpr std::size_t kMostMovingFrames = 1000;  ///< of tf; of tf_static: FrameTree::kMostFrames
 
 /// What must be known about a bag before its first scan is read. A static transform, the metadata
 /// of a sensor or a pose may come after the scan that needs it.

@@ -1,6 +1,7 @@
 #pragma once
 #include <mrpt/poses/CPose3D.h>
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,8 +11,11 @@ namespace hagen::bags {
 /// Frames that do not move against each other, by tf_static.
 class FrameTree {
  public:
-    /// The pose of `child` in `parent`. A later one replaces it.
-    void add(const std::string& parent, const std::string& child, const mrpt::poses::CPose3D& pose);
+    static constexpr std::size_t kMostFrames = 10000;
+
+    /// The pose of `child` in `parent`. A later one replaces it. False, and nothing is added, for a
+    /// frame on itself, and if there are kMostFrames others.
+    bool add(const std::string& parent, const std::string& child, const mrpt::poses::CPose3D& pose);
 
     bool has(const std::string& frame) const;
     /// The frame that this one hangs on in the end; itself if on none. Ends where frames go round

@@ -49,7 +49,8 @@ class Json {
 
     static Json object();
     static Json array(std::initializer_list<Json> items = {});
-    /// Parses a text. Throws std::runtime_error, saying where it is not JSON.
+    /// Parses a text. Throws std::runtime_error: "is no JSON: line 3, column 7: ...", or that it
+    /// ends too early.
     static Json parse(const std::string& text);
 
     /// The value of a key; a new key gets null. Null becomes an object; any other type throws

@@ -50,6 +50,10 @@ class OutputPath {
     bool overwrites_;
 };
 
+/// What keepPartial() left of an output, sorted by name: all partial names of its path that there
+/// are. Empty for an empty path.
+std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& path);
+
 /// Throws std::runtime_error if an output is an input, contains an input, or lies in another
 /// output; the message names both. Empty paths are ignored.
 void checkApart(const std::vector<std::filesystem::path>& outputs,

@@ -9,8 +9,8 @@
 
 namespace hagen::captures {
 
-/// The frames of one Ouster in a capture, with the sensor's metadata. Profiles: LEGACY,
-/// RNG19_RFL8_SIG16_NIR16, the same with _DUAL, and RNG15_RFL8_NIR8.
+/// The frames of one Ouster in a capture, with the sensor's metadata. Profiles: those that
+/// readOusterSensor() knows.
 ///
 /// A scan is a LocatedCloud with the label "ouster". Its origin is that of the beams, and the pose
 /// of the sensor on the vehicle is from there to the sensor's base. Its time is that of the capture

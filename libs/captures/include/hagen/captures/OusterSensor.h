@@ -29,6 +29,7 @@ struct OusterSensor {
     std::string name;    ///< product line: "OS-0-32-U1"
     std::string serial;  ///< empty: not known
     OusterProfile profile;
+    bool has_fusa_header = false;  ///< that of functional safety, with its fields elsewhere
     std::size_t columns_per_frame = 0, columns_per_packet = 0, pixels = 0;
     std::size_t first_column = 0, last_column = 0;  ///< of the window; it may wrap around
     std::vector<double> altitude_rad, azimuth_rad;  ///< of each pixel; azimuth counter-clockwise
@@ -43,8 +44,16 @@ struct OusterSensor {
     std::size_t windowColumns() const;
 };
 
-/// Reads the metadata of a sensor, as the sensor or the maker's tools write it. Throws
-/// std::runtime_error naming the file and what is missing or wrong.
+/// What the header of a packet of OusterSensor::packetBytes() says. LEGACY packets have no header:
+/// all are of the LiDAR, with the serial number 0, and the frame is that of the first column.
+bool isOfLidar(const std::uint8_t* packet, const OusterSensor& sensor);
+std::uint64_t serialOf(const std::uint8_t* packet, const OusterSensor& sensor);
+std::uint16_t frameIdOf(const std::uint8_t* packet, const OusterSensor& sensor);  ///< it wraps
+
+/// Reads the metadata of a sensor, as the sensor or the maker's tools write it. Profiles: LEGACY,
+/// RNG19_RFL8_SIG16_NIR16, the same with _DUAL and _ZONE16, RNG15_RFL8_NIR8, the same with _DUAL
+/// (also FUSA_...) and _ZONE16, RNG15_RFL8_WIN8 and FIVE_WORD_PIXEL, laid out as the maker's SDK
+/// publishes them. Throws std::runtime_error naming the file and what is missing or wrong.
 OusterSensor readOusterSensor(const std::filesystem::path& file);
 /// The same for metadata that were read from `origin`, which the message names.
 OusterSensor ousterSensorOf(const std::string& text, const std::string& origin);

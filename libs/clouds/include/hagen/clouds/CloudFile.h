@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/observations/PointTable.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -42,6 +43,16 @@ std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
 /// Whether a name ends like those of cloud files: .pcd, .ply, .las, .laz, .npy, .bin.
 bool hasCloudName(const std::filesystem::path& file);
+
+/// What the first 4096 bytes of a .bin tell.
+struct BinStart {
+    std::size_t floats_per_point = 4;  ///< 5: with a ring, as of nuScenes
+    /// "it seems to be a JPEG picture", if the first points are none that a LiDAR sees; empty: not
+    /// known to be something else.
+    std::string other_kind;
+};
+/// A file that cannot be read, or is empty, gets the defaults.
+BinStart startOfBin(const std::filesystem::path& file);
 
 /// Reads a cloud file, told by its content. Nothing larger than the file, as unpacked by a factor
 /// of 256 at most, is ever allocated. Throws BrokenCloud.

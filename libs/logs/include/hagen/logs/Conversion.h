@@ -84,6 +84,8 @@ struct ConversionReport {
     Mcap mcap;                            ///< what the MCAP holds
     std::size_t scans_in_map = 0;         ///< scans in the OctoMap: those with a pose
     std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
+    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty: none
+    bool is_attitude_of_poses = false;    ///< interpolated; otherwise the latest in the log
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
     observations::Settings

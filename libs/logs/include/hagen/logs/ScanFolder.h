@@ -76,8 +76,9 @@ struct BrokenScan : std::runtime_error {
 /// Marks the labels of a scan folder as predictions of rawlog-segment.
 void markAsPredictions(const std::filesystem::path& folder);
 
-/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Throws
-/// BrokenScan.
+/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Of
+/// points with a ring, as of nuScenes (clouds::BinStart), the ring is left out and intensities are
+/// scaled to 0..1. Throws BrokenScan, also if the file is known to be something else.
 void readScan(const std::filesystem::path& file, Scan& scan);
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 

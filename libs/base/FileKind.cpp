@@ -1,0 +1,159 @@
+#include <hagen/base/FileKind.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace hagen::base {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Magic {
+    std::size_t at;
+    std::string_view bytes;
+    const char* what;
+    const char* advice;
+};
+
+constexpr const char* kUnpack = "unpack it first";
+constexpr const char* kConvert = "convert it to PCD, PLY, LAS or NPY first";
+
+constexpr Magic kMagics[] = {
+    {0, "\xff\xd8\xff"sv, "a JPEG picture", ""},
+    {0, "\x89PNG\r\n"sv, "a PNG picture", ""},
+    {0, "GIF8"sv, "a GIF picture", ""},
+    {0, "II*\0"sv, "a TIFF picture", ""},
+    {0, "MM\0*"sv, "a TIFF picture", ""},
+    {4, "ftyp"sv, "a video (MP4)", ""},
+    {0, "RIFF"sv, "a picture, sound or video (RIFF)", ""},
+    {0, "\x1a\x45\xdf\xa3"sv, "a video (Matroska)", ""},
+    {0, "%PDF"sv, "a PDF document", ""},
+    {0, "PK\3\4"sv, "a ZIP archive", "unpack it first (an .npz holds .npy files)"},
+    {0, "7z\xbc\xaf\x27\x1c"sv, "a 7z archive", kUnpack},
+    {0, "Rar!"sv, "a RAR archive", kUnpack},
+    {257, "ustar"sv, "a tar archive", kUnpack},
+    {0, "\x1f\x8b"sv, "packed by gzip", kUnpack},
+    {0, "\x28\xb5\x2f\xfd"sv, "packed by zstd", kUnpack},
+    {0,
+     "\xfd"
+     "7zXZ"sv,
+     "packed by xz", kUnpack},
+    {0, "BZh"sv, "packed by bzip2", kUnpack},
+    {0, "\x89HDF"sv, "an HDF5 file", kConvert},
+    {0, "ASTM-E57"sv, "point clouds in E57", kConvert},
+    {0, "livox_tech"sv, "a recording of Livox Viewer (LVX)",
+     "record a network capture or a bag instead, or convert it"},
+    {0, "ULog\1"sv, "a flight log of PX4 (ULog), which has no LiDAR scans", ""},
+    {0, "SQLite format 3\0"sv, "an SQLite database", ""},
+    {0,
+     "\x7f"
+     "ELF"sv,
+     "a program", ""},
+    {0, "#ROSBAG"sv, "a bag of ROS 1", "pass it with -i"},
+    {0, "\x89MCAP"sv, "an MCAP", "pass it with -i"},
+    {0, "\xd4\xc3\xb2\xa1"sv, "a network capture", "pass it with -i"},
+    {0, "\x4d\x3c\xb2\xa1"sv, "a network capture", "pass it with -i"},
+    {0, "\x0a\x0d\x0d\x0a"sv, "a network capture", "pass it with -i"},
+};
+
+/// Kinds of text, by how it begins behind blanks.
+constexpr Magic kTexts[] = {
+    {0, "version https://git-lfs"sv, "a pointer of Git LFS, not the file itself",
+     "fetch it with 'git lfs pull'"},
+    {0, "<!DOCTYPE"sv, "a web page (HTML)", "did its download fail?"},
+    {0, "<!doctype"sv, "a web page (HTML)", "did its download fail?"},
+    {0, "<html"sv, "a web page (HTML)", "did its download fail?"},
+    {0, "<?xml"sv, "XML", ""},
+    {0, "{"sv, "text (JSON)",
+     "if it is the metadata of an Ouster, pass the capture with -i and this with --sensor-json"},
+    {0, "%YAML"sv, "text (YAML)", "pass settings with -c, and the folder of a bag with -i"},
+};
+
+bool hasAt(std::string_view bytes, std::size_t at, std::string_view part) {
+    return bytes.size() >= at + part.size() && bytes.substr(at, part.size()) == part;
+}
+
+/// Whether these are the data packets of a Velodyne, one after the other.
+bool areVelodynePackets(std::string_view bytes) {
+    constexpr std::size_t kPacket = 1206, kBlock = 100, kBlocks = 12;
+    if (bytes.size() < kPacket) return false;
+    for (std::size_t packet = 0; packet + kPacket <= bytes.size(); packet += kPacket) {
+        for (std::size_t block = 0; block < kBlocks; ++block) {
+            // 0xddff: the lower lasers of an HDL-64E.
+            const std::string_view flag = bytes.substr(packet + block * kBlock, 2);
+            if (flag != "\xff\xee"sv && flag != "\xff\xdd"sv) return false;
+        }
+    }
+    return true;
+}
+
+/// Bytes of the character that begins with this byte in UTF-8; 0: none does, or one that no text
+/// has.
+std::size_t bytesOfCharacter(char first) {
+    const auto code = static_cast<unsigned char>(first);
+    if (code < 0x20) return "\n\r\t\f"sv.find(first) == std::string_view::npos ? 0 : 1;
+    if (code < 0x7f) return 1;
+    if (code < 0xc2 || code > 0xf4) return 0;
+    return code < 0xe0 ? 2 : code < 0xf0 ? 3 : 4;
+}
+
+/// UTF-8, the last character of which may be cut.
+bool isText(std::string_view bytes) {
+    if (bytes.empty()) return false;
+    for (std::size_t at = 0; at < bytes.size();) {
+        const std::size_t count = bytesOfCharacter(bytes[at]);
+        if (count == 0) return false;
+        for (std::size_t i = at + 1; i < std::min(at + count, bytes.size()); ++i) {
+            if ((static_cast<unsigned char>(bytes[i]) & 0xc0) != 0x80) return false;
+        }
+        at += count;
+    }
+    return true;
+}
+
+bool areNumbers(std::string_view text) {
+    return text.find_first_of("0123456789") != std::string_view::npos &&
+           text.find_first_not_of("0123456789+-.eE \t,;\r\n") == std::string_view::npos;
+}
+
+FileKind kindOfText(std::string_view text) {
+    if (hasAt(text, 0, "\xef\xbb\xbf"sv)) text.remove_prefix(3);  // of Windows' editors
+    text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
+    for (const Magic& kind : kTexts) {
+        if (hasAt(text, 0, kind.bytes)) return {kind.what, kind.advice};
+    }
+    if (areNumbers(text)) {
+        return {"a table of numbers",
+                "if it has a point per line, convert it to PCD, PLY, LAS or NPY; pass poses with "
+                "--poses"};
+    }
+    return {"text", ""};
+}
+
+}  // namespace
+
+std::string FileKind::text() const {
+    if (what.empty()) return "";
+    return "it seems to be " + what + (advice.empty() ? "" : ": " + advice);
+}
+
+FileKind kindOfBytes(std::string_view start) {
+    for (const Magic& kind : kMagics) {
+        if (hasAt(start, kind.at, kind.bytes)) return {kind.what, kind.advice};
+    }
+    if (areVelodynePackets(start)) {
+        return {"data packets of a Velodyne without the headers of a capture",
+                "record them with Wireshark or tcpdump as .pcap, and pass that"};
+    }
+    return isText(start) ? kindOfText(start) : FileKind();
+}
+
+FileKind kindOfFile(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string start(kFileKindBytes, '\0');
+    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+    return kindOfBytes(start);
+}
+
+}  // namespace hagen::base

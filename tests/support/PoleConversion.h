@@ -1,0 +1,54 @@
+#pragma once
+// What the tests of outputs of a conversion share.
+#include <gtest/gtest.h>
+#include <hagen/logs/Conversion.h>
+#include <hagen/logs/RawlogWriter.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/PointTable.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/Program.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen::test {
+
+/// The numbers of a field, which must be there.
+inline std::vector<double> column(const observations::PointTable& table, const char* name) {
+    const auto* const field = findField(table, {name});
+    EXPECT_NE(field, nullptr) << name;
+    return field == nullptr ? std::vector<double>() : columnOf(table, *field);
+}
+
+/// A conversion with a VLP-16 named, and the returns of a scan of a pole for its input.
+class PoleConversion {
+ protected:
+    PoleConversion() {
+        observations::readObservation(*poleScanFrom(0, "lidar"), {}, observed_);
+        conversion_.settings.sensor.model = "VLP-16";
+    }
+    /// Converts; remarks are added to remarks_.
+    logs::ConversionReport convertCounting() {
+        logs::ConversionListener listener;
+        listener.remark = [&](const std::string& what, const std::string& remark) {
+            remarks_.push_back(what + ": " + remark);
+        };
+        return convert(conversion_, listener);
+    }
+    std::filesystem::path writeRawlog(
+        const std::vector<mrpt::obs::CObservation::Ptr>& scans) const {
+        logs::RawlogWriter writer(folder_ / "in.rawlog", true);
+        for (const auto& scan : scans) writer.write(*scan);
+        writer.commit();
+        return folder_ / "in.rawlog";
+    }
+
+    TemporaryFolder folder_;
+    observations::ObservedScan observed_;
+    logs::Conversion conversion_;
+    std::vector<std::string> remarks_;
+};
+
+}  // namespace hagen::test
