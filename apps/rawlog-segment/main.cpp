@@ -32,8 +32,8 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
     progress.finish();
     if (!quiet && report.scans == 0) {
         std::cerr << conversion.input.string()
-                  << ": no LiDAR scan was segmented; scans must be CObservationVelodyneScan or "
-                     "CObservationPointCloud\n";
+                  << ": no LiDAR scan was segmented; scans must be CObservationVelodyneScan, "
+                     "CObservationRotatingScan or CObservationPointCloud\n";
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
