@@ -33,7 +33,8 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
     if (!quiet && report.scans == 0) {
         std::cerr << conversion.input.string()
                   << ": no LiDAR scan was segmented; scans must be CObservationVelodyneScan, "
-                     "CObservationRotatingScan or CObservationPointCloud\n";
+                     "CObservationRotatingScan, CObservationPointCloud or "
+                     "CObservation3DRangeScan\n";
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()

@@ -1,3 +1,4 @@
+#include <hagen/observations/DepthCamera.h>
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
@@ -165,7 +166,7 @@ bool isLidarScan(const mrpt::obs::CObservation& observation) {
     if (isResult(observation)) return false;
     return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr ||
            dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr ||
-           rotatingScanOf(observation) != nullptr;
+           rotatingScanOf(observation) != nullptr || depthScanOf(observation) != nullptr;
 }
 
 bool isCloud(const mrpt::obs::CObservation& observation) {
@@ -185,6 +186,8 @@ bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
         RotatingReturns returns;
         readOrganizedPoints(*rotating, scan, returns);
         if (rings != nullptr) *rings = std::move(returns.image_row);
+    } else if (const auto* depth = depthScanOf(observation)) {
+        readDepthScan(*depth, scan);
     } else if (const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
         readPoints(*velodyne, scan);
     } else {
@@ -219,6 +222,8 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
         }
         readPoints(*cloud, observed.scan);
         observed.remark = remarkOnFields(*cloud);
+    } else if (const auto* depth = depthScanOf(observation)) {
+        readDepthScan(*depth, observed.scan);
     } else {
         throw std::runtime_error("not a LiDAR scan");
     }

@@ -18,7 +18,7 @@
 namespace hagen::observations {
 
 /// True if the observation is read as a LiDAR scan: a CObservationVelodyneScan, a rotating scan
-/// (rotatingScanOf()), or a CObservationPointCloud that is
+/// (rotatingScanOf()), one of a depth camera (depthScanOf()), or a CObservationPointCloud that is
 /// no result of the filter (isResult()).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
