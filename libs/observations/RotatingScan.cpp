@@ -51,6 +51,13 @@ void readMatrix(CArchive& in, Matrix& matrix) {
     readMatrix(in, rows, columns, matrix);
 }
 
+/// A text, without the memory that a wrong length asks for.
+std::string readText(CArchive& in) {
+    std::string text;
+    readNumbers(in, in.ReadAs<std::uint32_t>(), text);
+    return text;
+}
+
 std::uint16_t number(std::uint8_t low, std::uint8_t high) {
     return static_cast<std::uint16_t>(low | high << 8);
 }
@@ -58,9 +65,13 @@ std::uint16_t number(std::uint8_t low, std::uint8_t high) {
 void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
     if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
     points = {};
-    in >> timestamp >> sensorLabel >> rowCount >> columnCount >> rangeResolution >> startAzimuth >>
-        azimuthSpan >> sweepDuration >> lidarModel >> minRange >> maxRange >> sensorPose >>
-        originalReceivedTimestamp >> has_satellite_timestamp;
+    in >> timestamp;
+    sensorLabel = readText(in);
+    in >> rowCount >> columnCount >> rangeResolution >> startAzimuth >> azimuthSpan >>
+        sweepDuration;
+    lidarModel = readText(in);
+    in >> minRange >> maxRange >> sensorPose >> originalReceivedTimestamp >>
+        has_satellite_timestamp;
 
     // The older layout goes on with columns and rows, the newer one with how the scan is stored: 0
     // in the log, and then columns and rows; 1 or 2 in a file, and then the length of its name.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <random>
 #include <stdexcept>
 #include <string>
 
@@ -283,6 +284,31 @@ TEST(RotatingScan, ACutScanEndsAndOneInAFileIsNamed) {
     } catch (const std::exception& e) {
         EXPECT_THAT(e.what(), HasSubstr("'scan.bin'"));
     }
+}
+
+TEST(RotatingScan, NoDamageCrashesIt) {
+    CObservationRotatingScan scan = smallScan();
+    scan.rangeImage(1, 2) = 4;
+    scan.intensityImage.setZero(3, 4);
+    scan.rangeOtherLayers["LAST"].setZero(3, 4);
+    const std::string sound = test::newerBytesOf(scan, std::vector<float>(36, 1.0f));
+    std::mt19937 random(7);
+    int read = 0;
+    for (int i = 0; i < 3000; ++i) {
+        std::string bytes = sound;
+        for (int k = 0; k < 2; ++k) {
+            // The header of the object and its pose are MRPT's own to check.
+            bytes[60 + random() % (bytes.size() - 60)] = static_cast<char>(random());
+        }
+        try {
+            const auto damaged = scanOf(bytes);
+            if (!damaged) continue;
+            readWith(*damaged, threeBeams());
+            ++read;
+        } catch (const std::exception&) {
+        }
+    }
+    EXPECT_GT(read, 500);
 }
 
 /// The returns that fromVelodyne() keeps.
