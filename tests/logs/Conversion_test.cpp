@@ -406,6 +406,21 @@ TEST_P(ConversionTest, RangeImagesOfLidarsAndCamerasAreScans) {
                                         "camera_non_roi"}));
 }
 
+TEST_P(ConversionTest, ARotatingScanThatIsStoredElsewhereEndsTheConversionAndIsNamed) {
+    mrpt::obs::CObservationRotatingScan scan;
+    scan.rowCount = 3;
+    scan.columnCount = 4;
+    scan.rangeResolution = 0.01;
+    scan.rangeImage.setZero(3, 4);
+    std::string bytes = test::bytesOf(scan);
+    bytes.resize(bytes.size() - 1 - (4 + 2 * 12 + 4 + 2));  // up to the images
+    bytes += '\1' + test::little32(8) + "scan.bin" + '\x88';
+    test::writeBytes(folder_ / "in.rawlog", test::bytesOf(*pose()) + bytes);
+    const std::string why = test::messageOf([&] { convert(conversion()); });
+    EXPECT_THAT(why, HasSubstr("in.rawlog: entry 1 at byte"));
+    EXPECT_THAT(why, HasSubstr("'scan.bin'; put it in with 'rawlog-edit --de-externalize'"));
+}
+
 TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
     auto broken = scanFrom(0);
     std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
