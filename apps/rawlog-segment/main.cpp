@@ -74,6 +74,10 @@ void declare(Program& app, Flags& flags) {
                "metadata of the Ouster whose packets a capture or bag has")
         .existingFile()
         .group("Input");
+    app.option("--calibration", conversion.calibration,
+               "calibration of the HDL-64E whose packets a capture has (Velodyne's db.xml)")
+        .existingFile()
+        .group("Input");
     app.option("--topic", conversion.topics,
                "read only this LiDAR topic of a ROS recording; may be repeated")
         .once()
@@ -253,6 +257,7 @@ void learn(const Flags& flags) {
     logs::AirframeLearning learning;
     learning.input = conversion.input;
     learning.sensor_json = conversion.sensor_json;
+    learning.calibration = conversion.calibration;
     learning.topics = conversion.topics;
     learning.file = flags.learned_airframe;
     learning.overwrite = conversion.overwrite;

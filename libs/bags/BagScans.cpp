@@ -366,7 +366,7 @@ std::string BagScans::Reader::textOf(const TopicState& state) {
     } else if (state.frames) {
         text += ", " + state.sensor->ouster->name + ", " + captures::textOf(state.frames->counts());
     }
-    addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported", text);
+    addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported in bags", text);
     for (const auto& [id, packets] : state.unknown_ids) {
         char hex[8];
         std::snprintf(hex, sizeof hex, "0x%02x", id);

@@ -3,6 +3,8 @@
 #include <hagen/captures/OusterCapture.h>
 #include <hagen/captures/VelodyneCapture.h>
 
+#include <stdexcept>
+
 #include "LivoxPacket.h"
 
 namespace hagen::captures {
@@ -25,10 +27,17 @@ bool isOfLivox(const std::filesystem::path& file) {
 }  // namespace
 
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
-                                          const std::filesystem::path& sensor_json) {
+                                          const std::filesystem::path& sensor_json,
+                                          const std::filesystem::path& calibration) {
+    const bool is_velodyne = sensor_json.empty() && !isOfLivox(file);
+    if (!calibration.empty() && !is_velodyne) {
+        throw std::runtime_error(file.string() + ": is read as a capture of " +
+                                 (sensor_json.empty() ? "a Livox" : "an Ouster") + ", which " +
+                                 calibration.string() + " cannot describe: it is of an HDL-64E");
+    }
     if (!sensor_json.empty()) return std::make_unique<OusterCapture>(file, sensor_json);
-    if (isOfLivox(file)) return std::make_unique<LivoxCapture>(file);
-    return std::make_unique<VelodyneCapture>(file);
+    if (!is_velodyne) return std::make_unique<LivoxCapture>(file);
+    return std::make_unique<VelodyneCapture>(file, calibration);
 }
 
 }  // namespace hagen::captures

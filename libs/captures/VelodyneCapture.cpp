@@ -9,6 +9,7 @@
 
 #include <hagen/captures/Remarks.h>
 #include <hagen/captures/VelodyneTurns.h>
+#include <hagen/observations/VelodyneCalibrationFile.h>
 
 namespace hagen::captures {
 namespace {
@@ -32,7 +33,8 @@ struct VelodyneCapture::Reader {
         VelodyneTurns turns;
     };
 
-    std::filesystem::path file;
+    std::filesystem::path file, calibration_file;
+    std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration;  ///< of an HDL-64E
     CaptureFile capture;
     std::map<SensorKey, Sensor> sensors;
     std::vector<SensorKey> order;  ///< of appearance
@@ -43,7 +45,12 @@ struct VelodyneCapture::Reader {
     bool is_at_end = false;
     std::string broken_because;
 
-    explicit Reader(const std::filesystem::path& name) : file(name), capture(name) {}
+    Reader(const std::filesystem::path& name, const std::filesystem::path& name_of_calibration)
+        : file(name), calibration_file(name_of_calibration), capture(name) {
+        if (calibration_file.empty()) return;
+        calibration = std::make_shared<const mrpt::obs::VelodyneCalibration>(
+            observations::readVelodyneCalibration(calibration_file));
+    }
 
     void take(const Datagram& datagram);
     void takePacket(const Datagram& datagram, const VelodyneModel& model);
@@ -59,6 +66,7 @@ void VelodyneCapture::Reader::take(const Datagram& datagram) {
         others.add(datagram);
     } else if (isOfHdl64(datagram.bytes)) {
         ++hdl64_packets;
+        if (calibration) takePacket(datagram, observations::hdl64Model());
     } else if (const auto* model =
                    observations::findVelodyneModel(datagram.bytes[kVelodyneModelAt])) {
         takePacket(datagram, *model);
@@ -80,7 +88,9 @@ void VelodyneCapture::Reader::takePacket(const Datagram& datagram, const Velodyn
             order.size() == 1 ? "velodyne" : "velodyne_" + std::to_string(order.size());
         const std::string name = model.name + " at " + ipText(datagram.from_ip) + ", port " +
                                  std::to_string(datagram.to_port);
-        sensor = sensors.emplace(key, Sensor{label, name, VelodyneTurns(model, label)}).first;
+        const bool is_hdl64 = &model == &observations::hdl64Model();
+        VelodyneTurns turns(model, label, is_hdl64 ? calibration : nullptr);
+        sensor = sensors.emplace(key, Sensor{label, name, std::move(turns)}).first;
     }
     VelodynePacket packet;
     std::memcpy(static_cast<void*>(&packet.raw), datagram.bytes, kPacketBytes);
@@ -105,7 +115,10 @@ void VelodyneCapture::Reader::finish() {
 /// The datagrams that are not of a known Velodyne.
 std::string VelodyneCapture::Reader::textOfOthers() const {
     std::string text;
-    addCount(hdl64_packets, "packet", "of an HDL-64E, which is not supported", text);
+    if (!calibration) {
+        addCount(hdl64_packets, "packet",
+                 "of an HDL-64E, which need its calibration: --calibration FILE", text);
+    }
     for (const auto& [id, count] : unknown_ids) {
         char hex[8];
         std::snprintf(hex, sizeof hex, "0x%02x", id);
@@ -128,8 +141,9 @@ std::string VelodyneCapture::Reader::whyEmpty() const {
            ". Packets of an Ouster need its metadata: --sensor-json FILE";
 }
 
-VelodyneCapture::VelodyneCapture(const std::filesystem::path& file)
-    : reader_(std::make_unique<Reader>(file)) {}
+VelodyneCapture::VelodyneCapture(const std::filesystem::path& file,
+                                 const std::filesystem::path& calibration)
+    : reader_(std::make_unique<Reader>(file, calibration)) {}
 
 VelodyneCapture::~VelodyneCapture() = default;
 
@@ -172,6 +186,10 @@ std::vector<std::string> VelodyneCapture::remarks() const {
     addCount(r.position_packets, "position packet", "(GPS)", left_out);
     const std::string others = r.textOfOthers();
     if (!others.empty()) left_out += (left_out.empty() ? "" : ", ") + others;
+    if (r.calibration && r.hdl64_packets == 0) {
+        remarks.push_back(r.calibration_file.string() +
+                          " is not used: there are no packets of an HDL-64E");
+    }
     remarks.push_back(textOfFrames(r.capture.counts(), left_out));
     return remarks;
 }

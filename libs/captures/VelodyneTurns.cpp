@@ -41,7 +41,9 @@ double VelodynePacket::sensorTimeUs() const {
 }
 
 bool VelodynePacket::isDual() const {
-    return bytesOf(*this)[kBlocks * kBlockBytes + 4] == CObservationVelodyneScan::RETMODE_DUAL;
+    const std::uint8_t* const bytes = bytesOf(*this);
+    return !isOfHdl64(bytes) &&
+           bytes[kBlocks * kBlockBytes + 4] == CObservationVelodyneScan::RETMODE_DUAL;
 }
 
 int VelodynePacket::azimuth() const {
@@ -54,8 +56,9 @@ int VelodynePacket::azimuth() const {
     return -1;
 }
 
-VelodyneTurns::VelodyneTurns(const observations::VelodyneModel& model, std::string label)
-    : model_(model), label_(std::move(label)) {}
+VelodyneTurns::VelodyneTurns(const observations::VelodyneModel& model, std::string label,
+                             std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration)
+    : model_(model), label_(std::move(label)), calibration_(std::move(calibration)) {}
 
 void VelodyneTurns::add(const VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
@@ -121,7 +124,8 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
         turn_->timestamp = timeOf(packet.time_ns);
         turn_->originalReceivedTimestamp = turn_->timestamp;
         turn_->sensorLabel = label_;
-        turn_->calibration = observations::defaultCalibration(model_);
+        turn_->calibration =
+            calibration_ ? *calibration_ : observations::defaultCalibration(model_);
         const SensorModel sensor = sensorModel(model_.name);
         turn_->minRange = static_cast<double>(sensor.min_range_m);
         turn_->maxRange = static_cast<double>(sensor.max_range_m);
@@ -165,8 +169,11 @@ bool isVelodyneData(const std::uint8_t* bytes, std::size_t size) {
 }
 
 bool isOfHdl64(const std::uint8_t* packet) {
-    const std::uint8_t* const second = packet + kBlockBytes;
-    return (second[0] | second[1] << 8) == CObservationVelodyneScan::LOWER_BANK;
+    for (int block = 0; block < kBlocks; ++block) {
+        const std::uint8_t* const at = packet + block * kBlockBytes;
+        if ((at[0] | at[1] << 8) == CObservationVelodyneScan::LOWER_BANK) return true;
+    }
+    return false;
 }
 
 }  // namespace hagen::captures

@@ -40,7 +40,8 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     std::vector<fs::path> outputs = conversion.octomaps;
     outputs.insert(outputs.end(), {conversion.rawlog, conversion.folder, conversion.clouds,
                                    conversion.mcap, conversion.pictures, conversion.stats});
-    base::checkApart(outputs, {conversion.input, conversion.poses, conversion.sensor_json});
+    base::checkApart(outputs, {conversion.input, conversion.poses, conversion.sensor_json,
+                               conversion.calibration});
     useExternals(conversion, listener);
     return Converter(conversion, listener).run();
 }

@@ -108,6 +108,7 @@ SourceOptions Converter::sourceOptions() {
     SourceOptions options;
     options.sensor_labels = conversion_.sensor_labels;
     options.sensor_json = conversion_.sensor_json;
+    options.calibration = conversion_.calibration;
     options.topics = conversion_.topics;
     options.first_entry = conversion_.from;
     options.last_entry = conversion_.to;

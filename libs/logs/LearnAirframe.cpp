@@ -25,6 +25,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
     SourceOptions options;
     options.sensor_labels = learning.sensor_labels;
     options.sensor_json = learning.sensor_json;
+    options.calibration = learning.calibration;
     options.topics = learning.topics;
     options.first_entry = learning.from;
     options.last_entry = learning.to;

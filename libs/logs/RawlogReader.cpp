@@ -20,6 +20,8 @@ std::string reasonOf(const std::exception& exception) {
         return text + " (this program supports the classes of mrpt-obs and mrpt-maps)";
     }
     if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
+    // A rotating scan of MRPT 3: a sound object that is stored elsewhere.
+    if (text.find("is not in the log") != std::string::npos) return text;
     return kNoObject;
 }
 

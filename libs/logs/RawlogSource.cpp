@@ -67,8 +67,8 @@ std::vector<std::string> RawlogSource::remarks() const {
         found += (found.empty() ? "" : ", ") + std::to_string(count) + " " + name;
     }
     return {
-        "no converted entry has a LiDAR scan (CObservationVelodyneScan or "
-        "CObservationPointCloud); they have " +
+        "no converted entry has a LiDAR scan (CObservationVelodyneScan, "
+        "CObservationRotatingScan, CObservationPointCloud, CObservation3DRangeScan); they have " +
         found};
 }
 

@@ -150,17 +150,25 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
         throw std::runtime_error(recording.string() + ": no such file or folder");
     }
     const bool is_folder = std::filesystem::is_directory(recording);
-    if (bags::isBag(recording)) return std::make_unique<BagSource>(recording, options);
+    const bool is_bag = bags::isBag(recording);
     const bool is_scan_folder = is_folder && std::filesystem::is_directory(recording / "velodyne");
-    if (is_folder && !is_scan_folder && !CloudFileSource::hasClouds(recording)) {
+    if (is_folder && !is_bag && !is_scan_folder && !CloudFileSource::hasClouds(recording)) {
         throw std::runtime_error(recording.string() + ": " + whyNoFolder(recording));
     }
+    const bool is_capture = !is_bag && !is_folder && captures::isCapture(recording);
+    if (!options.calibration.empty() && !is_capture) {
+        throw std::runtime_error(recording.string() + ": is no capture (.pcap, .pcapng), so " +
+                                 options.calibration.string() +
+                                 " is not used; rawlogs have their calibration, and packets of an "
+                                 "HDL-64E in bags are not supported");
+    }
+    if (is_bag) return std::make_unique<BagSource>(recording, options);
     if (!options.topics.empty()) {
         throw std::runtime_error(recording.string() + ": is no ROS recording (.bag, .mcap, " +
                                  ".db3 or its folder), so it has no topic '" +
                                  options.topics.front() + "'");
     }
-    if (!is_folder && captures::isCapture(recording)) {
+    if (is_capture) {
         return std::make_unique<CaptureSource>(recording, options);
     }
     if (!options.sensor_json.empty()) {

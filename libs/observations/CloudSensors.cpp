@@ -1,7 +1,6 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/TableCloud.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,6 @@ namespace hagen::observations {
 namespace {
 
 constexpr int kFewestRows = 3;  // of the filter's image
-const std::vector<std::int32_t> kNoRings;
 
 std::size_t returnsWithRange(const Scan& scan) {
     std::size_t returns = 0;
@@ -31,14 +29,13 @@ std::size_t returnsWithRange(const Scan& scan) {
 void CloudSensors::see(const mrpt::obs::CObservation& observation) {
     if (isSettled(observation.sensorLabel)) return;
     try {
-        if (!readCloudPoints(observation, scan_)) return;
+        if (!readCloudPoints(observation, scan_, &rings_)) return;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
         return;  // readObservation() says why
     }
-    const TableCloud* const table = tableCloudOf(observation);
-    see(observation.sensorLabel, scan_, table == nullptr ? kNoRings : table->rings());
+    see(observation.sensorLabel, scan_, rings_);
 }
 
 void CloudSensors::see(const std::string& label, const Scan& scan,

@@ -15,6 +15,14 @@ std::string messageOf(const std::exception& exception) {
         if (start == std::string::npos) return "";
         text = text.substr(start, text.find('\n', start) - start);
     }
+    // Exceptions that are not MRPT's follow the one that it makes of them, without a mark.
+    const std::string original = "Original exception:\n";
+    const std::string whole = exception.what();
+    const std::size_t inner = whole.rfind(original);
+    if (inner != std::string::npos && inner > message) {
+        const std::size_t start = inner + original.size();
+        text = whole.substr(start, whole.find('\n', start) - start);
+    }
     const bool is_text = std::all_of(text.begin(), text.end(), [](unsigned char c) {
         return std::isprint(c) != 0 || std::isspace(c) != 0;
     });

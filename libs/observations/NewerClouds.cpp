@@ -11,12 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <iostream>
 #include <memory>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <type_traits>
+
+#include "ArchiveParts.h"
 
 namespace hagen::observations {
 #if MRPT_VERSION < 0x020f00
@@ -26,30 +26,6 @@ using mrpt::maps::CPointsMap;
 using mrpt::maps::CPointsMapXYZI;
 using mrpt::maps::CSimplePointsMap;
 using mrpt::serialization::CArchive;
-
-/// Reads this many numbers, in blocks, so that a wrong number ends at the end of the file and does
-/// not take all memory.
-template <class Vector>
-void readNumbers(CArchive& in, std::uint32_t count, Vector& values) {
-    constexpr std::size_t kBlock = 1 << 16;
-    values.clear();
-    while (values.size() < count) {
-        const std::size_t before = values.size();
-        const std::size_t more = std::min<std::size_t>(count - before, kBlock);
-        values.resize(before + more);
-        in.ReadBufferFixEndianness(values.data() + before, more);
-    }
-}
-
-/// The name of a field.
-std::string readName(CArchive& in) {
-    constexpr std::uint32_t kMostLetters = 256;
-    const auto letters = in.ReadAs<std::uint32_t>();
-    if (letters > kMostLetters) throw std::runtime_error("the name of a field is too long");
-    std::string name;
-    readNumbers(in, letters, name);
-    return name;
-}
 
 /// Reads what MRPT writes of a vector of numbers other than float: two names, then the numbers.
 /// MRPT's own reader makes room for as many as the file claims.
@@ -283,20 +259,6 @@ const mrpt::rtti::TRuntimeClassId& genericClass() {
         },
         [] { return CLASS_ID(CPointsMapXYZI); }};
     return id;
-}
-
-/// Registers a class under the name of another. The entries live as long as the program.
-template <class Cloud, class Base>
-void registerAs(const char* name) {
-    static const mrpt::rtti::TRuntimeClassId id{
-        name,
-        [] { return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<Cloud>()); },
-        [] { return CLASS_ID(Base); }};
-    // MRPT warns on standard error if the name is taken.
-    std::ostringstream warning;
-    std::streambuf* const error = std::cerr.rdbuf(warning.rdbuf());
-    mrpt::rtti::registerClassCustomName(name, &id);
-    std::cerr.rdbuf(error);
 }
 
 }  // namespace

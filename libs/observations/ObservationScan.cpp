@@ -1,7 +1,9 @@
+#include <hagen/observations/DepthCamera.h>
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/Results.h>
+#include <hagen/observations/RotatingScan.h>
 #include <hagen/observations/TableCloud.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace hagen::observations {
 namespace {
@@ -96,8 +99,8 @@ const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {
 }
 
 /// The rows of the rings that a cloud's returns are numbered with, where these are known.
-void takeRings(const TableCloud& cloud, const std::vector<int>& row_of_ring, Scan& scan) {
-    const std::vector<std::int32_t>& rings = cloud.rings();
+void takeRings(const std::vector<std::int32_t>& rings, const std::vector<int>& row_of_ring,
+               Scan& scan) {
     for (std::size_t i = 0; i < rings.size(); ++i) {
         const auto ring = static_cast<std::size_t>(rings[i]);
         if (ring >= row_of_ring.size() || row_of_ring[ring] < 0) continue;
@@ -129,6 +132,23 @@ void readLocated(const CObservationPointCloud& observation, const LocatedCloud& 
     observed.scan.time_s = cloud.times_s();
 }
 
+void readRotating(const mrpt::obs::CObservationRotatingScan& observation, const Settings& settings,
+                  const SharedBeams& beams, ObservedScan& observed) {
+    RotatingReturns& returns = observed.work.rotating;
+    if (organizedPointsOf(observation) == nullptr) {
+        readRangeImage(observation, settings, observed.scan, observed.sensor, returns);
+    } else {
+        readOrganizedPoints(observation, observed.scan, returns);
+        takeCloudSensor(settings, beams, observed);
+        if (!settings.sensor.model) takeLimits(observation, settings, observed.sensor);
+        locateBeams(observed.sensor, observed.scan);
+        if (observed.recovered) {
+            takeRings(returns.image_row, observed.recovered->row_of_ring, observed.scan);
+        }
+    }
+    observed.remark = returns.remark;
+}
+
 void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,
                  ObservedScan& observed) {
     sensorOf(observation, observed.sensor);
@@ -147,21 +167,35 @@ void readPackets(const CObservationVelodyneScan& observation, const Settings& se
 bool isLidarScan(const mrpt::obs::CObservation& observation) {
     if (isResult(observation)) return false;
     return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr ||
-           dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
+           dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr ||
+           rotatingScanOf(observation) != nullptr || depthScanOf(observation) != nullptr;
 }
 
 bool isCloud(const mrpt::obs::CObservation& observation) {
     if (!isLidarScan(observation) || locatedCloudOf(observation) != nullptr) return false;
+    if (const auto* rotating = rotatingScanOf(observation)) {
+        return organizedPointsOf(*rotating) != nullptr;
+    }
     const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation);
     return velodyne == nullptr || velodyne->scan_packets.empty();
 }
 
-bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan) {
+bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
+                     std::vector<std::int32_t>* rings) {
     if (!isCloud(observation)) return false;
-    if (const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+    if (rings != nullptr) rings->clear();
+    if (const auto* rotating = rotatingScanOf(observation)) {
+        RotatingReturns returns;
+        readOrganizedPoints(*rotating, scan, returns);
+        if (rings != nullptr) *rings = std::move(returns.image_row);
+    } else if (const auto* depth = depthScanOf(observation)) {
+        readDepthScan(*depth, scan);
+    } else if (const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
         readPoints(*velodyne, scan);
     } else {
         readPoints(dynamic_cast<const CObservationPointCloud&>(observation), scan);
+        const TableCloud* const table = tableCloudOf(observation);
+        if (table != nullptr && rings != nullptr) *rings = table->rings();
     }
     return true;
 }
@@ -176,6 +210,10 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
         readPackets(*velodyne, settings, observed);
         return;
     }
+    if (const auto* rotating = rotatingScanOf(observation)) {
+        readRotating(*rotating, settings, beams, observed);
+        return;
+    }
     if (velodyne != nullptr) {
         readPoints(*velodyne, observed.scan);
         if (velodyne->point_cloud.size() == 0) observed.remark = "the scan has no packets";
@@ -186,6 +224,8 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
         }
         readPoints(*cloud, observed.scan);
         observed.remark = remarkOnFields(*cloud);
+    } else if (const auto* depth = depthScanOf(observation)) {
+        readDepthScan(*depth, observed.scan);
     } else {
         throw std::runtime_error("not a LiDAR scan");
     }
@@ -194,7 +234,7 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
     if (const TableCloud* const table = tableCloudOf(observation)) {
         observed.scan.time_s = table->times_s();
         if (observed.recovered) {
-            takeRings(*table, observed.recovered->row_of_ring, observed.scan);
+            takeRings(table->rings(), observed.recovered->row_of_ring, observed.scan);
         }
     }
 }

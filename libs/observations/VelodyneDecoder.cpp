@@ -35,6 +35,10 @@ class Packet {
         return number(block * kBlockBytes, 2) == CObservationVelodyneScan::UPPER_BANK &&
                azimuth(block) < kTurn;
     }
+    bool isLower(int block) const {
+        return number(block * kBlockBytes, 2) == CObservationVelodyneScan::LOWER_BANK &&
+               azimuth(block) < kTurn;
+    }
     int azimuth(int block) const { return static_cast<int>(number(block * kBlockBytes + 2, 2)); }
     const std::uint8_t* returns(int block) const { return bytes_ + block * kBlockBytes + 4; }
     unsigned time_us() const { return number(kBlocks * kBlockBytes, 4); }
@@ -90,6 +94,24 @@ std::string hex(unsigned value) {
     char text[8];
     std::snprintf(text, sizeof text, "0x%02x", value);
     return text;
+}
+
+/// Only an HDL-64E sends blocks of lower lasers.
+bool isOfHdl64(const CObservationVelodyneScan& observation) {
+    const Packet first(observation.scan_packets.front());
+    for (int block = 0; block < kBlocks; ++block) {
+        if (first.isLower(block)) return true;
+    }
+    return false;
+}
+
+const VelodyneCalibration& hdl64CalibrationOf(const CObservationVelodyneScan& observation) {
+    const VelodyneCalibration& calibration = observation.calibration;
+    const auto lasers = static_cast<std::size_t>(hdl64Model().lasers);
+    if (calibration.laser_corrections.size() == lasers) return calibration;
+    throw std::runtime_error(
+        "packets of an HDL-64E need its calibration, with 64 lasers, which the "
+        "scan does not have");
 }
 
 const VelodyneModel& modelOf(const CObservationVelodyneScan& observation, std::size_t packet) {
@@ -163,6 +185,36 @@ BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const Velody
     return places;
 }
 
+/// The lasers of an upper or lower block of an HDL-64E, which count as fired at once.
+BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower) {
+    BlockOffsets places{};
+    places.distance_unit_m = hdl64Model().distance_unit_m;
+    for (std::size_t i = 0; i < kReturnsOfBlock; ++i) {
+        const std::size_t laser = i + (is_lower ? kReturnsOfBlock : 0);
+        const auto& correction = calibration.laser_corrections[laser];
+        const double turn_reading = std::remainder(-100.0 * correction.azimuthCorrection, kTurn);
+        const SineCosine turn(turn_reading * kRadiansPerReading);
+        places.turn_sine[i] = static_cast<float>(turn.sine);
+        places.turn_cosine[i] = static_cast<float>(turn.cosine);
+        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
+        places.turn_reading[i] = static_cast<float>(turn_reading);
+        const double sine = correction.sinVertCorrection, cosine = correction.cosVertCorrection;
+        const double offset_m = correction.verticalOffsetCorrection;
+        places.elevation_sine[i] = static_cast<float>(sine);
+        places.elevation_cosine[i] = static_cast<float>(cosine);
+        places.distance_m[i] = static_cast<float>(correction.distanceCorrection);
+        places.up_m[i] = static_cast<float>(offset_m * cosine);
+        places.forward_m[i] = static_cast<float>(-offset_m * sine);
+        places.sideways_m[i] = static_cast<float>(correction.horizontalOffsetCorrection);
+        places.row[i] = rowOfLaser(calibration, laser);
+    }
+    const auto [least, most] =
+        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
+    places.least_turn_reading = *least;
+    places.most_turn_reading = *most;
+    return places;
+}
+
 /// Collects the valid blocks of a scan; returns the number of invalid ones.
 std::size_t collectBlocks(const CObservationVelodyneScan& observation, const VelodyneModel& model,
                           std::vector<VelodyneBlock>& blocks) {
@@ -209,13 +261,60 @@ void resize(std::size_t returns, Scan& scan) {
     scan.row.resize(returns);
 }
 
+ReturnArrays arraysFrom(std::size_t first, Scan& scan) {
+    return {scan.x_m.data() + first,     scan.y_m.data() + first,
+            scan.z_m.data() + first,     scan.intensity.data() + first,
+            scan.range_m.data() + first, scan.azimuth_rad.data() + first,
+            scan.time_s.data() + first,  scan.row.data() + first};
+}
+
+/// Decodes packets of an HDL-64E, a block after the other.
+std::size_t decodeHdl64(const CObservationVelodyneScan& observation, Scan& scan,
+                        DecoderWorkspace& work) {
+    static const ReadingDirections directions;
+    const VelodyneCalibration& calibration = hdl64CalibrationOf(observation);
+    const BlockOffsets upper = hdl64Offsets(calibration, false);
+    const BlockOffsets lower = hdl64Offsets(calibration, true);
+    const double firing_us = 2 * hdl64Model().blockPeriodUs();
+    const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
+    std::size_t returns = 0, unsound_blocks = 0;
+    resize(observation.scan_packets.size() * kBlocks * kReturnsOfBlock + kPaddingReturns, scan);
+    work.blocks.resize(1);
+    VelodyneBlock& block = work.blocks.front();
+    for (const auto& raw : observation.scan_packets) {
+        const Packet packet(raw);
+        double packet_us = static_cast<double>(packet.time_us()) - first_us;
+        if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
+        for (int b = 0; b < kBlocks; ++b) {
+            if (!packet.isValid(b) && !packet.isLower(b)) {
+                ++unsound_blocks;
+                continue;
+            }
+            block.returns = packet.returns(b);
+            block.time_s = static_cast<float>(1e-6 * (packet_us + b / 2 * firing_us));
+            directions.setDirection(packet.azimuth(b), block);
+            locateReturns(work.blocks, packet.isLower(b) ? lower : upper,
+                          arraysFrom(returns, scan));
+            returns += countReturns(work.blocks);
+        }
+    }
+    resize(returns, scan);
+    scan.beams = beamSpan(calibration);
+    return unsound_blocks;
+}
+
 }  // namespace
 
 void sensorOf(const CObservationVelodyneScan& observation, SensorModel& sensor) {
     if (observation.scan_packets.empty()) throw std::runtime_error("the scan has no packets");
-    const VelodyneModel& model = modelOf(observation, 0);
-    sensor.name = model.name;
-    beamsOf(calibrationOf(observation, model), sensor.elevations_rad);
+    if (isOfHdl64(observation)) {
+        sensor.name = hdl64Model().name;
+        beamsOf(hdl64CalibrationOf(observation), sensor.elevations_rad);
+    } else {
+        const VelodyneModel& model = modelOf(observation, 0);
+        sensor.name = model.name;
+        beamsOf(calibrationOf(observation, model), sensor.elevations_rad);
+    }
     sensor.min_range_m = static_cast<float>(observation.minRange);
     sensor.max_range_m = static_cast<float>(observation.maxRange);
 }
@@ -235,6 +334,7 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
         scan.clear();
         return 0;
     }
+    if (isOfHdl64(observation)) return decodeHdl64(observation, scan, work);
     const VelodyneModel& model = modelOf(observation, 0);
     for (std::size_t p = 1; p < observation.scan_packets.size(); ++p) {
         modelOf(observation, p);  // throws for a packet of another model
@@ -248,10 +348,7 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
     // Count first: growing arrays would be filled with zeros, which takes time.
     const std::size_t returns = countReturns(blocks);
     resize(returns + kPaddingReturns, scan);
-    locateReturns(
-        blocks, places,
-        {scan.x_m.data(), scan.y_m.data(), scan.z_m.data(), scan.intensity.data(),
-         scan.range_m.data(), scan.azimuth_rad.data(), scan.time_s.data(), scan.row.data()});
+    locateReturns(blocks, places, arraysFrom(0, scan));
     resize(returns, scan);
     scan.beams = beamSpan(calibration);
     return unsound_blocks;

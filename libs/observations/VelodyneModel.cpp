@@ -74,6 +74,11 @@ const VelodyneModel* findVelodyneModel(std::uint8_t id) {
     return nullptr;
 }
 
+const VelodyneModel& hdl64Model() {
+    static const VelodyneModel model{"HDL-64E", 0, 64, 1, 64, 0.0, 24.0, 0.002f, ""};
+    return model;
+}
+
 const VelodyneModel& velodyneModel(const std::string& name) {
     for (const VelodyneModel& model : models()) {
         if (model.name == name) return model;

@@ -11,6 +11,7 @@
 
 #include "support/CaptureWriter.h"
 #include "support/Captures.h"
+#include "support/Hdl64.h"
 #include "support/Program.h"
 #include "support/Random.h"
 
@@ -25,6 +26,7 @@ using test::CaptureWriter;
 using test::SentDatagram;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 using Packets = std::vector<ByteString>;
 using Turns = std::vector<CObservationVelodyneScan::Ptr>;
@@ -255,11 +257,11 @@ TEST_F(VelodyneCaptureTest, EverythingElseIsCounted) {
     writer.datagram(sent(hdl64)).datagram(sent(hdl64));
     writer.frame("arp");
     EXPECT_EQ(read(writer.bytes()).size(), 1u);
-    EXPECT_EQ(
-        remarks_[1],
-        "12 frames; left out: 2 position packets (GPS), 2 packets of an HDL-64E, which is not "
-        "supported, 1 packet of an unknown Velodyne (model id 0xa1), 1 other UDP datagram "
-        "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
+    EXPECT_EQ(remarks_[1],
+              "12 frames; left out: 2 position packets (GPS), 2 packets of an HDL-64E, which need "
+              "its calibration: --calibration FILE, 1 packet of an unknown Velodyne (model id "
+              "0xa1), 1 other UDP datagram "
+              "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
 }
 
 TEST_F(VelodyneCaptureTest, NoEndOfSensorsFillsTheMemory) {
@@ -362,6 +364,59 @@ TEST_F(VelodyneCaptureTest, ATableTopCaptureOfRawPackets) {
     const Turns turns = read(captureOf(packets).bytes());
     EXPECT_EQ(packetsOf(turns), packets);
     EXPECT_EQ(turns.size(), 14u);  // 12 whole ones
+}
+
+/// A capture of an HDL-64E that sees something 5 m away all around.
+CaptureWriter hdl64Capture(int firings) {
+    CaptureWriter capture;
+    double time_s = 1700000000;
+    for (const auto& packet : test::hdl64Packets(firings, [](int, double) { return 5.0; })) {
+        SentDatagram sent;
+        sent.content = packet;
+        sent.time_s = time_s += 288e-6;
+        capture.datagram(sent);
+    }
+    return capture;
+}
+
+TEST_F(VelodyneCaptureTest, AnHdl64NeedsItsCalibration) {
+    const auto file = hdl64Capture(4200).write(folder_ / "hdl64.pcap");
+    const auto xml = test::writeBytes(folder_ / "db.xml", test::hdl64Xml());
+    VelodyneCapture capture(file, xml);
+    std::size_t returns = 0, turns = 0;
+    while (const auto turn = capture.next()) {
+        Scan scan;
+        EXPECT_EQ(decodePackets(*turn, scan), 0u);
+        returns += scan.size();
+        ++turns;
+    }
+    EXPECT_EQ(turns, 3u);
+    EXPECT_EQ(returns, 64u * 4200);
+    EXPECT_THAT(capture.remarks()[0], HasSubstr("HDL-64E at 10.0.0.100"));
+    EXPECT_THAT(capture.remarks()[0], HasSubstr("700 packets in 3 turns"));
+    EXPECT_THAT(capture.remarks()[0], Not(HasSubstr("lost")));
+
+    const auto errorOf = [](VelodyneCapture&& of) {
+        try {
+            of.next();
+        } catch (const BrokenCapture& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(errorOf(VelodyneCapture(file)), HasSubstr("--calibration FILE"));
+    CaptureWriter vlp16;
+    for (const ByteString& packet : packetsOf("VLP-16", 48)) {
+        SentDatagram sent;
+        sent.content = packet;
+        vlp16.datagram(sent);
+    }
+    const auto other = vlp16.write(folder_ / "vlp16.pcap");
+    VelodyneCapture without_hdl64(other, xml);
+    while (without_hdl64.next()) {
+    }
+    EXPECT_THAT(without_hdl64.remarks()[1], HasSubstr("db.xml is not used"));
+    EXPECT_THROW(VelodyneCapture(file, file), std::runtime_error);
 }
 
 }  // namespace

@@ -7,18 +7,23 @@
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/VelodyneDecoder.h>
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservation3DScene.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "support/CaptureWriter.h"
 #include "support/Program.h"
+#include "support/RotatingScans.h"
 #include "support/SimpleFirings.h"
 
 namespace hagen::logs {
@@ -362,6 +367,59 @@ TEST_P(ConversionTest, PosesOfALogTravelWithItsScans) {
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
     EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
+}
+
+TEST_P(ConversionTest, RangeImagesOfLidarsAndCamerasAreScans) {
+    const auto packets = test::poleScanFrom(0, "lidar");
+    Scan scan;
+    observations::decodePackets(*packets, scan);
+    const auto with_points = test::rotatingImageOf(*packets, scan, {true, false});
+    const auto with_ranges = test::rotatingImageOf(*packets, scan, {});
+    mrpt::obs::CObservationRotatingScan unknown;
+    unknown.sensorLabel = "unknown";
+    unknown.rowCount = 5;
+    unknown.columnCount = 8;
+    unknown.rangeResolution = 0.01;
+    unknown.rangeImage.setZero(5, 8);
+    mrpt::obs::CObservation3DRangeScan camera;
+    camera.sensorLabel = "camera";
+    camera.hasPoints3D = true;
+    camera.points3D_x.assign(500, 2.0f);
+    camera.points3D_y.assign(500, 0.0f);
+    camera.points3D_idxs_x.assign(500, 0);
+    camera.points3D_idxs_y.assign(500, 0);
+    for (int i = 0; i < 500; ++i) camera.points3D_z.push_back(0.001f * static_cast<float>(i));
+    test::writeBytes(folder_ / "in.rawlog", with_points.bytes + with_ranges.bytes +
+                                                test::bytesOf(unknown) + test::bytesOf(camera));
+    std::string remarks;
+    ConversionListener listener;
+    listener.unreadable = [&](const std::string& entry, const std::string& why) {
+        remarks += entry + ": " + why;
+    };
+    const ConversionReport report = convert(conversion(), listener);
+    EXPECT_EQ(report.scans, 3u);
+    EXPECT_EQ(report.unreadable_scans, 1u);
+    EXPECT_EQ(report.returns, 2 * scan.size() + 500);
+    EXPECT_EQ(remarks.rfind("entry 2 (unknown): its 5 rows have no elevations", 0), 0u) << remarks;
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "lidar", "lidar_roi",
+                                        "lidar_non_roi", "unknown", "camera", "camera_roi",
+                                        "camera_non_roi"}));
+}
+
+TEST_P(ConversionTest, ARotatingScanThatIsStoredElsewhereEndsTheConversionAndIsNamed) {
+    mrpt::obs::CObservationRotatingScan scan;
+    scan.rowCount = 3;
+    scan.columnCount = 4;
+    scan.rangeResolution = 0.01;
+    scan.rangeImage.setZero(3, 4);
+    std::string bytes = test::bytesOf(scan);
+    bytes.resize(bytes.size() - 1 - (4 + 2 * 12 + 4 + 2));  // up to the images
+    bytes += '\1' + test::little32(8) + "scan.bin" + '\x88';
+    test::writeBytes(folder_ / "in.rawlog", test::bytesOf(*pose()) + bytes);
+    const std::string why = test::messageOf([&] { convert(conversion()); });
+    EXPECT_THAT(why, HasSubstr("in.rawlog: entry 1 at byte"));
+    EXPECT_THAT(why, HasSubstr("'scan.bin'; put it in with 'rawlog-edit --de-externalize'"));
 }
 
 TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {

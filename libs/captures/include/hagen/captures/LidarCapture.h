@@ -26,9 +26,11 @@ class LidarCapture {
     virtual std::vector<std::string> remarks() const = 0;
 };
 
-/// Opens a capture of Velodyne sensors, or of the Ouster whose metadata file is given. Throws
-/// std::runtime_error naming the file that cannot be opened or is none.
+/// Opens a capture of Velodyne sensors, or of the Ouster whose metadata file is given.
+/// `calibration` is of an HDL-64E. Throws std::runtime_error naming the file that cannot be opened
+/// or is none, and if a calibration is given for another kind of sensor.
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
-                                          const std::filesystem::path& sensor_json = {});
+                                          const std::filesystem::path& sensor_json = {},
+                                          const std::filesystem::path& calibration = {});
 
 }  // namespace hagen::captures

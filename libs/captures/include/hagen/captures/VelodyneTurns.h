@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct VelodynePacket {
 
     /// Microseconds since the full hour, by the sensor's clock.
     double sensorTimeUs() const;
+    /// Whether it says so; those of an HDL-64E do not.
     bool isDual() const;
     /// Azimuth of its first block that has one, 0.01 degrees; -1: none has.
     int azimuth() const;
@@ -44,7 +46,9 @@ class VelodyneTurns {
         std::size_t interruptions = 0;  ///< gaps of more than a second, and jumps of that clock
     };
 
-    VelodyneTurns(const observations::VelodyneModel& model, std::string label);
+    /// `calibration`: of the sensor; null: that of the model.
+    VelodyneTurns(const observations::VelodyneModel& model, std::string label,
+                  std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration = nullptr);
 
     void add(const VelodynePacket& packet);
     /// Ends the last turn: no packets follow.
@@ -62,6 +66,7 @@ class VelodyneTurns {
 
     const observations::VelodyneModel& model_;
     std::string label_;
+    std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration_;
     std::deque<VelodynePacket> waiting_;  ///< by the sensor's clock
     Turn turn_;                           ///< in progress; null: none
     double turn_start_us_ = 0;

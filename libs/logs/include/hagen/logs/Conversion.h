@@ -19,6 +19,7 @@ namespace hagen::logs {
 struct Conversion {
     std::filesystem::path input;        ///< as for openRecording()
     std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
 
     std::filesystem::path rawlog;  ///< segmented rawlog

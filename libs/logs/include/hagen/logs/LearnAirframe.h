@@ -13,6 +13,7 @@ namespace hagen::logs {
 struct AirframeLearning {
     std::filesystem::path input;        ///< a rawlog, a capture, a bag, or a scan folder
     std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
     std::filesystem::path file;         ///< ends in .yaml; the picture beside it ends in .png
     bool overwrite = false;             ///< replace existing outputs

@@ -53,6 +53,7 @@ struct SourceOptions {
     /// objects.
     std::optional<observations::CloudClass> folder_objects;
     std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics to read of a bag; empty: all
     /// Called before each entry is read, also in advance; false ends reading with Interrupted.
     std::function<bool()> keep_going = [] { return true; };
@@ -156,8 +157,8 @@ class ScanSource {
 /// Opens a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
 /// scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
 /// are told apart by their content. Throws std::runtime_error naming it if it does not exist or
-/// cannot be opened, if there is a sensor_json but no capture or bag, or if there are topics but no
-/// bag.
+/// cannot be opened, if there is a sensor_json but no capture or bag, a calibration but no capture,
+/// or if there are topics but no bag.
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 

@@ -48,6 +48,7 @@ class CloudSensors {
     };
     std::map<std::string, Seen> seen_;
     Scan scan_;
+    std::vector<std::int32_t> rings_;
 };
 
 /// What is known about the sensor of such clouds, for the user: "16 beams recovered (VLP-16),

@@ -1,6 +1,7 @@
 #pragma once
 // Aliases for classes that differ between MRPT 2.5 and later versions.
 #include <hagen/observations/NewerClouds.h>
+#include <hagen/observations/RotatingScan.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -18,6 +19,7 @@ inline void registerMrptClasses() {
         mrpt::obs::registerAllClasses_mrpt_obs();
         mrpt::maps::registerAllClasses_mrpt_maps();
         registerNewerClouds();
+        registerNewerScans();
         return true;
     }();
     static_cast<void>(is_done);

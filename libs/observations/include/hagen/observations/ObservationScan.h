@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/observations/CloudSensors.h>
+#include <hagen/observations/RotatingScan.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Scan.h>
@@ -16,12 +17,13 @@
 
 namespace hagen::observations {
 
-/// True if the observation is read as a LiDAR scan: a CObservationVelodyneScan or a
-/// CObservationPointCloud that is no result of the filter (isResult()).
+/// True if the observation is read as a LiDAR scan: a CObservationVelodyneScan, a rotating scan
+/// (rotatingScanOf()), one of a depth camera (depthScanOf()), or a CObservationPointCloud that is
+/// no result of the filter (isResult()).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
 /// True if it is such a scan without packets, and no LocatedCloud: one that does not identify its
-/// sensor.
+/// sensor. A rotating scan is one if it has points; otherwise somebody has to name its sensor.
 bool isCloud(const mrpt::obs::CObservation& observation);
 
 /// A LiDAR scan read from an observation.
@@ -39,6 +41,7 @@ struct ObservedScan {
     /// Buffers of readObservation(), reused across scans.
     struct Workspace {
         DecoderWorkspace decoder;
+        RotatingReturns rotating;
         /// The sensor of these settings and beams; rebuilt only if they change.
         std::optional<Settings::Sensor> settings;
         SharedBeams beams;
@@ -56,9 +59,11 @@ struct ObservedScan {
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed, const SharedBeams& beams = nullptr);
 
-/// Reads the coordinates of a cloud, and its intensities. Returns false if it is none
-/// (isCloud()). Throws like readObservation().
-bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan);
+/// Reads the coordinates of a cloud, and its intensities, and the numbers of the rings of its
+/// returns if it has some; otherwise `rings` becomes empty (null: not wanted). Returns false if it
+/// is none (isCloud()). Throws like readObservation().
+bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
+                     std::vector<std::int32_t>* rings = nullptr);
 
 /// Point type of a cloud.
 enum class CloudClass {

@@ -10,7 +10,7 @@ namespace hagen::observations {
 
 /// Returns the sensor that took these packets: its calibration's beams (those of the model's
 /// default calibration if the observation has none) and the observation's range limits. Throws
-/// std::runtime_error for an unknown model.
+/// std::runtime_error for an unknown model, and for an HDL-64E without calibration.
 SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
 /// The same, into `sensor`, whose memory is reused.
 void sensorOf(const mrpt::obs::CObservationVelodyneScan& observation, SensorModel& sensor);
@@ -29,10 +29,15 @@ struct DecoderWorkspace {
 /// Azimuths are interpolated within a block; times are those of the firings, relative to the first
 /// packet's time stamp. There is no trigonometry per return.
 ///
-/// Returns the number of skipped blocks, which have a wrong header (not 0xEEFF) or an invalid
-/// azimuth. Throws std::runtime_error for a packet of an unknown model or of another model than the
-/// first packet; the message names the packet, and `scan` is unchanged. Reuses the memory of
-/// `scan`.
+/// Packets of an HDL-64E need the observation's calibration, of 64 lasers. Its offsets are
+/// perpendicular to the beam, as in the sensor's manual; all lasers of a firing have the azimuth of
+/// their block, but for their own correction. Corrections for close distances (distCorrectionX and
+/// Y) and of intensities are not applied: MRPT's calibration has none.
+///
+/// Returns the number of skipped blocks, which have a wrong header (not 0xEEFF, of an
+/// HDL-64E nor 0xDDFF) or an invalid azimuth. Throws std::runtime_error for a packet of an unknown
+/// model or of another model than the first packet; the message names the packet, and `scan` is
+/// unchanged. Reuses the memory of `scan`.
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan,
                           DecoderWorkspace& work);
 /// The same for single scans: allocates its own buffers.

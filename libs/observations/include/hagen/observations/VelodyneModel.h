@@ -39,6 +39,10 @@ struct VelodyneModel {
 /// Returns the model with this product id, or nullptr: VLP-16 0x22, Puck Hi-Res 0x24, HDL-32E 0x21,
 /// VLP-32C 0x28.
 const VelodyneModel* findVelodyneModel(std::uint8_t id);
+/// The HDL-64E S2 and S3, whose packets have no id: blocks of its upper 32 lasers (0xEEFF)
+/// alternate with blocks of the lower 32 (0xDDFF), two blocks to a firing. Its beams are those of a
+/// calibration (readVelodyneCalibration()); it is none of the models below.
+const VelodyneModel& hdl64Model();
 /// Returns the model with this name. Throws std::invalid_argument for any other.
 const VelodyneModel& velodyneModel(const std::string& name);
 

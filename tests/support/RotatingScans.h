@@ -1,0 +1,36 @@
+#pragma once
+#include <hagen/range_image/Scan.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hagen::test {
+
+/// How a VLP-16's scan is laid out as a CObservationRotatingScan.
+struct RotatingLayout {
+    bool has_points = false;        ///< as MRPT 3 stores them
+    bool is_highest_first = false;  ///< row 0 is the highest beam, otherwise the lowest
+};
+
+/// The same returns as a range image, a column for each firing, with 2 mm resolution; and the pixel
+/// of each return, as column * rows + row.
+struct RotatingImage {
+    std::string bytes;  ///< the object, in a rawlog
+    std::vector<std::uint32_t> pixel_of_return;
+};
+RotatingImage rotatingImageOf(const mrpt::obs::CObservationVelodyneScan& packets, const Scan& scan,
+                              const RotatingLayout& layout);
+
+/// An object of a rawlog, and its bytes.
+std::string bytesOf(const mrpt::serialization::CSerializable& object);
+mrpt::serialization::CSerializable::Ptr objectOf(const std::string& bytes);
+
+/// The bytes of a scan in the layout of MRPT from 2.9 to 3: points are rows * columns * (x, y, z),
+/// row by row.
+std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
+                         const std::vector<float>& points = {});
+
+}  // namespace hagen::test
