@@ -519,7 +519,8 @@ TEST_P(ConversionTest, ALogWithoutScansSaysWhatItHas) {
     convert(before_the_scan, remarksInto(remarks));
     EXPECT_THAT(remarks, testing::ElementsAre(
                              "the recording: no converted entry has a LiDAR scan "
-                             "(CObservationVelodyneScan or CObservationPointCloud); they have "
+                             "(CObservationVelodyneScan, CObservationRotatingScan, "
+                             "CObservationPointCloud, CObservation3DRangeScan); they have "
                              "1 CActionCollection, 1 CObservationIMU, 3 CObservationRobotPose"));
     remarks.clear();
     Conversion whole = conversion();
