@@ -126,7 +126,8 @@ bool BagFolder::next(BagMessage& message) {
 
 double BagFolder::fractionRead() const {
     if (!open_ || bytes_ <= 0) return 1.0;
-    const double size = static_cast<double>(fs::file_size(files_[file_]));
+    const double after = file_ + 1 < files_.size() ? share_before_[file_ + 1] : bytes_;
+    const double size = after - share_before_[file_];
     return (share_before_[file_] + open_->fractionRead() * size) / bytes_;
 }
 

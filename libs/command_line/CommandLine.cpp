@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <hagen/command_line/Interrupt.h>
+#include "StandardStreams.h"
 
 namespace hagen::command_line {
 
@@ -243,6 +244,7 @@ Program::Program(std::string name, const std::string& description)
     : Program(std::make_unique<CLI::App>(description), std::move(name)) {}
 Program::Program(std::unique_ptr<CLI::App> app, std::string name)
     : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {
+    reserveStandardStreams();
     app_->formatter(std::make_shared<HelpText>());  // subcommands inherit it
 }
 Program::~Program() = default;

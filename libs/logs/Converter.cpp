@@ -227,13 +227,18 @@ void Converter::reportRemarks(const ScanInConversion& scan) {
 void Converter::insertIntoMap(const ScanInConversion& scan) {
     const auto mapped =
         placeInMap(scan.segmented, *scan.recorded.observation, source_->poses().vehicle);
+    std::string why = "no pose near its time";
     if (mapped) {
-        outputs_.insertIntoMap(*mapped);
-        ++report_.scans_in_map;
-        return;
+        try {
+            outputs_.insertIntoMap(*mapped);
+            ++report_.scans_in_map;
+            return;
+        } catch (const std::runtime_error& e) {
+            why = e.what();
+        }
     }
     const std::lock_guard lock(listener_mutex_);
-    listener_.remark(titleOf(scan.recorded), "no pose near its time: it is not in the map");
+    listener_.remark(titleOf(scan.recorded), why + ": it is not in the map");
 }
 
 void Converter::checkSensor(const ScanInConversion& scan) {

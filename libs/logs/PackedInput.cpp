@@ -1,4 +1,5 @@
 #include <hagen/logs/PackedInput.h>
+#include <sys/stat.h>
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -26,12 +27,15 @@ struct PackedInput::Stream {
     std::vector<unsigned char> unpacked = std::vector<unsigned char>(kUnpackedBytes);
     std::size_t packed_at = 0, packed_end = 0;
     std::size_t unpacked_at = 0, unpacked_end = 0;
+    std::uint64_t size = 0;      ///< of the file [bytes]
     std::uint64_t taken = 0;     ///< bytes of the file
     bool may_hold_more = false;  ///< the last block was full: the unpacker may have output left
     std::string fault;
     std::unique_ptr<Unpacker> unpacker;
 
     explicit Stream(std::FILE* opened) : file(opened) {
+        struct stat status {};
+        if (fstat(fileno(opened), &status) == 0) size = static_cast<std::uint64_t>(status.st_size);
         fill();
         unpacker = unpackerFor(packed.data(), packed_end);
     }
@@ -93,6 +97,8 @@ std::size_t PackedInput::Read(void* buffer, std::size_t count) {
 std::uint64_t PackedInput::packedPosition() const {
     return stream_->taken - (stream_->packed_end - stream_->packed_at);
 }
+
+std::uint64_t PackedInput::packedBytes() const { return stream_->size; }
 
 std::string PackedInput::fault() const {
     // Data unpacked before the fault is delivered first.

@@ -61,7 +61,7 @@ RawlogReader::RawlogReader(const std::filesystem::path& file)
 
 double RawlogReader::fractionRead() const {
     return static_cast<double>(stream_.packedPosition()) /
-           static_cast<double>(std::filesystem::file_size(file_));
+           static_cast<double>(stream_.packedBytes());
 }
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::next() {

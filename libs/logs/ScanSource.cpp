@@ -150,6 +150,11 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
         throw std::runtime_error(recording.string() + ": no such file or folder");
     }
     const bool is_folder = std::filesystem::is_directory(recording);
+    if (!is_folder && !std::filesystem::is_regular_file(recording)) {
+        throw std::runtime_error(recording.string() +
+                                 ": is a pipe or a device; a recording is read more than once, so "
+                                 "store it in a file first");
+    }
     const bool is_bag = bags::isBag(recording);
     const bool is_scan_folder = is_folder && std::filesystem::is_directory(recording / "velodyne");
     if (is_folder && !is_bag && !is_scan_folder && !CloudFileSource::hasClouds(recording)) {

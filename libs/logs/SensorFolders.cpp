@@ -8,8 +8,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// With room for what tells equal names apart, in the 255 bytes that file systems allow.
 std::string fileName(const std::string& sensor_label) {
-    std::string name = sensor_label;
+    constexpr std::size_t kMostLetters = 100;
+    std::string name = sensor_label.substr(0, kMostLetters);
     for (char& c : name) {
         const bool is_plain =
             std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';

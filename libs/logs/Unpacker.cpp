@@ -22,7 +22,15 @@ class GzipUnpacker : public Unpacker {
     GzipUnpacker& operator=(const GzipUnpacker&) = delete;
 
     bool unpack(UnpackStep& step) override {
-        is_in_member_ = true;
+        // Zeros may fill up a file after its last member, as on a tape; gzip ignores them, too.
+        if (!is_in_member_ && has_member_) {
+            while (step.in_size > 0 && *step.in == 0) {
+                ++step.in;
+                --step.in_size;
+            }
+            if (step.in_size == 0) return true;
+        }
+        is_in_member_ = has_member_ = true;
         inflater_.next_in = const_cast<unsigned char*>(step.in);  // is only read
         inflater_.avail_in = static_cast<unsigned>(step.in_size);
         inflater_.next_out = step.out;
@@ -39,6 +47,7 @@ class GzipUnpacker : public Unpacker {
 
  private:
     z_stream inflater_{};
+    bool has_member_ = false;
 };
 
 /// Zstandard frames, one after the other.

@@ -41,6 +41,7 @@ class ScanMap::RayTraversal {
  public:
     void start(const octomap::OcTree& tree, const Eigen::Vector3f& origin_m, double max_range_m) {
         tree_ = &tree;
+        if (!origin_m.allFinite()) throw std::runtime_error("its pose is not finite");
         origin_m_ = origin_m;
         max_range_m_ = static_cast<float>(max_range_m);
         voxels_.free.clear();

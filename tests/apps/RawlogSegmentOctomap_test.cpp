@@ -153,6 +153,23 @@ TEST_F(RawlogSegmentOctomap, ScansWithoutAPoseAreLeftOutAndNamed) {
     EXPECT_THAT(outcome.err, HasSubstr("it is not in the map"));
 }
 
+TEST_F(RawlogSegmentOctomap, APoseThatNoMapCanHoldCostsOnlyTheScansThatUseIt) {
+    std::string tum;
+    for (int i = 0; i < 10; ++i) {
+        tum += std::to_string(1767225600 + 0.1 * i) + (i == 7 ? " 1e9" : " 0") + " 0 1.2 0 0 0 1\n";
+    }
+    const auto outcome = run({"-i", kRecording, "--octomap", path("map.bt"), "-o",
+                              path("out.rawlog"), "--poses", folder_.write("far.tum", tum)});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out,
+                HasSubstr("in the OctoMap: 8 of 10 scans"));  // its own, and the one before, which
+                                                              // moves towards it
+    EXPECT_THAT(outcome.out, HasSubstr("10 LiDAR scans"));
+    EXPECT_THAT(outcome.err, HasSubstr("lies outside an OctoMap"));
+    EXPECT_THAT(outcome.err, HasSubstr("it is not in the map"));
+    EXPECT_TRUE(fs::exists(path("out.rawlog")));
+}
+
 TEST_F(RawlogSegmentOctomap, FailsWithoutPoses) {
     if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
     expectFailure({"-i", test::realScan(), "--octomap", path("map.bt"), "-o", path("out.rawlog")},

@@ -475,6 +475,20 @@ TEST_P(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
     EXPECT_EQ(ScanFolder(folder_ / "labels.v1.partial").size(), 1u);
 }
 
+TEST_P(ConversionTest, LongLabelsBecomeNamesThatAFileSystemAllows) {
+    const std::string label(300, 'a');
+    writeLog({scanFrom(0, label + "b"), scanFrom(0, label + "c"), scanFrom(0, label + "d")});
+    Conversion all = conversion();
+    all.folder = folder_ / "scans";
+    EXPECT_EQ(convert(all).scans, 3u);
+    std::size_t folders = 0;
+    for (const auto& entry : fs::directory_iterator(all.folder)) {
+        EXPECT_EQ(ScanFolder(entry.path()).size(), 1u);
+        ++folders;
+    }
+    EXPECT_EQ(folders, 3u);
+}
+
 TEST_P(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
     writeLog({scanFrom(0, "front"), scanFrom(0, "rear"), scanFrom(1, "front"), scanFrom(1, "a/b")});
     Conversion all = conversion();

@@ -151,6 +151,33 @@ std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
     return ends;
 }
 
+/// As on a tape, or from a file system that had allocated more. gzip(1) ignores them, too.
+TEST(Rawlog, ZerosAfterTheLastMemberAreNoDamage) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 20);
+    const std::string log = test::readFile(folder / "a.rawlog");
+    for (const std::size_t zeros : {1u, 512u, 300000u}) {
+        RawlogReader reader(folder.write("zeros.rawlog", log + std::string(zeros, '\0')));
+        while (reader.next()) {
+        }
+        EXPECT_EQ(reader.entries(), 20u);
+        EXPECT_EQ(reader.fractionRead(), 1.0);
+    }
+    RawlogReader other(folder.write("other.rawlog", log + std::string(512, '\0') + "x"));
+    EXPECT_THROW(while (other.next()){}, BrokenRawlog);
+}
+
+TEST(Rawlog, AFileThatIsRemovedMeanwhileIsReadToItsEnd) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 20);
+    RawlogReader reader(folder / "a.rawlog");
+    ASSERT_NE(reader.next(), nullptr);
+    fs::remove(folder / "a.rawlog");
+    while (reader.next()) EXPECT_GT(reader.fractionRead(), 0);
+    EXPECT_EQ(reader.entries(), 20u);
+    EXPECT_EQ(reader.fractionRead(), 1.0);
+}
+
 TEST(Rawlog, MembersEndWithTheEntryThatFillsThem) {
     const test::TemporaryFolder folder;
     RawlogWriter writer(folder / "a.rawlog", false);

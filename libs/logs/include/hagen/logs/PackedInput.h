@@ -21,6 +21,8 @@ class PackedInput : public mrpt::io::CStream {
     std::uint64_t getPosition() const override { return position_; }
     /// Bytes of the file consumed so far.
     std::uint64_t packedPosition() const;
+    /// Bytes of the file when it was opened; it may have been renamed or removed since.
+    std::uint64_t packedBytes() const;
 
     /// Why reading stopped: the file is truncated or corrupt. Empty while there is data left, and
     /// after a regular end.
