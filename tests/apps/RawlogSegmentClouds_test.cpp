@@ -175,7 +175,8 @@ TEST_F(RawlogSegmentClouds, ASensorIsRecoveredAndRemarksAreTold) {
     EXPECT_THAT(outcome.out, HasSubstr("sensor lidar: "));
     EXPECT_THAT(outcome.out, HasSubstr("beams recovered"));
     EXPECT_THAT(outcome.err, HasSubstr("0.1 s apart"));
-    EXPECT_THAT(outcome.err, HasSubstr("does not hold (--clouds does): intensity"));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("does not hold (--cloud generic and --clouds do): intensity"));
 }
 
 TEST_F(RawlogSegmentClouds, LabelledCloudsAreInputsAgain) {

@@ -22,6 +22,7 @@ struct Format {
     int number;
     std::size_t bytes, gps_time;
 };
+void PrintTo(const Format& format, std::ostream* out) { *out << format.number; }
 
 /// A file whose records are random but for the times.
 std::string randomLas(const Format& format, unsigned seed) {
