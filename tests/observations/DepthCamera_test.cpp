@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "support/Program.h"
 #include "support/SimpleScene.h"
 
 namespace hagen::observations {
@@ -145,20 +146,20 @@ TEST(DepthCamera, EveryLayerHasReturns) {
 }
 
 TEST(DepthCamera, DataInFilesAreReadOrNamed) {
-    const auto folder = std::filesystem::temp_directory_path() / "hagen_depth_camera_test";
-    std::filesystem::create_directories(folder);
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path().string() + "/";
     const std::string before = mrpt::io::getLazyLoadPathBase();
-    mrpt::io::setLazyLoadPathBase(folder.string() + "/");
+    mrpt::io::setLazyLoadPathBase(path);
     const auto observation = rangeImage();
     Scan expected, scan;
     readDepthScan(*observation, expected);
-    observation->rangeImage_convertToExternalStorage("ranges.bin", folder.string() + "/");
+    observation->rangeImage_convertToExternalStorage("ranges.bin", path);
     observation->unload();
     EXPECT_EQ(observation->rangeImage.rows(), 0);
     readDepthScan(*observation, scan);
     EXPECT_EQ(scan.x_m, expected.x_m);
     observation->unload();
-    std::filesystem::remove_all(folder);
+    std::filesystem::remove(folder / "ranges.bin");
     EXPECT_THAT(errorOf(*observation), HasSubstr("ranges"));
     mrpt::io::setLazyLoadPathBase(before);
 }

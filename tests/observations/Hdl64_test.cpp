@@ -15,6 +15,7 @@
 #include <string>
 
 #include "support/Hdl64.h"
+#include "support/Program.h"
 
 namespace hagen::observations {
 namespace {
@@ -24,9 +25,10 @@ using mrpt::obs::VelodyneCalibration;
 using testing::AllOf;
 using testing::HasSubstr;
 
+/// A file of this process alone: tests run side by side.
 std::filesystem::path fileOf(const std::string& content) {
-    return test::writeBytes(std::filesystem::temp_directory_path() / "hagen_hdl64_test.xml",
-                            content);
+    static const test::TemporaryFolder folder;
+    return test::writeBytes(folder / "calibration.xml", content);
 }
 
 std::string errorOf(const std::string& xml) {
