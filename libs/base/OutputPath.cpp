@@ -1,7 +1,13 @@
+#include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <hagen/base/OutputPath.h>
+#include <hagen/base/WriteFile.h>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <random>
 #include <stdexcept>
 #include <string>
 
@@ -60,6 +66,47 @@ fs::path freeName(const fs::path& stem, const std::string& mark, const fs::path&
     }
 }
 
+constexpr const char* kTemporaryMark = ".tmp-";
+
+/// An unused name next to `path` that contains this process and 64 random bits. In a folder that
+/// others may write to, a name that can be known in advance could be a link laid there by them.
+fs::path secretName(const fs::path& path, const std::string& mark) {
+    std::random_device random;
+    char bits[20];
+    std::snprintf(bits, sizeof bits, "-%08x%08x", random(), random());
+    return freeName(path, mark + std::to_string(getpid()) + bits, "");
+}
+
+/// Has data reach the disk, so that a name never stands for less than it did before a power cut.
+/// File systems that cannot do so (EINVAL) are taken as they are.
+void syncFile(const fs::path& file, const fs::path& named) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) throwWriteError(named, errno);
+    const int error = fsync(descriptor) == 0 ? 0 : errno;
+    close(descriptor);
+    if (error != 0 && error != EINVAL) throwWriteError(named, error);
+}
+
+/// The same for all of a folder at once.
+void syncFolder(const fs::path& folder, const fs::path& named) {
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) throwWriteError(named, errno);
+    const int error = syncfs(descriptor) == 0 ? 0 : errno;
+    close(descriptor);
+    if (error != 0) throwWriteError(named, error);
+}
+
+/// Whether a temporary name is that of a process that does not run any more.
+bool isLeftBehind(const std::string& name, const std::string& output) {
+    const std::string start = output + kTemporaryMark;
+    if (name.rfind(start, 0) != 0) return false;
+    const std::string process =
+        name.substr(start.size(), name.find('-', start.size()) - start.size());
+    if (process.empty() || process.find_first_not_of("0123456789") != std::string::npos)
+        return false;
+    return process.size() < 10 && kill(std::stoi(process), 0) != 0 && errno == ESRCH;
+}
+
 /// True if `inner` is `outer` or lies in it.
 bool isWithin(const fs::path& inner, const fs::path& outer) {
     const auto resolved = [](const fs::path& path) {
@@ -81,7 +128,7 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder to write to");
     }
-    temporary_ = freeName(path_, ".tmp-" + std::to_string(getpid()), "");
+    temporary_ = secretName(path_, kTemporaryMark);
 }
 
 OutputPath::~OutputPath() {
@@ -105,12 +152,20 @@ void OutputPath::commit() {
         throw std::runtime_error(std::string(e.what()) + "; this run's output is " +
                                  keepPartial().string());
     }
+    const fs::path folder = fs::absolute(path_).parent_path();
+    if (!fs::is_directory(temporary_)) {
+        syncFile(temporary_, path_);
+        fs::rename(temporary_, path_);
+        syncFile(folder, path_);
+        return;
+    }
+    syncFolder(temporary_, path_);
     if (!fs::is_directory(path_)) {
         fs::rename(temporary_, path_);
         return;
     }
     // rename() does not replace a non-empty folder.
-    const fs::path old = freeName(path_, ".old-" + std::to_string(getpid()), "");
+    const fs::path old = secretName(path_, ".old-");
     fs::rename(path_, old);
     fs::rename(temporary_, path_);
     fs::remove_all(old);
@@ -125,6 +180,25 @@ fs::path OutputPath::keepPartial() {
     return name;
 }
 
+RenamingNote::RenamingNote(const std::vector<fs::path>& outputs) {
+    if (outputs.size() < 2) return;
+    std::string text =
+        "These outputs of one run were getting their names when this file was written. If it is "
+        "still there, the run was killed meanwhile: outputs that are missing or older are complete "
+        "under their temporary names (NAME" +
+        std::string(kTemporaryMark) + std::to_string(getpid()) + "-*).\n";
+    for (const fs::path& output : outputs) text += output.string() + "\n";
+    fs::path first = outputs.front();
+    if (!first.has_filename()) first = first.parent_path();
+    file_ = secretName(first, ".unfinished-");
+    std::ofstream(file_) << text;
+}
+
+RenamingNote::~RenamingNote() {
+    std::error_code ignored;  // destructors must not throw
+    if (!file_.empty()) fs::remove(file_, ignored);
+}
+
 std::vector<fs::path> partialOutputs(const fs::path& path) {
     std::vector<fs::path> found;
     if (path.empty()) return found;
@@ -136,6 +210,10 @@ std::vector<fs::path> partialOutputs(const fs::path& path) {
     std::error_code unreadable;
     for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
         const std::string name = entry.path().filename().string();
+        if (isLeftBehind(name, path.filename().string())) {
+            found.push_back(path.parent_path() / name);
+            continue;
+        }
         if (name.size() < start.size() + end.size() || name.rfind(start, 0) != 0 ||
             name.compare(name.size() - end.size(), end.size(), end) != 0) {
             continue;

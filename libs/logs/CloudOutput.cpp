@@ -38,8 +38,15 @@ void CloudOutput::write(const std::string& name,
     const observations::PointTable table = labelledTable(segmented, observation);
     changes_.add(renamedFields(table));
     changes_.add(changesWhenWritten(format_, table));
-    writeCloud(folders_.folderOf(observation.sensorLabel) / (name + extensionOf(format_)), format_,
-               table);
+    const fs::path file =
+        folders_.folderOf(observation.sensorLabel) / (name + extensionOf(format_));
+    try {
+        writeCloud(file, format_, table);
+    } catch (...) {  // no half of a cloud stays
+        std::error_code ignored;
+        fs::remove(file, ignored);
+        throw;
+    }
     ++files_;
     points_ += table.points;
 }

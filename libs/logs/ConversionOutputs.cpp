@@ -4,6 +4,10 @@
 #include <hagen/logs/Statistics.h>
 #include <hagen/pictures/StagePictures.h>
 
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
 namespace hagen::logs {
 
 namespace fs = std::filesystem;
@@ -17,7 +21,18 @@ Attitude mountOf(const mrpt::obs::CObservation& scan, const observations::Settin
     return {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)};
 }
 
+std::string textOf(const fs::path& name) { return name.string(); }
+std::string textOf(const std::string& names) { return names; }
+
 }  // namespace
+
+std::vector<fs::path> outputsOf(const Conversion& conversion) {
+    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder,   conversion.clouds,
+                                  conversion.mcap,   conversion.pictures, conversion.stats};
+    outputs.insert(outputs.end(), conversion.octomaps.begin(), conversion.octomaps.end());
+    outputs.erase(std::remove(outputs.begin(), outputs.end(), fs::path()), outputs.end());
+    return outputs;
+}
 
 ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_(conversion) {
     const bool overwrite = conversion.overwrite;
@@ -40,31 +55,119 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
     }
 }
 
+// Each part's steps run on one thread at a time. The flag is seen by the next.
+template <class Step>
+void ConversionOutputs::attempt(Part part, Step step) {
+    if (is_given_up_[part]) return;
+    try {
+        step();
+    } catch (const std::bad_alloc&) {
+        giveUp(part, pathOf(part).string() + ": out of memory");
+    } catch (const std::exception& e) {
+        giveUp(part, e.what());
+    }
+}
+
+const fs::path& ConversionOutputs::pathOf(Part part) const {
+    switch (part) {
+        case kFolders:
+            return conversion_.folder;
+        case kClouds:
+            return conversion_.clouds;
+        case kMcap:
+            return conversion_.mcap;
+        case kPictures:
+            return conversion_.pictures;
+        case kMap:
+            return conversion_.octomaps.front();
+        case kStats:
+            return conversion_.stats;
+        default:
+            return conversion_.rawlog;
+    }
+}
+
+void ConversionOutputs::giveUp(Part part, const std::string& why) {
+    why_[part] = why;
+    is_given_up_[part] = true;
+}
+
+/// Calls act(part, output) for the outputs that there are.
+template <class Do>
+void ConversionOutputs::forEach(Do act) {
+    if (rawlog_) act(kRawlog, *rawlog_);
+    if (folders_) act(kFolders, *folders_);
+    if (clouds_) act(kClouds, *clouds_);
+    if (mcap_) act(kMcap, *mcap_);
+    if (pictures_) act(kPictures, *pictures_);
+    if (map_) act(kMap, *map_);
+    if (stats_) act(kStats, *stats_);
+}
+
+bool ConversionOutputs::hasAny() const {
+    const std::array<bool, kParts> has{
+        rawlog_.has_value(),   folders_.has_value(), clouds_.has_value(), mcap_.has_value(),
+        pictures_.has_value(), map_.has_value(),     stats_.has_value()};
+    bool has_any = false;
+    for (std::size_t part = 0; part < kParts; ++part) {
+        if (has[part] && !is_given_up_[part]) return true;
+        has_any = has_any || has[part];
+    }
+    return !has_any;  // none was asked for
+}
+
+void ConversionOutputs::pack(const Bytes& member, Bytes& packed) {
+    attempt(kRawlog, [&] { packGzipMember(member, packed); });
+}
+
+void ConversionOutputs::writeMember(const Bytes& packed) {
+    attempt(kRawlog, [&] { rawlog_->writeMember(packed); });
+}
+
+void ConversionOutputs::insertIntoMap(const mapping::MappedScan& scan) {
+    if (is_given_up_[kMap]) return;
+    try {
+        map_->insert(scan);
+    } catch (const mapping::MapFull& e) {
+        giveUp(kMap, pathOf(kMap).string() + ": " + e.what());
+    } catch (const std::bad_alloc&) {
+        giveUp(kMap, pathOf(kMap).string() + ": out of memory; use larger voxels");
+    }
+}
+
+void ConversionOutputs::writeToFolder(const observations::ObservationSegmenter::Output& segmented,
+                                      const RecordedScan& recorded, const std::string& name,
+                                      const observations::Settings& settings) {
+    const std::string& sensor_label = recorded.observation->sensorLabel;
+    auto writer = folder_writers_.find(sensor_label);
+    if (writer == folder_writers_.end()) {
+        std::optional<GivenLimits> unnamed;
+        if (segmented.recovered || segmented.is_sensor_assumed) {
+            unnamed = {settings.sensor.min_range_m, settings.sensor.max_range_m};
+        }
+        ScanFolderWriter to_folder(folders_->folderOf(sensor_label),
+                                   mountOf(*segmented.roi, settings), unnamed);
+        writer = folder_writers_.emplace(sensor_label, std::move(to_folder)).first;
+    }
+    const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
+    writer->second.write(name, *segmented.scan, segmented.result->returns, *segmented.sensor,
+                         time_s, segmented.pose.sensor_pose,
+                         !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);
+}
+
 std::string ConversionOutputs::writeScan(
     const observations::ObservationSegmenter::Output& segmented, const RecordedScan& recorded,
     const observations::Settings& settings) {
-    const std::string& sensor_label = recorded.observation->sensorLabel;
-    const std::size_t number = scans_[sensor_label]++;
+    const std::size_t number = scans_[recorded.observation->sensorLabel]++;
     const std::string own_name = recorded.name.empty() ? scanName(number) : recorded.name;
     if (folders_) {
-        auto writer = folder_writers_.find(sensor_label);
-        if (writer == folder_writers_.end()) {
-            std::optional<GivenLimits> unnamed;
-            if (segmented.recovered || segmented.is_sensor_assumed) {
-                unnamed = {settings.sensor.min_range_m, settings.sensor.max_range_m};
-            }
-            ScanFolderWriter to_folder(folders_->folderOf(sensor_label),
-                                       mountOf(*segmented.roi, settings), unnamed);
-            writer = folder_writers_.emplace(sensor_label, std::move(to_folder)).first;
-        }
-        const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
-        writer->second.write(own_name, *segmented.scan, segmented.result->returns,
-                             *segmented.sensor, time_s, segmented.pose.sensor_pose,
-                             !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);
+        attempt(kFolders, [&] { writeToFolder(segmented, recorded, own_name, settings); });
     }
-    if (clouds_) clouds_->write(own_name, segmented, *recorded.observation);
-    if (mcap_) mcap_->write(segmented, *recorded.observation);
-    if (pictures_) drawPictures(segmented, recorded);
+    if (clouds_) {
+        attempt(kClouds, [&] { clouds_->write(own_name, segmented, *recorded.observation); });
+    }
+    if (mcap_) attempt(kMcap, [&] { mcap_->write(segmented, *recorded.observation); });
+    if (pictures_) attempt(kPictures, [&] { drawPictures(segmented, recorded); });
     return own_name;
 }
 
@@ -83,41 +186,65 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
                          folder);
 }
 
-void ConversionOutputs::finish(const ConversionReport& report) {
+void ConversionOutputs::finishFolders() {
     for (const auto& [label, writer] : folder_writers_) {
         writer.finish();
         markAsPredictions(folders_->folderOf(label));
     }
-    if (mcap_) mcap_->finish();
-    if (map_) map_->write();
-    if (stats_) writeStatistics(stats_->temporary(), conversion_, report);
+}
+
+void ConversionOutputs::finish(const ConversionReport& report) {
+    attempt(kFolders, [&] { finishFolders(); });
+    if (mcap_) attempt(kMcap, [&] { mcap_->finish(); });
+    if (map_) attempt(kMap, [&] { map_->write(); });
+    if (stats_) {
+        attempt(kStats, [&] { writeStatistics(stats_->temporary(), conversion_, report); });
+    }
+}
+
+/// Whether an output that was given up has something whole: members of a rawlog, scans, clouds.
+bool ConversionOutputs::hasWholeParts(Part part) const {
+    if (part == kFolders) {
+        return std::any_of(folder_writers_.begin(), folder_writers_.end(),
+                           [](const auto& writer) { return writer.second.scans() > 0; });
+    }
+    return part == kRawlog || (part == kClouds && clouds_->files() > 0);
+}
+
+/// What was given up, why, and what of it is kept.
+std::string ConversionOutputs::whatFailed() {
+    std::string text;
+    forEach([&](Part part, auto& output) {
+        if (!is_given_up_[part]) return;
+        text += (text.empty() ? "" : "; ") + why_[part];
+        if (!hasWholeParts(part)) return;
+        try {
+            if (part == kFolders) finishFolders();
+            text += "; what was written before is in " + textOf(output.keepPartial());
+        } catch (const std::exception&) {
+            text += "; nothing of it is kept";
+        }
+    });
+    return text;
 }
 
 void ConversionOutputs::commit(const ConversionReport& report) {
     finish(report);
-    if (stats_) stats_->commit();
-    if (map_) map_->commit();
-    if (pictures_) pictures_->commit();
-    if (mcap_) mcap_->commit();
-    if (clouds_) clouds_->commit();
-    if (folders_) folders_->commit();
-    if (rawlog_) rawlog_->commit();
+    const base::RenamingNote note(outputsOf(conversion_));
+    forEach([&](Part part, auto& output) { attempt(part, [&] { output.commit(); }); });
+    const std::string failed = whatFailed();
+    if (!failed.empty()) throw std::runtime_error(failed);
 }
 
 std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
     finish(report);
     std::string names;
-    const auto keep = [&](auto& output) {
-        if (output) names += " " + output->keepPartial().string();
-    };
-    keep(rawlog_);
-    keep(folders_);
-    keep(clouds_);
-    keep(mcap_);
-    keep(pictures_);
-    if (map_) names += map_->keepPartial();
-    keep(stats_);
-    return names;
+    forEach([&](Part part, auto& output) {
+        if (!is_given_up_[part])
+            attempt(part, [&] { names += " " + textOf(output.keepPartial()); });
+    });
+    const std::string failed = whatFailed();
+    return names + (failed.empty() ? "" : "; " + failed);
 }
 
 }  // namespace hagen::logs

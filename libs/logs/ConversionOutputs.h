@@ -5,6 +5,8 @@
 #include <hagen/logs/ScanFolderWriter.h>
 #include <hagen/logs/SensorFolders.h>
 #include <hagen/observations/ObservationSegmenter.h>
+#include <array>
+#include <atomic>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,7 +17,11 @@
 
 namespace hagen::logs {
 
-/// The requested outputs of a conversion.
+/// The paths of the requested outputs.
+std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
+
+/// The requested outputs of a conversion. What goes wrong in one of them (a full disk, a map that
+/// is full, a program that draws) costs that output alone: it is given up, and commit() names it.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
@@ -27,7 +33,9 @@ class ConversionOutputs {
     void gather(Bytes& entries, Bytes& member) {
         if (rawlog_) rawlog_->gather(entries, member);
     }
-    void writeMember(const Bytes& packed) { rawlog_->writeMember(packed); }
+    /// Compresses a member, on any thread, and writes it.
+    void pack(const Bytes& member, Bytes& packed);
+    void writeMember(const Bytes& packed);
 
     /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
     /// empty name stands for the next number. Returns the name used.
@@ -40,18 +48,41 @@ class ConversionOutputs {
     /// The MCAP written so far; null if there is none to write.
     const McapOutput* mcap() const { return mcap_ ? &*mcap_ : nullptr; }
 
-    /// Adds a scan to the map, if there is one.
+    /// Adds a scan to the map, if there is one. Throws std::runtime_error if the scan has no place
+    /// in it.
     bool wantsMap() const { return map_.has_value(); }
-    void insertIntoMap(const mapping::MappedScan& scan) { map_->insert(scan); }
+    void insertIntoMap(const mapping::MappedScan& scan);
+    void giveUpMap(const std::string& why) { giveUp(kMap, why); }
 
+    /// False once all outputs that were asked for are given up: there is nothing to convert for.
+    bool hasAny() const;
+
+    /// Gives the outputs their names. Throws std::runtime_error that names each that was given up,
+    /// why, and what is left of it; the others are in place then.
     void commit(const ConversionReport& report);
-    /// Keeps the incomplete outputs under partial names, and returns these names.
+    /// Keeps the incomplete outputs under partial names, and returns these names, with what was
+    /// given up.
     std::string keepPartial(const ConversionReport& report);
 
  private:
+    enum Part { kRawlog, kFolders, kClouds, kMcap, kPictures, kMap, kStats, kParts };
+    /// Does a step of an output; if it fails, gives the output up.
+    template <class Step>
+    void attempt(Part part, Step step);
+    void giveUp(Part part, const std::string& why);
+    template <class Do>
+    void forEach(Do act);
+
+    void writeToFolder(const observations::ObservationSegmenter::Output& segmented,
+                       const RecordedScan& recorded, const std::string& name,
+                       const observations::Settings& settings);
     void drawPictures(const observations::ObservationSegmenter::Output& segmented,
                       const RecordedScan& recorded);
+    void finishFolders();
     void finish(const ConversionReport& report);
+    const std::filesystem::path& pathOf(Part part) const;
+    bool hasWholeParts(Part part) const;
+    std::string whatFailed();
 
     const Conversion& conversion_;
     std::optional<RawlogWriter> rawlog_;
@@ -60,6 +91,8 @@ class ConversionOutputs {
     std::optional<McapOutput> mcap_;
     std::optional<MapOutput> map_;
     std::optional<base::OutputPath> stats_;
+    std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< steps run on several threads
+    std::array<std::string, kParts> why_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
     std::map<std::string, std::size_t> scans_;                ///< written so far
 };

@@ -90,6 +90,17 @@ void takeOutResults(EntryInConversion& entry) {
     }
 }
 
+/// Settings that do not fit a later sensor: the user has to change them and start again.
+bool isWrongUsage(const std::exception_ptr& end) {
+    try {
+        std::rethrow_exception(end);
+    } catch (const observations::SettingsError&) {
+        return true;
+    } catch (...) {
+        return false;
+    }
+}
+
 }  // namespace
 
 Converter::Converter(const Conversion& conversion, const ConversionListener& listener)
@@ -134,6 +145,7 @@ void Converter::usePoses() {
 // Reading, in the recording's order.
 
 bool Converter::read(EntryInConversion& entry) {
+    if (has_ended_) return false;
     try {
         auto recorded = source_->nextEntry();
         if (!recorded) return false;
@@ -145,9 +157,16 @@ bool Converter::read(EntryInConversion& entry) {
         }
         return true;
     } catch (...) {
-        end_ = std::current_exception();  // rethrown once the entries before are converted
+        endWith(std::current_exception());
         return false;
     }
+}
+
+/// Ends the conversion after the entries that are accounted for; the first reason counts.
+void Converter::endWith(std::exception_ptr why) {
+    const std::lock_guard lock(end_mutex_);
+    if (!end_) end_ = std::move(why);
+    has_ended_ = true;
 }
 
 // Segmentation, on any thread.
@@ -180,7 +199,7 @@ void Converter::serialiseAll(EntryInConversion& entry) const {
     entry.bytes.clear();
     if (!outputs_.wantsRawlog()) return;
     if (entry.object && conversion_.cloud_class == observations::CloudClass::Generic) {
-        keepFields(*entry.object);
+        keepFields(entry.object);
     }
     std::vector<CObservation::Ptr> added;
     for (const ScanInConversion& scan : entry.scans) {
@@ -271,6 +290,20 @@ bool Converter::isReplaced(const EntryInConversion& entry) const {
     return scan != last_segmented_.end() && scan->second == observation->timestamp;
 }
 
+/// Accounts for an entry, unless one before it ended the conversion.
+void Converter::accountInOrder(EntryInConversion& entry) {
+    entry.member.clear();
+    if (is_accounted_to_end_) return;
+    try {
+        account(entry);
+        // Without outputs there is nothing to go on for; run() tells why there are none.
+        has_ended_ = has_ended_ || !outputs_.hasAny();
+    } catch (...) {
+        is_accounted_to_end_ = true;
+        endWith(std::current_exception());
+    }
+}
+
 void Converter::account(EntryInConversion& entry) {
     if (entry.failure) std::rethrow_exception(entry.failure);
     for (ScanInConversion& scan : entry.scans) {
@@ -323,9 +356,9 @@ ConversionReport Converter::run() {
     PipelineSteps<EntryInConversion> steps;
     steps.read = [this](EntryInConversion& entry) { return read(entry); };
     steps.work = [this](EntryInConversion& entry) { segment(entry); };
-    steps.account = [this](EntryInConversion& entry) { account(entry); };
-    steps.pack = [](EntryInConversion& entry) {
-        if (!entry.member.empty()) packGzipMember(entry.member, entry.packed);
+    steps.account = [this](EntryInConversion& entry) { accountInOrder(entry); };
+    steps.pack = [this](EntryInConversion& entry) {
+        if (!entry.member.empty()) outputs_.pack(entry.member, entry.packed);
     };
     steps.write = [this](EntryInConversion& entry) {
         if (!entry.member.empty()) outputs_.writeMember(entry.packed);
@@ -335,20 +368,10 @@ ConversionReport Converter::run() {
     const std::size_t max_threads = conversion_.jobs == 0 ? coreCount() : conversion_.jobs;
     runPipeline(steps, conversion_.pictures.empty() ? max_threads : 1);
     report_.left_out_before = source_->entriesSkipped();
+    if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: each failed
     if (!end_) return finish();
-    try {
-        std::rethrow_exception(end_);
-    } catch (const BrokenRawlog& e) {
-        endEarly(e);
-    } catch (const BrokenScan& e) {
-        endEarly(e);
-    } catch (const captures::BrokenCapture& e) {
-        endEarly(e);
-    } catch (const bags::BrokenBag& e) {
-        endEarly(e);
-    } catch (const Interrupted& e) {
-        endEarly(e);
-    }
+    if (report_.entries == 0 || isWrongUsage(end_)) std::rethrow_exception(end_);
+    keepWhatThereIs();
 }
 
 ConversionReport Converter::finish() {
@@ -360,10 +383,10 @@ ConversionReport Converter::finish() {
     checkLabels();
     finishSensorCheck();
     if (outputs_.wantsMap() && report_.scans > 0 && report_.scans_in_map == 0) {
-        throw std::runtime_error(report_.poses + ": has no pose near any of the " +
-                                 std::to_string(report_.scans) + " scans of " +
-                                 conversion_.input.string() +
-                                 "; are its times from another clock? No map is written");
+        outputs_.giveUpMap(report_.poses + ": has no pose near any of the " +
+                           std::to_string(report_.scans) + " scans of " +
+                           conversion_.input.string() +
+                           "; are its times from another clock? No map is written");
     }
     const observations::Settings::AirframeMask& airframe = settings_.airframe;
     if (!airframe.parts.isEmpty() && report_.scans > 0 && report_.returns_masked == 0) {
@@ -380,10 +403,7 @@ ConversionReport Converter::finish() {
 
 /// Outputs of runs that broke off have names of their own, so that this one does not replace them.
 void Converter::remarkOnPartialOutputs() {
-    std::vector<fs::path> outputs{conversion_.rawlog, conversion_.folder,   conversion_.clouds,
-                                  conversion_.mcap,   conversion_.pictures, conversion_.stats};
-    outputs.insert(outputs.end(), conversion_.octomaps.begin(), conversion_.octomaps.end());
-    for (const fs::path& output : outputs) {
+    for (const fs::path& output : outputsOf(conversion_)) {
         std::string names;
         for (const fs::path& partial : base::partialOutputs(output)) {
             names += (names.empty() ? "" : ", ") + partial.string();
@@ -439,14 +459,30 @@ void Converter::remarkOnRecording() {
     }
 }
 
-/// Keeps what was converted so far, and adds its location to the error.
-template <class Error>
-void Converter::endEarly(const Error& why) {
-    if (report_.entries == 0) throw why;
+/// Keeps what was converted before the recording or the conversion ended early, whatever the
+/// reason, and adds its location to the error.
+void Converter::keepWhatThereIs() {
     remarkOnRecording();
     const std::string unit = fs::is_directory(conversion_.input) ? "scans" : "entries";
-    throw Error(std::string(why.what()) + "; the " + std::to_string(report_.entries) + " " + unit +
-                " before it are in" + outputs_.keepPartial(report_));
+    const std::string kept = "; the " + std::to_string(report_.entries) + " " + unit +
+                             " before it are in" + outputs_.keepPartial(report_);
+    try {
+        std::rethrow_exception(end_);
+    } catch (const BrokenRawlog& e) {
+        throw BrokenRawlog(e.what() + kept);
+    } catch (const BrokenScan& e) {
+        throw BrokenScan(e.what() + kept);
+    } catch (const captures::BrokenCapture& e) {
+        throw captures::BrokenCapture(e.what() + kept);
+    } catch (const bags::BrokenBag& e) {
+        throw bags::BrokenBag(e.what() + kept);
+    } catch (const Interrupted& e) {
+        throw Interrupted(e.what() + kept);
+    } catch (const std::bad_alloc&) {
+        throw std::runtime_error(conversion_.input.string() + ": out of memory" + kept);
+    } catch (const std::exception& e) {
+        throw std::runtime_error(observations::messageOf(e) + kept);
+    }
 }
 
 /// A requested label without scans may be a typo. It is an error only if nothing was segmented.

@@ -3,6 +3,7 @@
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/ObservationSegmenter.h>
 
+#include <atomic>
 #include <exception>
 #include <map>
 #include <memory>
@@ -66,8 +67,9 @@ class Converter {
     void remarkOnNothingFound();
     void remarkOnRecording();
     void checkLabels() const;
-    template <class Error>
-    [[noreturn]] void endEarly(const Error& why);
+    void accountInOrder(EntryInConversion& entry);
+    void endWith(std::exception_ptr why);
+    [[noreturn]] void keepWhatThereIs();
 
     const Conversion& conversion_;
     const ConversionListener& listener_;
@@ -80,7 +82,10 @@ class Converter {
     std::map<std::string, mrpt::Clock::time_point> last_segmented_;
     SensorCheck sensor_check_;
     ConversionReport report_;
-    std::exception_ptr end_;  ///< why reading ended early
+    std::mutex end_mutex_;
+    std::exception_ptr end_;  ///< why the conversion ends early
+    std::atomic<bool> has_ended_{false};
+    bool is_accounted_to_end_ = false;  ///< nothing after this entry is in an output
 };
 
 }  // namespace hagen::logs

@@ -1,4 +1,5 @@
 #include <libdeflate.h>
+#include <unistd.h>
 
 #include <hagen/logs/GzipOutput.h>
 
@@ -51,7 +52,15 @@ GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
 
 void GzipOutput::write(const Bytes& member) {
     errno = 0;
-    if (std::fwrite(member.data(), 1, member.size(), file_.get()) != member.size()) fail(path_);
+    if (std::fwrite(member.data(), 1, member.size(), file_.get()) == member.size()) {
+        whole_ += static_cast<long>(member.size());
+        return;
+    }
+    const int error = errno;
+    // Readers take a member that is cut off for damage.
+    const bool is_cut = ftruncate(fileno(file_.get()), whole_) == 0;
+    errno = is_cut ? error : errno;
+    fail(path_);
 }
 
 void GzipOutput::close() {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
+#include <stdexcept>
 
 namespace hagen::logs {
 
@@ -66,18 +68,46 @@ MapOutput::MapOutput(const std::vector<std::filesystem::path>& files,
     }
 }
 
-void MapOutput::write() const {
-    for (const base::OutputPath& file : files_)
-        mapping::saveMap(map_.tree(), file.temporary(), file.path());
+void MapOutput::giveUp(const base::OutputPath& file, const std::string& why) {
+    given_up_.insert(&file);
+    failures_ += (failures_.empty() ? "" : "; ") + why;
+}
+
+void MapOutput::throwFailures() const {
+    if (!failures_.empty()) throw std::runtime_error(failures_);
+}
+
+void MapOutput::write() {
+    for (const base::OutputPath& file : files_) {
+        try {
+            mapping::saveMap(map_.tree(), file.temporary(), file.path());
+        } catch (const std::bad_alloc&) {
+            giveUp(file, file.path().string() + ": out of memory");
+        } catch (const std::runtime_error& e) {
+            giveUp(file, e.what());
+        }
+    }
 }
 
 void MapOutput::commit() {
-    for (base::OutputPath& file : files_) file.commit();
+    for (base::OutputPath& file : files_) {
+        if (given_up_.count(&file) > 0) continue;
+        try {
+            file.commit();
+        } catch (const std::runtime_error& e) {
+            giveUp(file, e.what());
+        }
+    }
+    throwFailures();
 }
 
 std::string MapOutput::keepPartial() {
     std::string names;
-    for (base::OutputPath& file : files_) names += " " + file.keepPartial().string();
+    for (base::OutputPath& file : files_) {
+        if (given_up_.count(&file) > 0) continue;
+        names += (names.empty() ? "" : " ") + file.keepPartial().string();
+    }
+    throwFailures();
     return names;
 }
 

@@ -2,27 +2,14 @@
 
 #include <hagen/logs/PoseFile.h>
 #include <hagen/observations/Results.h>
-#include <mrpt/obs/CSensoryFrame.h>
 
 #include <memory>
 #include <utility>
 
+#include "ScanObject.h"
+
 namespace hagen::logs {
 namespace {
-
-using mrpt::obs::CObservation;
-
-/// The observations of an entry, which is an observation or a sensory frame.
-std::vector<CObservation::ConstPtr> observationsOf(
-    const mrpt::serialization::CSerializable::Ptr& entry) {
-    if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
-        return {frame->begin(), frame->end()};
-    }
-    if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
-        return {observation};
-    }
-    return {};
-}
 
 /// "CObservationImage" for mrpt::obs::CObservationImage.
 std::string classOf(const mrpt::rtti::CObject& object) {
@@ -43,6 +30,7 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
         checkInterruption();
         entry.object = reader_.next();
         if (!entry.object) return std::nullopt;
+        if (!skips(entry.number)) null_objects_ += takeOutNulls(entry.object);
         // Skipped entries may provide the attitude of the first scan.
         const auto all = observationsOf(entry.object);
         for (const auto& observation : all) see(*observation);
@@ -61,15 +49,21 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
 }
 
 std::vector<std::string> RawlogSource::remarks() const {
-    if (has_scans_ || has_.empty()) return {};
+    std::vector<std::string> remarks;
+    if (null_objects_ > 0) {
+        remarks.push_back("its sensory frames have " + std::to_string(null_objects_) +
+                          " null objects, which MRPT cannot write: they are left out");
+    }
+    if (has_scans_ || has_.empty()) return remarks;
     std::string found;
     for (const auto& [name, count] : has_) {
         found += (found.empty() ? "" : ", ") + std::to_string(count) + " " + name;
     }
-    return {
+    remarks.push_back(
         "no converted entry has a LiDAR scan (CObservationVelodyneScan, "
         "CObservationRotatingScan, CObservationPointCloud, CObservation3DRangeScan); they have " +
-        found};
+        found);
+    return remarks;
 }
 
 const RawlogSurvey& RawlogSource::survey() {

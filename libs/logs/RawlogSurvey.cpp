@@ -11,6 +11,8 @@
 #include <array>
 #include <utility>
 
+#include "ScanObject.h"
+
 namespace hagen::logs {
 namespace {
 
@@ -58,11 +60,11 @@ class Surveyor {
         }
     }
 
-    void see(const mrpt::obs::CSensoryFrame& frame) {
+    /// The observations of a sensory frame.
+    void see(const std::vector<CObservation::Ptr>& frame) {
         if (!frame.empty()) {
-            const auto time = (*frame.begin())->timestamp;
-            summed_3d_.arrive(time);
-            summed_2d_.arrive(time);
+            summed_3d_.arrive(frame.front()->timestamp);
+            summed_2d_.arrive(frame.front()->timestamp);
         }
         for (const auto& observation : frame) see(*observation);
     }
@@ -125,7 +127,7 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
                 surveyor.see(*one);
             } else if (const auto frame =
                            std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
-                surveyor.see(*frame);
+                surveyor.see(observationsOf(frame));
             } else if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(entry)) {
                 surveyor.see(*actions);
             }

@@ -64,8 +64,9 @@ void RawlogWriter::gather(Bytes& entries, Bytes& member) {
 }
 
 void RawlogWriter::writeMember(const Bytes& packed) {
+    has_failed_ = true;
     file_.write(packed);
-    is_empty_ = false;
+    has_failed_ = is_empty_ = false;
 }
 
 void RawlogWriter::finish() {
@@ -82,7 +83,8 @@ void RawlogWriter::commit() {
 }
 
 std::filesystem::path RawlogWriter::keepPartial() {
-    finish();
+    if (has_failed_ && is_empty_) throw std::runtime_error(path_.path().string() + ": is empty");
+    if (!has_failed_) finish();
     return path_.keepPartial();
 }
 

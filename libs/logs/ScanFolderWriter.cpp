@@ -69,8 +69,17 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
                              double time_s, const std::optional<mrpt::poses::CPose3D>& sensor_pose,
                              bool pose_has_horizon) {
     if (times_s_.empty()) writeSensor(folder_ / "sensor.yaml", sensor, unnamed_, mount_);
-    writeScan(folder_ / "velodyne" / (name + ".bin"), scan);
-    writeLabels(folder_ / "labels" / (name + ".label"), returns.label, returns.component);
+    const fs::path points = folder_ / "velodyne" / (name + ".bin");
+    const fs::path labels = folder_ / "labels" / (name + ".label");
+    try {
+        writeScan(points, scan);
+        writeLabels(labels, returns.label, returns.component);
+    } catch (...) {  // no half of a scan stays
+        std::error_code ignored;
+        fs::remove(points, ignored);
+        fs::remove(labels, ignored);
+        throw;
+    }
     times_s_.push_back(time_s);
     if (sensor_pose) poses_.push_back({times_s_.back(), *sensor_pose});
     have_horizon_ = have_horizon_ && pose_has_horizon;

@@ -6,6 +6,9 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace hagen::logs {
 namespace {
 
@@ -49,6 +52,30 @@ void writeAsGeneric(CObservation& observation) {
 
 }  // namespace
 
+std::vector<CObservation::Ptr> observationsOf(
+    const mrpt::serialization::CSerializable::Ptr& entry) {
+    std::vector<CObservation::Ptr> observations;
+    if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+        std::copy_if(frame->begin(), frame->end(), std::back_inserter(observations),
+                     [](const CObservation::Ptr& part) { return part != nullptr; });
+    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
+        observations.push_back(observation);
+    }
+    return observations;
+}
+
+std::size_t takeOutNulls(const mrpt::serialization::CSerializable::Ptr& entry) {
+    const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry);
+    if (!frame) return 0;
+    std::size_t nulls = 0;
+    for (auto part = frame->begin(); part != frame->end();) {
+        const bool is_null = *part == nullptr;
+        nulls += is_null;
+        part = is_null ? frame->erase(part) : std::next(part);
+    }
+    return nulls;
+}
+
 mrpt::serialization::CSerializable::Ptr objectOf(
     const CObservation::Ptr& scan, const std::optional<observations::CloudClass>& cloud_class) {
     const auto cloud = std::dynamic_pointer_cast<CObservationPointCloud>(scan);
@@ -72,12 +99,8 @@ mrpt::serialization::CSerializable::Ptr objectOf(
     return copy;
 }
 
-void keepFields(mrpt::serialization::CSerializable& object) {
-    if (auto* const frame = dynamic_cast<mrpt::obs::CSensoryFrame*>(&object)) {
-        for (const CObservation::Ptr& part : *frame) writeAsGeneric(*part);
-    } else if (auto* const observation = dynamic_cast<CObservation*>(&object)) {
-        writeAsGeneric(*observation);
-    }
+void keepFields(const mrpt::serialization::CSerializable::Ptr& entry) {
+    for (const CObservation::Ptr& observation : observationsOf(entry)) writeAsGeneric(*observation);
 }
 
 }  // namespace hagen::logs

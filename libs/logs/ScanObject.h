@@ -4,8 +4,18 @@
 #include <mrpt/serialization/CSerializable.h>
 
 #include <optional>
+#include <vector>
 
 namespace hagen::logs {
+
+/// The observations of a rawlog's entry, which is an observation or a sensory frame; none for any
+/// other entry. Null objects of a frame are none.
+std::vector<mrpt::obs::CObservation::Ptr> observationsOf(
+    const mrpt::serialization::CSerializable::Ptr& entry);
+
+/// Takes the null objects out of a sensory frame: MRPT reads such frames, but cannot write them.
+/// Returns their number.
+std::size_t takeOutNulls(const mrpt::serialization::CSerializable::Ptr& entry);
 
 /// What an output rawlog holds of a scan of a capture or a bag: packets as they are, a cloud of the
 /// class asked for; null if none is asked for.
@@ -14,6 +24,6 @@ mrpt::serialization::CSerializable::Ptr objectOf(
     const std::optional<observations::CloudClass>& cloud_class);
 
 /// Has the clouds of an entry that were read as CGenericPointsMap written as such, with all fields.
-void keepFields(mrpt::serialization::CSerializable& object);
+void keepFields(const mrpt::serialization::CSerializable::Ptr& entry);
 
 }  // namespace hagen::logs

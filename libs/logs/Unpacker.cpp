@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <new>
 
 namespace hagen::logs {
@@ -45,6 +46,12 @@ class GzipUnpacker : public Unpacker {
         return code == Z_OK || code == Z_BUF_ERROR;  // the latter: there was nothing to do
     }
 
+    std::uint64_t mostOutOf(std::uint64_t packed) const override {
+        constexpr std::uint64_t kDeflatesBest = 1032;  // 258 bytes by two bits
+        constexpr std::uint64_t kHeld = 1 << 16;       // of what zlib has taken already
+        return kDeflatesBest * std::min(packed, std::uint64_t{1} << 48) + kHeld;
+    }
+
  private:
     z_stream inflater_{};
     bool has_member_ = false;
@@ -68,6 +75,10 @@ class ZstdUnpacker : public Unpacker {
         return true;
     }
 
+    std::uint64_t mostOutOf(std::uint64_t) const override {
+        return std::numeric_limits<std::uint64_t>::max();  // a block may repeat a byte 128 Ki times
+    }
+
  private:
     struct Free {
         void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
@@ -84,6 +95,8 @@ class Copier : public Unpacker {
         step = {step.in + bytes, step.in_size - bytes, step.out + bytes, step.out_size - bytes};
         return true;
     }
+
+    std::uint64_t mostOutOf(std::uint64_t packed) const override { return packed; }
 };
 
 template <std::size_t N>

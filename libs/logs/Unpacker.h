@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 namespace hagen::logs {
@@ -19,6 +20,8 @@ class Unpacker {
     /// Unpacks until the input or the room is used up, or a member ends. False: the data is
     /// corrupt.
     virtual bool unpack(UnpackStep& step) = 0;
+    /// The most bytes that so many bytes of input can unpack to.
+    virtual std::uint64_t mostOutOf(std::uint64_t packed) const = 0;
     /// Whether the input may not end here: a member has begun.
     bool isInMember() const { return is_in_member_; }
 

@@ -1,7 +1,10 @@
 #include <hagen/mapping/MapFile.h>
 #include <mrpt/img/color_maps.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/opengl/COctoMapVoxels.h>
 #include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/serialization/CArchive.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -50,8 +53,19 @@ mrpt::opengl::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
 void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     mrpt::opengl::COpenGLScene scene;
     scene.insert(voxelsOf(tree));
+    // MRPT's own streams do not report a full disk.
+    mrpt::io::CMemoryStream bytes;
+    mrpt::serialization::archiveFrom(bytes) << scene;
     errno = 0;
-    if (!scene.saveToFile(file.string())) throwWriteError(named);
+    const gzFile out = gzopen(file.c_str(), "wb1");
+    if (out == nullptr) throwWriteError(named);
+    const auto* const data = static_cast<const std::uint8_t*>(bytes.getRawBufferData());
+    const std::size_t size = bytes.getTotalBytesCount();
+    const bool is_written = gzfwrite(data, 1, size, out) == size;
+    const int error = errno;
+    const bool is_closed = gzclose(out) == Z_OK;
+    if (!is_written) errno = error;
+    if (!is_written || !is_closed) throwWriteError(named);
 }
 
 /// Writes the header of OctoMap's files. OctoMap's own writers print to standard error.

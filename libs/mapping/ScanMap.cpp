@@ -12,6 +12,22 @@ namespace {
 
 octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
+// Limits: memory for the voxels around the sensor, a bit each in three sets (512 MiB a set), and
+// for the map (about 3 GiB).
+constexpr double kMostVoxelsInReach = 4294967296.0;
+constexpr std::size_t kMostNodes = 50'000'000;
+
+void checkReach(const ScanMapOptions& options) {
+    const double voxels = std::pow(2 * options.max_range_m / options.resolution_m + 4, 3);
+    if (voxels <= kMostVoxelsInReach) return;
+    const double side = std::cbrt(kMostVoxelsInReach) - 5;
+    throw std::invalid_argument(
+        "an OctoMap with voxels of " + std::to_string(options.resolution_m) +
+        " m needs more than " + "4 billion of them within its range of " +
+        std::to_string(std::lround(options.max_range_m)) + " m; use voxels of at least " +
+        std::to_string(2 * options.max_range_m / side) + " m");
+}
+
 /// State of a voxel after a scan. A hit overrides a ray that passes through.
 struct ScanVoxels {
     std::vector<octomap::OcTreeKey> free, occupied;
@@ -104,6 +120,7 @@ ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
     check("resolution", options.resolution_m);
     check("greatest range", options.max_range_m);
     checkProbabilities(options);
+    checkReach(options);
     if (options.insertion != RayInsertion::OneRayPerVoxel && options.content != MapContent::Full) {
         throw std::invalid_argument("OctoMap's own insertion needs all returns as hits");
     }
@@ -121,6 +138,10 @@ ScanMap& ScanMap::operator=(ScanMap&&) noexcept = default;
 std::size_t ScanMap::bytes() const { return tree_->memoryUsage() + walk_->bytes(); }
 
 void ScanMap::insert(const MappedScan& scan) {
+    if (tree_->size() > kMostNodes) {
+        throw MapFull("the map has more than " + std::to_string(kMostNodes / 1'000'000) +
+                      " million nodes; use larger voxels");
+    }
     const MapContent content = options_.content;
     const auto is_hit = [&](std::size_t i) {
         return content == MapContent::Full || scan.labels[i] == Label::Roi;

@@ -105,10 +105,27 @@ bool isOfHdl64(const CObservationVelodyneScan& observation) {
     return false;
 }
 
+/// Returns a scan's own calibration. Throws std::runtime_error if it is none: a laser that points
+/// nowhere would place returns nowhere.
+const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
+    const auto& lasers = calibration.laser_corrections;
+    for (std::size_t i = 0; i < lasers.size(); ++i) {
+        const auto& laser = lasers[i];
+        const double length = std::hypot(laser.sinVertCorrection, laser.cosVertCorrection);
+        const double others = laser.azimuthCorrection + laser.distanceCorrection +
+                              laser.verticalOffsetCorrection + laser.horizontalOffsetCorrection +
+                              laser.sinVertOffsetCorrection + laser.cosVertOffsetCorrection;
+        if (std::abs(length - 1) < 0.01 && std::isfinite(others)) continue;
+        throw std::runtime_error("the scan's own calibration is corrupt: laser " +
+                                 std::to_string(i) + " has no direction or no finite offsets");
+    }
+    return calibration;
+}
+
 const VelodyneCalibration& hdl64CalibrationOf(const CObservationVelodyneScan& observation) {
     const VelodyneCalibration& calibration = observation.calibration;
     const auto lasers = static_cast<std::size_t>(hdl64Model().lasers);
-    if (calibration.laser_corrections.size() == lasers) return calibration;
+    if (calibration.laser_corrections.size() == lasers) return checked(calibration);
     throw std::runtime_error(
         "packets of an HDL-64E need its calibration, with 64 lasers, which the "
         "scan does not have");
@@ -132,7 +149,7 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
                                          const VelodyneModel& model) {
     const bool has_own =
         observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
-    return has_own ? observation.calibration : defaultCalibration(model);
+    return has_own ? checked(observation.calibration) : defaultCalibration(model);
 }
 
 /// Returns the rotation of the sensor from one firing's block to the next, in 0.01 degrees: the
@@ -291,7 +308,8 @@ std::size_t decodeHdl64(const CObservationVelodyneScan& observation, Scan& scan,
                 continue;
             }
             block.returns = packet.returns(b);
-            block.time_s = static_cast<float>(1e-6 * (packet_us + b / 2 * firing_us));
+            const int firing = b / 2;  // of two blocks, upper and lower
+            block.time_s = static_cast<float>(1e-6 * (packet_us + firing * firing_us));
             directions.setDirection(packet.azimuth(b), block);
             locateReturns(work.blocks, packet.isLower(b) ? lower : upper,
                           arraysFrom(returns, scan));

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "Scan.cpp"
@@ -30,6 +32,11 @@ struct RowTable {
         std::array<int, kBins> midpoints_in_bin{};
         midpoint_sine.fill(std::numeric_limits<float>::infinity());
         for (std::size_t row = 0; row + 1 < sensor.elevations_rad.size(); ++row) {
+            if (row + 1 >= midpoint_sine.size() || !std::isfinite(sensor.elevations_rad[row]) ||
+                !std::isfinite(sensor.elevations_rad[row + 1])) {
+                throw std::invalid_argument("sensor " + sensor.name +
+                                            ": needs up to 256 beams with finite elevations");
+            }
             const double lower_rad = static_cast<double>(sensor.elevations_rad[row]);
             const double upper_rad = static_cast<double>(sensor.elevations_rad[row + 1]);
             midpoint_sine[row] = static_cast<float>(std::sin(0.5 * (lower_rad + upper_rad)));

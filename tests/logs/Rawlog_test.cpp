@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
@@ -265,6 +266,49 @@ TEST(Rawlog, WhatIsNoRawlogIsRefused) {
                                     std::string(500, '\0'), std::string(500, '\xff')}) {
         RawlogReader reader(folder.write("text.rawlog", text));
         EXPECT_THROW(reader.next(), BrokenRawlog);
+    }
+}
+
+/// An object whose reading ends the process, as that of some of MRPT's does on corrupt data.
+class CrashingObject : public mrpt::serialization::CSerializable {
+    DEFINE_SERIALIZABLE(CrashingObject, hagen::logs)
+};
+IMPLEMENTS_SERIALIZABLE(CrashingObject, CSerializable, hagen::logs)
+
+std::uint8_t CrashingObject::serializeGetVersion() const { return 0; }
+void CrashingObject::serializeTo(mrpt::serialization::CArchive&) const {}
+void CrashingObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) { std::abort(); }
+
+TEST(Rawlog, AnEntryThatCrashesItsReaderIsOneThatCannotBeRead) {
+    const test::TemporaryFolder folder;
+    mrpt::rtti::registerClass(CLASS_ID(CrashingObject));
+    RawlogWriter writer(folder / "a.rawlog", false);
+    writer.write(comment("before"));
+    writer.write(CrashingObject());
+    writer.write(comment("after"));
+    writer.commit();
+    const auto [entries, why] = readAll(folder / "a.rawlog");
+    EXPECT_EQ(entries, 1u);
+    EXPECT_THAT(why, AllOf(HasSubstr("a.rawlog: entry 1 at byte "), HasSubstr("Aborted")));
+}
+
+/// The count of a text, 4 bytes before it, made larger than the file.
+TEST(Rawlog, ACountThatTheFileCannotHoldIsRefusedWhereItStands) {
+    const test::TemporaryFolder folder;
+    Bytes bytes;
+    serialise(comment("first"), bytes);
+    const std::size_t second = bytes.size();
+    serialise(comment(std::string(1000, 'x')), bytes);
+    std::string text(bytes.begin(), bytes.end());
+    const std::size_t count = text.find("xxx") - 4;
+    for (const std::uint32_t wrong : {400'000'000u, 3'900'000'000u}) {
+        text.replace(count, 4, reinterpret_cast<const char*>(&wrong), 4);
+        const auto [entries, why] = readAll(folder.write("a.rawlog", text));
+        EXPECT_EQ(entries, 1u);
+        EXPECT_THAT(why, HasSubstr("entry 1 at byte " + std::to_string(second)));
+#ifndef __SANITIZE_ADDRESS__  // whose shadow memory no limit can tell from the reader's
+        EXPECT_THAT(why, HasSubstr("asks for more memory at byte " + std::to_string(count + 4)));
+#endif
     }
 }
 

@@ -31,12 +31,13 @@ class OutputPath {
     OutputPath& operator=(const OutputPath&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// Where to write: an unused name next to path(), on the same file system.
+    /// Where to write: an unused name next to path(), on the same file system, that nobody can know
+    /// in advance.
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Renames the output into place and replaces an older one. If the path has been taken by
-    /// something that must not be replaced, keeps the output as a partial one and throws
-    /// std::runtime_error that says so.
+    /// Has the output reach the disk, renames it into place and replaces an older one. If the path
+    /// has been taken by something that must not be replaced, keeps the output as a partial one and
+    /// throws std::runtime_error that says so.
     void commit();
     /// Keeps the output under a partial name: "x.rawlog" becomes "x.partial.rawlog", or
     /// "x.partial-2.rawlog" if that is taken. Returns the name.
@@ -50,8 +51,23 @@ class OutputPath {
     bool overwrites_;
 };
 
-/// What keepPartial() left of an output, sorted by name: all partial names of its path that there
-/// are. Empty for an empty path.
+/// A text file beside the first of several outputs while they get their names one after the other:
+/// if the process is killed meanwhile, it tells where the others are.
+class RenamingNote {
+ public:
+    /// None for fewer than two outputs, or if it cannot be written.
+    explicit RenamingNote(const std::vector<std::filesystem::path>& outputs);
+    ~RenamingNote();
+    RenamingNote(const RenamingNote&) = delete;
+    RenamingNote& operator=(const RenamingNote&) = delete;
+
+ private:
+    std::filesystem::path file_;
+};
+
+/// What earlier runs left of an output, sorted by name: all partial names of its path that there
+/// are (keepPartial()), and the temporary names of processes that do not run any more. Empty for an
+/// empty path.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& path);
 
 /// Throws std::runtime_error if an output is an input, contains an input, or lies in another

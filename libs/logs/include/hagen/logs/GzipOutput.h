@@ -20,7 +20,8 @@ class GzipOutput {
     /// Throws std::runtime_error naming the file if it cannot be opened.
     explicit GzipOutput(const std::filesystem::path& file);
 
-    /// Appends a compressed member. Throws std::runtime_error with the system's error message.
+    /// Appends a compressed member. Throws std::runtime_error with the system's error message; the
+    /// file then ends with its last whole member, and nothing more is written.
     void write(const Bytes& member);
     /// Closes the file. Throws like write().
     void close();
@@ -31,6 +32,7 @@ class GzipOutput {
     };
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
+    long whole_ = 0;  ///< bytes of the members written
 };
 
 }  // namespace hagen::logs

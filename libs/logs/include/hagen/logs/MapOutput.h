@@ -8,6 +8,8 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace hagen::logs {
@@ -28,13 +30,22 @@ class MapOutput {
 
     void insert(const mapping::MappedScan& scan) { map_.insert(scan); }
 
-    void write() const;  ///< to temporary names
+    /// To temporary names. A file that cannot be written costs that file alone.
+    void write();
+    /// Throws std::runtime_error that names the files that could not be written; the others have
+    /// their names then.
     void commit();
-    std::string keepPartial();  ///< returns the names of the partial files, each after a space
+    /// The names of the partial files, apart by spaces. Throws like commit().
+    std::string keepPartial();
 
  private:
     mapping::ScanMap map_;
+    void giveUp(const base::OutputPath& file, const std::string& why);
+    void throwFailures() const;
+
     std::deque<base::OutputPath> files_;
+    std::set<const base::OutputPath*> given_up_;
+    std::string failures_;
 };
 
 }  // namespace hagen::logs

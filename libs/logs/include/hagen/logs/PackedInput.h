@@ -24,6 +24,12 @@ class PackedInput : public mrpt::io::CStream {
     /// Bytes of the file when it was opened; it may have been renamed or removed since.
     std::uint64_t packedBytes() const;
 
+    /// The most bytes (uncompressed) that can follow: of compressed data, what its format can hold
+    /// in the rest of the file.
+    std::uint64_t mostBytesLeft() const;
+    /// The open file.
+    int descriptor() const;
+
     /// Why reading stopped: the file is truncated or corrupt. Empty while there is data left, and
     /// after a regular end.
     std::string fault() const;

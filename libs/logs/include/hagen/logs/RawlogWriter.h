@@ -34,7 +34,8 @@ class RawlogWriter {
 
     /// Completes the file and gives it its name.
     void commit();
-    /// Completes the file as OUT.partial.rawlog and returns that name.
+    /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write it ends
+    /// with the last whole member. Throws std::runtime_error if there is none.
     std::filesystem::path keepPartial();
 
  private:
@@ -43,7 +44,7 @@ class RawlogWriter {
     base::OutputPath path_;
     GzipOutput file_;
     Bytes gathered_;  ///< entries of an incomplete member
-    bool is_empty_ = true;
+    bool is_empty_ = true, has_failed_ = false;
     Bytes entry_, member_, packed_;  // buffers of write(), reused
 };
 

@@ -38,6 +38,9 @@ class ScanFolderWriter {
                const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,
                bool pose_has_horizon = true);
 
+    /// Scans written so far.
+    std::size_t scans() const { return times_s_.size(); }
+
     /// Writes times.txt (seconds, by the recording's clock); poses.tum with the known poses, if all
     /// of them have a horizon, because readers level with them; and poses.txt if all poses are
     /// known.

@@ -3,6 +3,7 @@
 #include <hagen/mapping/MappedScan.h>
 #include <octomap/OcTree.h>
 #include <memory>
+#include <stdexcept>
 
 namespace hagen::mapping {
 
@@ -31,11 +32,17 @@ struct ScanMapOptions {
         RayInsertion::OneRayPerVoxel;  ///< the others only for MapContent::Full
 };
 
+/// The map has reached its greatest size, 50 million nodes (about 3 GiB).
+struct MapFull : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// An OctoMap built from segmented scans.
 class ScanMap {
  public:
     /// Throws std::invalid_argument unless resolution and range are positive, and the probabilities
-    /// are in the order 0 < least < miss < 0.5 < hit < greatest < 1.
+    /// are in the order 0 < least < miss < 0.5 < hit < greatest < 1, or if there are more than
+    /// 2^32 voxels within the range.
     explicit ScanMap(const ScanMapOptions& options);
 
     ~ScanMap();
@@ -47,7 +54,7 @@ class ScanMap {
     /// Updates leaves only; inner nodes are updated when the map is saved. If the tree has a
     /// bounding box (OctoMap's setBBXMin() etc.), voxels outside it are not updated. Throws
     /// std::runtime_error for a scan that is farther from the map's origin than an OctoMap extends
-    /// (32768 voxels); the message says where it is.
+    /// (32768 voxels); the message says where it is. Throws MapFull.
     void insert(const MappedScan& scan);
 
     /// Memory of the tree, from the sizes of its parts, and of the buffers.

@@ -1,0 +1,180 @@
+#include "RawlogTrial.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "EntryReader.h"
+
+namespace hagen::logs {
+namespace {
+
+/// What is sent through the pipe, followed by `text` bytes of the reason.
+struct Header {
+    EntryVerdict::Kind kind;
+    std::uint64_t end;
+    std::uint32_t text;
+};
+constexpr std::size_t kLongestText = 4096;
+
+/// MRPT's objects take more memory than their bytes in a rawlog: an empty pointer or text has 4
+/// bytes there and up to 32 in memory, and vectors double while they grow.
+constexpr std::uint64_t kMemoryPerByte = 32, kMemoryBesides = 64 << 20;
+
+bool sendAll(int pipe, const void* data, std::size_t size) {
+    const char* at = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t sent = write(pipe, at, size);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent <= 0) return false;
+        at += sent;
+        size -= static_cast<std::size_t>(sent);
+    }
+    return true;
+}
+
+void send(int pipe, EntryVerdict::Kind kind, std::uint64_t end, const std::string& why = "") {
+    const std::size_t text = std::min(why.size(), kLongestText);
+    const Header header{kind, end, static_cast<std::uint32_t>(text)};
+    if (!sendAll(pipe, &header, sizeof header) || !sendAll(pipe, why.data(), text)) _exit(0);
+}
+
+/// Private memory of this process [bytes]; 0 if unknown.
+std::uint64_t dataBytes() {
+    unsigned long long pages = 0;
+    std::FILE* const file = std::fopen("/proc/self/statm", "r");
+    if (file == nullptr) return 0;
+    const bool is_read = std::fscanf(file, "%*u %*u %*u %*u %*u %llu", &pages) == 1;
+    std::fclose(file);
+    return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// Limits what the next entry may take: no more than its bytes in the rest of the file can need.
+void limitMemory(const PackedInput& stream, rlim_t hard_limit) {
+    constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // of a sanitizer
+    const std::uint64_t now = dataBytes();
+    if (now == 0 || now > kShadow) return;
+    const std::uint64_t left = std::min(stream.mostBytesLeft(), kMostEntryBytes);
+    const std::uint64_t more = std::min(kMostEntryBytes, kMemoryBesides + kMemoryPerByte * left);
+    const rlimit limit{std::min<rlim_t>(now + more, hard_limit), hard_limit};
+    setrlimit(RLIMIT_DATA, &limit);
+}
+
+/// The process: reads all entries and sends what comes of each.
+[[noreturn]] void tryAll(const std::filesystem::path& file, const std::filesystem::path& opened,
+                         int pipe) {
+    try {
+        rlimit limit{};
+        getrlimit(RLIMIT_DATA, &limit);
+        EntryReader reader(file, opened);
+        for (;;) {
+            limitMemory(reader.stream(), limit.rlim_max);
+            const auto object = reader.next();
+            const std::uint64_t end = reader.stream().getPosition();
+            if (!object) {
+                send(pipe, EntryVerdict::Kind::End, end);
+                _exit(0);
+            }
+            send(pipe, EntryVerdict::Kind::Sound, end);
+        }
+    } catch (const std::exception& e) {
+        send(pipe, EntryVerdict::Kind::Broken, 0, e.what());
+    }
+    _exit(0);
+}
+
+/// Leaves the process nothing of the program's but the rawlog and the pipe.
+[[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int pipe) {
+    // The program ends the process when it wants; it needs no core file.
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
+    for (const int number : {SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) signal(number, SIG_DFL);
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_CORE, &none);
+    // MRPT's warnings are printed by the program's own reading.
+    const int silence = open("/dev/null", O_RDWR);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(silence, stream);
+    constexpr int kRawlog = 3, kPipe = 4;
+    const int high_rawlog = fcntl(descriptor, F_DUPFD, 10), high_pipe = fcntl(pipe, F_DUPFD, 10);
+    dup2(high_rawlog, kRawlog);
+    dup2(high_pipe, kPipe);
+    close_range(kPipe + 1, ~0U, 0);
+    // Opened again, for the program's own reading moves the position. The name may be another
+    // file's by now.
+    tryAll(file, "/proc/self/fd/" + std::to_string(kRawlog), kPipe);
+}
+
+}  // namespace
+
+RawlogTrial::RawlogTrial(const std::filesystem::path& file, int descriptor) : file_(file) {
+    int pipe[2];
+    if (pipe2(pipe, O_CLOEXEC) != 0) {
+        throw std::runtime_error(file.string() +
+                                 ": cannot be read: no pipe can be made: " + std::strerror(errno));
+    }
+    process_ = fork();
+    if (process_ == 0) runTrial(file, descriptor, pipe[1]);
+    const int error = errno;
+    close(pipe[1]);
+    verdicts_ = pipe[0];
+    if (process_ < 0) {
+        close(verdicts_);
+        throw std::runtime_error(file.string() +
+                                 ": cannot be read: no process can be started to try its entries "
+                                 "(ulimit -u?): " +
+                                 std::strerror(error));
+    }
+}
+
+RawlogTrial::~RawlogTrial() {
+    close(verdicts_);
+    if (process_ < 0) return;
+    kill(process_, SIGKILL);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+}
+
+bool RawlogTrial::receive(void* data, std::size_t size) {
+    char* at = static_cast<char*>(data);
+    while (size > 0) {
+        const ssize_t got = read(verdicts_, at, size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        at += got;
+        size -= static_cast<std::size_t>(got);
+    }
+    return true;
+}
+
+std::string RawlogTrial::whyItEnded() {
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    const std::string how = WIFSIGNALED(status)
+                                ? std::string("crashes on it (") + strsignal(WTERMSIG(status)) + ")"
+                                : "ends at it";
+    return file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
+           std::to_string(last_.end) + " (uncompressed) cannot be read: MRPT's reader " + how;
+}
+
+EntryVerdict RawlogTrial::next() {
+    if (last_.kind != EntryVerdict::Kind::Sound) return last_;
+    Header header;
+    if (!receive(&header, sizeof header)) {
+        return last_ = {EntryVerdict::Kind::Broken, last_.end, whyItEnded()};
+    }
+    last_ = {header.kind, header.end, std::string(header.text, '\0')};
+    if (!receive(last_.why.data(), header.text)) last_.why = "the reason was lost";
+    ++entries_;
+    return last_;
+}
+
+}  // namespace hagen::logs
