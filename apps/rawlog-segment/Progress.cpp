@@ -1,4 +1,5 @@
 #include "Progress.h"
+#include <hagen/command_line/Terminal.h>
 
 #include <unistd.h>
 
@@ -48,8 +49,8 @@ hagen::logs::ConversionListener Progress::listener() {
 }
 
 void Progress::tell(const std::string& entry, const std::string& what) {
-    std::cerr << (is_on_terminal_ ? "\r\033[K" : "") << input_ << ": " << entry << ": " << what
-              << "\n";
+    if (is_on_terminal_) std::cerr << hagen::command_line::clearLine;
+    std::cerr << input_ << ": " << entry << ": " << what << "\n";
 }
 
 void Progress::remark(const std::string& entry, const std::string& remark) {
@@ -66,7 +67,8 @@ void Progress::show(const hagen::logs::ConversionReport& report) {
     if (now - shown_ < kBetweenLines) return;
     shown_ = now;
     const double elapsed_s = Seconds(now - start_).count();
-    std::cerr << "\r\033[K" << report.entries << " entries, " << report.scans << " scans";
+    std::cerr << hagen::command_line::clearLine << report.entries << " entries, " << report.scans
+              << " scans";
     if (elapsed_s > kBeforeRate.count() && report.fraction > 0) {
         char rate[64];
         std::snprintf(rate, sizeof rate, ", %.0f scans/s, %.0f %%, ",
@@ -78,7 +80,7 @@ void Progress::show(const hagen::logs::ConversionReport& report) {
 }
 
 void Progress::finish() {
-    if (is_on_terminal_) std::cerr << "\r\033[K";
+    if (is_on_terminal_) std::cerr << hagen::command_line::clearLine;
     for (const auto& [remark, times] : remarks_) {
         if (times < 2) continue;
         std::cerr << input_ << ": the same for " << times - 1 << " more: " << remark << "\n";

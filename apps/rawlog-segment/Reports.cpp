@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <limits>
 #include <string>
 
@@ -93,7 +94,8 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
                     counted(report.results_replaced, "result", "results").c_str());
     }
     for (const auto& [label, sensor] : report.sensors) {
-        std::printf("sensor %s: %s\n", label.c_str(), sensor.c_str());
+        std::cout << "sensor " << label << ": " << sensor
+                  << "\n";  // from the log: keepTerminalSafe()
     }
     if (!report.poses.empty()) {
         std::printf("poses of %zu of %s: %s\n", report.scans_with_pose,

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <new>
 #include <sstream>
 
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/Terminal.h>
 #include "StandardStreams.h"
 
 namespace hagen::command_line {
@@ -245,6 +248,7 @@ Program::Program(std::string name, const std::string& description)
 Program::Program(std::unique_ptr<CLI::App> app, std::string name)
     : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {
     reserveStandardStreams();
+    keepTerminalSafe();
     app_->formatter(std::make_shared<HelpText>());  // subcommands inherit it
 }
 Program::~Program() = default;
@@ -272,8 +276,15 @@ int Program::printed(int exit_code, const std::string& what) const {
 }
 
 int Program::run(int argc, char** argv, const std::function<int()>& work) {
+    constexpr double kGb = 1e9;
+    double memory_gb = static_cast<double>(base::machineBytes()) / 2 / kGb;
+    app_->add_option("--memory-limit", memory_gb,
+                     "memory that the program may take, in GB (default: half of the machine's)")
+        ->check(CLI::Range(0.05, 1e6))
+        ->option_text("GB");
     try {
         app_->parse(argc, argv);
+        base::limitMemory(static_cast<std::uint64_t>(memory_gb * kGb));
         return printed(work ? work() : work_(), printed_);
     } catch (const CLI::Success& e) {  // --help, --version
         app_->exit(e);
@@ -291,6 +302,9 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     } catch (const UsageError& e) {
         app_->exit(CLI::ValidationError(e.what()));
         return kWrongUsage;
+    } catch (const std::bad_alloc&) {
+        return fail(kFailed, "out of memory: more than the " + std::to_string(memory_gb) +
+                                 " GB of --memory-limit");
     } catch (const fs::filesystem_error& e) {
         return fail(kFailed, e.path1().string() + ": " + e.code().message());
     } catch (const std::exception& e) {

@@ -1,4 +1,5 @@
 #include <hagen/command_line/ProgressLine.h>
+#include <hagen/command_line/Terminal.h>
 
 #include <unistd.h>
 
@@ -29,7 +30,7 @@ ProgressLine::ProgressLine(std::string thing)
     : thing_(std::move(thing)), is_on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
-    if (is_shown_ && is_on_terminal_) std::cerr << "\r\033[K" << std::flush;
+    if (is_shown_ && is_on_terminal_) std::cerr << clearLine << std::flush;
 }
 
 bool ProgressLine::isDue(std::size_t done, std::size_t all) const {
@@ -45,7 +46,7 @@ void ProgressLine::show(std::size_t done, std::size_t all) {
     last_ = done;
     last_time_ = Clock::now();
     if (done >= all && is_on_terminal_) {  // what is printed next must not follow on the line
-        std::cerr << "\r\033[K" << std::flush;
+        std::cerr << clearLine << std::flush;
         return;
     }
     std::ostringstream line;
@@ -55,7 +56,11 @@ void ProgressLine::show(std::size_t done, std::size_t all) {
         const double left = static_cast<double>(all - done) / static_cast<double>(done);
         line << ", about " << durationText(taken.count() * left) << " left";
     }
-    std::cerr << (is_on_terminal_ ? "\r\033[K" + line.str() : line.str() + "\n") << std::flush;
+    if (is_on_terminal_) {
+        std::cerr << clearLine << line.str() << std::flush;
+    } else {
+        std::cerr << line.str() << std::endl;
+    }
 }
 
 }  // namespace hagen::command_line

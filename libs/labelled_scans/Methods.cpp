@@ -65,7 +65,9 @@ std::vector<std::string> valuesOf(const std::string& text) {
 /// Returns the settings with those of a recording merged in, if it has any.
 observations::Settings settingsFor(observations::Settings settings,
                                    const std::filesystem::path& sensor_file) {
-    if (std::filesystem::exists(sensor_file)) observations::mergeSettings(sensor_file, settings);
+    if (std::filesystem::exists(sensor_file)) {
+        observations::mergeSettings(sensor_file, settings, observations::SettingsOrigin::Recording);
+    }
     return settings;
 }
 

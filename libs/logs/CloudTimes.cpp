@@ -1,6 +1,7 @@
 #include "CloudTimes.h"
 
 #include <hagen/base/NumberText.h>
+#include <hagen/observations/TimeStamp.h>
 
 #include <algorithm>
 #include <optional>
@@ -110,7 +111,8 @@ double numberOfName(const std::string& name) {
 CloudTimes timesOfNames(const std::vector<std::string>& names) {
     CloudTimes times;
     for (const std::string& name : names) {
-        if (const auto time_s = timeOf(numberIn(name))) times.times_s.push_back(*time_s);
+        const auto time_s = timeOf(numberIn(name));
+        if (time_s && observations::isTime(*time_s)) times.times_s.push_back(*time_s);
     }
     if (times.times_s.size() == names.size() && ascend(times.times_s)) {
         times.how = "the times of its clouds are those in the names of the files";

@@ -2,6 +2,7 @@
 
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/Statistics.h>
+#include <hagen/observations/TimeStamp.h>
 #include <hagen/pictures/StagePictures.h>
 
 #include <algorithm>
@@ -149,7 +150,7 @@ void ConversionOutputs::writeToFolder(const observations::ObservationSegmenter::
                                    mountOf(*segmented.roi, settings), unnamed);
         writer = folder_writers_.emplace(sensor_label, std::move(to_folder)).first;
     }
-    const double time_s = mrpt::Clock::toDouble(segmented.roi->timestamp);
+    const double time_s = observations::secondsOf(segmented.roi->timestamp);
     writer->second.write(name, *segmented.scan, segmented.result->returns, *segmented.sensor,
                          time_s, segmented.pose.sensor_pose,
                          !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);

@@ -9,6 +9,7 @@
 #include <hagen/observations/MrptMessage.h>
 #include <hagen/observations/Results.h>
 #include <hagen/observations/ScenePreview.h>
+#include <hagen/observations/TimeStamp.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ using mrpt::obs::CObservation;
 /// The report of one scan, without the fields that only the converter knows.
 ScanReport reportOf(const observations::ObservationSegmenter::Output& out) {
     ScanReport report{};
-    report.time_s = mrpt::Clock::toDouble(out.roi->timestamp);
+    report.time_s = observations::secondsOf(out.roi->timestamp);
     report.returns = out.scan->size();
     report.roi = out.roi->pointcloud->size();
     report.rou = out.non_roi->pointcloud->size();
@@ -366,7 +367,12 @@ ConversionReport Converter::run() {
     // Pictures take a second each and are drawn sequentially. More threads would only read ahead,
     // and delay an interruption.
     const std::size_t max_threads = conversion_.jobs == 0 ? coreCount() : conversion_.jobs;
-    runPipeline(steps, conversion_.pictures.empty() ? max_threads : 1);
+    const std::size_t wanted = conversion_.pictures.empty() ? max_threads : 1;
+    const std::size_t threads = runPipeline(steps, wanted);
+    if (threads < wanted) {
+        listener_.remark("the machine", "does not start " + std::to_string(wanted) + " threads; " +
+                                            std::to_string(threads) + " are used");
+    }
     report_.left_out_before = source_->entriesSkipped();
     if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: each failed
     if (!end_) return finish();

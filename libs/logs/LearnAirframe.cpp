@@ -1,4 +1,5 @@
 #include <hagen/logs/LearnAirframe.h>
+#include <hagen/observations/TimeStamp.h>
 
 #include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
@@ -35,7 +36,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
     observations::ObservedScan observed;
     std::optional<double> first_s;
     while (const auto scan = source->nextScan()) {
-        const double time_s = mrpt::Clock::toDouble(scan->observation->timestamp);
+        const double time_s = observations::secondsOf(scan->observation->timestamp);
         if (!first_s) first_s = time_s;
         if (time_s - *first_s >= learning.seconds) break;
         const std::string& label = scan->observation->sensorLabel;

@@ -1,6 +1,7 @@
 #include <hagen/logs/MapOutput.h>
 #include <hagen/mapping/MapFile.h>
 #include <hagen/observations/Deskew.h>
+#include <hagen/observations/TimeStamp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -20,7 +21,8 @@ Eigen::Isometry3d isometryOf(const CPose3D& pose) {
 
 double durationOf(const Scan& scan) {
     const auto last = std::max_element(scan.time_s.begin(), scan.time_s.end());
-    return last == scan.time_s.end() ? 0 : static_cast<double>(*last);
+    const double duration_s = last == scan.time_s.end() ? 0 : static_cast<double>(*last);
+    return std::isfinite(duration_s) && observations::isTime(duration_s) ? duration_s : 0;
 }
 
 mrpt::Clock::time_point later(mrpt::Clock::time_point time, double by_s) {
@@ -44,7 +46,7 @@ std::optional<mapping::MappedScan> placeInMap(
         moves ? vehicle.at(later(observation.timestamp, duration_s / 2)) : std::nullopt;
 
     mapping::MappedScan mapped;
-    mapped.time_s = mrpt::Clock::toDouble(observation.timestamp) + duration_s;
+    mapped.time_s = observations::secondsOf(observation.timestamp) + duration_s;
     mapped.origin_m = isometryOf(middle ? *middle + sensor_on_vehicle : *segmented.pose.sensor_pose)
                           .translation()
                           .cast<float>();

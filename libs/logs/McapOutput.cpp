@@ -2,6 +2,7 @@
 
 #include <hagen/bags/RosMessages.h>
 #include <hagen/clouds/WriteCloud.h>
+#include <hagen/observations/TimeStamp.h>
 #include <hagen/segmentation/RoiBoxes.h>
 
 #include <chrono>
@@ -53,6 +54,10 @@ McapOutput::Lidar& McapOutput::lidarOf(const std::string& sensor_label) {
 
 /// Nanoseconds since 1970, or 0 if ROS cannot hold the time.
 std::int64_t McapOutput::stampOf(mrpt::Clock::time_point time) {
+    if (!observations::isTime(time)) {
+        ++untimed_;
+        return 0;
+    }
     const auto since_1970 = time - mrpt::Clock::fromDouble(0);
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
     if (since_1970.count() < 0 || seconds > std::numeric_limits<std::int32_t>::max()) {

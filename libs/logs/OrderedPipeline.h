@@ -1,20 +1,21 @@
 #pragma once
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
+#include <condition_variable>
 #include <cstddef>
+#include <exception>
 #include <functional>
-#include <memory>
 #include <mutex>
-#include <optional>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <utility>
 #include <vector>
 
 namespace hagen::logs {
 
+/// Cores that this process may use.
 inline std::size_t coreCount() {
-    return static_cast<std::size_t>(tbb::info::default_concurrency());
+    const unsigned cores = std::thread::hardware_concurrency();
+    return cores == 0 ? 1 : cores;
 }
 
 /// The steps applied to each item of a stream. Steps marked "in order" see one item at a time, in
@@ -28,103 +29,105 @@ struct PipelineSteps {
     std::function<void(Item&)> write;  ///< in order
 };
 
-/// Storage of an item in a pipeline. TBB ensures that only one thread has it at a time, so its lock
-/// is never contended. It is for ThreadSanitizer, which cannot see TBB's synchronisation (and
-/// still reports the start and end of a pipeline).
-template <class Item>
-struct PipelineSlot {
-    Item item;
-    std::mutex lock;
-    ~PipelineSlot() { const std::lock_guard last(lock); }
-};
-
-/// A pool of reusable slots.
-template <class Item>
-class PipelineSlots {
+/// A step that items take one by one, in the order of their numbers.
+class Turnstile {
  public:
-    using Slot = PipelineSlot<Item>;
-
-    explicit PipelineSlots(std::size_t size) {
-        for (std::size_t i = 0; i < size; ++i) {
-            giveBack(slots_.emplace_back(std::make_unique<Slot>()).get());
-        }
+    /// Waits for the turn of an item and does its step. False, without doing it, once closed.
+    template <class Step>
+    bool pass(std::size_t number, const Step& step) {
+        std::unique_lock lock(mutex_);
+        turn_.wait(lock, [&] { return next_ == number || is_closed_; });
+        if (is_closed_) return false;
+        step();
+        ++next_;
+        turn_.notify_all();
+        return true;
     }
-    ~PipelineSlots() { const std::lock_guard last(mutex_); }
-    Slot* take() {
+    void close() {
         const std::lock_guard lock(mutex_);
-        Slot* const slot = idle_.back();
-        idle_.pop_back();
-        return slot;
-    }
-    void giveBack(Slot* slot) {
-        const std::lock_guard lock(mutex_);
-        idle_.push_back(slot);
+        is_closed_ = true;
+        turn_.notify_all();
     }
 
  private:
-    std::vector<std::unique_ptr<Slot>> slots_;
-    std::vector<Slot*> idle_;
     std::mutex mutex_;
+    std::condition_variable turn_;
+    std::size_t next_ = 0;
+    bool is_closed_ = false;
 };
 
-/// Runs all items through the steps on up to `threads` threads; with one thread, item by item on
-/// the caller's. An exception in a step ends the pipeline and is rethrown; items before it may or
-/// may not be written then. Holds two items per thread in memory.
+/// A pipeline in progress. Each thread takes one item after the other through all steps.
 template <class Item>
-void runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
-    if (threads == 1) {
-        for (Item item; steps.read(item);) {
-            steps.work(item);
-            steps.account(item);
-            steps.pack(item);
-            steps.write(item);
-        }
-        return;
-    }
-    const std::size_t max_items = 2 * threads;  // one in work, one waiting for its turn
-    PipelineSlots<Item> slots(max_items);
-    using Slot = PipelineSlot<Item>;
+class OrderedPipeline {
+ public:
+    explicit OrderedPipeline(const PipelineSteps<Item>& steps) : steps_(steps) {}
 
-    std::mutex reads, accounts, writes;  // never contended either
-    const auto read = [&](tbb::flow_control& flow) -> Slot* {
-        Slot* const slot = slots.take();
-        const std::scoped_lock lock(slot->lock, reads);
-        if (steps.read(slot->item)) return slot;
-        flow.stop();
-        return nullptr;
-    };
-    const auto parallel = [](const auto& step) {
-        return tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel, [&](Slot* slot) {
-            const std::lock_guard lock(slot->lock);
-            step(slot->item);
-            return slot;
-        });
-    };
-    const auto account = [&](Slot* slot) {
-        const std::scoped_lock lock(slot->lock, accounts);
-        steps.account(slot->item);
-        return slot;
-    };
-    const auto write = [&](Slot* slot) {
+    void run() {
+        try {
+            for (Item item; takeOne(item);) {
+            }
+        } catch (...) {
+            endWith(std::current_exception());
+        }
+    }
+
+    /// Ends the pipeline with an exception of one of its steps; the first is kept.
+    void endWith(std::exception_ptr why) {
         {
-            const std::scoped_lock lock(slot->lock, writes);
-            steps.write(slot->item);
+            const std::lock_guard lock(reading_);
+            is_at_end_ = true;
+            if (!why_) why_ = std::move(why);
         }
-        slots.giveBack(slot);
-    };
-    constexpr auto in_order = tbb::filter_mode::serial_in_order;
-
-    // TBB prints a warning if a pipeline has more threads than cores, unless this allows them.
-    std::optional<tbb::global_control> more;
-    if (threads > coreCount()) {
-        more.emplace(tbb::global_control::max_allowed_parallelism, threads);
+        accounts_.close();
+        writes_.close();
     }
-    tbb::task_arena(static_cast<int>(threads)).execute([&] {
-        tbb::parallel_pipeline(
-            max_items, tbb::make_filter<void, Slot*>(in_order, read) & parallel(steps.work) &
-                           tbb::make_filter<Slot*, Slot*>(in_order, account) &
-                           parallel(steps.pack) & tbb::make_filter<Slot*, void>(in_order, write));
-    });
+    void rethrow() const {
+        if (why_) std::rethrow_exception(why_);
+    }
+
+ private:
+    bool takeOne(Item& item) {
+        std::size_t number = 0;
+        {
+            const std::lock_guard lock(reading_);
+            if (is_at_end_) return false;
+            is_at_end_ = true;  // also if reading throws
+            if (!steps_.read(item)) return false;
+            is_at_end_ = false;
+            number = read_++;
+        }
+        steps_.work(item);
+        if (!accounts_.pass(number, [&] { steps_.account(item); })) return false;
+        steps_.pack(item);
+        return writes_.pass(number, [&] { steps_.write(item); });
+    }
+
+    const PipelineSteps<Item>& steps_;
+    std::mutex reading_;
+    std::size_t read_ = 0;
+    bool is_at_end_ = false;
+    std::exception_ptr why_;
+    Turnstile accounts_, writes_;
+};
+
+/// Runs all items through the steps on up to `threads` threads, the caller's among them: fewer if
+/// the system refuses some (oneTBB, which would do the same, ends the process then). Returns their
+/// number. An exception in a step ends the pipeline and is rethrown; items before it may or may not
+/// be written then. Holds an item per thread in memory.
+template <class Item>
+std::size_t runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
+    OrderedPipeline<Item> pipeline(steps);
+    std::vector<std::thread> others;
+    try {
+        others.reserve(threads);
+        while (others.size() + 1 < threads) others.emplace_back([&] { pipeline.run(); });
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
+    }
+    pipeline.run();
+    for (std::thread& other : others) other.join();
+    pipeline.rethrow();
+    return 1 + others.size();
 }
 
 }  // namespace hagen::logs

@@ -1,5 +1,6 @@
 #include <hagen/logs/NumberTable.h>
 #include <hagen/logs/PoseFile.h>
+#include <hagen/observations/TimeStamp.h>
 #include <mrpt/poses/CPose3DQuat.h>
 #include <Eigen/Dense>
 
@@ -58,6 +59,7 @@ std::vector<TimedPose> readTumPoses(const fs::path& file) {
     for (const NumberLine& line : readNumberTable(file)) {
         checkColumns(file, line, 8, kTumColumns);
         const auto& n = line.numbers;
+        if (!observations::isTime(n[0])) fail(file, line, "the first number is no time in seconds");
         const double norm = std::sqrt(n[4] * n[4] + n[5] * n[5] + n[6] * n[6] + n[7] * n[7]);
         if (std::abs(norm - 1.0) > kRotationTolerance) {
             fail(file, line, "the quaternion is not normalized");

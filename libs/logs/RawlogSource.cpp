@@ -30,11 +30,13 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
         checkInterruption();
         entry.object = reader_.next();
         if (!entry.object) return std::nullopt;
-        if (!skips(entry.number)) null_objects_ += takeOutNulls(entry.object);
+        const bool is_skipped = skips(entry.number);
+        const std::size_t nulls = takeOutNulls(entry.object);
+        if (!is_skipped) null_objects_ += nulls;
         // Skipped entries may provide the attitude of the first scan.
         const auto all = observationsOf(entry.object);
         for (const auto& observation : all) see(*observation);
-        if (skips(entry.number)) continue;
+        if (is_skipped) continue;
         if (all.empty()) ++has_[classOf(*entry.object)];
         for (const auto& observation : all) {
             has_scans_ = has_scans_ || observations::isLidarScan(*observation);

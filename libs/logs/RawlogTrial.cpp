@@ -58,13 +58,13 @@ std::uint64_t dataBytes() {
 }
 
 /// Limits what the next entry may take: no more than its bytes in the rest of the file can need.
-void limitMemory(const PackedInput& stream, rlim_t hard_limit) {
+void limitMemory(const PackedInput& stream, const rlimit& of_program) {
     constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // of a sanitizer
     const std::uint64_t now = dataBytes();
     if (now == 0 || now > kShadow) return;
     const std::uint64_t left = std::min(stream.mostBytesLeft(), kMostEntryBytes);
     const std::uint64_t more = std::min(kMostEntryBytes, kMemoryBesides + kMemoryPerByte * left);
-    const rlimit limit{std::min<rlim_t>(now + more, hard_limit), hard_limit};
+    const rlimit limit{std::min<rlim_t>(now + more, of_program.rlim_cur), of_program.rlim_max};
     setrlimit(RLIMIT_DATA, &limit);
 }
 
@@ -76,7 +76,7 @@ void limitMemory(const PackedInput& stream, rlim_t hard_limit) {
         getrlimit(RLIMIT_DATA, &limit);
         EntryReader reader(file, opened);
         for (;;) {
-            limitMemory(reader.stream(), limit.rlim_max);
+            limitMemory(reader.stream(), limit);
             const auto object = reader.next();
             const std::uint64_t end = reader.stream().getPosition();
             if (!object) {
@@ -93,6 +93,7 @@ void limitMemory(const PackedInput& stream, rlim_t hard_limit) {
 
 /// Leaves the process nothing of the program's but the rawlog and the pipe.
 [[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int pipe) {
+    setpgid(0, 0);
     // The program ends the process when it wants; it needs no core file.
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
     for (const int number : {SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) signal(number, SIG_DFL);
@@ -141,7 +142,7 @@ RawlogTrial::~RawlogTrial() {
     }
 }
 
-bool RawlogTrial::receive(void* data, std::size_t size) {
+bool RawlogTrial::receive(void* data, std::size_t size) const {
     char* at = static_cast<char*>(data);
     while (size > 0) {
         const ssize_t got = read(verdicts_, at, size);

@@ -32,7 +32,7 @@ class RawlogTrial {
     EntryVerdict next();
 
  private:
-    bool receive(void* data, std::size_t size);
+    bool receive(void* data, std::size_t size) const;
     std::string whyItEnded();
 
     std::filesystem::path file_;

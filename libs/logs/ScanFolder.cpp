@@ -1,6 +1,7 @@
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/logs/NumberTable.h>
 #include <hagen/logs/ScanFolder.h>
+#include <hagen/observations/TimeStamp.h>
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -98,7 +99,14 @@ fs::path ScanFolder::kindFile(std::size_t scan) const {
 }
 
 std::vector<double> ScanFolder::times() const {
-    return readNumberPerScan(folder_ / "times.txt", "seconds", size());
+    const fs::path file = folder_ / "times.txt";
+    std::vector<double> times_s = readNumberPerScan(file, "seconds", size());
+    for (const double time_s : times_s) {
+        if (observations::isTime(time_s)) continue;
+        throw std::runtime_error(file.string() + ": " + std::to_string(time_s) +
+                                 " s is no time that a recording can have");
+    }
+    return times_s;
 }
 
 std::vector<double> ScanFolder::altitudes() const {

@@ -67,7 +67,8 @@ std::vector<std::string> ScanFolderSource::remarks() const {
 observations::Settings ScanFolderSource::settingsFor(const observations::Settings& settings) const {
     observations::Settings merged = settings;
     if (std::filesystem::exists(folder_.sensorFile())) {
-        observations::mergeSettings(folder_.sensorFile(), merged);
+        observations::mergeSettings(folder_.sensorFile(), merged,
+                                    observations::SettingsOrigin::Recording);
     }
     return merged;
 }

@@ -77,6 +77,12 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
         other_labels_.insert(observation->sensorLabel);
         return;
     }
+    labels_.insert(observation->sensorLabel);
+    if (labels_.size() > kMostLabels) {
+        throw TooManySensors("entry " + std::to_string(entry.number) +
+                             ": the recording has more than " + std::to_string(kMostLabels) +
+                             " LiDARs by their labels; convert some of them (--sensor-label)");
+    }
     entry.scans.push_back({observation,
                            observations::scanPoseOf(*observation, poses_.vehicle, horizon_),
                            entry.number, name, nullptr});
@@ -192,8 +198,10 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
 }
 
 std::string titleOf(const RecordedScan& scan) {
-    return "entry " + std::to_string(scan.entry) + " (" +
-           (scan.name.empty() ? scan.observation->sensorLabel : scan.name) + ")";
+    std::string name = scan.name.empty() ? scan.observation->sensorLabel : scan.name;
+    const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    std::replace_if(name.begin(), name.end(), isControl, '?');
+    return "entry " + std::to_string(scan.entry) + " (" + name + ")";
 }
 
 }  // namespace hagen::logs

@@ -1,5 +1,8 @@
 #include "SegmenterPool.h"
 
+#include <new>
+#include <utility>
+
 namespace hagen::logs {
 
 using observations::ObservationSegmenter;
@@ -12,8 +15,12 @@ SegmenterPool::SegmenterPool(const observations::Settings& settings,
 
 SegmenterPool::Lease SegmenterPool::lease() {
     const auto giveBack = [this](ObservationSegmenter* segmenter) {
+        std::unique_ptr<ObservationSegmenter> owned(segmenter);
         const std::lock_guard lock(mutex_);
-        idle_.emplace_back(segmenter);
+        try {
+            idle_.push_back(std::move(owned));
+        } catch (const std::bad_alloc&) {  // it is deleted; a deleter must not throw
+        }
     };
     {
         const std::lock_guard lock(mutex_);

@@ -1,4 +1,5 @@
 #include <hagen/observations/Horizon.h>
+#include <hagen/observations/TimeStamp.h>
 #include <mrpt/math/CQuaternion.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -40,7 +41,7 @@ std::optional<CPose3D> rotationOf(const CObservationIMU& imu) {
 }  // namespace
 
 void Horizon::see(const mrpt::obs::CObservation& observation) {
-    if (observation.timestamp == INVALID_TIMESTAMP) return;
+    if (!isTime(observation.timestamp)) return;
     const CPose3D sensor_on_vehicle(observation.sensorPose());
     if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
         vehicle_ = pose->pose.mean + (-sensor_on_vehicle);
@@ -55,7 +56,7 @@ void Horizon::see(const mrpt::obs::CObservation& observation) {
 }
 
 std::optional<CPose3D> Horizon::at(mrpt::Clock::time_point time) const {
-    if (!vehicle_ || time == INVALID_TIMESTAMP ||
+    if (!vehicle_ || !isTime(time) ||
         std::abs(mrpt::system::timeDifference(time_, time)) > kLongest_s) {
         return std::nullopt;
     }

@@ -18,7 +18,9 @@ namespace hagen::observations {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kMostIncludes = 8;  // stops circular includes
+// Limits of settings files, which may come with a recording of somebody else.
+constexpr int kDeepestInclude = 8, kMostIncludes = 32;
+constexpr std::uintmax_t kMostFileBytes = 1 << 20;
 
 Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
@@ -177,10 +179,17 @@ bool isAdapted(const std::string& name, const Settings& settings) {
     return textOf(key, settings.options) == textOf(key, Options());
 }
 
-void mergeFile(const fs::path& file, int includes, Settings& settings);
+/// The files that are included so far, and how deep the current one is.
+struct Includes {
+    SettingsOrigin origin;
+    int depth = 0, files = 0;
+};
 
-void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, Settings& settings) {
-    if (includes >= kMostIncludes) {
+void mergeFile(const fs::path& file, Includes& includes, Settings& settings);
+
+void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& includes,
+                   Settings& settings) {
+    if (includes.depth >= kDeepestInclude) {
         throw SettingsError(at(file, node) + "include is circular or nested too deeply");
     }
     const YAML::Node names = node.IsSequence() ? node : YAML::Load("[]");
@@ -188,18 +197,36 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, S
         throw SettingsError(at(file, node) + "include must be a file name or a list of them");
     }
     const auto merge = [&](const std::string& name) {
+        if (includes.origin == SettingsOrigin::Recording && fs::path(name).has_parent_path()) {
+            throw SettingsError(
+                at(file, node) + "includes '" + name +
+                "'; settings of a recording include files of their own folder only");
+        }
         const fs::path included = file.parent_path() / name;
         if (!fs::exists(included)) {
             throw SettingsError(at(file, node) + "includes " + included.string() +
                                 ", which does not exist");
         }
-        mergeFile(included, includes + 1, settings);
+        if (!fs::is_regular_file(included)) {
+            throw SettingsError(at(file, node) + "includes " + included.string() +
+                                ", which is no file");
+        }
+        if (++includes.files > kMostIncludes) {
+            throw SettingsError(at(file, node) + "settings include more than " +
+                                std::to_string(kMostIncludes) + " files");
+        }
+        ++includes.depth;
+        mergeFile(included, includes, settings);
+        --includes.depth;
     };
     if (node.IsScalar()) merge(node.Scalar());
     for (const YAML::Node& name : names) merge(name.as<std::string>(""));
 }
 
-void mergeFile(const fs::path& file, int includes, Settings& settings) {
+void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
+    if (fs::is_regular_file(file) && fs::file_size(file) > kMostFileBytes) {
+        throw SettingsError(file.string() + ": is larger than 1 MiB, so it is no settings file");
+    }
     const YAML::Node document = parseFile(file);
     if (document.IsNull()) return;  // empty or comments only: all defaults
     if (!document.IsMap()) {
@@ -281,9 +308,10 @@ HagenFilter filterFor(const SensorModel& sensor, const Options& options) {
     }
 }
 
-void mergeSettings(const std::filesystem::path& file, Settings& settings) {
+void mergeSettings(const std::filesystem::path& file, Settings& settings, SettingsOrigin origin) {
     Settings merged = settings;
-    mergeFile(file, 0, merged);
+    Includes includes{origin};
+    mergeFile(file, includes, merged);
     settings = merged;
 }
 

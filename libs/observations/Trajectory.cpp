@@ -1,3 +1,4 @@
+#include <hagen/observations/TimeStamp.h>
 #include <hagen/observations/Trajectory.h>
 
 #include <chrono>
@@ -10,10 +11,11 @@ Trajectory::Trajectory() {
 }
 
 void Trajectory::add(mrpt::Clock::time_point time, const mrpt::poses::CPose3D& vehicle_pose) {
-    poses_.insert(time, vehicle_pose);
+    if (isTime(time)) poses_.insert(time, vehicle_pose);
 }
 
 std::optional<mrpt::poses::CPose3D> Trajectory::at(mrpt::Clock::time_point time) const {
+    if (!isTime(time)) return std::nullopt;
     mrpt::poses::CPose3D pose;
     bool is_valid = false;
     poses_.interpolate(time, pose, is_valid);

@@ -1,5 +1,6 @@
 #include <hagen/logs/MapOutput.h>
 #include <hagen/observations/MrptMessage.h>
+#include <hagen/observations/TimeStamp.h>
 #include <hagen/openloop/LoggedScans.h>
 
 #include <chrono>
@@ -94,7 +95,7 @@ void LoggedScans::placeAll(const std::vector<TimePoint>& times, const std::strin
                                         std::to_string(scans_) + " scans, fewer than half,";
     throw std::runtime_error(poseSource() + ": " + which + (placed == 0 ? " scans" : "") + " of " +
                              log + ", whose first scan is at " +
-                             std::to_string(mrpt::Clock::toDouble(times.front())) +
+                             std::to_string(observations::secondsOf(times.front())) +
                              " s; do they belong to another flight or another clock?");
 }
 

@@ -95,11 +95,18 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
+    // In a process group of its own: Ctrl-C in a terminal is for the program, which ends when the
+    // picture is done.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
     char program[] = "gnuplot", no_settings_of_the_users[] = "-d";
     char script_file[] = "/dev/stdin";  // by name: gnuplot reads standard input byte by byte
     char* const arguments[] = {program, no_settings_of_the_users, script_file, nullptr};
     pid_t child = 0;
-    const int error = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
+    const int error = posix_spawnp(&child, program, &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error == ENOENT) {
         throw std::runtime_error(

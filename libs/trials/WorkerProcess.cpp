@@ -21,7 +21,14 @@ int spawn(const std::string& program, std::vector<std::string> arguments, std::F
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors), STDERR_FILENO);
-    const int failed = posix_spawn(&pid, program.c_str(), &actions, nullptr, words.data(), environ);
+    // In a process group of its own: Ctrl-C in a terminal is for the program, which stops it.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    const int failed =
+        posix_spawn(&pid, program.c_str(), &actions, &attributes, words.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return failed;
 }

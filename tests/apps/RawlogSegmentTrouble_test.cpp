@@ -11,6 +11,10 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <limits>
 #include <map>
 
 #include "support/ProgramTest.h"
@@ -151,6 +155,140 @@ TEST_F(RawlogSegmentTrouble, ANullObjectInASensoryFrameIsLeftOutAndTold) {
     ASSERT_TRUE(written);
     EXPECT_EQ(written->size(), 3u);
     EXPECT_EQ(run({"-i", log, "--kitti", path("scans")}).exit_code, 0);
+}
+
+/// A log of so many scans, each with a label and a time of its own.
+fs::path logOf(const test::TemporaryFolder& folder, int scans,
+               const std::function<void(int, CObservationVelodyneScan&)>& change) {
+    logs::RawlogReader recording(kRecording);
+    CObservationVelodyneScan::Ptr scan;
+    while (!scan) scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(recording.next());
+    scan->scan_packets.resize(4);
+    const fs::path file = folder / "in.rawlog";
+    logs::RawlogWriter writer(file, true);
+    for (int i = 0; i < scans; ++i) {
+        change(i, *scan);
+        writer.write(*scan);
+    }
+    writer.commit();
+    return file;
+}
+
+TEST_F(RawlogSegmentTrouble, MoreSensorsThanAreReadAreNamedAndThoseBeforeAreKept) {
+    const auto log = logOf(folder_, 120, [](int i, CObservationVelodyneScan& scan) {
+        scan.sensorLabel = "lidar" + std::to_string(i);
+    });
+    const auto outcome = run({"-i", log, "-o", path("out.rawlog")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("entry 100: the recording has more than 100 LiDARs"));
+    EXPECT_TRUE(fs::exists(path("out.partial.rawlog")));
+    EXPECT_EQ(run({"-i", log, "-o", path("out.rawlog"), "--sensor-label", "lidar119"}).exit_code,
+              0);
+}
+
+TEST_F(RawlogSegmentTrouble, LabelsSendNothingToTheTerminal) {
+    const auto log = logOf(folder_, 1, [](int, CObservationVelodyneScan& scan) {
+        scan.sensorLabel = "a\x1b[2J\x07\r\x1b[Kb";
+        scan.scan_packets.clear();
+    });
+    const auto outcome = run({"-i", log, "-o", path("out.rawlog")});
+    EXPECT_THAT(outcome.err, HasSubstr("a?[2J???[Kb"));
+    for (const std::string& text : {outcome.err, outcome.out}) {
+        EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+        EXPECT_THAT(text, Not(HasSubstr("\x07")));
+    }
+}
+
+/// Times at the ends of the clock, and poses at such times, are used for nothing.
+TEST_F(RawlogSegmentTrouble, TimesBeyondAllClocksCostNothing) {
+    const std::vector<std::int64_t> ticks{std::numeric_limits<std::int64_t>::min(),
+                                          std::numeric_limits<std::int64_t>::max(), -1, 0,
+                                          9'000'000'000'000'000'000};
+    const auto log = logOf(folder_, 5, [&](int i, CObservationVelodyneScan& scan) {
+        scan.timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(ticks[i]));
+    });
+    const auto outcome =
+        run({"-i", log, "-o", path("out.rawlog"), "--mcap", path("out.mcap"), "--kitti",
+             path("scans"), "--stats", path("out.json"), "--poses",
+             folder_.write("still.tum", "0 0 0 0 0 0 0 1\n90000000000 0 0 0 0 0 0 1\n")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    logs::RawlogReader reader(path("out.rawlog"));
+    for (int i = 0; i < 5; ++i) {
+        const auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(reader.next());
+        ASSERT_TRUE(scan);
+        EXPECT_EQ(scan->timestamp.time_since_epoch().count(), ticks[i]);
+        reader.next();
+        reader.next();
+    }
+    EXPECT_THAT(test::readFile(path("scans") + "/times.txt"), Not(HasSubstr("nan")));
+    for (const char* const line : {"9e18 0 0 0 0 0 0 1\n", "-1e300 0 0 0 0 0 0 1\n"}) {
+        expectFailure(
+            {"-i", log, "-o", path("again.rawlog"), "--poses", folder_.write("bad.tum", line)}, 1,
+            "bad.tum:1: the first number is no time");
+    }
+}
+
+TEST_F(RawlogSegmentTrouble, IncludesOfARecordingsSettingsAreLimited) {
+    fs::create_directories(folder_ / "scans/velodyne");
+    const std::vector<float> points(4 * 100, 5.0f);
+    std::ofstream(folder_ / "scans/velodyne/000000.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(points.data()), 4 * 400);
+    std::string seven;  // 9 of 9 of 9 ... files
+    for (int i = 0; i < 9; ++i) seven += "- next.yaml\n";
+    folder_.write("scans/next.yaml", "include:\n" + seven);
+    folder_.write("scans/sensor.yaml", "include: [next.yaml]\n");
+    const std::vector<std::string> flags{"-i", (folder_ / "scans").string(), "--kitti",
+                                         path("out")};
+    expectFailure(flags, 2, "nested too deeply");
+    std::string flat;
+    for (int i = 0; i < 40; ++i) flat += "- empty.yaml\n";
+    folder_.write("scans/empty.yaml", "");
+    folder_.write("scans/sensor.yaml", "include:\n" + flat);
+    expectFailure(flags, 2, "include more than 32 files");
+    folder_.write("secret.yaml", "");
+    for (const std::string& elsewhere : {std::string("../secret.yaml"), path("secret.yaml")}) {
+        folder_.write("scans/sensor.yaml", "include: " + elsewhere + "\n");
+        expectFailure(flags, 2, "of their own folder only");
+    }
+    folder_.write("scans/sensor.yaml", "# " + std::string(1 << 20, 'x'));
+    expectFailure(flags, 2, "larger than 1 MiB");
+}
+
+/// Threads that the system refuses, for whatever reason: here, memory for their stacks.
+TEST_F(RawlogSegmentTrouble, ThreadsThatCannotBeStartedAreDoneWithout) {
+    const std::string convert =
+        "-i \"" + kRecording.string() + "\" --jobs 64 -o \"" + path("out.rawlog") + "\"";
+    for (const int mb : {900, 600}) {
+        const auto outcome = test::run(
+            "/bin/bash", {"-c", shell("ulimit -v " + std::to_string(mb * 1024) + "; ", convert)});
+        EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 1)
+            << mb << ": " << outcome.exit_code << outcome.err;
+        for (const fs::path& file : files()) EXPECT_THAT(file.string(), Not(HasSubstr("tmp-")));
+        fs::remove(path("out.rawlog"));
+    }
+}
+
+TEST_F(RawlogSegmentTrouble, MoreMemoryThanAllowedIsNamed) {
+    const auto outcome =
+        run({"-i", kRecording, "-o", path("out.rawlog"), "--memory-limit", "0.06", "--octomap",
+             path("map.bt"), "--octomap-resolution", "0.03", "--poses", still(scansOfRecording())});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("out of memory"));
+    expectFailure({"-i", kRecording, "-o", path("other.rawlog"), "--memory-limit", "0"}, 2,
+                  "--memory-limit");
+}
+
+/// As Ctrl-C in a terminal does, the signal goes to the program and to all of its children.
+TEST_F(RawlogSegmentTrouble, AnInterruptionWhilePicturesAreDrawnKeepsTheRawlog) {
+    const std::string command = "set -m; \"" + std::string(HAGEN_RAWLOG_SEGMENT) + "\" -i \"" +
+                                kRecording.string() + "\" --pictures \"" + path("pictures") +
+                                "\" -o \"" + path("out.rawlog") +
+                                "\" & sleep 1; kill -INT -- -$!; wait $!";
+    const auto outcome = test::run("/bin/bash", {"-c", command});
+    if (outcome.exit_code == 0) GTEST_SKIP() << "the pictures were drawn within a second";
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("interrupted; the "));
+    EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << outcome.err;
 }
 
 /// A laser of a scan's own calibration that points nowhere.

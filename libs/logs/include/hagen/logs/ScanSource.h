@@ -64,6 +64,14 @@ struct Interrupted : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The LiDARs whose scans are read from a recording, by their labels; each takes memory.
+constexpr std::size_t kMostLabels = 100;
+
+/// A recording has more; the message names the entry.
+struct TooManySensors : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// The sensor label of all scans in a scan folder.
 constexpr const char* kFolderLabel = "velodyne";
 
@@ -147,7 +155,7 @@ class ScanSource {
     bool is_levelled_by_file_ = false;  ///< a pose file overrides the recording's attitude
     observations::Horizon horizon_;
     std::size_t entries_skipped_ = 0;
-    std::set<std::string> other_labels_;
+    std::set<std::string> labels_, other_labels_;
     bool recovers_beams_ = false;
     observations::CloudSensors sensors_;  ///< of the clouds read in advance
     std::map<std::string, observations::SharedBeams> beams_;

@@ -63,11 +63,19 @@ struct Settings {
 /// Returns the filter for a sensor. Throws SettingsError if the options do not fit it.
 HagenFilter filterFor(const SensorModel& sensor, const Options& options);
 
+/// Who wrote a settings file.
+enum class SettingsOrigin {
+    User,
+    Recording,  ///< it came with data: it may include files of its own folder only
+};
+
 /// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a
 /// list of files) is merged before its own keys. Throws SettingsError if a file cannot be read or
-/// parsed, a key is unknown or occurs twice, or a value has the wrong type or is out of range;
-/// `settings` is then unchanged.
-void mergeSettings(const std::filesystem::path& file, Settings& settings);
+/// parsed, a key is unknown or occurs twice, or a value has the wrong type or is out of range,
+/// or if a limit is exceeded: 1 MiB a file, includes 8 deep and 32 in all. `settings` is then
+/// unchanged.
+void mergeSettings(const std::filesystem::path& file, Settings& settings,
+                   SettingsOrigin origin = SettingsOrigin::User);
 
 /// Returns an angle in degrees, with as few decimals as read back as the same angle.
 std::string degreesText(float angle_rad);

@@ -1,0 +1,14 @@
+#pragma once
+#include <ostream>
+
+namespace hagen::command_line {
+
+/// Has std::cout and std::cerr print '?' for control characters other than tab and new line. Sensor
+/// labels, file names and messages come from files, which could otherwise send commands to the
+/// terminal.
+void keepTerminalSafe();
+
+/// Erases the current line of a terminal. The only command that keepTerminalSafe() lets through.
+std::ostream& clearLine(std::ostream& out);
+
+}  // namespace hagen::command_line

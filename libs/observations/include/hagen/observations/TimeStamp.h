@@ -1,0 +1,28 @@
+#pragma once
+#include <mrpt/core/Clock.h>
+
+#include <cmath>
+
+namespace hagen::observations {
+
+/// Times that a recording can have: from 1601, where MRPT's clock begins, to the year 5138. MRPT
+/// computes others wrongly: its differences of times overflow.
+constexpr double kEarliest_s = -11644473600.0, kLatest_s = 1e11;
+
+/// Whether a number of seconds since 1970 is such a time; false for NaN.
+inline bool isTime(double since_1970_s) {
+    return since_1970_s > kEarliest_s && since_1970_s < kLatest_s;
+}
+
+/// Seconds since 1970, for any time stamp.
+inline double secondsOf(mrpt::Clock::time_point time) {
+    const double ticks_s = 1e-7 * static_cast<double>(time.time_since_epoch().count());
+    const double since_1970_s = ticks_s + kEarliest_s;
+    // MRPT's is exact to the tick.
+    return isTime(since_1970_s) ? mrpt::Clock::toDouble(time) : since_1970_s;
+}
+
+/// Whether a time stamp is such a time. False for INVALID_TIMESTAMP.
+inline bool isTime(mrpt::Clock::time_point time) { return isTime(secondsOf(time)); }
+
+}  // namespace hagen::observations
