@@ -59,8 +59,10 @@ int run(const Flags& flags, bool has_output) {
         options.models = models;
         options.courses = flags.is_quick ? 1 : 4;
         options.doing = [](const std::string& model) {
-            if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
             std::cerr << "measuring latencies: " << avoidance::displayName(model) << "\n";
+        };
+        options.continuing = [] {
+            if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
         };
         const trials::LatencyProfile profile = trials::calibrate(options);
         trials::writeLatencyProfile(profile, profile_file->temporary());
@@ -68,13 +70,15 @@ int run(const Flags& flags, bool has_output) {
         printProfile(profile);
     }
     if (memory_file) {
-        const auto begin = [&](const std::string& model) {
+        const auto begin = [](const std::string& model) {
+            std::cerr << "measuring memory: " << avoidance::displayName(model) << "\n";
+        };
+        const auto continuing = [&] {
             if (isInterrupted()) {
                 throw std::runtime_error("interrupted; " + flags.memory + " was not written");
             }
-            std::cerr << "measuring memory: " << avoidance::displayName(model) << "\n";
         };
-        trials::writeHeapCurves(models, flags.path_m, begin, memory_file->temporary(),
+        trials::writeHeapCurves(models, flags.path_m, begin, continuing, memory_file->temporary(),
                                 flags.memory);
         memory_file->commit();
     }

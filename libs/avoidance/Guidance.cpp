@@ -142,9 +142,8 @@ class PathGuidance : public Guidance {
         PathSearchOptions options = searchOptions(task);
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
         const auto limit_m = static_cast<float>(options.wanted_clearance_m);
-        const auto clearance_m = [&](const Eigen::Vector3f& at) {
-            return world.clearanceWithin_m(at, limit_m);  // more clearance does not lower the cost
-        };
+        // More clearance does not lower the cost.
+        const auto clearance_m = world.clearanceQuery(options.bounds_m.cast<float>(), limit_m);
         // First with extra clearance that planners can follow easily, otherwise without.
         options.min_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);

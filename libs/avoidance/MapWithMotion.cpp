@@ -43,6 +43,13 @@ float MapWithMotion::clearanceWithin_m(const Eigen::Vector3f& point_m, float lim
     return movers_.clearanceWithin_m(point_m, 0, map_->clearanceWithin_m(point_m, limit_m));
 }
 
+WorldModel::ClearanceQuery MapWithMotion::clearanceQuery(const Eigen::AlignedBox3f& box_m,
+                                                         float limit_m) const {
+    return [this, still_m = map_->clearanceQuery(box_m, limit_m)](const Eigen::Vector3f& point_m) {
+        return movers_.clearanceWithin_m(point_m, 0, still_m(point_m));
+    };
+}
+
 float MapWithMotion::clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const {
     return movers_.clearanceWithin_m(point_m, static_cast<float>(after_s),
                                      map_->clearance_m(point_m));

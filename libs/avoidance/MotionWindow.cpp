@@ -17,6 +17,14 @@ float MotionWindow::clearanceWithin_m(const Eigen::Vector3f& point_m, float limi
     return movers_.clearanceWithin_m(point_m, 0, window_.clearanceWithin_m(point_m, limit_m));
 }
 
+WorldModel::ClearanceQuery MotionWindow::clearanceQuery(const Eigen::AlignedBox3f& box_m,
+                                                        float limit_m) const {
+    return
+        [this, still_m = window_.clearanceQuery(box_m, limit_m)](const Eigen::Vector3f& point_m) {
+            return movers_.clearanceWithin_m(point_m, 0, still_m(point_m));
+        };
+}
+
 float MotionWindow::clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const {
     return movers_.clearanceWithin_m(point_m, static_cast<float>(after_s),
                                      window_.clearance_m(point_m));

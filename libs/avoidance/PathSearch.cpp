@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <queue>
 #include <stdexcept>
 
 namespace hagen::avoidance {
@@ -20,30 +19,108 @@ constexpr double kCheckStep_m = 0.1;
 constexpr double kGrazing_m = 0.05;  ///< tolerance of edges between cells
 constexpr std::int64_t kMostCellsOfGrid = 30'000'000;
 
-/// State of a cell. Valid only if it has the number of the current search.
+/// State of a cell. Valid only if it has the number of the current search. 32 bytes, as most of a
+/// long search's time goes into fetching cells.
 struct Cell {
+    Cost cost;
+    Cost extra_permille;  ///< extra cost per metre
     std::uint32_t search = 0;
     int parent;
-    Cost cost;
     float clearance_m;
-    Cost extra_permille;  ///< extra cost per metre
-    std::int8_t place;    ///< passing point; -1: not known yet, -2: none
+    std::int8_t place;  ///< passing point; -1: not known yet, -2: none
     bool is_closed;
 };
 
-struct Entry {
-    Cost estimate, cost;
-    int cell, parent;
-    bool is_exact;  ///< false: clearance not queried yet, may cost more
+/// The 26 neighbours of a cell and the cell itself (number 13), in the order of their indices.
+constexpr int kNeighbours = 27, kItself = 13;
 
-    /// Among equal estimates, the one with more path done goes first, then exact ones.
-    bool operator<(const Entry& other) const {
-        if (estimate != other.estimate) return estimate > other.estimate;
-        if (cost != other.cost) return cost < other.cost;
-        if (is_exact != other.is_exact) return other.is_exact;
-        if (cell != other.cell) return cell > other.cell;
-        return parent > other.parent;
+/// A way into a cell. Among equal estimates, the one with more path done goes first, then those
+/// whose clearance was queried, then the lower cell, then the lower parent. All of that is in the
+/// bits of one number: the more of an estimate is done, the less is left.
+struct Entry {
+    static constexpr int kParentBits = 5, kCellBits = 25, kLeftBits = 33;
+
+    Cost estimate;
+    std::uint64_t rank;
+
+    /// `parent` is a number of kNeighbours. If the entry is not exact, the clearance was not
+    /// queried yet, and it may cost more.
+    Entry(Cost estimate_of_all, Cost left, bool is_exact, int cell, int parent)
+        : estimate(estimate_of_all),
+          rank(((static_cast<std::uint64_t>(left) << 1 | (is_exact ? 0u : 1u)) << kCellBits |
+                static_cast<std::uint64_t>(cell))
+                   << kParentBits |
+               static_cast<std::uint64_t>(parent)) {}
+
+    int parent() const { return static_cast<int>(rank & ((1u << kParentBits) - 1)); }
+    int cell() const { return static_cast<int>(rank >> kParentBits & ((1u << kCellBits) - 1)); }
+    bool isExact() const { return (rank >> (kParentBits + kCellBits) & 1) == 0; }
+    Cost left() const { return static_cast<Cost>(rank >> (kParentBits + kCellBits + 1)); }
+    Cost cost() const { return estimate - left(); }
+
+    bool goesBefore(const Entry& other) const {
+        return estimate != other.estimate ? estimate < other.estimate : rank < other.rank;
     }
+};
+static_assert(Entry::kParentBits + Entry::kCellBits + 1 + Entry::kLeftBits == 64);
+static_assert(kNeighbours <= 1 << Entry::kParentBits);
+static_assert(kMostCellsOfGrid <= 1 << Entry::kCellBits);
+
+/// Returns entries in their order: small heaps for one range of estimates each, of which only those
+/// that are reached become heaps. No two entries are equal in order without being the same, so what
+/// comes out next does not depend on the kind of queue.
+class Queue {
+ public:
+    bool isEmpty() const { return count_ == 0; }
+
+    void clear() {
+        for (std::size_t i = 0; i < end_; ++i) {
+            buckets_[i].entries.clear();
+            buckets_[i].is_heap = false;
+        }
+        count_ = end_ = 0;
+    }
+
+    void push(const Entry& entry) {
+        const auto range = static_cast<std::size_t>(
+            std::min<Cost>(entry.estimate / kRange, static_cast<Cost>(kMostBuckets) - 1));
+        if (range >= buckets_.size()) buckets_.resize(range + 1);
+        Bucket& bucket = buckets_[range];
+        bucket.entries.push_back(entry);
+        if (bucket.is_heap) std::push_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
+        first_ = count_ == 0 ? range : std::min(first_, range);
+        end_ = std::max(end_, range + 1);
+        ++count_;
+    }
+
+    /// Not of an empty queue.
+    Entry pop() {
+        while (buckets_[first_].entries.empty()) ++first_;
+        Bucket& bucket = buckets_[first_];
+        if (!bucket.is_heap)
+            std::make_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
+        bucket.is_heap = true;
+        std::pop_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
+        const Entry first = bucket.entries.back();
+        bucket.entries.pop_back();
+        --count_;
+        return first;
+    }
+
+ private:
+    static constexpr Cost kRange = 32;
+    static constexpr std::size_t kMostBuckets = 1 << 16;  ///< all that is farther shares the last
+
+    struct Bucket {
+        std::vector<Entry> entries;
+        bool is_heap = false;
+    };
+    static constexpr auto goesAfter = [](const Entry& a, const Entry& b) {
+        return b.goesBefore(a);
+    };
+
+    std::vector<Bucket> buckets_;
+    std::size_t count_ = 0, first_ = 0, end_ = 0;
 };
 
 double extraCost(double clearance_m, double height_m, const PathSearchOptions& options) {
@@ -69,9 +146,7 @@ class Search {
     Eigen::Vector3d pointOf(int index, int place) const;
     void look(int index);
     bool mayPass(int from, int to);
-    Cost costOfStep(int from, int to) const;
-    Cost leastCostToGoal(const Eigen::Vector3i& place) const;
-    void push(int from, int to, const Eigen::Vector3i& place, Cost length);
+    Cost leastCostToGoal(int x, int y, int z) const;
     void open(int index);
     std::vector<Eigen::Vector3d> pathTo(int index) const;
 
@@ -83,13 +158,17 @@ class Search {
     std::uint32_t number_ = 0;
     Cost heuristic_permille_;
     std::vector<Cell>& cells_;
-    std::vector<Entry> entries_;  ///< a heap
-    std::array<Cost, 4> lengths_{};
+    Queue& queue_;
+    std::array<Cost, 4> lengths_{};  ///< of a step along as many axes
+    Eigen::Vector3i goal_place_{0, 0, 0};
+    std::array<int, kNeighbours> offsets_{};             ///< of a neighbour's index
+    std::array<Cost, kNeighbours> neighbour_lengths_{};  ///< of the step
 };
 
 /// Reused by later searches, because clearing it would cost more than most searches.
 struct Memory {
     std::vector<Cell> cells;
+    Queue queue;
     std::uint32_t search = 0;
 };
 Memory& memory() {
@@ -104,7 +183,8 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
       goal_m_(goal_m),
       options_(options),
       heuristic_permille_(std::llround(1000 * std::max(1.0, options.heuristic_weight))),
-      cells_(memory().cells) {
+      cells_(memory().cells),
+      queue_(memory().queue) {
     if (!(options.cell_m > 0) || options.bounds_m.isEmpty()) {
         throw std::invalid_argument("path search: cells need a size, and bounds to lie in");
     }
@@ -142,12 +222,26 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
         lengths_[axes] =
             std::llround(kCostPerMetre * options.cell_m * std::sqrt(static_cast<double>(axes)));
     }
+    const double farthest = static_cast<double>(size_.cast<std::int64_t>().sum()) *
+                            static_cast<double>(lengths_[1]) *
+                            static_cast<double>(heuristic_permille_) / 1000;
+    if (!(farthest < std::ldexp(1.0, Entry::kLeftBits))) {
+        throw std::invalid_argument("path search: the bounds are too long for its costs");
+    }
+    if (has_goal) goal_place_ = placeOf(goal_);
+    for (int i = 0; i < kNeighbours; ++i) {
+        const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
+        offsets_[static_cast<std::size_t>(i)] = (z * size_.y() + y) * size_.x() + x;
+        neighbour_lengths_[static_cast<std::size_t>(i)] =
+            lengths_[static_cast<std::size_t>(std::abs(x) + std::abs(y) + std::abs(z))];
+    }
+    queue_.clear();
 }
 
 Cell& Search::cell(int index) {
     Cell& cell = cells_[static_cast<std::size_t>(index)];
     if (cell.search != number_) {
-        cell = {number_, -1, std::numeric_limits<Cost>::max(), 0, 0, -1, false};
+        cell = {std::numeric_limits<Cost>::max(), 0, number_, -1, 0, -1, false};
     }
     return cell;
 }
@@ -215,50 +309,48 @@ bool Search::mayPass(int from, int to) {
     return true;
 }
 
-Cost Search::costOfStep(int from, int to) const {
-    const Cell &a = cells_[static_cast<std::size_t>(from)],
-               &b = cells_[static_cast<std::size_t>(to)];
-    const int axes = static_cast<int>((placeOf(from) - placeOf(to)).array().abs().sum());
-    const Cost length = lengths_[static_cast<std::size_t>(axes)];
+/// The cost of a step of this length between two cells.
+Cost costOfStep(Cost length, const Cell& a, const Cell& b) {
     return length + length * (a.extra_permille + b.extra_permille) / 2000;
 }
 
 /// The distance through empty space on a grid with diagonals, times the heuristic weight.
-Cost Search::leastCostToGoal(const Eigen::Vector3i& place) const {
-    std::array<int, 3> steps{};
-    const Eigen::Vector3i goal = placeOf(goal_);
-    for (int axis = 0; axis < 3; ++axis) {
-        steps[static_cast<std::size_t>(axis)] = std::abs(place[axis] - goal[axis]);
-    }
-    std::sort(steps.begin(), steps.end());
-    const Cost way = lengths_[3] * steps[0] + lengths_[2] * (steps[1] - steps[0]) +
-                     lengths_[1] * (steps[2] - steps[1]);
+Cost Search::leastCostToGoal(int x, int y, int z) const {
+    x = std::abs(x - goal_place_.x());
+    y = std::abs(y - goal_place_.y());
+    z = std::abs(z - goal_place_.z());
+    const int least = std::min({x, y, z}), most = std::max({x, y, z});
+    const int middle = x + y + z - least - most;
+    const Cost way =
+        lengths_[3] * least + lengths_[2] * (middle - least) + lengths_[1] * (most - middle);
     return way * heuristic_permille_ / 1000;
 }
 
-void Search::push(int from, int to, const Eigen::Vector3i& place, Cost length) {
-    Cell& there = cell(to);
-    if (there.is_closed) return;
-    const Cell& here = cell(from);
-    const bool was_seen = there.place != -1;
-    const Cost step =
-        was_seen ? costOfStep(from, to) : length + length * here.extra_permille / 2000;
-    const Cost cost = here.cost + step;
-    if (cost >= there.cost) return;
-    entries_.push_back({cost + leastCostToGoal(place), cost, to, from, false});
-    std::push_heap(entries_.begin(), entries_.end());
-}
-
+/// Closes a cell and queues the ways from it into its neighbours.
 void Search::open(int index) {
     cell(index).is_closed = true;
+    const Cell here = cell(index);
     const Eigen::Vector3i place = placeOf(index);
-    for (int z = -1; z <= 1; ++z) {
-        for (int y = -1; y <= 1; ++y) {
-            for (int x = -1; x <= 1; ++x) {
-                const Eigen::Vector3i next = place + Eigen::Vector3i(x, y, z);
-                if ((next.array() < 0).any() || (next.array() >= size_.array()).any()) continue;
-                const auto axes = static_cast<std::size_t>(std::abs(x) + std::abs(y) + std::abs(z));
-                if (axes > 0) push(index, indexOf(next), next, lengths_[axes]);
+    const Eigen::Vector3i first = (place.array() - 1).max(0);
+    const Eigen::Vector3i last = (place.array() + 1).min(size_.array() - 1);
+    for (int z = first.z(); z <= last.z(); ++z) {
+        for (int y = first.y(); y <= last.y(); ++y) {
+            for (int x = first.x(); x <= last.x(); ++x) {
+                const int neighbour =
+                    9 * (z - place.z()) + 3 * (y - place.y()) + x - place.x() + kItself;
+                if (neighbour == kItself) continue;
+                const int next = index + offsets_[static_cast<std::size_t>(neighbour)];
+                const Cell& there = cell(next);
+                if (there.is_closed) continue;
+                const Cost length = neighbour_lengths_[static_cast<std::size_t>(neighbour)];
+                const bool was_seen = there.place != -1;
+                const Cost step = was_seen ? costOfStep(length, here, there)
+                                           : length + length * here.extra_permille / 2000;
+                const Cost cost = here.cost + step;
+                if (cost >= there.cost) continue;
+                const Cost left = leastCostToGoal(x, y, z);
+                const int back = kNeighbours - 1 - neighbour;
+                queue_.push({cost + left, left, false, next, back});
             }
         }
     }
@@ -282,29 +374,30 @@ std::optional<std::vector<Eigen::Vector3d>> Search::run() {
     cell(start_).cost = 0;
     open(start_);
     int opened = 1;
-    while (!entries_.empty() && opened < options_.max_cells) {
-        std::pop_heap(entries_.begin(), entries_.end());
-        Entry entry = entries_.back();
-        entries_.pop_back();
-        Cell& at = cell(entry.cell);
-        if (at.is_closed || (!entry.is_exact && entry.cost >= at.cost)) continue;
-        if (!entry.is_exact) {
-            look(entry.cell);
-            const Cost cost = cell(entry.parent).cost + costOfStep(entry.parent, entry.cell);
-            if (cost >= at.cost || !mayPass(entry.parent, entry.cell)) continue;
+    while (!queue_.isEmpty() && opened < options_.max_cells) {
+        const Entry entry = queue_.pop();
+        const int index = entry.cell();
+        Cell& at = cell(index);
+        if (at.is_closed || (!entry.isExact() && entry.cost() >= at.cost)) continue;
+        if (!entry.isExact()) {
+            look(index);
+            const auto parent = static_cast<std::size_t>(entry.parent());
+            const int from = index + offsets_[parent];
+            const Cell& before = cell(from);
+            const Cost cost = before.cost + costOfStep(neighbour_lengths_[parent], before, at);
+            if (cost >= at.cost || !mayPass(from, index)) continue;
             at.cost = cost;
-            at.parent = entry.parent;
-            const Cost more = cost - entry.cost;
+            at.parent = from;
+            const Cost more = cost - entry.cost();
             if (more > 0) {
-                entries_.push_back({entry.estimate + more, cost, entry.cell, entry.parent, true});
-                std::push_heap(entries_.begin(), entries_.end());
+                queue_.push({entry.estimate + more, entry.left(), true, index, entry.parent()});
                 continue;
             }
-        } else if (entry.cost > at.cost) {
+        } else if (entry.cost() > at.cost) {
             continue;
         }
-        if (entry.cell == goal_) return pathTo(goal_);
-        open(entry.cell);
+        if (index == goal_) return pathTo(goal_);
+        open(index);
         ++opened;
     }
     return std::nullopt;

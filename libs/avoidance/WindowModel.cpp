@@ -5,6 +5,7 @@
 #include <nanoflann.hpp>
 
 #include "Nearest.h"
+#include "PointGrid.h"
 #include "Thinning.h"
 
 namespace hagen::avoidance {
@@ -15,6 +16,10 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
                                                  TreePoints, 3>;
 constexpr std::size_t kLeafSize = 32;
 constexpr std::size_t kScansPerTree = 3;
+
+/// To build a grid of the points takes about as long as one search of the trees per so many points.
+/// Most searches for a path are over before that pays.
+constexpr std::size_t kPointsPerQuery = 384;
 
 // Isolated points.
 constexpr float kNeighbourhood = 0.05f;  // share of the range: 1.5 rows of a VLP-16
@@ -152,6 +157,21 @@ float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit
         past->tree->findNeighbors(nearest, point_m.data(), {});
     }
     return std::sqrt(nearest.worstDist());
+}
+
+WorldModel::ClearanceQuery WindowModel::clearanceQuery(const Eigen::AlignedBox3f& box_m,
+                                                       float limit_m) const {
+    std::size_t points = 0;
+    for (const auto& past : past_) points += past->in_window;
+    return [=, queries_left = points / kPointsPerQuery + 1,
+            grid = std::shared_ptr<const PointGrid>()](const Eigen::Vector3f& point_m) mutable {
+        if (!grid && --queries_left == 0) {
+            grid = std::make_shared<PointGrid>(obstacles().centre_m, box_m,
+                                               std::min(limit_m, kReach_m));
+        }
+        const auto found_m2 = grid ? grid->leastDistance_m2(point_m) : std::nullopt;
+        return found_m2 ? std::sqrt(*found_m2) : clearanceWithin_m(point_m, limit_m);
+    };
 }
 
 bool WindowModel::isKnown(const Eigen::Vector3f& point_m) const {

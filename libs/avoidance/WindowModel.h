@@ -34,6 +34,7 @@ class WindowModel : public WorldModel {
     void hide(const std::vector<std::uint32_t>& tracks);
     float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
+    ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& box_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;
     Obstacles obstacles() const override;

@@ -41,7 +41,7 @@ struct RecordedScans {
     double length_m = 0;
 };
 
-RecordedScans recordFlight(const Course& course) {
+RecordedScans recordFlight(const Course& course, const std::function<void()>& continuing) {
     RecordedScans recorded;
     TrialListener listener;
     Eigen::Vector3d last = course.start_m;
@@ -50,6 +50,7 @@ RecordedScans recordFlight(const Course& course) {
         last = state.position_m;
     };
     listener.step = [&](const TrialStep& step) {
+        if (continuing) continuing();
         recorded.scans.push_back(step.scan);
         recorded.path_m.push_back(recorded.length_m);
     };
@@ -89,6 +90,10 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
     TrialMeasurement measurement;
     TrialSetup setup;
     setup.speed_m_s = kCalibrated_m_s;
+    TrialListener listener;
+    listener.moved = [&](double, const avoidance::VehicleState&) {
+        if (options.continuing) options.continuing();
+    };
     for (const std::string& model : options.models) {
         if (options.doing) options.doing(model);
         setup.model = model;
@@ -100,7 +105,7 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
                 setup.guidance = guidance;
                 for (const std::string& planner : avoidance::plannerNames()) {
                     setup.planner = planner;
-                    runTrial(course, setup, nominal, &measurement);
+                    runTrial(course, setup, nominal, &measurement, listener);
                 }
             }
         }
@@ -115,10 +120,11 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
     return profile;
 }
 
-std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m) {
+std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
+                                        const std::function<void()>& continuing) {
     constexpr double kEvery_m = 10;
     const Course course = makeCourse(kCourses[0], 0);
-    RecordedScans recorded = recordFlight(course);
+    RecordedScans recorded = recordFlight(course, continuing);
     avoidance::WorldModelSetting setting;
     setting.bounds_m = course.bounds_m.cast<float>();
     setting.bounds_m.max().x() += static_cast<float>(path_m);
@@ -132,6 +138,7 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m)
     const double lap_s = recorded.scans.back().time_s;  // the first scan ends a turn after 0
     for (double lap_m = 0; lap_m < path_m; lap_m += recorded.length_m) {
         for (std::size_t i = 0; i < recorded.scans.size(); ++i) {
+            if (continuing) continuing();
             const double at_m = lap_m + recorded.path_m[i], heap = base::heapBytes();
             world->update(recorded.scans[i]);
             held += base::heapBytes() - heap;

@@ -267,6 +267,35 @@ TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
     }
 }
 
+/// Bit by bit, and outside the box, too. Points and places of a lattice have many distances that
+/// differ by their rounding only.
+TEST(WorldModel, ManyQueriesHaveTheAnswersOfSingleOnes) {
+    const Eigen::AlignedBox3f box_m(Eigen::Vector3f(-3, -2, 0), Eigen::Vector3f(4, 3, 2.5f));
+    for (const std::string& name : modelsThatLearn()) {
+        simulation::Random random(9);
+        const auto model = avoidance::makeWorldModel(name, setting());
+        const auto onLattice = [](const Eigen::Vector3f& at) -> Eigen::Vector3f {
+            return (at / 0.15f).array().round() * 0.15f;
+        };
+        for (int scan = 0; scan < 3; ++scan) {
+            std::vector<Eigen::Vector3f> points = sparsePoints(random, 400);
+            for (std::size_t i = 0; i < points.size(); i += 2) points[i] = onLattice(points[i]);
+            model->update(scanOf(points));
+        }
+        for (const float limit_m : {0.3f, 1.2f, 9.0f}) {
+            const auto clearance_m = model->clearanceQuery(box_m, limit_m);
+            int less = 0;
+            for (int i = 0; i < 1000; ++i) {
+                Eigen::Vector3f at = sparsePoints(random, 1)[0];
+                if (i % 2 == 0) at = onLattice(at);
+                EXPECT_EQ(clearance_m(at), model->clearanceWithin_m(at, limit_m)) << name;
+                less += clearance_m(at) < limit_m;
+            }
+            EXPECT_GT(less, 10) << name;
+        }
+    }
+}
+
 /// Of each 10 cm cube around the origin the nearest point, by brute force; so what is told is never
 /// nearer than the truth, and by no more than a cube's diagonal farther.
 TEST(WorldModel, AWindowKeepsTheNearestPointOfEachCube) {

@@ -187,5 +187,15 @@ TEST(Trial, WhatIsNotKnownIsNamed) {
     EXPECT_THROW(runTrial(course, setup, LatencyProfile{}), std::runtime_error);
 }
 
+TEST(Calibration, MeasuringMemoryEndsWithinAScan) {
+    struct Interrupted {};
+    int scans = 0;
+    const auto stopAtTheThird = [&] {
+        if (++scans == 3) throw Interrupted();
+    };
+    EXPECT_THROW(heapAlongFlight("W-RoI", 1000, stopAtTheThird), Interrupted);
+    EXPECT_EQ(scans, 3);
+}
+
 }  // namespace
 }  // namespace hagen::trials

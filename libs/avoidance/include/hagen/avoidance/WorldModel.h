@@ -36,6 +36,14 @@ class WorldModel {
         return std::min(clearance_m(point_m), limit_m);
     }
 
+    /// clearanceWithin_m() for many points of a box, as a path search asks for: the same answers,
+    /// which may be faster to compute. Valid until the model is updated or destroyed.
+    using ClearanceQuery = std::function<float(const Eigen::Vector3f& point_m)>;
+    virtual ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& /*box_m*/,
+                                          float limit_m) const {
+        return [=](const Eigen::Vector3f& point_m) { return clearanceWithin_m(point_m, limit_m); };
+    }
+
     /// clearance_m() a time after the last scan, for models that predict motion. All others take
     /// the world to stand still.
     virtual float clearanceAfter_m(const Eigen::Vector3f& point_m, double /*after_s*/) const {

@@ -10,6 +10,7 @@ struct CalibrationOptions {
     std::vector<std::string> models;  ///< to measure
     int courses = 4;                  ///< of forest-0.05, forest-0.10, u-trap, movers, in turn
     std::function<void(const std::string& what)> doing;  ///< called before each model
+    std::function<void()> continuing;  ///< called often during flights; may throw to end them
 };
 
 /// Flights that measure latencies are as fast as those that all scenarios are flown at: windows and
@@ -31,7 +32,9 @@ struct HeapSample {
 };
 
 /// The heap of a model along a flight of `path_m`, every 10 m: the scans of one flight through
-/// forest-0.05, repeated end to end.
-std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m);
+/// forest-0.05, repeated end to end. `continuing` is called before each scan, and may throw to end
+/// it.
+std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
+                                        const std::function<void()>& continuing = {});
 
 }  // namespace hagen::trials
