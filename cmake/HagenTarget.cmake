@@ -40,7 +40,7 @@ function(hagen_not_hot what)
 endfunction()
 
 # hagen_library(NAME SOURCE...): creates the library hagen::NAME of this folder, with its headers in
-# include/hagen/NAME, exported and installed.
+# include/hagen/NAME, exported and installed: component NAME of find_package(hagen).
 function(hagen_library name)
   add_library(hagen_${name} ${ARGN})
   set_property(GLOBAL APPEND PROPERTY HAGEN_LIBRARIES ${name})
@@ -49,7 +49,39 @@ function(hagen_library name)
   target_include_directories(
     hagen_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
                          $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  set_target_properties(hagen_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  install(TARGETS hagen_${name} EXPORT hagenTargets)
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  # Before 1.0, a minor version may change the ABI (CONTRIBUTING.md).
+  set(abi ${PROJECT_VERSION_MAJOR})
+  if(abi EQUAL 0)
+    set(abi 0.${PROJECT_VERSION_MINOR})
+  endif()
+  # No macro -Dhagen_NAME_EXPORTS: static and shared libraries are made of the same objects.
+  set_target_properties(
+    hagen_${name}
+    PROPERTIES EXPORT_NAME ${name}
+               POSITION_INDEPENDENT_CODE ON
+               DEFINE_SYMBOL ""
+               VERSION ${PROJECT_VERSION}
+               SOVERSION ${abi})
+  if(NOT HAGEN_INSTALL)
+    return()
+  endif()
+  if(name MATCHES "^(range_image|segmentation)$")
+    set(runtime filter)
+  else()
+    set(runtime mrpt)
+  endif()
+  install(
+    TARGETS hagen_${name}
+    EXPORT hagen_${name}Targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${runtime} NAMELINK_COMPONENT dev
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+endfunction()
+
+# hagen_program(NAME): settings of a program, which is installed.
+function(hagen_program name)
+  hagen_target(${name})
+  if(HAGEN_INSTALL)
+    install(TARGETS ${name} COMPONENT tools)
+  endif()
 endfunction()
