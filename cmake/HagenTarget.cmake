@@ -78,10 +78,43 @@ function(hagen_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 endfunction()
 
-# hagen_program(NAME): settings of a program, which is installed.
+# hagen_program(NAME): settings of a program, which is installed with its manual page and completions. It writes them
+# itself.
+set(HAGEN_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Folder of completions for zsh")
+string(TIMESTAMP HAGEN_MANUAL_DATE "%Y-%m-%d" UTC)
 function(hagen_program name)
   hagen_target(${name})
+  if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+    set(has_manual FALSE)
+  else()
+    set(has_manual TRUE)
+    set(share ${PROJECT_BINARY_DIR}/share)
+    set(man ${share}/man/man1/${name}.1)
+    set(bash ${share}/bash-completion/completions/${name})
+    set(zsh ${share}/zsh/site-functions/_${name})
+    file(MAKE_DIRECTORY ${share}/man/man1 ${share}/bash-completion/completions ${share}/zsh/site-functions)
+    set(compress "")
+    if(HAGEN_DEBIAN_PACKAGES)
+      set(compress COMMAND gzip -9nf ${man})
+      set(compressed .gz)
+    endif()
+    add_custom_command(
+      OUTPUT ${man}${compressed} ${bash} ${zsh}
+      COMMAND ${name} --hagen-manual man ${HAGEN_MANUAL_DATE} > ${man}
+      ${compress}
+      COMMAND ${name} --hagen-manual bash > ${bash}
+      COMMAND ${name} --hagen-manual zsh > ${zsh}
+      DEPENDS ${name}
+      COMMENT "Writing the manual page and completions of ${name}"
+      VERBATIM)
+    add_custom_target(${name}-manual ALL DEPENDS ${man}${compressed} ${bash} ${zsh})
+  endif()
   if(HAGEN_INSTALL)
     install(TARGETS ${name} COMPONENT tools)
+    if(has_manual)
+      install(FILES ${man}${compressed} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+      install(FILES ${bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
+      install(FILES ${zsh} DESTINATION ${HAGEN_ZSH_COMPLETIONS} COMPONENT tools)
+    endif()
   endif()
 endfunction()

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <hagen/command_line/Interrupt.h>
+#include "Manual.h"
 #include "StandardStreams.h"
 
 namespace hagen::command_line {
@@ -272,6 +273,14 @@ int Program::printed(int exit_code, const std::string& what) const {
 }
 
 int Program::run(int argc, char** argv, const std::function<int()>& work) {
+    // For the build only: PROGRAM --hagen-manual man DATE, bash or zsh.
+    if (argc > 2 && std::string(argv[1]) == "--hagen-manual") {
+        const std::string kind = argv[2];
+        std::cout << (kind == "bash"  ? bashCompletion(*app_, name_)
+                      : kind == "zsh" ? zshCompletion(*app_, name_)
+                                      : manualPage(*app_, name_, argc > 3 ? argv[3] : ""));
+        return printed(kDone, kind);
+    }
     try {
         app_->parse(argc, argv);
         return printed(work ? work() : work_(), printed_);
