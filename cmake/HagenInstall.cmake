@@ -97,7 +97,9 @@ write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/package/hagenConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/hagenConfig.cmake
               ${PROJECT_BINARY_DIR}/package/hagenConfigVersion.cmake DESTINATION ${package_dir} COMPONENT dev)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT dev)
+if(NOT HAGEN_DEBIAN_PACKAGES)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT dev)
+endif()
 if(HAGEN_BUILD_APPS)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen/config COMPONENT tools)
 endif()

@@ -40,7 +40,8 @@ function(hagen_not_hot what)
 endfunction()
 
 # hagen_library(NAME SOURCE...): creates the library hagen::NAME of this folder, with its headers in
-# include/hagen/NAME, exported and installed: component NAME of find_package(hagen).
+# include/hagen/NAME, exported and installed: component NAME of find_package(hagen), in a Debian package of
+# cmake/HagenPackages.cmake.
 function(hagen_library name)
   add_library(hagen_${name} ${ARGN})
   set_property(GLOBAL APPEND PROPERTY HAGEN_LIBRARIES ${name})

@@ -1,5 +1,6 @@
 # Installs the build tree into a clean prefix, and uses the filter there and from its sources, with all libraries of the
-# other components hidden. cmake -DSOURCE= -DBUILD= -DGENERATOR= -DCOMPONENTS= -DWITHOUT_MRPT= -P install.cmake
+# other components hidden. cmake -DSOURCE= -DBUILD= -DSHARED= -DGENERATOR= -DCXX= -DLAUNCHER= -DCOMPONENTS= -P install.cmake
+cmake_minimum_required(VERSION 3.21)
 set(work ${BUILD}/install-test)
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
@@ -37,8 +38,12 @@ endif()
 set(project ${CMAKE_CURRENT_LIST_DIR}/project)
 set(labels "78 of 7248 returns are RoI")
 
-# By find_package.
-run("" ${configure} ${hidden} -S ${project} -B ${work}/find_package)
+# By find_package. A shared library asks for Eigen alone.
+set(alone ${hidden})
+if(SHARED)
+  list(APPEND alone -DCMAKE_DISABLE_FIND_PACKAGE_hwy=ON)
+endif()
+run("" ${configure} ${alone} -S ${project} -B ${work}/find_package)
 run("" ${CMAKE_COMMAND} --build ${work}/find_package)
 run(${labels} ${work}/find_package/labels)
 
