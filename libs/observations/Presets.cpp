@@ -29,24 +29,15 @@ fs::path folderOfProgram() {
 /// Whether a name can be that of a preset: no path.
 bool isPlain(const fs::path& name) { return !name.has_parent_path() && !name.stem().empty(); }
 
-fs::path withoutExtension(const fs::path& name) {
-    return name.extension() == ".yaml" ? name.stem() : name;
+/// The name of a preset, given with or without the extension of its file.
+std::string presetName(const fs::path& name) {
+    return (name.extension() == ".yaml" ? name.stem() : name).string();
 }
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
     return text;
-}
-
-/// The preset of this name in the first folder that has it; empty if none has.
-fs::path find(const std::string& preset) {
-    for (const fs::path& folder : presetFolders()) {
-        const fs::path file = folder / (preset + ".yaml");
-        std::error_code error;
-        if (fs::is_regular_file(file, error)) return file;
-    }
-    return {};
 }
 
 std::string searchedFolders() {
@@ -104,16 +95,25 @@ bool isSettingsFile(const fs::path& file) {
     }
 }
 
+fs::path findPreset(const std::string& name) {
+    if (!isPlain(name)) return {};
+    for (const fs::path& folder : presetFolders()) {
+        const fs::path file = folder / (presetName(name) + ".yaml");
+        std::error_code error;
+        if (fs::is_regular_file(file, error)) return file;
+    }
+    return {};
+}
+
 fs::path presetFile(const std::string& name, const std::function<bool(const fs::path&)>& isUsable) {
     std::error_code error;
     const bool exists = fs::exists(name, error);
     // A folder may have the name of a preset; it is no settings file.
     if (exists && !fs::is_directory(name, error)) return name;
-    const std::string preset = withoutExtension(fs::path(name).filename()).string();
-    const fs::path file = preset.empty() ? fs::path() : find(preset);
-    if (isPlain(name) && !file.empty()) return file;
+    if (const fs::path preset = findPreset(name); !preset.empty()) return preset;
     if (exists) return name;
-    if (!file.empty()) {
+    const std::string preset = presetName(fs::path(name).filename());
+    if (!findPreset(preset).empty()) {  // the path is that of a guide, from another folder
         throw SettingsError(name + ": no such file; the preset's name is '" + preset + "'");
     }
     if (!isPlain(name)) throw SettingsError(name + ": no such file");

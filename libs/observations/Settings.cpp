@@ -1,6 +1,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <hagen/base/NumberText.h>
+#include <hagen/observations/Presets.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/OptionKeys.h>
@@ -188,10 +189,14 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, int includes, S
         throw SettingsError(at(file, node) + "include must be a file name or a list of them");
     }
     const auto merge = [&](const std::string& name) {
-        const fs::path included = file.parent_path() / name;
+        fs::path included = file.parent_path() / name;
         if (!fs::exists(included)) {
-            throw SettingsError(at(file, node) + "includes " + included.string() +
-                                ", which does not exist");
+            const fs::path preset = findPreset(name);
+            if (preset.empty()) {
+                throw SettingsError(at(file, node) + "includes " + included.string() +
+                                    ", which does not exist, nor does a preset of this name");
+            }
+            included = preset;
         }
         mergeFile(included, includes + 1, settings);
     };

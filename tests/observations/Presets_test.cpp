@@ -76,6 +76,19 @@ TEST_F(PresetsTest, AnExistingFileIsNoPreset) {
     EXPECT_TRUE(fs::equivalent(presetFile("hdl32e"), kSources / "hdl32e.yaml"));
 }
 
+TEST_F(PresetsTest, SettingsOfYourOwnIncludeOne) {
+    Settings settings;
+    mergeSettings(folder_.write("drone.yaml", "include: hdl32e\nzone_m: 9"), settings);
+    EXPECT_EQ(settings.sensor.model, "HDL-32E");
+    EXPECT_EQ(settings.options.zone_m, 9);
+    // A file beside it comes first.
+    folder_.write("vlp16.yaml", "zone_m: 8");
+    EXPECT_EQ(zoneOf(folder_.write("b.yaml", "include: [vlp16.yaml]")), 8);
+    const fs::path wrong = folder_.write("c.yaml", "zone_m: 9\ninclude: hdl32");
+    EXPECT_THAT(test::messageOf([&] { mergeSettings(wrong, settings); }),
+                AllOf(HasSubstr("c.yaml:2: includes "), HasSubstr("preset")));
+}
+
 TEST_F(PresetsTest, EveryPresetOfTheListCanBeRead) {
     const std::vector<std::string> names = presetNames(isSettingsFile);
     EXPECT_THAT(names, AllOf(Contains("vlp16"), Contains("mid360"), Contains("airframe_simulated"),

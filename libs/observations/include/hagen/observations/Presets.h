@@ -16,11 +16,14 @@ std::vector<std::filesystem::path> presetFolders();
 std::vector<std::string> presetNames(
     const std::function<bool(const std::filesystem::path&)>& isUsable);
 
+/// Returns the file of a preset such as `vlp16` or `vlp16.yaml`; empty if there is none.
+std::filesystem::path findPreset(const std::string& name);
+
 /// Whether mergeSettings() accepts a file.
 bool isSettingsFile(const std::filesystem::path& file);
 
 /// Returns the file that a flag such as `-c` names: `name` itself if it is an existing path,
-/// otherwise the preset, such as `vlp16` or `vlp16.yaml`. Throws SettingsError if there is neither.
+/// otherwise the preset of findPreset(). Throws SettingsError if there is neither.
 /// It lists the presets for which `isUsable` returns true, and the folders that were searched.
 std::filesystem::path presetFile(
     const std::string& name,

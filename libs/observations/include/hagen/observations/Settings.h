@@ -64,9 +64,9 @@ struct Settings {
 HagenFilter filterFor(const SensorModel& sensor, const Options& options);
 
 /// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a
-/// list of files) is merged before its own keys. Throws SettingsError if a file cannot be read or
-/// parsed, a key is unknown or occurs twice, or a value has the wrong type or is out of range;
-/// `settings` is then unchanged.
+/// preset of Presets.h, or a list of these) is merged before its own keys. Throws SettingsError if
+/// a file cannot be read or parsed, a key is unknown or occurs twice, or a value has the wrong type
+/// or is out of range; `settings` is then unchanged.
 void mergeSettings(const std::filesystem::path& file, Settings& settings);
 
 /// Returns an angle in degrees, with as few decimals as read back as the same angle.
