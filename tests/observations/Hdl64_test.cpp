@@ -147,7 +147,7 @@ TEST(Hdl64, TheCalibrationIsWhatMrptReads) {
 TEST(Hdl64, AWrongCalibrationIsNamedWithTheReason) {
     EXPECT_EQ(errorOf(test::hdl64Xml()), "");
     const auto saysOf = [](const std::string& why) {
-        return AllOf(HasSubstr("hagen_hdl64_test.xml"), HasSubstr(why));
+        return AllOf(HasSubstr("calibration.xml"), HasSubstr(why));
     };
     EXPECT_THAT(errorOf(""), saysOf("has no lasers"));
     EXPECT_THAT(errorOf("{\"json\": 1}"), saysOf("has no lasers"));
