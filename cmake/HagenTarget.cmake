@@ -40,7 +40,8 @@ function(hagen_not_hot what)
 endfunction()
 
 # hagen_library(NAME SOURCE...): creates the library hagen::NAME of this folder, with its headers in
-# include/hagen/NAME, exported and installed.
+# include/hagen/NAME, exported and installed: component NAME of find_package(hagen), in a Debian package of
+# cmake/HagenPackages.cmake.
 function(hagen_library name)
   add_library(hagen_${name} ${ARGN})
   set_property(GLOBAL APPEND PROPERTY HAGEN_LIBRARIES ${name})
@@ -49,7 +50,72 @@ function(hagen_library name)
   target_include_directories(
     hagen_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
                          $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  set_target_properties(hagen_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  install(TARGETS hagen_${name} EXPORT hagenTargets)
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  # Before 1.0, a minor version may change the ABI (CONTRIBUTING.md).
+  set(abi ${PROJECT_VERSION_MAJOR})
+  if(abi EQUAL 0)
+    set(abi 0.${PROJECT_VERSION_MINOR})
+  endif()
+  # No macro -Dhagen_NAME_EXPORTS: static and shared libraries are made of the same objects.
+  set_target_properties(
+    hagen_${name}
+    PROPERTIES EXPORT_NAME ${name}
+               POSITION_INDEPENDENT_CODE ON
+               DEFINE_SYMBOL ""
+               VERSION ${PROJECT_VERSION}
+               SOVERSION ${abi})
+  if(NOT HAGEN_INSTALL)
+    return()
+  endif()
+  if(name MATCHES "^(range_image|segmentation)$")
+    set(runtime filter)
+  else()
+    set(runtime mrpt)
+  endif()
+  install(
+    TARGETS hagen_${name}
+    EXPORT hagen_${name}Targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${runtime} NAMELINK_COMPONENT dev
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+endfunction()
+
+# hagen_program(NAME): settings of a program, which is installed with its manual page and completions. It writes them
+# itself.
+set(HAGEN_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Folder of completions for zsh")
+string(TIMESTAMP HAGEN_MANUAL_DATE "%Y-%m-%d" UTC)
+function(hagen_program name)
+  hagen_target(${name})
+  if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+    set(has_manual FALSE)
+  else()
+    set(has_manual TRUE)
+    set(share ${PROJECT_BINARY_DIR}/share)
+    set(man ${share}/man/man1/${name}.1)
+    set(bash ${share}/bash-completion/completions/${name})
+    set(zsh ${share}/zsh/site-functions/_${name})
+    file(MAKE_DIRECTORY ${share}/man/man1 ${share}/bash-completion/completions ${share}/zsh/site-functions)
+    set(compress "")
+    if(HAGEN_DEBIAN_PACKAGES)
+      set(compress COMMAND gzip -9nf ${man})
+      set(compressed .gz)
+    endif()
+    add_custom_command(
+      OUTPUT ${man}${compressed} ${bash} ${zsh}
+      COMMAND ${name} --hagen-manual man ${HAGEN_MANUAL_DATE} > ${man}
+      ${compress}
+      COMMAND ${name} --hagen-manual bash > ${bash}
+      COMMAND ${name} --hagen-manual zsh > ${zsh}
+      DEPENDS ${name}
+      COMMENT "Writing the manual page and completions of ${name}"
+      VERBATIM)
+    add_custom_target(${name}-manual ALL DEPENDS ${man}${compressed} ${bash} ${zsh})
+  endif()
+  if(HAGEN_INSTALL)
+    install(TARGETS ${name} COMPONENT tools)
+    if(has_manual)
+      install(FILES ${man}${compressed} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+      install(FILES ${bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
+      install(FILES ${zsh} DESTINATION ${HAGEN_ZSH_COMPLETIONS} COMPONENT tools)
+    endif()
+  endif()
 endfunction()

@@ -1,4 +1,5 @@
 // octomap-compare openloop: compares world models on a recorded log.
+#include <hagen/observations/Presets.h>
 #include <hagen/openloop/OpenLoop.h>
 
 #include <algorithm>
@@ -59,7 +60,7 @@ int run(Flags flags) {
     if (open_loop.models.empty()) open_loop.models = standardModels(open_loop.scene.has_value());
     openloop::checkOpenLoop(open_loop);
     for (const std::string& config : flags.configs) {
-        observations::mergeSettings(config, open_loop.source.settings);
+        observations::mergeSettings(observations::presetFile(config), open_loop.source.settings);
     }
     openloop::OpenLoopFiles files(flags.folder, flags.overwrites);
     ProgressLine progress("scan");
@@ -135,7 +136,8 @@ void addOpenLoop(Program& program) {
                    "ground truth (default: raw points of later scans)");
     sub.option("--truth-seed", flags->seed, "its seed").needs(scenario).showDefault();
     sub.option("-c,--config", flags->configs,
-               "settings file; repeatable, later files override earlier ones")
+               "settings file, or the name of a preset such as hdl32e; repeatable, later ones "
+               "override earlier ones")
         .once();
     sub.option("-o,--output", flags->folder, "folder for tables and summary.json").required();
     sub.flag("--overwrite", flags->overwrites, "replace existing tables");

@@ -2,6 +2,7 @@
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/LearnAirframe.h>
 #include <hagen/logs/ScanSource.h>
+#include <hagen/observations/Presets.h>
 
 #include <cstdio>
 #include <iostream>
@@ -213,7 +214,8 @@ void declare(Program& app, Flags& flags) {
     app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
 
     app.option("-c,--config", flags.configs,
-               "settings file; may be repeated, later files override earlier ones")
+               "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
+               "override earlier ones")
         .once()
         .group("Settings");
     app.flag("--config-dump", flags.dumps_settings, "print the current settings and exit")
@@ -279,7 +281,8 @@ int run(const Program& program, Flags& flags) {
     check(flags);
     try {
         for (const std::string& config : flags.configs) {
-            observations::mergeSettings(config, flags.conversion.settings);
+            observations::mergeSettings(observations::presetFile(config),
+                                        flags.conversion.settings);
         }
         if (flags.dumps_settings) {
             printSettings(flags.conversion);
@@ -309,10 +312,10 @@ int main(int argc, char** argv) {
     program.footer(
         "Examples:\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview\n"
-        "  rawlog-segment -i flight.rawlog --kitti labels -c config/paper.yaml\n"
+        "  rawlog-segment -i flight.rawlog --kitti labels -c paper\n"
         "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"
         "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
-        "  rawlog-segment -i scan_folder --kitti labels -c config/hdl64e.yaml\n"
+        "  rawlog-segment -i scan_folder --kitti labels -c hdl64e\n"
         "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"
         "  rawlog-segment -i clouds_folder --clouds labelled --cloud-format pcd\n"
         "  rawlog-segment -i flight.bag --mcap segmented.mcap\n"

@@ -1,6 +1,7 @@
 // Scores the filter on labelled scan folders, with one set of settings or a sweep.
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>
+#include <hagen/observations/Presets.h>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -35,7 +36,8 @@ struct Flags {
 void addFlags(Command& app, Flags& flags) {
     app.option("-i,--input", flags.folders, "labelled scan folders").required();
     app.option("-c,--config", flags.configs,
-               "settings file; may be repeated, later files override earlier ones");
+               "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
+               "override earlier ones");
     app.option("--sweep", flags.sweeps,
                "KEY=VALUE,VALUE,...: one row per value; sweeps are independent");
     app.flag("--baselines", flags.with_baselines,
@@ -52,11 +54,12 @@ void addFlags(Command& app, Flags& flags) {
     app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
         .showDefault()
         .between(0.1, 1000.0);
-    app.option("--label-map", flags.label_map,
-               "YAML file: which classes of semantic/ (otherwise labels/) are RoI and ROU");
+    app.option(
+        "--label-map", flags.label_map,
+        "YAML file or preset: which classes of semantic/ (otherwise labels/) are RoI and ROU");
     const Flag camera =
         app.option("--camera", flags.camera,
-                   "YAML file of a camera: also score its pixels, as the paper does");
+                   "YAML file or preset of a camera: also score its pixels, as the paper does");
     app.option("--overlay", flags.overlay,
                "folder for one PNG per scan in the camera's view: hits, misses, false alarms")
         .needs(camera);
@@ -68,12 +71,20 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing outputs");
 }
 
-/// Reads a file named by a flag. A file that cannot be used is wrong usage.
+/// Reads a file or preset named by a flag. A file that cannot be used is wrong usage.
 template <class Read>
-auto fromFlag(const std::string& file, Read read) -> std::optional<decltype(read(file))> {
-    if (file.empty()) return std::nullopt;
+auto fromFlag(const std::string& name, Read read) -> std::optional<decltype(read(name))> {
+    if (name.empty()) return std::nullopt;
+    const auto is_usable = [&](const fs::path& file) {
+        try {
+            read(file.string());
+            return true;
+        } catch (const std::runtime_error&) {
+            return false;
+        }
+    };
     try {
-        return read(file);
+        return read(observations::presetFile(name, is_usable).string());
     } catch (const std::runtime_error& e) {
         throw observations::SettingsError(e.what());
     }
@@ -105,7 +116,7 @@ struct Outputs {
 
 int run(const Flags& flags, labelled_scans::Summary summary) {
     for (const std::string& config : flags.configs)
-        observations::mergeSettings(config, summary.settings);
+        observations::mergeSettings(observations::presetFile(config), summary.settings);
     labelled_scans::MethodSet rows;
     rows.filter = labelled_scans::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
@@ -166,7 +177,7 @@ int main(int argc, char** argv) {
         "Prints precision, recall and F1 of each class over all returns of all scans;\n"
         "returns with ground-truth label 0 are excluded.\n"
         "Example:\n"
-        "  segmentation-evaluate -i scans/* -c config/paper.yaml --sweep beta_deg=5,7.5,10\n"
+        "  segmentation-evaluate -i scans/* -c paper --sweep beta_deg=5,7.5,10\n"
         "  segmentation-evaluate -i scans/* --baselines --json all.json");
     program.version(HAGEN_VERSION);
     Flags flags;

@@ -1,6 +1,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <hagen/base/NumberText.h>
+#include <hagen/observations/Presets.h>
 #include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/OptionKeys.h>
@@ -202,10 +203,14 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
                 at(file, node) + "includes '" + name +
                 "'; settings of a recording include files of their own folder only");
         }
-        const fs::path included = file.parent_path() / name;
+        fs::path included = file.parent_path() / name;
         if (!fs::exists(included)) {
-            throw SettingsError(at(file, node) + "includes " + included.string() +
-                                ", which does not exist");
+            const fs::path preset = findPreset(name);
+            if (preset.empty()) {
+                throw SettingsError(at(file, node) + "includes " + included.string() +
+                                    ", which does not exist, nor does a preset of this name");
+            }
+            included = preset;
         }
         if (!fs::is_regular_file(included)) {
             throw SettingsError(at(file, node) + "includes " + included.string() +

@@ -32,11 +32,14 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+std::string nearestOf(const std::string& word, const std::vector<std::string>& known) {
+    return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+        return editDistance(word, a) < editDistance(word, b);
+    });
+}
+
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known) {
-    const std::string nearest = *std::min_element(
-        known.begin(), known.end(),
-        [&](const auto& a, const auto& b) { return editDistance(key, a) < editDistance(key, b); });
-    return "unknown key '" + key + "'; did you mean '" + nearest + "'?";
+    return "unknown key '" + key + "'; did you mean '" + nearestOf(key, known) + "'?";
 }
 
 YAML::Node parseFile(const fs::path& file) {

@@ -15,6 +15,9 @@ namespace hagen::observations {
 /// The place of a value in a file, for messages.
 std::string at(const std::filesystem::path& file, const YAML::Node& node);
 
+/// The known word that is most similar to `word`. There is at least one.
+std::string nearestOf(const std::string& word, const std::vector<std::string>& known);
+
 /// The message for an unknown key, with the nearest of the known ones.
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
 

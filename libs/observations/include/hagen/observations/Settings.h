@@ -70,10 +70,10 @@ enum class SettingsOrigin {
 };
 
 /// Merges a YAML file into `settings`, key by key. Its `include: FILE` (relative to itself, or a
-/// list of files) is merged before its own keys. Throws SettingsError if a file cannot be read or
-/// parsed, a key is unknown or occurs twice, or a value has the wrong type or is out of range,
-/// or if a limit is exceeded: 1 MiB a file, includes 8 deep and 32 in all. `settings` is then
-/// unchanged.
+/// preset of Presets.h, or a list of these) is merged before its own keys. Throws SettingsError if
+/// a file cannot be read or parsed, a key is unknown or occurs twice, or a value has the wrong type
+/// or is out of range, or if a limit is exceeded: 1 MiB a file, includes 8 deep and 32 in all;
+/// `settings` is then unchanged.
 void mergeSettings(const std::filesystem::path& file, Settings& settings,
                    SettingsOrigin origin = SettingsOrigin::User);
 

@@ -1,0 +1,99 @@
+# Debian packages, made by scripts/package: libhagen (the filter), libhagen-mrpt (the other libraries), libhagen-dev, and
+# hagen-tools (programs, presets, documents, recordings). The components are those of cmake/HagenTarget.cmake.
+set(HAGEN_PACKAGE_VERSION ${PROJECT_VERSION}-1 CACHE STRING "Version of the Debian packages")
+set(HAGEN_MAINTAINER "Hagen maintainers <hagen@users.noreply.github.com>" CACHE STRING "Of the Debian packages")
+find_program(HAGEN_GZIP gzip REQUIRED)
+
+# Package of each component. A further one, such as python3-hagen, needs its line here, in CPACK_COMPONENTS_ALL, and its
+# description and dependencies below.
+set(package_filter libhagen)
+set(package_mrpt libhagen-mrpt)
+set(package_dev libhagen-dev)
+set(package_tools hagen-tools)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME hagen)
+set(CPACK_PACKAGE_CONTACT "${HAGEN_MAINTAINER}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL filter mrpt dev tools)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_VERSION ${HAGEN_PACKAGE_VERSION})
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+foreach(component ${CPACK_COMPONENTS_ALL})
+  string(TOUPPER ${component} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package_${component}})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION libs)
+endforeach()
+
+# The first line of each description is the summary.
+set(about "Hagen separates near obstacles (regions of interest) from ground and distant
+returns in the scans of a sparse LiDAR on board a drone, in real time and
+without a map.
+")
+set(CPACK_DEBIAN_FILTER_DESCRIPTION "obstacle detection in sparse LiDAR scans: the filter
+${about}
+This package has the filter on plain arrays of points.")
+set(CPACK_DEBIAN_MRPT_DESCRIPTION "obstacle detection in sparse LiDAR scans: MRPT libraries
+${about}
+This package has the libraries for observations and logs of MRPT, recordings
+of several kinds, simulation, evaluation and obstacle avoidance.")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "obstacle detection in sparse LiDAR scans: development files
+${about}
+This package has headers, CMake packages and pkg-config files. The filter
+needs Eigen only; other components of find_package(hagen) need the
+recommended packages.")
+set(CPACK_DEBIAN_TOOLS_DESCRIPTION "obstacle detection in sparse LiDAR scans: programs
+${about}
+This package has programs that segment recordings (rawlogs of MRPT, network
+captures, ROS bags, point clouds), simulate flights, score a segmentation,
+and compare obstacle avoidance with and without a map.")
+
+set(same "(= ${HAGEN_PACKAGE_VERSION})")
+set(CPACK_DEBIAN_MRPT_PACKAGE_DEPENDS "libhagen ${same}")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhagen ${same}, libhagen-mrpt ${same}, libeigen3-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
+    "libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libhagen ${same}, libhagen-mrpt ${same}")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS mrpt-apps)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
+
+# Documents: for people in hagen-tools, and what Debian wants in each package.
+set(documents ${CMAKE_INSTALL_DATADIR}/doc)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents}/hagen-tools COMPONENT tools)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents}/hagen-tools COMPONENT tools
+        PATTERN Doxyfile EXCLUDE PATTERN "*.tar.xz" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/rawlogs DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen COMPONENT tools)
+
+file(READ ${PROJECT_SOURCE_DIR}/LICENSE BSD_TEXT)
+string(REGEX REPLACE "^.*reserved\\.\n+|^[^\n]*\n+Copyright[^\n]*\n+" "" BSD_TEXT "${BSD_TEXT}")
+string(REGEX REPLACE "\n+$" "" BSD_TEXT "${BSD_TEXT}")
+string(REPLACE "\n\n" "\n.\n" BSD_TEXT "${BSD_TEXT}")
+string(REPLACE "\n" "\n " BSD_TEXT " ${BSD_TEXT}")
+set(package_dir ${PROJECT_BINARY_DIR}/package)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/debian/copyright ${package_dir}/copyright @ONLY)
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE ${package_dir}/changelog.Debian
+     "hagen (${HAGEN_PACKAGE_VERSION}) unstable; urgency=medium\n\n  * Packages of version ${PROJECT_VERSION}, made by scripts/package.\n\n -- ${HAGEN_MAINTAINER}  ${now}\n")
+configure_file(${PROJECT_SOURCE_DIR}/CHANGELOG.md ${package_dir}/changelog COPYONLY)
+execute_process(COMMAND ${HAGEN_GZIP} -9nf changelog.Debian changelog WORKING_DIRECTORY ${package_dir}
+                COMMAND_ERROR_IS_FATAL ANY)
+foreach(component ${CPACK_COMPONENTS_ALL})
+  install(FILES ${package_dir}/copyright ${package_dir}/changelog.Debian.gz ${package_dir}/changelog.gz
+          DESTINATION ${documents}/${package_${component}} COMPONENT ${component})
+endforeach()
+# CPack calls ldconfig itself, but Debian wants the trigger.
+file(WRITE ${package_dir}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_FILTER_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
+set(CPACK_DEBIAN_MRPT_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
+include(CPack)

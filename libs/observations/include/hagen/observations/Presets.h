@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hagen::observations {
+
+/// Returns the folders that are searched for presets, first the one that wins: those of the
+/// environment variable HAGEN_CONFIG_PATH (separated by colons), `../share/hagen/config` relative
+/// to the running program, and that of the installation. They need not exist.
+std::vector<std::filesystem::path> presetFolders();
+
+/// Returns the names of the presets in presetFolders(), sorted, of those files for which
+/// `isUsable` returns true.
+std::vector<std::string> presetNames(
+    const std::function<bool(const std::filesystem::path&)>& isUsable);
+
+/// Returns the file of a preset such as `vlp16` or `vlp16.yaml`; empty if there is none.
+std::filesystem::path findPreset(const std::string& name);
+
+/// Whether mergeSettings() accepts a file.
+bool isSettingsFile(const std::filesystem::path& file);
+
+/// Returns the file that a flag such as `-c` names: `name` itself if it is an existing path,
+/// otherwise the preset of findPreset(). Throws SettingsError if there is neither.
+/// It lists the presets for which `isUsable` returns true, and the folders that were searched.
+std::filesystem::path presetFile(
+    const std::string& name,
+    const std::function<bool(const std::filesystem::path&)>& isUsable = isSettingsFile);
+
+}  // namespace hagen::observations
