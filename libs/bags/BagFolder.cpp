@@ -1,5 +1,6 @@
 #include "BagFolder.h"
 
+#include <hagen/base/ReadFile.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ Metadata metadataOf(const fs::path& folder) {
     if (!fs::is_regular_file(file, none)) return {};
     try {
         if (fs::file_size(file) > kMostMetadata) return {std::nullopt, "it is too large"};
-        const YAML::Node all = YAML::LoadFile(file.string());
+        const YAML::Node all = YAML::Load(base::readText(file));
         if (all.IsMap() && all[kSection] && all[kSection].IsMap()) return {all[kSection], ""};
     } catch (const std::exception& e) {
         return {std::nullopt, e.what()};

@@ -164,10 +164,20 @@ void OutputPath::commit() {
         fs::rename(temporary_, path_);
         return;
     }
-    // rename() does not replace a non-empty folder.
+    // rename() does not replace a non-empty folder. Exchanged, the name always has one of the two.
+    if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) {
+        fs::remove_all(temporary_);
+        return;
+    }
+    // Some file systems cannot exchange.
     const fs::path old = secretName(path_, ".old-");
     fs::rename(path_, old);
-    fs::rename(temporary_, path_);
+    try {
+        fs::rename(temporary_, path_);
+    } catch (const fs::filesystem_error&) {
+        fs::rename(old, path_);
+        throw;
+    }
     fs::remove_all(old);
 }
 

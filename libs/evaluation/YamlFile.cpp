@@ -1,5 +1,6 @@
 #include "YamlFile.h"
 
+#include <hagen/base/ReadFile.h>
 #include <set>
 #include <stdexcept>
 
@@ -18,7 +19,7 @@ void forEachYamlEntry(
     if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
     YAML::Node document;
     try {
-        document = YAML::LoadFile(file.string());
+        document = YAML::Load(base::readText(file));
     } catch (const YAML::ParserException& e) {
         throw std::runtime_error(file.string() + ":" + std::to_string(e.mark.line + 1) +
                                  ": not YAML: " + e.msg);

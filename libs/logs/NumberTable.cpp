@@ -37,6 +37,7 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
         }
         if (!entry.numbers.empty()) table.push_back(std::move(entry));
     }
+    if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read further");
     return table;
 }
 

@@ -1,5 +1,6 @@
 #include "YamlParts.h"
 
+#include <hagen/base/ReadFile.h>
 #include <algorithm>
 #include <numeric>
 
@@ -46,7 +47,7 @@ YAML::Node parseFile(const fs::path& file) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
     if (fs::is_directory(file)) throw SettingsError(file.string() + ": is a folder, not a file");
     try {
-        const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
+        const std::vector<YAML::Node> documents = YAML::LoadAll(base::readText(file));
         if (documents.size() > 1) {
             throw SettingsError(file.string() +
                                 ": contains several documents (---); only one is allowed");

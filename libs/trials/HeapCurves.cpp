@@ -45,6 +45,7 @@ std::vector<HeapCurve> readHeapCurves(const fs::path& file) {
                                      ": not model,path_m,bytes: " + text);
         }
     }
+    if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");
     return curves;
 }
 

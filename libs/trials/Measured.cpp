@@ -61,6 +61,7 @@ MeasuredByModel readMeasured(const std::filesystem::path& file) {
             throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + e.what());
         }
     }
+    if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");
     return all;
 }
 

@@ -44,7 +44,7 @@ class RawlogWriter {
     base::OutputPath path_;
     GzipOutput file_;
     Bytes gathered_;  ///< entries of an incomplete member
-    bool is_empty_ = true, has_failed_ = false;
+    bool is_empty_ = true, has_failed_ = false, is_finished_ = false;
     Bytes entry_, member_, packed_;  // buffers of write(), reused
 };
 
