@@ -29,7 +29,11 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
         entry.number = reader_.entries();
         checkInterruption();
         entry.object = reader_.next();
-        if (!entry.object) return std::nullopt;
+        if (!entry.object) {
+            // What was read in advance (poses, beams) ended there, and lacks the rest.
+            if (!break_ahead_.empty()) throw BrokenRawlog(break_ahead_ + " (read in advance)");
+            return std::nullopt;
+        }
         const bool is_skipped = skips(entry.number);
         const std::size_t nulls = takeOutNulls(entry.object);
         if (!is_skipped) null_objects_ += nulls;
@@ -76,6 +80,7 @@ const RawlogSurvey& RawlogSource::survey() {
         return !is_interrupted;
     });
     if (is_interrupted) throw Interrupted("interrupted");
+    break_ahead_ = survey.break_found;
     survey_ = std::move(survey);
     return *survey_;
 }
@@ -99,8 +104,9 @@ bool RawlogSource::showClouds(observations::CloudSensors& sensors) {
         if (!entry) return false;
         for (const auto& observation : observationsOf(entry)) sensors.see(*observation);
         return true;
-    } catch (const BrokenRawlog&) {
-        return false;  // nextEntry() reports the break
+    } catch (const BrokenRawlog& e) {
+        break_ahead_ = e.what();  // nextEntry() reports the break
+        return false;
     }
 }
 

@@ -121,6 +121,7 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
     Surveyor surveyor;
     RawlogReader reader(rawlog);
     bool is_whole = true;
+    std::string why;
     try {
         while (const auto entry = (is_whole = keep_going()) ? reader.next() : nullptr) {
             if (const auto one = std::dynamic_pointer_cast<CObservation>(entry)) {
@@ -132,11 +133,13 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
                 surveyor.see(*actions);
             }
         }
-    } catch (const BrokenRawlog&) {
+    } catch (const BrokenRawlog& e) {
         // The conversion reports the break; the entries before it are valid.
         is_whole = false;
+        why = e.what();
     }
     RawlogSurvey survey = std::move(surveyor).survey();
+    survey.break_found = why;
     survey.is_whole = is_whole;
     return survey;
 }

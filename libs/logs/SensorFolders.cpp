@@ -41,9 +41,15 @@ void SensorFolders::unwrapOnlyFolder() {
     if (folders_.size() != 1) return;
     fs::path lifted = path_.temporary();
     lifted += ".one";
-    fs::rename(folders_.begin()->second, lifted);
-    fs::remove(path_.temporary());
-    fs::rename(lifted, path_.temporary());
+    try {
+        fs::rename(folders_.begin()->second, lifted);
+        fs::remove(path_.temporary());
+        fs::rename(lifted, path_.temporary());
+    } catch (const fs::filesystem_error&) {
+        std::error_code ignored;
+        fs::remove_all(lifted, ignored);
+        throw;
+    }
 }
 
 void SensorFolders::commit() {

@@ -27,7 +27,8 @@ struct RawlogSurvey {
         mrpt::poses::CPose3D sensor_on_vehicle;
     };
     std::map<std::string, std::vector<ScanPlace>> scans;
-    bool is_whole = true;  ///< the log was read to its end
+    bool is_whole = true;     ///< the log was read to its end
+    std::string break_found;  ///< why the log could not be read to its end; empty: it could
 };
 
 /// Reads a rawlog to its end or until `keep_going` returns false. Stops silently where the log
