@@ -109,6 +109,8 @@ std::shared_ptr<Segmented> Filter::segment(const PointsView& points,
     maskAirframe(settings_.airframe.parts, segmented->scan);
     const std::optional<Attitude> otherwise =
         isLevel(settings_.mount) ? std::nullopt : std::optional(settings_.mount);
+    // Before, too: otherwise the filter would write into other memory with each scan.
+    filter.exchangeResult(segmented->result);
     filter.segment(segmented->scan, attitude ? attitude : otherwise);
     filter.exchangeResult(segmented->result);
     segmented->sensor = filter.sensor().name;
