@@ -1,4 +1,5 @@
 """hagen.Filter on arrays. Oracles: rawlog-segment on the same points, and geometry."""
+import sys
 import threading
 
 import numpy as np
@@ -189,6 +190,30 @@ def test_beams_are_recovered_if_nobody_names_the_sensor():
 
 
 def test_other_threads_run_while_it_filters():
+    points = np.random.default_rng(1).uniform(-30, 30, (2_000_000, 3)).astype(np.float32)
+    segmenter = hagen.Filter("vlp16")
+    ticks, is_done = [], threading.Event()
+
+    def tick():
+        while not is_done.wait(0.001):
+            ticks.append(1)
+
+    thread = threading.Thread(target=tick)
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(60)  # only who gives the lock of Python away is interrupted
+    try:
+        thread.start()
+        before = len(ticks)
+        segmenter.segment(points)
+        meanwhile = len(ticks) - before
+    finally:
+        sys.setswitchinterval(interval)
+        is_done.set()
+        thread.join()
+    assert meanwhile >= 3
+
+
+def test_several_threads_may_use_one_filter():
     scans = [ground_and_pillar(height)[0] for height in (1.0, 1.5, 2.0, 2.5)]
     segmenter = hagen.Filter("vlp16")
     expected = [segmenter.segment(points).labels.copy() for points in scans]
