@@ -1,21 +1,26 @@
-# Debian packages, made by scripts/package: libhagen (the filter), libhagen-mrpt (the other libraries), libhagen-dev, and
-# hagen-tools (programs, presets, documents, recordings). The components are those of cmake/HagenTarget.cmake.
+# Debian packages, made by scripts/package: libhagen (the filter), libhagen-mrpt (the other libraries), libhagen-dev,
+# hagen-tools (programs, presets, documents, recordings), and python3-hagen. The components are those of
+# cmake/HagenTarget.cmake. The last two need none of the others (cmake/HagenArchives.cmake).
 set(HAGEN_PACKAGE_VERSION ${PROJECT_VERSION}-1 CACHE STRING "Version of the Debian packages")
 set(HAGEN_MAINTAINER "Hagen maintainers <hagen@users.noreply.github.com>" CACHE STRING "Of the Debian packages")
 find_program(HAGEN_GZIP gzip REQUIRED)
 
-# Package of each component. A further one, such as python3-hagen, needs its line here, in CPACK_COMPONENTS_ALL, and its
-# description and dependencies below.
+# Package of each component. A further one needs its line here, in CPACK_COMPONENTS_ALL, and its description and
+# dependencies below.
 set(package_filter libhagen)
 set(package_mrpt libhagen-mrpt)
 set(package_dev libhagen-dev)
 set(package_tools hagen-tools)
+set(package_python python3-hagen)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hagen)
 set(CPACK_PACKAGE_CONTACT "${HAGEN_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL filter mrpt dev tools)
+if(HAGEN_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -55,6 +60,10 @@ ${about}
 This package has programs that segment recordings (rawlogs of MRPT, network
 captures, ROS bags, point clouds), simulate flights, score a segmentation,
 and compare obstacle avoidance with and without a map.")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "obstacle detection in sparse LiDAR scans: Python module
+${about}
+This package has the module hagen for Python 3: the filter on arrays of
+NumPy, recordings, simulation and scores.")
 
 set(same "(= ${HAGEN_PACKAGE_VERSION})")
 set(CPACK_DEBIAN_MRPT_PACKAGE_DEPENDS "libhagen ${same}")
@@ -63,16 +72,29 @@ set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
     "libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libhagen ${same}, libhagen-mrpt ${same}")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS mrpt-apps)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
+# A module is built for one minor version of Python.
+if(HAGEN_BUILD_PYTHON)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(python ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= ${python}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, hagen-tools")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+endif()
 
 # Documents: for people in hagen-tools, and what Debian wants in each package.
 set(documents ${CMAKE_INSTALL_DATADIR}/doc)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents}/hagen-tools COMPONENT tools)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents}/hagen-tools COMPONENT tools
         PATTERN Doxyfile EXCLUDE PATTERN "*.tar.xz" EXCLUDE)
+if(HAGEN_BUILD_PYTHON)
+  install(FILES ${PROJECT_SOURCE_DIR}/docs/python.md DESTINATION ${documents}/python3-hagen COMPONENT python)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python/ DESTINATION ${documents}/python3-hagen/examples
+          COMPONENT python)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/rawlogs DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen COMPONENT tools)
 
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE BSD_TEXT)
@@ -96,4 +118,8 @@ endforeach()
 file(WRITE ${package_dir}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_FILTER_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
 set(CPACK_DEBIAN_MRPT_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
+# Python's compiled files come and go with the package.
+file(WRITE ${package_dir}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]; then\n  py3compile -p python3-hagen\nfi\n")
+file(WRITE ${package_dir}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-hagen\n")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${package_dir}/postinst ${package_dir}/prerm)
 include(CPack)

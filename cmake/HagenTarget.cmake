@@ -85,6 +85,7 @@ set(HAGEN_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRI
 string(TIMESTAMP HAGEN_MANUAL_DATE "%Y-%m-%d" UTC)
 function(hagen_program name)
   hagen_target(${name})
+  set_property(GLOBAL APPEND PROPERTY HAGEN_PROGRAMS ${name})
   if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
     set(has_manual FALSE)
   else()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -50,7 +51,22 @@ std::string searchedFolders() {
     return joined(folders);
 }
 
+/// The folders of addPresetFolder().
+struct AddedFolders {
+    std::mutex mutex;
+    std::vector<fs::path> folders;
+};
+AddedFolders& added() {
+    static AddedFolders folders;
+    return folders;
+}
+
 }  // namespace
+
+void addPresetFolder(const fs::path& folder) {
+    const std::lock_guard lock(added().mutex);
+    added().folders.push_back(folder);
+}
 
 std::vector<fs::path> presetFolders() {
     std::vector<fs::path> folders;
@@ -64,6 +80,10 @@ std::vector<fs::path> presetFolders() {
     if (const char* const given = std::getenv(kVariable); given != nullptr) {
         std::istringstream list(given);
         for (std::string folder; std::getline(list, folder, ':');) add(folder);
+    }
+    {
+        const std::lock_guard lock(added().mutex);
+        for (const fs::path& folder : added().folders) add(folder);
     }
     add(folderOfProgram());
     add(HAGEN_INSTALLED_CONFIG);

@@ -53,6 +53,18 @@ TEST_F(PresetsTest, AProgramOfABuildFindsThoseOfTheSources) {
     EXPECT_TRUE(fs::equivalent(presetFile("vlp16.yaml"), kSources / "vlp16.yaml"));
 }
 
+TEST_F(PresetsTest, AddedFoldersComeAfterThoseOfTheUserAndBeforeTheInstalledOnes) {
+    folder_.write("library/vlp16.yaml", "zone_m: 11");
+    folder_.write("library/drone.yaml", "zone_m: 12");
+    folder_.write("user/drone.yaml", "zone_m: 13");
+    // It stays for the rest of the process, but the folder goes with this test.
+    addPresetFolder(folder_ / "library");
+    EXPECT_EQ(zoneOf(presetFile("vlp16")), 11);
+    EXPECT_EQ(zoneOf(presetFile("drone")), 12);
+    search((folder_ / "user").string());
+    EXPECT_EQ(zoneOf(presetFile("drone")), 13);
+}
+
 TEST_F(PresetsTest, EachFolderHidesTheNext) {
     folder_.write("a/vlp16.yaml", "zone_m: 11");
     folder_.write("b/vlp16.yaml", "zone_m: 12");

@@ -404,6 +404,28 @@ TEST(HagenFilter, KeepsNothingFromTheScanBefore) {
     EXPECT_EQ(HagenFilter(sensor).segment(first).returns.label, labels);
 }
 
+TEST(HagenFilter, AResultThatWasTakenOutStaysAndTheNextIsTheSame) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const auto plane = test::scanScene({}, sensor, 870, kTwoMetresUp);
+    SimpleScene with_wall;
+    with_wall.boxes.push_back({{8, -3, 0}, {8.5, 3, 3}});
+    const auto wall = test::scanScene(with_wall, sensor, 870, kTwoMetresUp);
+    HagenFilter fresh(sensor);
+    const SegmentationResult of_wall = fresh.segment(wall.scan);
+    const SegmentationResult of_plane = fresh.segment(plane.scan);
+    ASSERT_NE(of_wall.returns.roi, of_plane.returns.roi);
+
+    HagenFilter filter(sensor);
+    SegmentationResult taken;
+    for (int round = 0; round < 3; ++round) {
+        filter.segment(wall.scan);
+        filter.exchangeResult(taken);
+        EXPECT_EQ(filter.segment(plane.scan).returns.label, of_plane.returns.label);
+        EXPECT_EQ(taken.returns.label, of_wall.returns.label);
+        EXPECT_TRUE((taken.labels == of_wall.labels).all());
+    }
+}
+
 TEST(HagenFilter, AnEmptyScanHasNoReturns) {
     HagenFilter filter(sensorModel("VLP-16"));
     const auto& result = filter.segment(Scan());

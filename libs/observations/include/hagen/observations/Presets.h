@@ -7,9 +7,13 @@
 namespace hagen::observations {
 
 /// Returns the folders that are searched for presets, first the one that wins: those of the
-/// environment variable HAGEN_CONFIG_PATH (separated by colons), `../share/hagen/config` relative
-/// to the running program, and that of the installation. They need not exist.
+/// environment variable HAGEN_CONFIG_PATH (separated by colons), those of addPresetFolder(),
+/// `../share/hagen/config` relative to the running program, and that of the installation. They need
+/// not exist.
 std::vector<std::filesystem::path> presetFolders();
+
+/// Adds a folder to these, for the rest of the process: for a library that brings its own presets.
+void addPresetFolder(const std::filesystem::path& folder);
 
 /// Returns the names of the presets in presetFolders(), sorted, of those files for which
 /// `isUsable` returns true.

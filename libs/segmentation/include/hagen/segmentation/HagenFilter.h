@@ -13,6 +13,7 @@
 #include <hagen/segmentation/Posture.h>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace hagen {
@@ -56,6 +57,10 @@ class HagenFilter {
     /// rows yet, or rows of another sensor (checkLocated()); the result is then unchanged.
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
+
+    /// Takes the result out of the filter, which uses the memory of `result` for the next scan
+    /// instead. Keeps results beyond the next call without copying them.
+    void exchangeResult(SegmentationResult& result) { std::swap(result_, result); }
 
     const SensorModel& sensor() const { return sensor_; }
     const Options& options() const { return options_; }

@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Compares the time of hagen.Filter.segment() with that of the filter in C++ on the same scan.
+
+usage: python_speed.py [RECORDING [PRESET]]     default: a simulated scan of a VLP-16
+Both take coordinates and find the beams; each is timed in turn. Medians.
+"""
+import statistics
+import sys
+import time
+
+import hagen
+
+ROUNDS, RUNS = 40, 25
+
+
+def main(recording=None, preset="vlp16"):
+    scan = next(hagen.open(recording) if recording else hagen.simulate("orchard"))
+    xyz = scan.xyz
+    segmenter = hagen.Filter(preset)
+    python, alone = [], []
+    for _ in range(ROUNDS):
+        for _ in range(RUNS):
+            start = time.perf_counter()
+            segmenter.segment(xyz).labels
+            python.append(time.perf_counter() - start)
+        alone += hagen._hagen._times_without_python(segmenter, xyz, RUNS)
+    of_python, of_alone = statistics.median(python), statistics.median(alone)
+    print(
+        f"{len(xyz)} returns, medians of {ROUNDS * RUNS}: C++ {1e3 * of_alone:.3f} ms, "
+        f"Python {1e3 * of_python:.3f} ms ({100 * (of_python / of_alone - 1):+.1f} %)"
+    )
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""Draws the obstacles of a scan from above, one colour each, and the ground in grey.
+
+usage: plot_obstacles.py RECORDING [FOLDER]     without a folder, in a window
+"""
+import pathlib
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import hagen
+
+
+def draw(recording, folder=None):
+    scan = next(hagen.open(recording), None)
+    if scan is None:
+        raise RuntimeError(f"{recording}: has no LiDAR scan")
+    result = hagen.Filter("vlp16").segment(scan)
+
+    x, y, _ = scan.xyz.T
+    ground = result.labels == hagen.ROU
+    near = result.obstacles > 0
+    sizes = np.bincount(result.obstacles[near])
+    figure, axes = plt.subplots(figsize=(8, 8), layout="constrained")
+    axes.scatter(y[ground], x[ground], s=1, color="0.8")
+    axes.scatter(y[near], x[near], s=3, c=result.obstacles[near] % 20, cmap="tab20")
+    axes.plot(0, 0, "k+")
+    axes.set(
+        xlim=(25, -25), ylim=(-25, 25), aspect="equal", xlabel="left [m]", ylabel="forward [m]",
+        title=f"{np.count_nonzero(sizes >= 30)} obstacles of 30 returns or more within 20 m",
+    )  # fmt: skip
+    if folder is None:
+        plt.show()
+    else:
+        figure.savefig(pathlib.Path(folder) / "obstacles.png", dpi=120)
+
+
+if __name__ == "__main__":
+    if not 2 <= len(sys.argv) <= 3:
+        sys.exit(__doc__)
+    try:
+        draw(*sys.argv[1:])
+    except (OSError, RuntimeError) as error:
+        sys.exit(str(error))

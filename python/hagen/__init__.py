@@ -1,0 +1,133 @@
+"""Regions of interest in sparse LiDAR scans, without a map.
+
+    import hagen
+
+    filter = hagen.Filter("vlp16")
+    for scan in hagen.open("flight.pcap"):
+        result = filter.segment(scan)
+        obstacles = scan.xyz[result.labels == hagen.ROI]
+
+docs/python.md has more.
+"""
+import pathlib as _pathlib
+
+from . import _hagen
+from ._hagen import (
+    ROI,
+    ROU,
+    UNCLASSIFIED,
+    ClassScore,
+    Filter,
+    Recording,
+    Result,
+    Scan,
+    Scores,
+    SettingsError,
+    Simulation,
+    __version__,
+    evaluate,
+    presets,
+    scenarios,
+)
+
+__all__ = [
+    "ROI",
+    "ROU",
+    "UNCLASSIFIED",
+    "ClassScore",
+    "Filter",
+    "Recording",
+    "Result",
+    "Scan",
+    "Scores",
+    "SettingsError",
+    "Simulation",
+    "__version__",
+    "evaluate",
+    "open",
+    "presets",
+    "scenarios",
+    "simulate",
+]
+
+# The presets that come with this package.
+_hagen._add_presets(_pathlib.Path(_hagen.__file__).parent / "config")
+
+
+def open(
+    file,
+    *,
+    sensor_labels=(),
+    poses="",
+    sensor_json="",
+    calibration="",
+    topics=(),
+    first=0,
+    last=None,
+):
+    """Opens a recording: an iterator of its scans (Scan).
+
+    file: a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
+        scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
+        are told apart by their content.
+    sensor_labels: the LiDARs to read; default: all.
+    poses: a file of poses (TUM, KITTI); default: those of the recording.
+    sensor_json: the metadata of the Ouster of a capture or bag.
+    calibration: that of the HDL-64E of a capture (db.xml).
+    topics: the LiDAR topics of a bag to read; default: all.
+    first, last: the first and the last entry to read, both inclusive.
+
+    Raises FileNotFoundError, and RuntimeError naming the file (and the entry, while iterating) if it
+    cannot be read.
+    """
+    return Recording(
+        file,
+        sensor_labels=list(sensor_labels),
+        poses=poses,
+        sensor_json=sensor_json,
+        calibration=calibration,
+        topics=list(topics),
+        first=first,
+        last=last,
+    )
+
+
+def simulate(
+    scenario,
+    scans=1,
+    seed=1,
+    *,
+    altitude_m=2.0,
+    sensor="VLP-16",
+    speed_m_s=4.0,
+    tilt_sd_deg=4.0,
+    every_s=0.1,
+    clear_air=False,
+):
+    """Simulates a flight with a LiDAR over a scene: an iterator of scans with true labels (Scan.truth).
+
+    The scans are those that rawlog-simulate writes for the same scenario, seed, altitude and so on.
+
+    scenario: the scene, one of scenarios().
+    scans: how many.
+    seed: the same seed gives the same scene, flight and scans.
+    altitude_m: above the ground, 1 to 15.
+    sensor: 'VLP-16', 'HDL-32E', 'HDL-64E' or 'Mid-360'.
+    speed_m_s: on straights, 0.1 to 20.
+    tilt_sd_deg: standard deviation of roll and of pitch, 0 to 15; 0: level flight.
+    every_s: from the start of one scan to the next, at least 0.1.
+    clear_air: no dust, and no returns of the vehicle itself.
+
+    Raises ValueError for an unknown scenario or sensor, and for numbers out of range.
+    """
+    return Simulation(
+        scenario,
+        scans,
+        seed,
+        altitude_m=altitude_m,
+        sensor=sensor,
+        speed_m_s=speed_m_s,
+        tilt_sd_deg=tilt_sd_deg,
+        every_s=every_s,
+        clear_air=clear_air,
+    )

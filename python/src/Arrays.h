@@ -1,0 +1,60 @@
+#pragma once
+#include <hagen/range_image/Image.h>
+#include <hagen/range_image/Label.h>
+#include <hagen/range_image/Scan.h>
+#include <pybind11/numpy.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hagen::python {
+
+/// The coordinates of returns as numpy holds them: float32, in any layout.
+struct PointsView {
+    const char* data;
+    std::size_t returns;
+    std::ptrdiff_t row_bytes, column_bytes;
+};
+
+/// An (N, 3) array of numbers as float32: itself if it is float32, otherwise a converted copy.
+/// Throws ValueError, saying what was expected, for other shapes and for what is no number.
+pybind11::array_t<float> pointsFrom(const pybind11::object& points);
+PointsView viewOf(const pybind11::array_t<float>& points);
+
+/// Copies the coordinates into `scan`. Its ranges, azimuths and rows, and its intensities, are then
+/// any: call locateBeams(). Needs no GIL.
+void copyPoints(const PointsView& points, Scan& scan);
+
+/// An (N,) array of labels. Throws ValueError for other shapes, and for numbers other than 0, 1, 2;
+/// `what` names the argument.
+std::vector<Label> labelsFrom(const pybind11::object& labels, const std::string& what);
+
+/// An array that shares memory with `owner`, which stays alive as long as the array.
+template <class T>
+pybind11::array_t<T> shared(const std::vector<T>& values, const pybind11::object& owner) {
+    return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data(),
+                                owner);
+}
+
+/// The same for an image: rows x columns.
+template <class T>
+pybind11::array_t<T> shared(const Image<T>& image, const pybind11::object& owner) {
+    const pybind11::ssize_t rows = image.rows(), size = sizeof(T);
+    return pybind11::array_t<T>({rows, image.cols()}, {size, size * rows}, image.data(), owner);
+}
+
+/// Labels are numpy's uint8.
+pybind11::array_t<std::uint8_t> shared(const std::vector<Label>& labels,
+                                       const pybind11::object& owner);
+pybind11::array_t<std::uint8_t> shared(const Image<Label>& labels, const pybind11::object& owner);
+
+/// Copies.
+template <class T>
+pybind11::array_t<T> copied(const std::vector<T>& values) {
+    return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());
+}
+pybind11::array_t<float> pointsOf(const Scan& scan);  ///< (N, 3)
+
+}  // namespace hagen::python

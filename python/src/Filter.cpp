@@ -1,0 +1,151 @@
+#include "Filter.h"
+
+#include <hagen/range_image/Airframe.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace hagen::python {
+namespace {
+
+constexpr std::size_t kMostIdle = 4;
+constexpr const char* kLabel = "points";
+
+bool isLevel(const Attitude& attitude) { return attitude.roll_rad == 0 && attitude.pitch_rad == 0; }
+
+}  // namespace
+
+std::vector<float> heightsOf(const Segmented& segmented) {
+    const Scan& scan = segmented.scan;
+    const Ground& ground = segmented.result.ground;
+    std::vector<float> height_m(scan.size(), std::numeric_limits<float>::quiet_NaN());
+    if (!ground.has_surface) return height_m;
+    std::vector<float> x_m, y_m, z_m;
+    std::vector<std::size_t> returns;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (std::isnan(scan.range_m[i])) continue;
+        const Eigen::Vector3f point_m =
+            ground.from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+        x_m.push_back(point_m.x());
+        y_m.push_back(point_m.y());
+        z_m.push_back(point_m.z());
+        returns.push_back(i);
+    }
+    std::vector<float> of_returns(returns.size());
+    heightsAbove(ground.surface, returns.size(), x_m.data(), y_m.data(), z_m.data(),
+                 of_returns.data());
+    for (std::size_t k = 0; k < returns.size(); ++k) height_m[returns[k]] = of_returns[k];
+    return height_m;
+}
+
+Filter::Filter(const observations::Settings& settings) : settings_(settings) {
+    if (settings.sensor.model) {
+        idle_.push_back(observations::filterFor(settings.sensorModel(), settings.options));
+    }
+}
+
+SensorModel Filter::sensor() const {
+    const std::lock_guard lock(mutex_);
+    return settings_.sensorModel(beams_.get());
+}
+
+std::shared_ptr<Segmented> Filter::newResult() {
+    std::unique_ptr<Segmented> made;
+    {
+        const std::lock_guard lock(pool_->mutex);
+        if (!pool_->idle.empty()) {
+            made = std::move(pool_->idle.back());
+            pool_->idle.pop_back();
+        }
+    }
+    if (!made) made = std::make_unique<Segmented>();
+    made->remark.clear();
+    // Filters of other settings may not write these, and would take them for their own.
+    made->result.ground.is_seen = made->result.ground.has_surface = false;
+    made->result.own_labels.label.clear();
+    made->result.own_labels.returns.clear();
+    // The pool outlives the filter while results are in use.
+    return {made.release(), [pool = pool_](Segmented* dropped) {
+                std::unique_ptr<Segmented> owned(dropped);
+                const std::lock_guard lock(pool->mutex);
+                if (pool->idle.size() < kMostIdle) pool->idle.push_back(std::move(owned));
+            }};
+}
+
+HagenFilter Filter::leaseFilter(const Scan& scan, int& generation) {
+    const std::lock_guard lock(mutex_);
+    if (!settings_.sensor.model && !sensors_.isSettled(kLabel)) {
+        sensors_.see(kLabel, scan);
+        const observations::SharedBeams beams = sensors_.beamsOf(kLabel);
+        if (beams != beams_) {
+            beams_ = beams;
+            idle_.clear();
+            ++generation_;
+        }
+    }
+    generation = generation_;
+    if (!idle_.empty()) {
+        HagenFilter filter = std::move(idle_.back());
+        idle_.pop_back();
+        return filter;
+    }
+    return observations::filterFor(settings_.sensorModel(beams_.get()),
+                                   settings_.optionsFor(beams_.get()));
+}
+
+void Filter::giveBack(HagenFilter&& filter, int generation) {
+    const std::lock_guard lock(mutex_);
+    if (generation == generation_ && idle_.size() < kMostIdle) idle_.push_back(std::move(filter));
+}
+
+std::shared_ptr<Segmented> Filter::segment(const PointsView& points,
+                                           const std::optional<Attitude>& attitude) {
+    const std::shared_ptr<Segmented> segmented = newResult();
+    copyPoints(points, segmented->scan);
+    int generation = 0;
+    HagenFilter filter = leaseFilter(segmented->scan, generation);
+    locateBeams(filter.sensor(), segmented->scan);
+    maskAirframe(settings_.airframe.parts, segmented->scan);
+    const std::optional<Attitude> otherwise =
+        isLevel(settings_.mount) ? std::nullopt : std::optional(settings_.mount);
+    // Before, too: otherwise the filter would write into other memory with each scan.
+    filter.exchangeResult(segmented->result);
+    filter.segment(segmented->scan, attitude ? attitude : otherwise);
+    filter.exchangeResult(segmented->result);
+    segmented->sensor = filter.sensor().name;
+    giveBack(std::move(filter), generation);
+    return segmented;
+}
+
+std::shared_ptr<Segmented> Filter::segment(const PythonScan& scan,
+                                           const std::optional<Attitude>& attitude) {
+    const std::lock_guard lock(recorded_.mutex);
+    if (!recorded_.segmenter || recorded_.source.lock() != scan.source) {
+        recorded_.segmenter = std::make_unique<observations::ObservationSegmenter>();
+        recorded_.segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // it is in the remark
+        recorded_.segmenter->initialize(scan.source ? scan.source->settingsFor(settings_)
+                                                    : settings_);
+        recorded_.source = scan.source;
+    }
+    observations::ScanPose pose = scan.recorded.pose;
+    if (attitude) {
+        pose.attitude = attitude;
+        pose.is_of_sensor = true;
+    }
+    observations::ObservationSegmenter::Output out;
+    try {
+        recorded_.segmenter->process(*scan.recorded.observation, out, pose, scan.recorded.beams);
+    } catch (...) {
+        recorded_.segmenter.reset();
+        throw;
+    }
+    const std::shared_ptr<Segmented> segmented = newResult();
+    segmented->scan = *out.scan;
+    segmented->result = *out.result;
+    segmented->sensor = out.sensor->name;
+    segmented->remark = out.remark;
+    return segmented;
+}
+
+}  // namespace hagen::python

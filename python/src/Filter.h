@@ -1,0 +1,76 @@
+#pragma once
+#include <hagen/observations/CloudSensors.h>
+#include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/segmentation/HagenFilter.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Arrays.h"
+#include "PythonScan.h"
+
+namespace hagen::python {
+
+/// A segmented scan. It owns the images of all stages; numpy's arrays share its memory.
+struct Segmented {
+    Scan scan;
+    SegmentationResult result;
+    std::string sensor, remark;
+};
+
+/// The height of each return above the ground surface [m]; NaN without a surface, or for a return
+/// without a range.
+std::vector<float> heightsOf(const Segmented& segmented);
+
+/// The filter for Python. Several threads may use one at a time: each call has a filter of its own.
+/// Memory of results that Python has dropped is used for the next ones, so that a loop over scans
+/// soon allocates none.
+class Filter {
+ public:
+    /// Throws SettingsError if the options do not fit the sensor.
+    explicit Filter(const observations::Settings& settings);
+
+    /// Segments the returns of one scan, of the sensor of the settings, or of one with the beams
+    /// that the first scans show. Needs no GIL.
+    std::shared_ptr<Segmented> segment(const PointsView& points,
+                                       const std::optional<Attitude>& attitude);
+    /// Segments a scan of a recording: with its own sensor, beams, tilt and mount. Throws
+    /// std::runtime_error with the reason if it cannot be read. Needs no GIL.
+    std::shared_ptr<Segmented> segment(const PythonScan& scan,
+                                       const std::optional<Attitude>& attitude);
+
+    const observations::Settings& settings() const { return settings_; }
+    SensorModel sensor() const;
+
+ private:
+    /// Results that Python has dropped.
+    struct Pool {
+        std::mutex mutex;
+        std::vector<std::unique_ptr<Segmented>> idle;
+    };
+    std::shared_ptr<Segmented> newResult();
+    HagenFilter leaseFilter(const Scan& scan, int& generation);
+    void giveBack(HagenFilter&& filter, int generation);
+
+    const observations::Settings settings_;
+    std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
+
+    mutable std::mutex mutex_;  ///< of what follows
+    std::vector<HagenFilter> idle_;
+    int generation_ = 0;  ///< of the sensor that the idle filters are for
+    observations::CloudSensors sensors_;
+    observations::SharedBeams beams_;
+
+    /// For scans of recordings, which may have several sensors, and settings of their own.
+    struct Recorded {
+        std::mutex mutex;
+        std::weak_ptr<const logs::ScanSource> source;
+        std::unique_ptr<observations::ObservationSegmenter> segmenter;
+    } recorded_;
+};
+
+}  // namespace hagen::python

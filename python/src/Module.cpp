@@ -1,0 +1,434 @@
+// The Python module hagen._hagen; python/hagen/__init__.py is what users import.
+#include <hagen/evaluation/ScanScores.h>
+#include <hagen/observations/Presets.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/simulation/Scenarios.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Arrays.h"
+#include "Filter.h"
+#include "Recording.h"
+#include "Simulation.h"
+
+namespace py = pybind11;
+
+namespace hagen::python {
+namespace {
+
+std::string textOf(const py::object& value) { return py::str(value).cast<std::string>(); }
+
+/// Settings as of the flags -c, and single options.
+observations::Settings settingsFrom(const py::args& names, const py::kwargs& options) {
+    observations::Settings settings;
+    const py::object fspath = py::module_::import("os").attr("fspath");
+    for (const auto& name : names) {
+        observations::mergeSettings(observations::presetFile(fspath(name).cast<std::string>()),
+                                    settings);
+    }
+    for (const auto& [key, value] : options) {
+        std::string text = textOf(py::reinterpret_borrow<py::object>(value));
+        if (py::isinstance<py::bool_>(value)) text = value.cast<bool>() ? "true" : "false";
+        observations::setOption(key.cast<std::string>(), text, settings);
+    }
+    return settings;
+}
+
+std::optional<Attitude> attitudeFrom(const py::object& attitude) {
+    if (attitude.is_none()) return std::nullopt;
+    const auto wrong = [&] {
+        return py::value_error("attitude: expected (roll, pitch) [rad], not " + textOf(attitude));
+    };
+    try {
+        const auto [roll_rad, pitch_rad] = attitude.cast<std::pair<double, double>>();
+        if (!std::isfinite(roll_rad) || !std::isfinite(pitch_rad)) throw wrong();
+        return Attitude{static_cast<float>(roll_rad), static_cast<float>(pitch_rad)};
+    } catch (const py::cast_error&) {
+        throw wrong();
+    }
+}
+
+std::shared_ptr<Segmented> segment(Filter& filter, const py::object& scan,
+                                   const py::object& attitude) {
+    const std::optional<Attitude> tilt = attitudeFrom(attitude);
+    if (py::isinstance<PythonScan>(scan)) {
+        const auto& recorded = scan.cast<const PythonScan&>();
+        const py::gil_scoped_release others_run;
+        return filter.segment(recorded, tilt);
+    }
+    const py::array_t<float> points = pointsFrom(scan);
+    const PointsView view = viewOf(points);
+    const py::gil_scoped_release others_run;
+    return filter.segment(view, tilt);
+}
+
+/// Times of the filter in C++ alone on these points [s], for benchmarks/python/python_speed.py.
+std::vector<double> timesWithoutPython(const Filter& filter, const py::object& xyz, int runs) {
+    Scan scan;
+    copyPoints(viewOf(pointsFrom(xyz)), scan);
+    HagenFilter alone = observations::filterFor(filter.sensor(), filter.settings().options);
+    std::vector<double> seconds;
+    for (int run = 0; run < runs; ++run) {
+        const auto start = std::chrono::steady_clock::now();
+        locateBeams(alone.sensor(), scan);
+        alone.segment(scan);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        seconds.push_back(taken.count());
+    }
+    return seconds;
+}
+
+/// The images of a result by the names of SegmentationResult, those that the filter made.
+py::dict stagesOf(const py::object& self) {
+    const auto& r = self.cast<const Segmented&>().result;
+    py::dict stages;
+    const auto add = [&](const char* name, const auto& image) {
+        if (image.size() > 0) stages[name] = shared(image, self);
+    };
+    add("depth_m", r.range_image.depth_m);
+    add("repaired_m", r.repaired_m);
+    add("proximity_m", r.proximity_m);
+    add("sharpened_m", r.sharpened_m);
+    add("merged_m", r.merged_m);
+    add("range_angle_rad", r.range_angle_rad);
+    add("smoothed_rad", r.smoothed_rad);
+    add("pixel_angle_rad", r.pixel_angle_rad);
+    add("labels", r.labels);
+    add("components", r.components);
+    if (r.ground.has_surface) {  // otherwise they are of an earlier scan
+        add("height_m", r.ground.height_m);
+        add("tolerance_m", r.ground.tolerance_m);
+    }
+    return stages;
+}
+
+py::object groundOf(const Segmented& segmented) {
+    const Ground& ground = segmented.result.ground;
+    if (!ground.is_seen) return py::none();
+    py::array_t<float> from_sensor({4, 4});
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column)
+            from_sensor.mutable_at(row, column) = ground.from_sensor.matrix()(row, column);
+    }
+    return std::move(from_sensor);
+}
+
+evaluation::Scores evaluate(const py::object& labels, const py::object& truth,
+                            const py::object& xyz, float max_range_m) {
+    evaluation::GroundTruthScan scan;
+    const std::vector<Label> found = labelsFrom(labels, "labels");
+    scan.truth = labelsFrom(truth, "truth");
+    if (found.size() != scan.truth.size()) {
+        throw py::value_error("there are " + std::to_string(found.size()) + " labels, but " +
+                              std::to_string(scan.truth.size()) + " of the truth");
+    }
+    if (xyz.is_none()) {
+        scan.input.scan.range_m.assign(found.size(), 0);
+    } else {
+        copyPoints(viewOf(pointsFrom(xyz)), scan.input.scan);
+        if (scan.input.scan.size() != found.size()) {
+            throw py::value_error("there are " + std::to_string(found.size()) + " labels, but " +
+                                  std::to_string(scan.input.scan.size()) + " points");
+        }
+        locateBeams(sensorModel("VLP-16"), scan.input.scan);  // for ranges only
+    }
+    evaluation::RangeBands bands;
+    bands.max_range_m = max_range_m;
+    return evaluation::scoreScan(scan, found, {}, bands).all;
+}
+
+std::string scoresText(const evaluation::Scores& scores) {
+    const auto text = [](double f1) {
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "%.4f", f1);
+        return std::string(digits);
+    };
+    return "<hagen.Scores: F1 of RoI " + text(scores.roi.f1()) + ", of ROU " +
+           text(scores.rou.f1()) + ", " + std::to_string(scores.returns()) + " returns>";
+}
+
+void defineScan(py::module_& m) {
+    py::class_<PythonScan>(m, "Scan", R"(A scan of a recording or of a simulated flight.
+
+Arrays have one entry per return, in the recording's order. Points are in the sensor's frame: x
+forward, y left, z up.)")
+        .def_readonly("xyz", &PythonScan::xyz, "(N, 3) float32: coordinates [m]")
+        .def_readonly("intensity", &PythonScan::intensity, "(N,) float32: 0 to 1")
+        .def_readonly("ring", &PythonScan::ring, R"((N,) uint8: the beam, counted from the lowest.
+None for a sensor without rings.)")
+        .def_readonly("times", &PythonScan::times, R"((N,) float32: time of each return since the
+scan's first firing [s]. None if it is unknown.)")
+        .def_readonly("time", &PythonScan::time_s, "Time of the scan [s since 1970].")
+        .def_property_readonly(
+            "sensor_label",
+            [](const PythonScan& scan) { return scan.recorded.observation->sensorLabel; },
+            "The label of the LiDAR in the recording.")
+        .def_property_readonly(
+            "sensor", [](const PythonScan& scan) { return scan.sensor.name; },
+            R"(The model of the sensor, such as 'VLP-16'; 'recovered' if the beams are those that the
+clouds show.)")
+        .def_property_readonly("pose", &poseOf,
+                               R"((4, 4) float64: from the sensor's frame at the time
+of the scan to the map. None if it is unknown.)")
+        .def_property_readonly("attitude", &attitudeOf, R"((roll, pitch) of the sensor against the
+horizon [rad]; None if they are unknown. See Filter.segment().)")
+        .def_property_readonly(
+            "entry", [](const PythonScan& scan) { return scan.recorded.entry; },
+            "The index of its entry in the recording.")
+        .def_property_readonly(
+            "name", [](const PythonScan& scan) { return scan.recorded.name; },
+            "The name of its file, without extension; empty for rawlogs, captures and bags.")
+        .def_readonly("remark", &PythonScan::remark,
+                      "What the user should know of this scan; may be empty.")
+        .def_readonly("truth", &PythonScan::truth, R"((N,) uint8: true labels of a simulated scan:
+terrain and canopy are ROU, dust and the vehicle's own parts are unclassified, everything else is
+RoI at any range. Otherwise None.)")
+        .def_readonly("kind", &PythonScan::kind,
+                      R"((N,) uint8: classes of a simulated scan: 1 terrain,
+2 canopy, 3 tree, 4 pole, 5 wire, 6 building, 7 vehicle, 8 wall, 9 mover, 10 dust, 11 airframe.
+Otherwise None.)")
+        .def_readonly("object", &PythonScan::object, R"((N,) uint16: the number of the object in a
+simulated scene; 0: none. Otherwise None.)")
+        .def_readonly("altitude_m", &PythonScan::altitude_m,
+                      R"(Height of the sensor above the ground
+of a simulated scene [m]; otherwise None.)")
+        .def("__len__", [](const PythonScan& scan) { return scan.xyz.shape(0); })
+        .def("__repr__", [](const PythonScan& scan) {
+            return "<hagen.Scan: " + std::to_string(scan.xyz.shape(0)) + " returns of '" +
+                   scan.recorded.observation->sensorLabel + "' (" + scan.sensor.name + "), entry " +
+                   std::to_string(scan.recorded.entry) + ">";
+        });
+}
+
+void defineResult(py::module_& m) {
+    py::class_<Segmented, std::shared_ptr<Segmented>>(m, "Result",
+                                                      R"(The filter's result for one scan.
+
+Arrays share the memory of the result, and keep it alive: about 1 MB for a VLP-16. To keep the labels
+of many scans, copy them: result.labels.copy().)")
+        .def_property_readonly(
+            "labels",
+            [](const py::object& self) {
+                return shared(self.cast<const Segmented&>().result.returns.label, self);
+            },
+            R"((N,) uint8: the label of each return, in the scan's order: 0 unclassified (no range),
+1 ROU (ground, far returns), 2 RoI (a near obstacle).)")
+        .def_property_readonly(
+            "obstacles",
+            [](const py::object& self) {
+                return shared(self.cast<const Segmented&>().result.returns.component, self);
+            },
+            "(N,) int32: the obstacle of each return (RoI component), 1 the nearest; 0: none.")
+        .def_property_readonly(
+            "heights", [](const Segmented& segmented) { return copied(heightsOf(segmented)); },
+            R"((N,) float32: the height of each return above the ground surface [m], computed when
+asked for. NaN for returns without a range; all NaN if no ground was seen.)")
+        .def_property_readonly("ground", &groundOf,
+                               R"((4, 4) float32: from the sensor's frame to the
+ground frame, whose z = 0 is the mean plane of the ground. None if no ground was seen.)")
+        .def_property_readonly("stages", &stagesOf,
+                               R"(The image of every stage by its name: a dict of
+2D arrays, rows x columns.
+
+Row 0 is the lowest beam, column 0 looks backwards, the middle one along x; columns run clockwise.
+NaN: no value.
+
+depth_m          the range of the closest return in each pixel [m]
+repaired_m       the same without one-pixel gaps
+proximity_m      zone_m - depth, at least 0
+sharpened_m      proximity (or depth) with its maxima sharpened
+merged_m         depth again
+range_angle_rad  the angle from each beam to the one above it; one row less
+smoothed_rad     the same after singular spectrum analysis
+pixel_angle_rad  the angle of each pixel, used for labelling
+labels           uint8, as for returns
+components       int32: obstacles, numbered from the nearest
+height_m         height above the ground surface; only if there is one
+tolerance_m      pixels up to this height are ground; only if there is a surface)")
+        .def_readonly("sensor", &Segmented::sensor,
+                      "The model of the sensor; 'recovered' if the scans have shown its beams.")
+        .def_readonly("remark", &Segmented::remark,
+                      "What the user should know of this scan; may be empty.")
+        .def("__len__", [](const Segmented& segmented) { return segmented.scan.size(); })
+        .def("__repr__", [](const Segmented& segmented) {
+            const LabelledReturns& returns = segmented.result.returns;
+            return "<hagen.Result: " + std::to_string(segmented.scan.size()) + " returns, " +
+                   std::to_string(returns.roi.size()) + " RoI, " +
+                   std::to_string(returns.rou.size()) + " ROU>";
+        });
+}
+
+void defineFilter(py::module_& m) {
+    py::class_<Filter>(m, "Filter",
+                       R"(The Hagen filter: separates near obstacles (RoI) from ground and
+far returns (ROU) in a LiDAR scan, without a map.
+
+    filter = hagen.Filter("vlp16")
+    result = filter.segment(xyz)          # (N, 3) [m], x forward, y left, z up
+    near = xyz[result.labels == hagen.ROI]
+
+Keep the filter: it reuses its memory. It has no state but that, and may be used by several
+threads.)")
+        .def(py::init([](const py::args& settings, const py::kwargs& options) {
+                 return std::make_unique<Filter>(settingsFrom(settings, options));
+             }),
+             R"(Filter(*settings, **options)
+
+settings: presets (hagen.presets()) or settings files; later ones override earlier ones. Without a
+sensor in them, arrays of points show their beams themselves.
+options: single options, such as zone_m=15 or beta_deg=7.5; see docs/settings.md.
+Raises hagen.SettingsError.)")
+        .def("segment", &segment, py::arg("scan"), py::arg("attitude") = py::none(),
+             R"(Segments one scan, which may be empty.
+
+scan: an array of shape (N, 3), x, y, z of each return in the sensor's frame [m], of the sensor of
+the settings. float32 is read as it is, other types are converted. Or a Scan of hagen.open() or
+hagen.simulate(), which comes with its own sensor, beams, tilt and mount, as in rawlog-segment.
+attitude: (roll, pitch) of the sensor against the horizon [rad], if known: pitch about y, nose down
+positive, then roll about x, left side up positive. A sensor may be mounted at any angle if it is.
+
+Raises ValueError if the shape is another one. Other threads run meanwhile.)")
+        .def_property_readonly(
+            "sensor", [](const Filter& filter) { return filter.sensor().name; },
+            "The model of the sensor; 'recovered' if the scans have shown its beams.")
+        .def_property_readonly(
+            "elevations_rad",
+            [](const Filter& filter) { return copied(filter.sensor().elevations_rad); },
+            "(rows,) float32: the elevation of each beam, from the lowest [rad].")
+        .def_property_readonly(
+            "settings", [](const Filter& filter) { return dumpSettings(filter.settings()); },
+            "All settings as a settings file, with each key's unit and meaning in a comment.");
+}
+
+void defineSources(py::module_& m) {
+    py::class_<Recording>(m, "Recording",
+                          "A recording, open for reading: an iterator of its scans.")
+        .def(py::init([](const std::filesystem::path& file, std::vector<std::string> sensor_labels,
+                         const std::filesystem::path& poses,
+                         const std::filesystem::path& sensor_json,
+                         const std::filesystem::path& calibration, std::vector<std::string> topics,
+                         std::size_t first, std::optional<std::size_t> last) {
+                 logs::SourceOptions options;
+                 options.sensor_labels = std::move(sensor_labels);
+                 options.sensor_json = sensor_json;
+                 options.calibration = calibration;
+                 options.topics = std::move(topics);
+                 options.first_entry = first;
+                 if (last) options.last_entry = *last;
+                 return std::make_unique<Recording>(file, options, poses);
+             }),
+             py::arg("file"), py::kw_only(), py::arg("sensor_labels") = std::vector<std::string>(),
+             py::arg("poses") = "", py::arg("sensor_json") = "", py::arg("calibration") = "",
+             py::arg("topics") = std::vector<std::string>(), py::arg("first") = 0,
+             py::arg("last") = py::none())
+        .def("__iter__", [](const py::object& self) { return self; })
+        .def("__next__",
+             [](Recording& recording) {
+                 auto scan = recording.next();
+                 if (!scan) throw py::stop_iteration();
+                 return std::move(*scan);
+             })
+        .def_property_readonly("poses", &Recording::poseSource,
+                               "Where its poses are from; empty: there are none.")
+        .def_property_readonly("remarks", &Recording::remarks,
+                               R"(What the user should know of the recording as a whole, such as
+packets that are missing; complete after the last scan.)")
+        .def("__repr__", [](const Recording& recording) {
+            return "<hagen.Recording: " + recording.file().string() + ">";
+        });
+
+    py::class_<Simulation>(m, "Simulation", "A simulated flight: an iterator of its scans.")
+        .def(py::init([](const std::string& scenario, int scans, std::uint64_t seed,
+                         double altitude_m, const std::string& sensor, double speed_m_s,
+                         double tilt_sd_deg, double every_s, bool clear_air) {
+                 return std::make_unique<Simulation>(
+                     SimulationRequest{scenario, scans, seed, sensor, altitude_m, speed_m_s,
+                                       tilt_sd_deg, every_s, clear_air});
+             }),
+             py::arg("scenario"), py::arg("scans") = 1, py::arg("seed") = 1, py::kw_only(),
+             py::arg("altitude_m") = 2.0, py::arg("sensor") = "VLP-16", py::arg("speed_m_s") = 4.0,
+             py::arg("tilt_sd_deg") = 4.0, py::arg("every_s") = 0.1, py::arg("clear_air") = false)
+        .def("__iter__", [](const py::object& self) { return self; })
+        .def("__next__",
+             [](Simulation& flight) {
+                 auto scan = flight.next();
+                 if (!scan) throw py::stop_iteration();
+                 return std::move(*scan);
+             })
+        .def("__len__", &Simulation::scans)
+        .def("__length_hint__", &Simulation::left);
+    m.def("scenarios", &simulation::scenarioNames, "The names of all scenarios of simulate().");
+}
+
+void defineScores(py::module_& m) {
+    using evaluation::ClassScore;
+    using evaluation::Scores;
+    py::class_<ClassScore>(m, "ClassScore",
+                           "Precision, recall and F1 of one class, and their counts.")
+        .def_property_readonly("precision", &ClassScore::precision,
+                               "NaN if nothing was labelled as this class.")
+        .def_property_readonly("recall", &ClassScore::recall,
+                               "NaN if nothing belongs to this class.")
+        .def_property_readonly("f1", &ClassScore::f1, "NaN if both are empty.")
+        .def_readonly("hits", &ClassScore::hits, "True positives.")
+        .def_readonly("misses", &ClassScore::misses,
+                      "False negatives (unclassified returns included).")
+        .def_readonly("false_alarms", &ClassScore::false_alarms,
+                      "False positives: labelled as this class, belong to the other.");
+    py::class_<Scores>(m, "Scores", R"(Scores of both classes. Sums are micro-averages: counts are
+summed over returns and scans before ratios are computed.)")
+        .def(py::init<>())
+        .def_readonly("roi", &Scores::roi, "Of near obstacles.")
+        .def_readonly("rou", &Scores::rou, "Of ground and far returns.")
+        .def_property_readonly("returns", &Scores::returns, "The number of scored returns.")
+        .def_property_readonly("correct", &Scores::correct,
+                               "The fraction with the correct label; NaN without returns.")
+        .def(
+            "__add__", [](Scores a, const Scores& b) { return a += b; }, py::is_operator())
+        .def(
+            "__iadd__", [](Scores& a, const Scores& b) { return a += b; }, py::is_operator())
+        .def("__repr__", &scoresText);
+    m.def("evaluate", &evaluate, py::arg("labels"), py::arg("truth"), py::arg("xyz") = py::none(),
+          py::arg("max_range_m") = 20.0f, R"(Scores labels against the true ones, as
+segmentation-evaluate does.
+
+labels, truth: (N,) labels, 0 unclassified, 1 ROU, 2 RoI. Returns whose true label is 0 are not
+scored.
+xyz: (N, 3) [m]; only returns up to max_range_m from the sensor are scored. Without it, all are.
+Raises ValueError for other shapes and labels.)");
+}
+
+}  // namespace
+}  // namespace hagen::python
+
+PYBIND11_MODULE(_hagen, m) {
+    using namespace hagen;
+    using namespace hagen::python;
+    m.doc() = "Regions of interest in sparse LiDAR scans, without a map.";
+    m.attr("__version__") = HAGEN_VERSION;
+    m.attr("UNCLASSIFIED") = static_cast<int>(Label::Unclassified);
+    m.attr("ROU") = static_cast<int>(Label::Rou);
+    m.attr("ROI") = static_cast<int>(Label::Roi);
+    py::register_exception<observations::SettingsError>(m, "SettingsError", PyExc_ValueError);
+    defineScan(m);
+    defineResult(m);
+    defineFilter(m);
+    defineSources(m);
+    defineScores(m);
+    m.def(
+        "presets", [] { return observations::presetNames(observations::isSettingsFile); },
+        "The names of the presets that Filter() knows.");
+    m.def("_times_without_python", &timesWithoutPython, py::arg("filter"), py::arg("xyz"),
+          py::arg("runs"));
+    m.def("_add_presets", &observations::addPresetFolder, py::arg("folder"));
+}

@@ -1,0 +1,63 @@
+#include "Recording.h"
+
+#include <hagen/observations/Settings.h>
+#include <pybind11/pybind11.h>
+
+#include <system_error>
+#include <utility>
+
+namespace hagen::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// Runs `read` without the GIL. A signal, such as Ctrl-C, ends it with the exception that Python's
+/// handler has raised.
+template <class Read>
+auto withoutGil(Read read) {
+    try {
+        const py::gil_scoped_release others_run;
+        return read();
+    } catch (const logs::Interrupted&) {
+        if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+        throw;
+    }
+}
+
+bool hasNoSignal() {
+    const py::gil_scoped_acquire gil;
+    return PyErr_CheckSignals() == 0;
+}
+
+}  // namespace
+
+Recording::Recording(const std::filesystem::path& file, logs::SourceOptions options,
+                     const std::filesystem::path& poses)
+    : file_(file) {
+    std::error_code error;
+    for (const auto& needed : {file, poses}) {
+        if (needed.empty() || std::filesystem::exists(needed, error)) continue;
+        PyErr_SetString(PyExc_FileNotFoundError, (needed.string() + ": no such file").c_str());
+        throw py::error_already_set();
+    }
+    options.keep_going = hasNoSignal;
+    source_ = withoutGil([&] {
+        std::shared_ptr<logs::ScanSource> source = logs::openRecording(file, options);
+        source->useSettings(observations::Settings());  // beams of clouds whose sensor nobody names
+        source->usePoses(poses);
+        return source;
+    });
+}
+
+std::optional<PythonScan> Recording::next() {
+    auto recorded = withoutGil([&] { return source_->nextScan(); });
+    if (!recorded) return std::nullopt;
+    PythonScan scan;
+    scan.recorded = std::move(*recorded);
+    scan.source = source_;
+    readArrays(scan);
+    return scan;
+}
+
+}  // namespace hagen::python

@@ -1,0 +1,34 @@
+#pragma once
+#include <hagen/logs/ScanSource.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "PythonScan.h"
+
+namespace hagen::python {
+
+/// A recording that Python iterates. All functions require the GIL, and release it while they read.
+class Recording {
+ public:
+    /// Throws FileNotFoundError, and like logs::openRecording() and ScanSource::usePoses().
+    Recording(const std::filesystem::path& file, logs::SourceOptions options,
+              const std::filesystem::path& poses);
+
+    /// The next scan; none at the end. Throws like ScanSource::nextScan(), and KeyboardInterrupt.
+    std::optional<PythonScan> next();
+
+    const std::filesystem::path& file() const { return file_; }
+    std::string poseSource() const { return source_->poses().source; }
+    std::vector<std::string> remarks() const { return source_->remarks(); }
+
+ private:
+    std::filesystem::path file_;
+    std::shared_ptr<logs::ScanSource> source_;
+};
+
+}  // namespace hagen::python

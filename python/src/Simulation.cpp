@@ -1,0 +1,114 @@
+#include "Simulation.h"
+
+#include <hagen/observations/LocatedCloud.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/simulated_logs/SimulatedObservation.h>
+#include <hagen/simulation/LogClock.h>
+#include <hagen/simulation/ObjectClass.h>
+#include <hagen/simulation/Scenarios.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "Arrays.h"
+
+namespace hagen::python {
+
+namespace py = pybind11;
+
+namespace {
+
+void check(const std::string& what, double value, double least, double most) {
+    if (value >= least && value <= most) return;
+    const auto text = [](double number) { return py::str(py::float_(number)).cast<std::string>(); };
+    throw std::invalid_argument(what + ": " + text(value) + " is not between " + text(least) +
+                                " and " + text(most));
+}
+
+/// The limits of rawlog-simulate.
+const SimulationRequest& checked(const SimulationRequest& request) {
+    check("scans", request.scans, 1, 100000);
+    check("altitude_m", request.altitude_m, 1, 15);
+    check("speed_m_s", request.speed_m_s, 0.1, 20);
+    check("tilt_sd_deg", request.tilt_sd_deg, 0, 15);
+    check("every_s", request.every_s, 0.1, 3600);
+    return request;
+}
+
+simulation::FlightSettings flightOf(const SimulationRequest& request) {
+    simulation::FlightSettings settings;
+    settings.altitude_m = request.altitude_m;
+    settings.speed_m_s = request.speed_m_s;
+    settings.tilt_sd_rad = radians(request.tilt_sd_deg);
+    return settings;
+}
+
+/// Packets where there are some, as a recording has; otherwise a cloud that knows its beams.
+mrpt::obs::CObservation::Ptr observationOf(const simulation::SimulatedScan& made,
+                                           const SensorModel& sensor, double time_s) {
+    mrpt::obs::CObservation::Ptr observation;
+    if (sensor.name == "VLP-16" || sensor.name == "HDL-32E") {
+        observation = simulated_logs::encodeSimulatedScan(made, sensor, std::fmod(time_s, 3600.0));
+    } else {
+        const auto cloud = mrpt::obs::CObservationPointCloud::Create();
+        cloud->pointcloud = std::make_shared<observations::LocatedCloud>(
+            made.scan, std::make_shared<const SensorModel>(sensor));
+        observation = cloud;
+    }
+    observation->sensorLabel = "lidar";
+    observation->timestamp = mrpt::Clock::fromDouble(simulation::kSimulatedLogStart_s + time_s);
+    return observation;
+}
+
+}  // namespace
+
+Simulation::Simulation(const SimulationRequest& request)
+    : request_(checked(request)),
+      sensor_(sensorModel(request.sensor)),
+      scene_(simulation::makeScene(request.scenario, request.seed)),
+      flight_(scene_.terrain(), scene_.path(), flightOf(request), request.seed),
+      faults_(simulation::sensorErrors(sensor_)),
+      random_(request.seed, 3) {  // the stream of rawlog-simulate: the same scans
+    simulation::firingPattern(sensor_);
+    if (request.clear_air) {
+        faults_.dust_per_m = 0;
+        faults_.airframe = false;
+    }
+}
+
+std::optional<PythonScan> Simulation::next() {
+    if (made_ >= request_.scans) return std::nullopt;
+    const double time_s = request_.every_s * made_;
+    simulation::SimulatedScan made;
+    PythonScan scan;
+    {
+        const py::gil_scoped_release others_run;
+        made = simulation::simulateScan(scene_, sensor_, flight_, time_s, random_, faults_);
+        scan.recorded.observation = observationOf(made, sensor_, time_s);
+    }
+    const mrpt::poses::CPose3D pose = simulated_logs::mrptPose(made.pose);
+    scan.recorded.entry = static_cast<std::size_t>(made_++);
+    scan.recorded.pose.sensor_pose = pose;
+    scan.recorded.pose.pose_has_horizon = true;
+    scan.recorded.pose.attitude =
+        Attitude{static_cast<float>(pose.roll()), static_cast<float>(pose.pitch())};
+    readArrays(scan);
+    if (static_cast<std::size_t>(scan.xyz.shape(0)) != made.size())
+        throw std::logic_error("the packets contain other returns than were simulated");
+
+    std::vector<std::uint8_t> truth, kind;
+    for (const simulation::ObjectClass of_return : made.kind) {
+        truth.push_back(static_cast<std::uint8_t>(simulation::labelOf(of_return)));
+        kind.push_back(static_cast<std::uint8_t>(of_return));
+    }
+    scan.truth = copied(truth);
+    scan.kind = copied(kind);
+    scan.object = copied(made.object);
+    scan.altitude_m = made.altitude_m;
+    return scan;
+}
+
+}  // namespace hagen::python

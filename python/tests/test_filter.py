@@ -1,0 +1,288 @@
+"""hagen.Filter on arrays. Oracles: rawlog-segment on the same points, and geometry."""
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import hagen
+
+
+def ground_and_pillar(height_m=1.5):
+    """A VLP-16 over flat ground, with a pillar 8 m away at 0.5 rad. Returns points, and which are of
+    the pillar."""
+    elevations = np.radians(np.arange(-15, 16, 2))
+    azimuth, elevation = (
+        grid.ravel() for grid in np.meshgrid(np.radians(np.arange(0, 360, 0.4)), elevations)
+    )
+    with np.errstate(divide="ignore"):
+        ground = np.where(elevation < 0, height_m / np.tan(-elevation), np.inf)
+    is_pillar = (np.abs(azimuth - 0.5) < 0.02) & (ground > 8)
+    horizontal = np.where(is_pillar, 8.0, ground)
+    seen = horizontal < 100
+    points = np.stack(
+        [
+            horizontal[seen] * np.cos(azimuth[seen]),
+            horizontal[seen] * np.sin(azimuth[seen]),
+            horizontal[seen] * np.tan(elevation[seen]),
+        ],
+        axis=1,
+    ).astype(np.float32)
+    return points, is_pillar[seen]
+
+
+def test_labels_ground_and_a_pillar():
+    points, is_pillar = ground_and_pillar()
+    result = hagen.Filter("vlp16").segment(points)
+
+    assert result.labels.shape == (len(points),) and result.labels.dtype == np.uint8
+    assert result.obstacles.shape == (len(points),) and result.obstacles.dtype == np.int32
+    above = points[:, 2] > -1.2
+    assert np.all(result.labels[is_pillar & above] == hagen.ROI)
+    assert np.all(result.labels[~is_pillar] == hagen.ROU)
+    assert np.all(result.obstacles[is_pillar & above] == 1)
+    assert np.all(result.obstacles[result.labels == hagen.ROU] == 0)
+    assert len(result) == len(points)
+
+
+def test_heights_are_above_the_ground():
+    points, _ = ground_and_pillar(1.5)
+    near = np.linalg.norm(points, axis=1) < 20
+    result = hagen.Filter("vlp16").segment(points)
+    assert result.heights.dtype == np.float32
+    np.testing.assert_allclose(result.heights[near], points[near, 2] + 1.5, atol=0.1)
+    on_ground = near & (points[:, 2] < -1.49)
+    np.testing.assert_allclose(np.median(np.abs(result.heights[on_ground])), 0, atol=1e-3)
+    np.testing.assert_allclose(result.ground[2, 3], 1.5, atol=0.02)
+
+
+def test_labels_are_those_of_the_program(program, poles_labels, tmp_path):
+    """Points of a scan folder, which come without packets, poses or tilt."""
+    folder = tmp_path / "scans"
+    (folder / "velodyne").mkdir(parents=True)
+    for file in (poles_labels / "velodyne").iterdir():
+        (folder / "velodyne" / file.name).write_bytes(file.read_bytes())
+    program("rawlog-segment", "-i", folder, "--kitti", tmp_path / "labels", "-c", "vlp16", "-q")
+
+    segmenter = hagen.Filter("vlp16")
+    files = sorted((folder / "velodyne").iterdir())
+    assert len(files) == 10
+    for file in files:
+        points = np.fromfile(file, np.float32).reshape(-1, 4)
+        expected = np.fromfile(tmp_path / "labels" / "labels" / f"{file.stem}.label", np.uint32)
+        result = segmenter.segment(points[:, :3])
+        np.testing.assert_array_equal(result.labels, expected & 0xFFFF)
+        np.testing.assert_array_equal(result.obstacles, expected >> 16)
+        assert np.count_nonzero(result.labels == hagen.ROI) > 1000
+
+
+@pytest.mark.parametrize(
+    "convert",
+    [
+        lambda points: points.astype(np.float64),
+        np.asfortranarray,
+        lambda points: np.hstack([points, points])[:, :3],
+        lambda points: np.repeat(points, 2, axis=0)[::2],
+        lambda points: points.astype(">f4"),
+        lambda points: points.tolist(),
+    ],
+    ids=["double", "fortran", "columns", "rows", "big-endian", "lists"],
+)
+def test_layouts_and_types_give_the_same(convert):
+    points, _ = ground_and_pillar()
+    segmenter = hagen.Filter("vlp16")
+    expected = segmenter.segment(points).labels.copy()
+    np.testing.assert_array_equal(segmenter.segment(convert(points)).labels, expected)
+
+
+def test_stages_are_images_of_the_sensor():
+    points, is_pillar = ground_and_pillar()
+    result = hagen.Filter("vlp16").segment(points)
+    stages = result.stages
+    assert list(stages) == [
+        "depth_m",
+        "repaired_m",
+        "proximity_m",
+        "sharpened_m",
+        "merged_m",
+        "range_angle_rad",
+        "smoothed_rad",
+        "pixel_angle_rad",
+        "labels",
+        "components",
+        "height_m",
+        "tolerance_m",
+    ]
+    for name, image in stages.items():
+        assert image.shape == ((15 if name in ("range_angle_rad", "smoothed_rad") else 16), 870)
+    assert stages["labels"].dtype == np.uint8 and stages["components"].dtype == np.int32
+    assert stages["depth_m"].dtype == np.float32
+
+    # Column 0 looks backwards, columns run clockwise; row 0 is the lowest beam.
+    column = round(870 / 2 - 0.5 / (2 * np.pi) * 870)
+    assert stages["depth_m"][8, column] == pytest.approx(8 / np.cos(np.radians(1)), abs=0.01)
+    assert stages["labels"][8, column] == hagen.ROI
+    assert stages["depth_m"][0, 0] == pytest.approx(1.5 / np.sin(np.radians(15)), abs=0.01)
+    np.testing.assert_array_equal(
+        np.isnan(stages["proximity_m"]), np.isnan(stages["depth_m"])
+    )
+
+
+def test_the_paper_has_no_ground():
+    points, _ = ground_and_pillar()
+    result = hagen.Filter("paper").segment(points)
+    assert "height_m" not in result.stages
+    assert result.ground is None
+    assert np.all(np.isnan(result.heights))
+
+
+def test_results_outlive_later_scans_and_their_filter():
+    points, _ = ground_and_pillar()
+    segmenter = hagen.Filter("vlp16")
+    first = segmenter.segment(points)
+    labels, depth = first.labels, first.stages["depth_m"]
+    kept_labels, kept_depth = labels.copy(), depth.copy()
+    del first
+    for _ in range(10):
+        segmenter.segment(0.5 * points)
+    del segmenter
+    np.testing.assert_array_equal(labels, kept_labels)
+    np.testing.assert_array_equal(depth, kept_depth)
+
+
+def test_arrays_share_the_memory_of_the_result():
+    points, _ = ground_and_pillar()
+    result = hagen.Filter("vlp16").segment(points)
+    assert np.shares_memory(result.labels, result.labels)
+    assert np.shares_memory(result.stages["depth_m"], result.stages["depth_m"])
+
+
+def test_attitude_tells_how_a_sensor_is_mounted():
+    """A sensor on its side sees ground where an upright one has walls."""
+    points, is_pillar = ground_and_pillar()
+    upside_down = points * np.array([1, -1, -1], np.float32)
+    segmenter = hagen.Filter("vlp16")
+    result = segmenter.segment(upside_down, attitude=(np.pi, 0))
+    np.testing.assert_array_equal(result.labels, segmenter.segment(points).labels)
+    untold = segmenter.segment(upside_down)
+    assert np.count_nonzero(untold.labels == hagen.ROI) > 10 * np.count_nonzero(is_pillar)
+
+
+def test_options_and_settings_files(tmp_path):
+    points, is_pillar = ground_and_pillar()
+    settings = tmp_path / "near.yaml"
+    settings.write_text("zone_m: 5\n")
+    for segmenter in (hagen.Filter("vlp16", settings), hagen.Filter("vlp16", zone_m=5)):
+        assert np.all(segmenter.segment(points).labels == hagen.ROU)
+        assert "zone_m: 5 " in segmenter.settings
+    assert "height_m" in hagen.Filter("vlp16").segment(points).stages
+    assert "height_m" not in hagen.Filter("vlp16", ground_surface=False).segment(points).stages
+
+
+def test_beams_are_recovered_if_nobody_names_the_sensor():
+    scan = next(iter(hagen.simulate("orchard", seed=3, sensor="HDL-32E")))
+    segmenter = hagen.Filter()
+    found = segmenter.segment(scan.xyz).labels
+    assert segmenter.sensor == "HDL-32E"
+    assert len(segmenter.elevations_rad) == 32
+    expected = hagen.Filter("hdl32e").segment(scan.xyz).labels
+    assert np.mean(found == expected) > 0.99
+
+
+def test_other_threads_run_while_it_filters():
+    points = np.random.default_rng(1).uniform(-30, 30, (2_000_000, 3)).astype(np.float32)
+    segmenter = hagen.Filter("vlp16")
+    ticks, is_done = [], threading.Event()
+
+    def tick():
+        while not is_done.wait(0.001):
+            ticks.append(1)
+
+    thread = threading.Thread(target=tick)
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(60)  # only who gives the lock of Python away is interrupted
+    try:
+        thread.start()
+        before = len(ticks)
+        segmenter.segment(points)
+        meanwhile = len(ticks) - before
+    finally:
+        sys.setswitchinterval(interval)
+        is_done.set()
+        thread.join()
+    assert meanwhile >= 3
+
+
+def test_several_threads_may_use_one_filter():
+    scans = [ground_and_pillar(height)[0] for height in (1.0, 1.5, 2.0, 2.5)]
+    segmenter = hagen.Filter("vlp16")
+    expected = [segmenter.segment(points).labels.copy() for points in scans]
+    wrong = []
+
+    def work(number):
+        for _ in range(30):
+            found = segmenter.segment(scans[number])
+            if not np.array_equal(found.labels, expected[number]):
+                wrong.append(number)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_empty_scans_and_points_without_a_range():
+    segmenter = hagen.Filter("vlp16")
+    empty = segmenter.segment(np.empty((0, 3), np.float32))
+    assert empty.labels.shape == (0,) and empty.stages["depth_m"].shape == (16, 870)
+
+    points, _ = ground_and_pillar()
+    points[3] = np.nan
+    points[5] = 0
+    result = segmenter.segment(points)
+    assert result.labels[3] == result.labels[5] == hagen.UNCLASSIFIED
+    assert np.isnan(result.heights[3])
+    assert np.count_nonzero(result.labels == hagen.UNCLASSIFIED) == 2
+
+
+@pytest.mark.parametrize(
+    "points, text",
+    [
+        (np.zeros((5, 4)), r"\(N, 3\).*not of shape \(5, 4\); pass points\[:, :3\]"),
+        (np.zeros((3, 5)), r"\(N, 3\).*not of shape \(3, 5\)"),
+        (np.zeros((5, 2)), r"\(N, 3\).*not of shape \(5, 2\)"),
+        (np.zeros(3), r"\(N, 3\).*not of shape \(3,\)"),
+        (np.zeros((2, 2, 3)), r"not of shape \(2, 2, 3\)"),
+        (np.zeros((5, 3), complex), "complex128"),
+        ("flight.pcap", "dtype <U11"),
+        (None, "dtype object"),
+        ([[1, 2], [3]], r"\(N, 3\)"),
+    ],
+)
+def test_wrong_points_are_refused(points, text):
+    with pytest.raises(ValueError, match=text):
+        hagen.Filter("vlp16").segment(points)
+
+
+@pytest.mark.parametrize("attitude", [1.0, (1, 2, 3), "level", (np.nan, 0), (0, np.inf)])
+def test_wrong_attitudes_are_refused(attitude):
+    with pytest.raises(ValueError, match=r"attitude: expected \(roll, pitch\) \[rad\]"):
+        hagen.Filter("vlp16").segment(np.zeros((5, 3)), attitude=attitude)
+
+
+def test_wrong_settings_are_refused(tmp_path):
+    with pytest.raises(hagen.SettingsError, match="vlp17.*did you mean 'vlp16'"):
+        hagen.Filter("vlp17")
+    with pytest.raises(hagen.SettingsError, match="beta"):
+        hagen.Filter("vlp16", beta=7)
+    with pytest.raises(hagen.SettingsError, match="zone_m"):
+        hagen.Filter("vlp16", zone_m="far")
+    broken = tmp_path / "broken.yaml"
+    broken.write_text("zone: 5\n")
+    with pytest.raises(hagen.SettingsError, match="broken.yaml.*zone"):
+        hagen.Filter(broken)
+    with pytest.raises(TypeError):
+        hagen.Filter(5)
+    assert issubclass(hagen.SettingsError, ValueError)

@@ -1,0 +1,85 @@
+"""The package: its names, its type stubs, its presets, and the examples."""
+import ast
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+from conftest import SOURCES
+
+import hagen
+
+PACKAGE = pathlib.Path(hagen.__file__).parent
+
+
+def members(of):
+    return {name for name in vars(of) if not name.startswith("_")}
+
+
+def test_stubs_have_every_name():
+    stubs = ast.parse((PACKAGE / "__init__.pyi").read_text())
+    classes = {node.name: node for node in stubs.body if isinstance(node, ast.ClassDef)}
+    names = set(classes)
+    names |= {node.name for node in stubs.body if isinstance(node, ast.FunctionDef)}
+    names |= {node.target.id for node in stubs.body if isinstance(node, ast.AnnAssign)}
+    assert names == set(hagen.__all__)
+    for name, stub in classes.items():
+        if name == "SettingsError":
+            continue
+        public = {node.name for node in stub.body if not node.name.startswith("_")}
+        assert public == members(getattr(hagen, name)), name
+    assert (PACKAGE / "py.typed").exists()
+
+
+def test_everything_is_documented():
+    for name in hagen.__all__:
+        what = getattr(hagen, name)
+        if isinstance(what, (int, str)) or name == "SettingsError":
+            continue
+        assert what.__doc__, name
+        if isinstance(what, type):
+            for member in members(what):
+                assert vars(what)[member].__doc__, f"{name}.{member}"
+
+
+def test_presets_are_those_of_the_project():
+    assert {"vlp16", "hdl32e", "hdl64e", "mid360", "paper"} <= set(hagen.presets())
+    for preset in ("vlp16", "hdl32e", "hdl64e", "mid360", "paper", "ouster_os1_64"):
+        hagen.Filter(preset)
+
+
+def test_own_presets_go_first(tmp_path):
+    (tmp_path / "mine.yaml").write_text("include: vlp16\nzone_m: 7\n")
+    code = "import hagen; print(hagen.Filter('mine').settings)"
+    environment = {**os.environ, "HAGEN_CONFIG_PATH": str(tmp_path)}
+    printed = subprocess.run(
+        [sys.executable, "-c", code], env=environment, check=True, capture_output=True, text=True
+    ).stdout
+    assert "zone_m: 7 " in printed and "VLP-16" in printed
+
+
+@pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
+def test_examples_draw(example, tmp_path):
+    pytest.importorskip("matplotlib")
+    recording = SOURCES / "rawlogs" / "orchard.rawlog"
+    subprocess.run(
+        [sys.executable, SOURCES / "examples" / "python" / example, recording, tmp_path],
+        env={**os.environ, "MPLBACKEND": "Agg"},
+        check=True,
+    )
+    pictures = list(tmp_path.glob("*.png"))
+    assert pictures and all(picture.stat().st_size > 10000 for picture in pictures)
+
+
+@pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
+def test_examples_name_what_they_cannot_read(example, tmp_path):
+    pytest.importorskip("matplotlib")
+    run = subprocess.run(
+        [sys.executable, SOURCES / "examples" / "python" / example, "no_such.pcap", tmp_path],
+        env={**os.environ, "MPLBACKEND": "Agg"},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 1
+    assert "no_such.pcap" in run.stderr and "Traceback" not in run.stderr

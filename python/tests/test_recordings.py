@@ -1,0 +1,140 @@
+"""hagen.open(). Oracle: rawlog-segment on the same recording."""
+import signal
+
+import numpy as np
+import pytest
+from conftest import ORCHARD, POLES
+
+import hagen
+
+
+def test_labels_are_those_of_the_program(poles_labels):
+    segmenter = hagen.Filter("vlp16")
+    files = sorted((poles_labels / "labels").glob("*.label"))
+    scans = 0
+    for scan in hagen.open(POLES):
+        result = segmenter.segment(scan)
+        expected = np.fromfile(files[scans], np.uint32)
+        np.testing.assert_array_equal(result.labels, expected & 0xFFFF)
+        np.testing.assert_array_equal(result.obstacles, expected >> 16)
+        points = np.fromfile(poles_labels / "velodyne" / f"{files[scans].stem}.bin", np.float32)
+        np.testing.assert_array_equal(scan.xyz, points.reshape(-1, 4)[:, :3])
+        np.testing.assert_array_equal(scan.intensity, points.reshape(-1, 4)[:, 3])
+        scans += 1
+    assert scans == len(files) == 10
+
+
+def test_points_alone_give_nearly_the_same():
+    """Without the packets' own rows and azimuths, single returns change their pixel."""
+    segmenter = hagen.Filter("vlp16")
+    for scan in hagen.open(POLES):
+        with_packets = segmenter.segment(scan).labels
+        assert np.mean(segmenter.segment(scan.xyz).labels == with_packets) > 0.999
+
+
+def test_a_scan_has_what_the_recording_tells():
+    recording = hagen.open(POLES)
+    scans = list(recording)
+    assert len(scans) == 10
+    assert sum(map(len, scans)) == 157114  # rawlogs/README.md
+    first = scans[0]
+    assert first.xyz.shape == (len(first), 3) and first.xyz.dtype == np.float32
+    assert first.intensity.shape == (len(first),) and first.intensity.dtype == np.float32
+    assert first.ring.dtype == np.uint8 and set(first.ring) <= set(range(16))
+    assert first.times.dtype == np.float32 and 0.09 < first.times.max() < 0.11
+    assert first.sensor == "VLP-16" and first.sensor_label == "lidar"
+    assert scans[1].time - first.time == pytest.approx(0.1)
+
+    # 3 m/s at 1.2 m altitude, level.
+    assert first.pose.shape == (4, 4)
+    np.testing.assert_allclose(scans[9].pose[:3, 3] - first.pose[:3, 3], [2.7, 0, 0], atol=1e-6)
+    assert first.pose[2, 3] == pytest.approx(1.2)
+    np.testing.assert_allclose(first.attitude, (0, 0), atol=1e-6)
+    assert recording.poses and recording.remarks == []
+
+    # A return of the lowest beam is on the ground: its elevation is that of its ring.
+    elevation = np.arctan2(first.xyz[:, 2], np.hypot(first.xyz[:, 0], first.xyz[:, 1]))
+    np.testing.assert_allclose(np.degrees(elevation), 2.0 * first.ring - 15, atol=0.05)
+    assert first.truth is None and first.altitude_m is None
+
+
+def test_parts_of_a_recording():
+    scans = list(hagen.open(ORCHARD, first=10, last=30))
+    assert 0 < len(scans) < 30
+    assert min(scan.entry for scan in scans) >= 10 and max(scan.entry for scan in scans) <= 30
+    assert list(hagen.open(str(ORCHARD), sensor_labels=["other"])) == []
+
+
+def test_a_scan_outlives_its_recording():
+    scan = next(hagen.open(POLES))
+    expected = hagen.Filter("vlp16").segment(next(hagen.open(POLES))).labels
+    np.testing.assert_array_equal(hagen.Filter("vlp16").segment(scan).labels, expected)
+
+
+def test_point_clouds(tmp_path):
+    scan = next(hagen.open(ORCHARD))
+    np.save(tmp_path / "cloud.npy", scan.xyz)
+    cloud = next(hagen.open(tmp_path / "cloud.npy"))
+    np.testing.assert_array_equal(cloud.xyz, scan.xyz)
+    assert cloud.pose is None and cloud.name == "cloud"
+    assert cloud.sensor == "VLP-16"  # recovered
+    # Beams of the settings go before those that the cloud shows.
+    named = hagen.Filter("vlp16").segment(cloud)
+    np.testing.assert_array_equal(named.labels, hagen.Filter("vlp16").segment(scan.xyz).labels)
+
+
+def test_the_given_attitude_goes_before_that_of_the_recording():
+    scan = next(hagen.open(ORCHARD))
+    segmenter = hagen.Filter("vlp16")
+    own = segmenter.segment(scan).labels
+    np.testing.assert_array_equal(segmenter.segment(scan, attitude=scan.attitude).labels, own)
+    wrong = segmenter.segment(scan, attitude=(np.pi, 0)).labels
+    assert not np.array_equal(wrong, own)
+
+
+def test_what_cannot_be_read_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match="no_such.rawlog"):
+        hagen.open(tmp_path / "no_such.rawlog")
+    with pytest.raises(FileNotFoundError, match="no_such.tum"):
+        hagen.open(POLES, poses=tmp_path / "no_such.tum")
+    text = tmp_path / "notes.txt"
+    text.write_text("no recording\n")
+    with pytest.raises(RuntimeError, match="notes.txt"):
+        list(hagen.open(text))
+    with pytest.raises(RuntimeError, match="poles_and_wall"):
+        hagen.open(POLES, topics=["/points"])
+    with pytest.raises(TypeError):
+        hagen.open(7)
+
+
+def test_a_broken_recording_ends_with_an_error_after_its_scans(tmp_path):
+    broken = tmp_path / "broken.rawlog"
+    data = POLES.read_bytes()
+    broken.write_bytes(data[: len(data) * 6 // 10])
+    scans = 0
+    with pytest.raises(RuntimeError, match="broken.rawlog"):
+        for _ in hagen.open(broken):
+            scans += 1
+    assert 0 < scans < 10
+
+
+def test_large_programs_can_read():
+    """The trial of a rawlog limits memory: beyond what the program has."""
+    ballast = np.ones(200_000_000 // 8)
+    assert len(list(hagen.open(POLES))) == 10
+    assert ballast[-1] == 1
+
+
+def test_an_interrupted_recording_raises():
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.001)
+        with pytest.raises(KeyboardInterrupt):
+            while True:
+                list(hagen.open(POLES))
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
