@@ -30,7 +30,8 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
             if (entry.numbers.empty() && word[0] == '#') break;
             char* end = nullptr;
             const double number = std::strtod(word.c_str(), &end);
-            if (*end != '\0' || !std::isfinite(number)) {
+            // Not the first NUL, which a broken file may have within a word.
+            if (end != word.c_str() + word.size() || !std::isfinite(number)) {
                 fail(file, line, "'" + word + "' is not a finite number");
             }
             entry.numbers.push_back(number);

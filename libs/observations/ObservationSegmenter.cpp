@@ -42,7 +42,7 @@ void ObservationSegmenter::initialize(const Settings& settings) {
     if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);
     settings_ = settings;
     filters_.clear();
-    horizon_ = {};
+    horizon_.forget();
     sensors_ = {};
 }
 

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "StartWithInstructionSets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "Scan.cpp"
 #include <hwy/foreach_target.h>
@@ -174,6 +176,8 @@ namespace hagen {
 namespace {
 
 HWY_EXPORT(locateAll);
+
+const bool kStarted = startWithInstructionSets();
 
 }  // namespace
 

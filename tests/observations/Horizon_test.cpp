@@ -41,6 +41,8 @@ TEST(Horizon, TakesTheRobotsPoseForFifthOfASecond) {
     }
     EXPECT_FALSE(horizon.at(later(-201)));
     EXPECT_FALSE(horizon.at(later(201)));
+    horizon.forget();
+    EXPECT_FALSE(horizon.at(later(0)));
 }
 
 TEST(Horizon, WhatHasNoTimeTellsNothing) {

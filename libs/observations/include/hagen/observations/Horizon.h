@@ -15,6 +15,9 @@ class Horizon {
     /// time.
     void see(const mrpt::obs::CObservation& observation);
 
+    /// Forgets the attitude, as if none had been seen.
+    void forget() { vehicle_.reset(); }
+
     /// The vehicle's rotation against the horizon from the latest attitude, if it is within 0.2 s
     /// of `time`. Position and heading are undefined.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
