@@ -31,8 +31,8 @@ Number numberAt(const std::uint8_t* at, bool is_swapped) {
 /// Calls `use` with a value of the C++ type.
 template <class Use>
 void withType(NumberType type, const Use& use) {
-    switch (type) {  // NOLINT(bugprone-branch-clone): the types differ
-        case NumberType::Int8:
+    switch (type) {
+        case NumberType::Int8:  // NOLINT(bugprone-branch-clone): the types differ
             return use(std::int8_t());
         case NumberType::UInt8:
             return use(std::uint8_t());
@@ -117,6 +117,7 @@ const PointField* findField(const PointTable& table, const std::vector<std::stri
 std::vector<double> columnOf(const PointTable& table, const PointField& field,
                              std::size_t element) {
     std::vector<double> numbers(table.points);
+    if (numbers.empty()) return numbers;  // there may be no bytes to begin at
     withType(field.type, [&](auto type) {
         using Number = decltype(type);
         const std::uint8_t* at = table.bytes.data() + field.offset + element * sizeof(Number);

@@ -1,6 +1,9 @@
 #include "YamlParts.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
+#include <fstream>
 #include <numeric>
 
 namespace hagen::observations {
@@ -30,6 +33,31 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
+/// Takes no notice of what a document holds.
+struct NoNodes : YAML::EventHandler {
+    void OnDocumentStart(const YAML::Mark&) override {}
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  const std::string&) override {}
+    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {}
+    void OnSequenceEnd() override {}
+    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {}
+    void OnMapEnd() override {}
+};
+
+/// Whether a second document follows. YAML::LoadAll() would tell, too, but in a file such as ","
+/// it finds empty documents without end.
+bool hasSeveralDocuments(const fs::path& file) {
+    std::ifstream in(file);
+    YAML::Parser parser(in);
+    NoNodes nodes;
+    return parser.HandleNextDocument(nodes) && parser.HandleNextDocument(nodes);
+}
+
 }  // namespace
 
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known) {
@@ -43,12 +71,12 @@ YAML::Node parseFile(const fs::path& file) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
     if (fs::is_directory(file)) throw SettingsError(file.string() + ": is a folder, not a file");
     try {
-        const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
-        if (documents.size() > 1) {
+        if (hasSeveralDocuments(file)) {
             throw SettingsError(file.string() +
-                                ": contains several documents (---); only one is allowed");
+                                ": contains several documents (---), or text that is no YAML; only "
+                                "one document is allowed");
         }
-        return documents.empty() ? YAML::Node() : documents.front();
+        return YAML::LoadFile(file.string());
     } catch (const SettingsError&) {
         throw;
     } catch (const YAML::ParserException& e) {

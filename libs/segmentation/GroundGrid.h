@@ -18,9 +18,9 @@ constexpr int kGridSize = kGridStride * kGridStride;
 
 /// The logarithm of the number of cells per side, which is a power of 2.
 template <int kSide>
-constexpr int kLog2 = kLog2<kSide / 2> + 1;
+inline constexpr int kLog2 = kLog2<kSide / 2> + 1;
 template <>
-constexpr int kLog2<1> = 0;
+inline constexpr int kLog2<1> = 0;
 
 /// The index of cell (0, j). Columns -1 and kSide are the border.
 template <int kSide = GroundSurface::kCells>

@@ -206,6 +206,10 @@ TEST_F(SettingsTest, WhatIsNotYamlOrNoSettingsIsRefused) {
     EXPECT_TRUE(says(refusalOf("- 1\n- 2\n"), "key: value"));
     EXPECT_TRUE(says(refusalOf("just words"), "key: value"));
     EXPECT_TRUE(says(refusalOf("zone_m: 20\n---\nzone: 30\n"), "several documents"));
+    // yaml-cpp finds documents without end in these.
+    EXPECT_TRUE(says(refusalOf(","), "text that is no YAML"));
+    EXPECT_TRUE(
+        says(refusalOf(std::string(",nclude: (\0\0\0\0\0\0\0\1", 18)), "text that is no YAML"));
     Settings settings;
     EXPECT_THROW(mergeSettings("/no/such/file.yaml", settings), SettingsError);
     EXPECT_THROW(mergeSettings(folder_.path(), settings), SettingsError);
