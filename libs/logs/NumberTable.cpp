@@ -28,6 +28,9 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
         NumberLine entry{line, {}};
         for (std::string word; words >> word;) {
             if (entry.numbers.empty() && word[0] == '#') break;
+            if (word.find('\0') != std::string::npos) {  // the rest of the word would be ignored
+                fail(file, line, "there is a NUL byte, so this is no text file");
+            }
             char* end = nullptr;
             const double number = std::strtod(word.c_str(), &end);
             // Not the first NUL, which a broken file may have within a word.

@@ -85,8 +85,7 @@ TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
     expectRefused("0 0 0 0 0 0 0 2\n", ":1: the quaternion is not normalized");
     expectRefused("0 0 nan 0 0 0 0 1\n", ":1: 'nan' is not a finite number");
     expectRefused("0 0 1e999 0 0 0 0 1\n", "is not a finite number");
-    // A NUL within a word does not end it.
-    expectRefused(std::string("0 0 0 0 0 0 0 1\0002\n", 18), "is not a finite number");
+    expectRefused(std::string("0 0 0 0 0 0 0 1\0002\n", 18), ":1: there is a NUL byte");
     expectRefused("1 0 0 0 0 2 0 0 0 0 1 0\n", ":1: the matrix is not a rigid");
     expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is not a rigid");
     EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_ / "none"); }), HasSubstr("none"));

@@ -1,0 +1,79 @@
+// Every fuzz target on its seeds, on their beginnings, and on some mutations of each; what
+// libFuzzer does for hours.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "fuzz/Target.h"
+
+namespace hagen::fuzz {
+namespace {
+
+/// A seed with a few bytes changed, and perhaps a part removed or repeated.
+std::string mutated(std::string bytes, std::mt19937& random) {
+    if (bytes.empty()) return bytes;
+    const auto place = [&] { return random() % bytes.size(); };
+    for (unsigned changes = 1 + random() % 4; changes > 0; --changes) {
+        constexpr unsigned char kEdges[] = {0, 1, 0x7f, 0x80, 0xff};
+        bytes[place()] = static_cast<char>(random() % 2 == 0 ? kEdges[random() % 5] : random());
+    }
+    if (random() % 4 == 0) bytes.erase(place(), random() % 16);
+    if (random() % 4 == 0 && !bytes.empty()) {
+        const std::string part = bytes.substr(place(), random() % 32);
+        bytes.insert(place(), part);
+    }
+    return bytes;
+}
+
+class Seeds : public testing::TestWithParam<std::string> {
+ protected:
+    const Target& target() const {
+        const auto& all = targets();
+        return *std::find_if(all.begin(), all.end(),
+                             [](const Target& each) { return each.name == GetParam(); });
+    }
+    /// Fails, with the bytes, if the input does something that it may not.
+    void run(const std::string& input) const {
+        try {
+            target().run(input);
+        } catch (const std::exception& e) {
+            ADD_FAILURE() << e.what() << " by " << testing::PrintToString(input);
+        }
+    }
+};
+
+TEST_P(Seeds, AndTheirBeginningsAreReadOrRefused) {
+    const auto seeds = target().seeds();
+    ASSERT_FALSE(seeds.empty());
+    run("");
+    for (const std::string& seed : seeds) {
+        EXPECT_LE(seed.size(), target().longest);
+        run(seed);
+        for (std::size_t part = 1; part < 8; ++part) run(seed.substr(0, seed.size() * part / 8));
+    }
+}
+
+TEST_P(Seeds, WithMutationsAreReadOrRefused) {
+    if (!target().is_bounded) GTEST_SKIP() << "it may take all memory: " << target().name;
+    std::mt19937 random(1);
+    const auto seeds = target().seeds();
+    const std::size_t times = 1 + 200 / seeds.size();
+    for (const std::string& seed : seeds) {
+        for (std::size_t i = 0; i < times; ++i) run(mutated(seed, random));
+    }
+}
+
+std::vector<std::string> names() {
+    std::vector<std::string> names;
+    for (const Target& target : targets()) names.push_back(target.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Fuzz, Seeds, testing::ValuesIn(names()),
+                         [](const auto& each) { return each.param; });
+
+TEST(FuzzTargets, AreAllThere) { EXPECT_EQ(targets().size(), std::size_t{HAGEN_FUZZ_TARGETS}); }
+
+}  // namespace
+}  // namespace hagen::fuzz

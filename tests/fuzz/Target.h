@@ -1,0 +1,117 @@
+#pragma once
+// What all fuzz targets share. A target is a function of any bytes: it may return, or refuse them
+// with an error that has a message. Each file of this folder has one. scripts/fuzz runs them by
+// libFuzzer; Seeds_test.cpp runs the seeds, and some mutations of each, as an ordinary test.
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace hagen::fuzz {
+
+using Seeds = std::vector<std::string>;
+
+struct Target {
+    std::string name;
+    void (*run)(std::string_view input);
+    /// Valid inputs to start from.
+    Seeds (*seeds)();
+    /// Words of the format, for libFuzzer's dictionary.
+    std::vector<std::string> words = {};
+    std::size_t longest = 4096;  ///< bytes of an input
+    /// Whether the ordinary test mutates its seeds, too.
+    bool is_bounded = true;
+};
+
+/// Those of this program, by name.
+const std::vector<Target>& targets();
+/// Adds a target; the result is of no meaning. At the end of each target's file:
+///
+///     const bool kAdded = add({"clouds", readAnyCloud, cloudSeeds});
+bool add(Target target);
+
+/// An error that no input may cause.
+struct Violation : std::logic_error {
+    using std::logic_error::logic_error;
+};
+/// Throws Violation if it does not hold.
+void require(bool holds, const std::string& what);
+
+/// Calls what may refuse its input by a std::runtime_error with a message. Anything else that is
+/// thrown is a finding. False: it refused.
+template <class Call>
+bool mayRefuse(const Call& call) {
+    try {
+        call();
+        return true;
+    } catch (const std::runtime_error& e) {
+        require(e.what()[0] != '\0', "an error has no message");
+        return false;
+    }
+}
+
+/// A file with these bytes, as long as it lives.
+class InputFile {
+ public:
+    explicit InputFile(std::string_view bytes, const std::string& name = "input");
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+ private:
+    std::filesystem::path path_;
+};
+
+/// The folder for such files, of this process alone; in memory where the system has such a folder.
+const std::filesystem::path& scratch();
+
+/// Takes an input apart. After its end, everything is zero.
+class Parts {
+ public:
+    explicit Parts(std::string_view input) : rest_(input) {}
+
+    template <class Number>
+    Number number() {
+        static_assert(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>);
+        Number value{};
+        const std::string_view bytes = take(sizeof value);
+        std::memcpy(&value, bytes.data(), bytes.size());
+        return value;
+    }
+    /// A number from 0 to below `end`.
+    std::size_t below(std::size_t end) { return number<std::uint8_t>() % end; }
+    bool chance() { return (number<std::uint8_t>() & 1) != 0; }
+    /// Fewer at the end.
+    std::string_view take(std::size_t bytes) {
+        const std::string_view taken = rest_.substr(0, bytes);
+        rest_.remove_prefix(taken.size());
+        return taken;
+    }
+    /// Everything up to the next separator byte, which is taken, too.
+    std::string_view until(char separator) {
+        const std::string_view taken = rest_.substr(0, rest_.find(separator));
+        rest_.remove_prefix(taken.size() < rest_.size() ? taken.size() + 1 : rest_.size());
+        return taken;
+    }
+    std::string_view rest() const { return rest_; }
+    bool isAtEnd() const { return rest_.empty(); }
+
+ private:
+    std::string_view rest_;
+};
+
+/// The bytes of numbers, as Parts reads them.
+template <class... Number>
+std::string bytesOf(Number... numbers) {
+    std::string bytes;
+    (bytes.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);
+    return bytes;
+}
+
+}  // namespace hagen::fuzz

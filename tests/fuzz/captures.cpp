@@ -1,0 +1,91 @@
+// Captures of a network: libpcap's files, fragments, and what is in the datagrams. The first byte
+// names the sensor.
+#include <hagen/captures/LivoxCapture.h>
+#include <hagen/captures/OusterCapture.h>
+#include <hagen/captures/VelodyneCapture.h>
+
+#include <memory>
+
+#include "fuzz/Target.h"
+#include "support/CaptureWriter.h"
+#include "support/OusterPackets.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen::fuzz {
+namespace {
+
+void readAll(captures::LidarCapture& capture) {
+    mayRefuse([&] {
+        while (capture.nextScan()) {
+        }
+    });
+    require(capture.fractionRead() >= 0 && capture.fractionRead() <= 1, "a fraction");
+    capture.remarks();
+}
+
+void readCapture(std::string_view input) {
+    Parts parts(input);
+    const std::size_t kind = parts.below(3);
+    const InputFile file(parts.rest(), "input.pcap");
+    captures::isCapture(file.path());
+    mayRefuse([&] {
+        if (kind == 0) {
+            captures::VelodyneCapture capture(file.path());
+            readAll(capture);
+        } else if (kind == 1) {
+            captures::LivoxCapture capture(file.path());
+            readAll(capture);
+        } else {
+            const InputFile json(test::ousterJson(), "sensor.json");
+            captures::OusterCapture capture(file.path(), json.path());
+            readAll(capture);
+        }
+    });
+}
+
+Seeds captureSeeds() {
+    auto scan = test::poleScanFrom(0, "velodyne");
+    scan->scan_packets.resize(2);
+    test::SentDatagram velodyne;
+    velodyne.content = test::bytesOf(scan->scan_packets[0]);
+    const std::string two = test::CaptureWriter().packets(*scan, 1700000000).bytes();
+    test::CaptureWriter fragments;
+    for (const auto& part : test::fragmentsOf(velodyne, 800)) {
+        fragments.frame(test::ethernet(part, 1));
+    }
+    test::CaptureWriter cooked(113);
+    cooked.frame(std::string(14, '\0') + std::string("\x08\x00", 2) + test::ipOf(velodyne));
+    test::CaptureWriter raw(101);
+    raw.frame(test::ipOf(velodyne));
+    const auto sensor = captures::ousterSensorOf(test::ousterJson(), "metadata");
+    test::CaptureWriter ouster;
+    for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 3))) {
+        test::SentDatagram sent;
+        sent.content = packet;
+        sent.to_port = 7502;
+        ouster.datagram(sent);
+    }
+    test::SentDatagram livox;
+    livox.content = std::string(36, '\0') + std::string(140, '\x11');
+    livox.content[1] = static_cast<char>(176);
+    livox.content[5] = 10;
+    livox.content[10] = 1;
+    livox.to_port = 56301;
+    return {'\0' + two,
+            '\0' + fragments.bytes(),
+            '\0' + cooked.bytes(),
+            '\0' + raw.bytes(),
+            '\0' + test::pcapngOf({test::ethernet(test::ipOf(velodyne))}),
+            '\1' + test::CaptureWriter().datagram(livox).bytes(),
+            '\2' + ouster.bytes()};
+}
+
+const bool kAdded = add({"captures",
+                         readCapture,
+                         captureSeeds,
+                         {"\xd4\xc3\xb2\xa1", "\x4d\x3c\xb2\xa1", "\x0a\x0d\x0d\x0a",
+                          "\x4d\x3c\x2b\x1a", std::string("\x08\x00\x45\x00", 4), "\x81\x00"},
+                         8000});
+
+}  // namespace
+}  // namespace hagen::fuzz

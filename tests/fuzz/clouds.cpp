@@ -1,0 +1,78 @@
+// Point cloud files of all formats, and what is made of their points.
+#include <hagen/clouds/CloudFile.h>
+#include <hagen/observations/CloudSensors.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/TableCloud.h>
+
+#include <memory>
+
+#include "fuzz/Target.h"
+#include "support/CloudFiles.h"
+
+namespace hagen::fuzz {
+namespace {
+
+void readAnyCloud(std::string_view input) {
+    const InputFile file(input, "input.bin");
+    clouds::cloudFormatOf(file.path());
+    clouds::startOfBin(file.path());
+    clouds::CloudFile cloud;
+    if (!mayRefuse([&] { cloud = clouds::readCloud(file.path()); })) return;
+    // A packed file may unpack to 256 times its size.
+    require(cloud.table.bytes.size() <= 256 * (input.size() + 4096), "more points than bytes");
+    mayRefuse([&] {
+        const auto table = std::make_shared<const observations::PointTable>(cloud.table);
+        const auto observation = observations::observationOf(table, "cloud", {});
+        observations::CloudSensors sensors;
+        sensors.see(*observation);
+        observations::ObservedScan scan;
+        observations::readObservation(*observation, {}, scan, sensors.beamsOf("cloud"));
+        require(scan.scan.row.size() == scan.scan.size(), "a return has no row");
+    });
+}
+
+Seeds cloudSeeds() {
+    Seeds seeds;
+    for (const auto& [name, bytes] : test::cloudFiles(test::filePoints(6))) seeds.push_back(bytes);
+    seeds.push_back(test::binWithRings(test::filePoints(20)));
+    return seeds;
+}
+
+const bool kAdded = add({"clouds",
+                         readAnyCloud,
+                         cloudSeeds,
+                         {"FIELDS ",
+                          "SIZE ",
+                          "TYPE ",
+                          "COUNT ",
+                          "WIDTH ",
+                          "HEIGHT ",
+                          "POINTS ",
+                          "VIEWPOINT ",
+                          "DATA ascii\n",
+                          "DATA binary\n",
+                          "DATA binary_compressed\n",
+                          "element vertex ",
+                          "property ",
+                          "property list uchar int ",
+                          "float ",
+                          "double ",
+                          "end_header\n",
+                          "format ascii 1.0\n",
+                          "format binary_big_endian 1.0\n",
+                          "LASF",
+                          "\x93NUMPY",
+                          "'descr': ",
+                          "'fortran_order': True",
+                          "'shape': (",
+                          "'<f4'",
+                          "'>f8'",
+                          "'|V2'",
+                          "nan",
+                          "-inf",
+                          "1e400",
+                          "18446744073709551615",
+                          "4294967296"}});
+
+}  // namespace
+}  // namespace hagen::fuzz

@@ -1,0 +1,176 @@
+// The filter: any scan, sensor, attitude and options. All instruction sets must make the same
+// labels of it.
+#include <hagen/range_image/InstructionSets.h>
+#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/segmentation/OptionKeys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "fuzz/Target.h"
+
+namespace hagen::fuzz {
+namespace {
+
+/// A number that is often an odd one.
+float oddNumber(Parts& parts) {
+    using Limits = std::numeric_limits<float>;
+    const float odd[] = {0.0f,
+                         -0.0f,
+                         Limits::max(),
+                         Limits::lowest(),
+                         Limits::min(),
+                         Limits::denorm_min(),
+                         1e-20f,
+                         1e20f,
+                         1.0f,
+                         Limits::epsilon(),
+                         Limits::quiet_NaN(),
+                         Limits::infinity(),
+                         -Limits::infinity()};
+    const std::size_t kind = parts.below(32);
+    if (kind < std::size(odd)) return odd[kind];
+    if (kind < 24) return 0.01f * static_cast<float>(parts.number<std::int16_t>());
+    return parts.number<float>();
+}
+
+void setOptions(Parts& parts, Options& options) {
+    for (std::size_t changes = parts.below(8); changes > 0; --changes) {
+        const auto& keys = optionKeys();
+        const OptionKey& key = keys[parts.below(keys.size())];
+        const double share = parts.number<std::uint8_t>() / 255.0;
+        const double value = key.least + share * share * (key.most - key.least);
+        std::visit(
+            [&](auto field) {
+                using Field = std::decay_t<decltype(options.*field)>;
+                if constexpr (std::is_same_v<Field, bool>) {
+                    options.*field = share > 0.5;
+                } else if constexpr (std::is_enum_v<Field>) {
+                    options.*field = static_cast<Field>(static_cast<int>(2.99 * share));
+                } else {
+                    options.*field = static_cast<Field>(value);
+                }
+            },
+            key.field);
+    }
+    options.columns = std::min(options.columns, 256);
+}
+
+SensorModel anySensor(Parts& parts) {
+    const auto names = knownSensorModels();
+    const std::size_t kind = parts.below(2 * names.size());
+    SensorModel sensor;
+    if (kind < names.size()) {
+        sensor = sensorModel(names[kind]);
+    } else {
+        std::vector<double> elevations_deg;
+        double elevation_deg = -90 + static_cast<double>(parts.below(90));
+        const std::size_t beams = 2 + parts.below(40);
+        for (std::size_t i = 0; i < beams && elevation_deg <= 90; ++i) {
+            elevations_deg.push_back(elevation_deg);
+            elevation_deg += 1e-4 + 0.02 * parts.number<std::uint8_t>();
+        }
+        sensor = customSensorModel(elevations_deg);
+    }
+    if (parts.chance()) sensor.min_range_m = std::abs(oddNumber(parts));
+    if (parts.chance()) sensor.max_range_m = std::abs(oddNumber(parts));
+    return sensor;
+}
+
+struct Labels {
+    std::vector<std::uint8_t> row;
+    std::vector<Label> label;
+    std::vector<std::int32_t> component;
+};
+
+/// None if the filter refuses the sensor, the options or the scan.
+std::optional<Labels> labelsOf(Scan scan, const SensorModel& sensor, const Options& options,
+                               const std::optional<Attitude>& attitude) {
+    try {
+        locateBeams(sensor, scan);
+        HagenFilter filter(sensor, options);
+        const LabelledReturns& returns = filter.segment(scan, attitude).returns;
+        require(returns.label.size() == scan.size(), "a return has no label");
+        require(
+            returns.roi.size() + returns.rou.size() + returns.unclassified.size() == scan.size(),
+            "a return is in no list, or in two");
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            require(std::isnan(scan.range_m[i]) == (returns.label[i] == Label::Unclassified),
+                    "what has no range is unclassified, and nothing else");
+        }
+        return Labels{scan.row, returns.label, returns.component};
+    } catch (const std::invalid_argument& e) {
+        require(e.what()[0] != '\0', "an error has no message");
+        return std::nullopt;
+    }
+}
+
+void segmentAnything(std::string_view input) {
+    Parts parts(input);
+    Options options;
+    options.columns = 64;
+    setOptions(parts, options);
+    SensorModel sensor;
+    try {
+        sensor = anySensor(parts);
+    } catch (const std::invalid_argument&) {
+        return;  // too few beams
+    }
+    std::optional<Attitude> attitude;
+    if (parts.chance()) attitude = Attitude{oddNumber(parts), oddNumber(parts)};
+    Scan scan;
+    // A few returns as they come, then a shape that has many.
+    for (std::size_t returns = parts.below(64); returns > 0; --returns) {
+        scan.x_m.push_back(oddNumber(parts));
+        scan.y_m.push_back(oddNumber(parts));
+        scan.z_m.push_back(oddNumber(parts));
+    }
+    const float height_m = oddNumber(parts), slope = 0.01f * parts.number<std::int8_t>();
+    const std::size_t rings = parts.below(16);
+    for (std::size_t ring = 0; ring < rings; ++ring) {
+        const float range_m = 2.0f + 1.5f * static_cast<float>(ring);
+        for (int i = 0; i < 48; ++i) {
+            const float angle = 0.1309f * static_cast<float>(i);
+            scan.x_m.push_back(range_m * std::cos(angle));
+            scan.y_m.push_back(range_m * std::sin(angle));
+            scan.z_m.push_back(slope * scan.x_m.back() - height_m);
+        }
+    }
+    scan.intensity.assign(scan.size(), 0.5f);
+
+    // The best instruction set, and any other.
+    const auto sets = instructionSets();
+    const std::size_t other = parts.below(sets.size());
+    std::optional<Labels> first;
+    for (const std::size_t set : {std::size_t{0}, other}) {
+        if (set == 0 && first) break;
+        limitInstructionSets(sets[set]);
+        const std::optional<Labels> labels = labelsOf(scan, sensor, options, attitude);
+        limitInstructionSets("");
+        if (!labels) return;
+        if (!first) first = labels;
+        require(labels->row == first->row, "rows differ with " + sets[set]);
+        require(labels->label == first->label, "labels differ with " + sets[set]);
+        require(labels->component == first->component, "obstacles differ with " + sets[set]);
+    }
+}
+
+Seeds scans() {
+    const std::string defaults(1, '\0'), vlp16("\2\0\0", 3), level(1, '\0'), no_points(1, '\0');
+    const std::string ground =
+        std::string("\x10", 1) + bytesOf(std::int16_t{200}, std::int8_t{3}) + '\x0c';
+    std::string odd(1, '\x14');
+    for (char i = 0; i < 60; ++i) odd += i;
+    return {defaults + vlp16 + level + no_points + ground,
+            defaults + vlp16 + "\1\7\7" + no_points + ground,
+            defaults + vlp16 + level + odd + ground,
+            std::string("\3\1\x20\4\x40\5\x60", 7) + vlp16 + level + odd + ground};
+}
+
+const bool kAdded = add({"filter", segmentAnything, scans, {}, 600});
+
+}  // namespace
+}  // namespace hagen::fuzz

@@ -1,0 +1,64 @@
+// Packets of an Ouster with any content. The first byte of the input names the profile.
+#include <hagen/captures/OusterFrames.h>
+#include <hagen/captures/OusterScan.h>
+#include <hagen/observations/ObservationScan.h>
+
+#include "fuzz/Target.h"
+#include "support/OusterPackets.h"
+
+namespace hagen::fuzz {
+namespace {
+
+const char* const kProfiles[] = {
+    "LEGACY",          "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL",
+    "RNG15_RFL8_NIR8", "RNG15_RFL8_NIR8_DUAL",   "FUSA_RNG15_RFL8_NIR8_DUAL",
+    "FIVE_WORD_PIXEL"};
+
+void decode(std::string_view input) {
+    Parts parts(input);
+    const std::string profile = kProfiles[parts.below(std::size(kProfiles))];
+    const captures::OusterSensor sensor =
+        captures::ousterSensorOf(test::ousterJson(profile), "metadata");
+    captures::OusterFrames frames(sensor);
+    std::size_t complete = 0;
+    const auto takeOut = [&] {
+        for (; !frames.complete().empty(); frames.complete().pop_front()) {
+            ++complete;
+            const auto observation = observationOf(frames.complete().front(), sensor);
+            observations::ObservedScan observed;
+            observations::readObservation(*observation, {}, observed);
+            for (const std::uint8_t row : observed.scan.row) {
+                require(row < observed.sensor.rows(), "a row that the sensor has not");
+            }
+        }
+    };
+    while (!parts.isAtEnd()) {
+        std::string packet(parts.take(sensor.packetBytes()));
+        packet.resize(sensor.packetBytes());
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(packet.data());
+        isOfLidar(bytes, sensor);
+        serialOf(bytes, sensor);
+        frames.add(bytes, 1000);
+        takeOut();
+    }
+    frames.finish();
+    takeOut();
+    require(complete == frames.counts().frames, "a frame is lost");
+    textOf(frames.counts());
+}
+
+Seeds packetSeeds() {
+    Seeds seeds;
+    char number = 0;
+    for (const char* const profile : kProfiles) {
+        const auto sensor = captures::ousterSensorOf(test::ousterJson(profile), "metadata");
+        const auto packets = test::packetsOf(sensor, test::randomFrame(sensor, 3));
+        seeds.push_back(number++ + packets[0] + packets[1]);
+    }
+    return seeds;
+}
+
+const bool kAdded = add({"ouster_packets", decode, packetSeeds, {"\xff\xff\xff\xff"}, 8000});
+
+}  // namespace
+}  // namespace hagen::fuzz

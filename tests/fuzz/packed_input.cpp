@@ -1,0 +1,59 @@
+// Files packed by gzip or zstd, read in steps of any size. The first byte chooses them.
+#include <hagen/logs/GzipOutput.h>
+#include <hagen/logs/PackedInput.h>
+
+#include <random>
+
+#include "fuzz/Target.h"
+#include "support/BagWriter.h"
+
+namespace hagen::fuzz {
+namespace {
+
+constexpr std::size_t kMostRead = 4 << 20;  // a zstd block may repeat a byte as often as it likes
+
+std::string readInSteps(const std::filesystem::path& file, unsigned seed) {
+    std::minstd_rand random(seed);
+    logs::PackedInput input(file);
+    std::string all, step;
+    for (;;) {
+        step.resize(1 + random() % (random() % 8 == 0 ? 1 << 20 : 64));
+        const std::uint64_t most = input.mostBytesLeft();
+        const std::size_t got = input.Read(step.data(), step.size());
+        require(got <= most, "more bytes than can follow");
+        all.append(step, 0, got);
+        require(input.getPosition() == all.size(), "the position is wrong");
+        require(input.packedPosition() <= input.packedBytes(), "more is read than there is");
+        if (got < step.size() || all.size() > kMostRead) break;
+    }
+    return all + input.fault();
+}
+
+void unpack(std::string_view input) {
+    Parts parts(input);
+    const auto seed = parts.number<std::uint8_t>();
+    const InputFile file(parts.rest(), "input.gz");
+    const std::string one = readInSteps(file.path(), 1),
+                      other = readInSteps(file.path(), 2U + seed);
+    if (one.size() < kMostRead) require(one == other, "it depends on how it is read");
+}
+
+Seeds packedSeeds() {
+    std::string plain;
+    for (int i = 0; i < 300; ++i) plain += static_cast<char>('a' + i % 7 * (i % 11));
+    std::vector<std::uint8_t> gzip;
+    logs::packGzipMember({plain.begin(), plain.end()}, gzip);
+    const std::string member(gzip.begin(), gzip.end());
+    const std::string zstd = test::packed(plain, "zstd");
+    return {'\0' + plain, '\0' + member, '\1' + member + member + std::string(5, '\0'), '\2' + zstd,
+            '\3' + zstd + zstd};
+}
+
+const bool kAdded = add({"packed_input",
+                         unpack,
+                         packedSeeds,
+                         {"\x1f\x8b\x08", "\x28\xb5\x2f\xfd", "\x50\x2a\x4d\x18"},
+                         2000});
+
+}  // namespace
+}  // namespace hagen::fuzz
