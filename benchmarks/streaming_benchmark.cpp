@@ -202,6 +202,7 @@ int run(int argc, char** argv) {
     std::string preset;
     std::vector<streaming::StreamingOptions> all;
     Known known = Known::Nothing;
+    double skip_rad = streaming::StreamingOptions().skip_ahead_rad;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         if (word == "-c" && i + 1 < argc) {
@@ -210,6 +211,8 @@ int run(int argc, char** argv) {
             known = Known::Attitude;
         } else if (word == "--pose") {
             known = Known::Pose;
+        } else if (word == "--skip-deg" && i + 1 < argc) {
+            skip_rad = radians(std::atof(argv[++i]));
         } else if (word == "--try" && i + 3 < argc) {
             streaming::StreamingOptions options;
             options.sector_rad = radians(std::atof(argv[++i]));
@@ -221,14 +224,16 @@ int run(int argc, char** argv) {
         }
     }
     if (files.empty()) {
-        std::fprintf(
-            stderr,
-            "Usage: streaming-benchmark [-c SETTINGS] [--attitude | --pose] [--try SECTOR_DEG "
-            "WINDOW_DEG EVERY]... RECORDING...\nGround truth: RECORDING.truth beside "
-            "RECORDING.rawlog (rawlog-simulate --kitti)\n");
+        std::fprintf(stderr,
+                     "Usage: streaming-benchmark [-c SETTINGS] [--skip-deg ANGLE] [--attitude | "
+                     "--pose] [--context-s "
+                     "S] [--try SECTOR_DEG "
+                     "WINDOW_DEG EVERY]... RECORDING...\nGround truth: RECORDING.truth beside "
+                     "RECORDING.rawlog (rawlog-simulate --kitti)\n");
         return 2;
     }
     if (all.empty()) all.emplace_back();
+    for (auto& options : all) options.skip_ahead_rad = skip_rad;
     std::vector<Recording> recordings;
     for (const std::string& file : files) {
         recordings.push_back(read(file, preset, known != Known::Nothing));

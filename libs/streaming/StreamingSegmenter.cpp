@@ -67,6 +67,8 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
     check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
           "sector_rad must be above 0 and at most a turn");
     check(streaming.window_rad >= 0, "window_rad must not be negative");
+    check(streaming.skip_ahead_rad >= 0 && streaming.skip_ahead_rad < kPi,
+          "skip_ahead_rad must be at least 0 and less than half a turn");
     check(streaming.keep_every >= 0, "keep_every must not be negative");
     check(streaming.context_s > 0, "context_s must be positive");
     check(streaming.least_known_rad >= 0 && streaming.least_known_rad <= kTurn_rad,
@@ -204,13 +206,16 @@ void StreamingSegmenter::addMoved(const Scan& scan, const Eigen::Isometry3d& mot
 
 void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
     bool is_near = true, is_cut = false;
+    const Packet& latest = packets_.back();
+    const bool has_motion = packet.pose && latest.pose;
     if (packet.sweep) {
+        const double ahead_rad = packet.sweep->from_rad - (head_rad_ - kTurn_rad);
+        if (!has_motion && ahead_rad < streaming_.skip_ahead_rad) return;
         is_near = between(*packet.sweep, sector) <= streaming_.window_rad;
         is_cut = packet.sweep->from_rad < head_rad_ - kTurn_rad;
     }
     const Scan& scan = is_near ? packet.returns : packet.thinned;
-    const Packet& latest = packets_.back();
-    if (packet.pose && latest.pose && !is_cut) {
+    if (has_motion && !is_cut) {
         const Eigen::Isometry3d motion = latest.pose->inverse() * *packet.pose;
         if (!isStill(motion)) return addMoved(scan, motion);
     }

@@ -38,10 +38,10 @@ int readingOf(const VelodynePacket& packet, int block) {
 
 }  // namespace
 
-VelodyneStream::VelodyneStream(const observations::VelodyneModel& model,
-                               const observations::Settings& settings,
-                               StreamingSegmenter::Take take, const StreamingOptions& streaming,
-                               std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration)
+VelodyneStream::VelodyneStream(
+    const observations::VelodyneModel& model, const observations::Settings& settings,
+    StreamingSegmenter::Take take, const StreamingOptions& streaming,
+    const std::shared_ptr<const mrpt::obs::VelodyneCalibration>& calibration)
     : model_(model), settings_(settings) {
     const bool is_hdl64 = &model == &observations::hdl64Model();
     if (is_hdl64 && !calibration) {
@@ -69,9 +69,11 @@ void VelodyneStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_se
 }
 
 bool VelodyneStream::isRepeated(const VelodynePacket& packet, double time_us) const {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&packet.raw);
     return std::any_of(recent_.begin(), recent_.end(), [&](const VelodynePacket& other) {
         return other.sensorTimeUs() == time_us &&
-               std::memcmp(&other.raw, &packet.raw, sizeof packet.raw) == 0;
+               std::equal(bytes, bytes + sizeof packet.raw,
+                          reinterpret_cast<const std::uint8_t*>(&other.raw));
     });
 }
 
@@ -95,7 +97,8 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
     const double per_firing =
         firings > 0 && turned < kReadings / 8 ? static_cast<double>(turned) / firings : 0.0;
     const int all_firings = kBlocks / blocks_per_firing;
-    const double from = readingOf(packet, first) - per_firing * (first / blocks_per_firing);
+    const int before = first / blocks_per_firing;
+    const double from = readingOf(packet, first) - per_firing * before;
     const double swept_rad = radians(0.01 * per_firing * all_firings);
     sweep.from_rad = radians(0.01 * from);
     if (has_last_) {

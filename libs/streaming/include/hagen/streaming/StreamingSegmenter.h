@@ -15,11 +15,15 @@ namespace hagen::streaming {
 /// How a turn is cut, and what a sector is judged by. docs/live.md has what other values cost.
 struct StreamingOptions {
     /// A sector ends with the last packet that still fits into this angle; it has at least one.
-    double sector_rad = 0.3490658503988659;  // 20 degrees
+    double sector_rad = 0.4363323129985824;  // 25 degrees
     /// Context on both sides of a sector: all returns of the latest turn.
     double window_rad = 0.5235987755982988;  // 30 degrees
     /// Context beyond: each n-th column of the image; 1: all, 0: none.
     int keep_every = 4;
+    /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
+    /// moved since, those up to this angle are no context: ground that is tilted against that of
+    /// the sector looks like a step. Less than half a turn.
+    double skip_ahead_rad = 0.5235987755982988;  // 30 degrees
     /// Returns older than this are no context: the sensor was silent. For a sensor that does not
     /// turn, the time that is judged at once.
     double context_s = 0.25;

@@ -40,9 +40,10 @@ class VelodyneStream {
     /// `settings`: options, range limits, airframe and mount. `calibration` is of an HDL-64E; null:
     /// that of the model. Throws SettingsError if the options do not fit the sensor, and
     /// std::invalid_argument for an HDL-64E without calibration.
-    VelodyneStream(const observations::VelodyneModel& model, const observations::Settings& settings,
-                   StreamingSegmenter::Take take, const StreamingOptions& streaming = {},
-                   std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration = nullptr);
+    VelodyneStream(
+        const observations::VelodyneModel& model, const observations::Settings& settings,
+        StreamingSegmenter::Take take, const StreamingOptions& streaming = {},
+        const std::shared_ptr<const mrpt::obs::VelodyneCalibration>& calibration = nullptr);
 
     /// Takes a datagram that came at `arrival_s`, in seconds of any clock that does not go back.
     Taken add(const std::uint8_t* bytes, std::size_t size, double arrival_s);
