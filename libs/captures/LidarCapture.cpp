@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "LivoxPacket.h"
+#include <hagen/captures/LivoxPacket.h>
 
 namespace hagen::captures {
 namespace {

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include <hagen/captures/LivoxPacket.h>
 #include <hagen/captures/Remarks.h>
-#include "LivoxPacket.h"
 
 namespace hagen::captures {
 namespace {

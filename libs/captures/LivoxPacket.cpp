@@ -1,4 +1,4 @@
-#include "LivoxPacket.h"
+#include <hagen/captures/LivoxPacket.h>
 
 namespace hagen::captures {
 namespace {

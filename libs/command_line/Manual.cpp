@@ -241,8 +241,8 @@ std::string manualPage(const CLI::App& app, const std::string& program, const st
     }
     page += ".SH \"SEE ALSO\"\n";
     std::string others;
-    for (const char* other :
-         {"octomap-compare", "rawlog-segment", "rawlog-simulate", "segmentation-evaluate"}) {
+    for (const char* other : {"live-segment", "octomap-compare", "rawlog-segment",
+                              "rawlog-simulate", "segmentation-evaluate"}) {
         if (other == program) continue;
         others += (others.empty() ? ".BR " : " ,\n.BR ") + roff(other) + " (1)";
     }

@@ -29,7 +29,8 @@ TEST_P(Help, FitsATerminal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfPrograms, Help,
-                         testing::Values(Command{HAGEN_RAWLOG_SEGMENT, {}},
+                         testing::Values(Command{HAGEN_LIVE_SEGMENT, {}},
+                                         Command{HAGEN_RAWLOG_SEGMENT, {}},
                                          Command{HAGEN_RAWLOG_SIMULATE, {}},
                                          Command{HAGEN_SEGMENTATION_EVALUATE, {}},
                                          Command{HAGEN_OCTOMAP_COMPARE, {}},

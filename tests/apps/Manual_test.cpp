@@ -166,16 +166,14 @@ TEST_P(Manual, ZshOffersTheFlagsOfHelp) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfPrograms, Manual,
-                         testing::Values(Program{HAGEN_RAWLOG_SEGMENT, {}},
-                                         Program{HAGEN_RAWLOG_SIMULATE, {}},
-                                         Program{HAGEN_SEGMENTATION_EVALUATE, {}},
-                                         Program{HAGEN_OCTOMAP_COMPARE,
-                                                 {"closedloop", "merge", "calibrate", "distances",
-                                                  "openloop", "report", "replay"}}),
-                         [](const auto& of) {
-                             return std::regex_replace(of.param.name(), std::regex("-"), "_");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    OfPrograms, Manual,
+    testing::Values(Program{HAGEN_LIVE_SEGMENT, {}}, Program{HAGEN_RAWLOG_SEGMENT, {}},
+                    Program{HAGEN_RAWLOG_SIMULATE, {}}, Program{HAGEN_SEGMENTATION_EVALUATE, {}},
+                    Program{HAGEN_OCTOMAP_COMPARE,
+                            {"closedloop", "merge", "calibrate", "distances", "openloop", "report",
+                             "replay"}}),
+    [](const auto& of) { return std::regex_replace(of.param.name(), std::regex("-"), "_"); });
 
 TEST(Completion, OffersTheWordsOfAChoice) {
     const Program segment{HAGEN_RAWLOG_SEGMENT, {}};

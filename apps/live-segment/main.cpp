@@ -1,0 +1,210 @@
+// Labels the packets of a LiDAR while they come: near obstacles (RoI) and everything else (ROU).
+#include <hagen/live/LiveSession.h>
+#include <hagen/observations/Presets.h>
+
+#include <unistd.h>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <hagen/command_line/CommandLine.h>
+#include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/Terminal.h>
+
+namespace {
+
+using namespace hagen;
+using namespace hagen::command_line;
+
+struct Flags {
+    live::LiveOptions live;
+    std::string listen;
+    std::filesystem::path replay, sensor_json;
+    double speed = 1, rotate_mb = 0;
+    std::vector<std::string> configs;
+    bool overwrite = false, is_quiet = false;
+};
+
+void declare(Program& app, Flags& flags) {
+    const auto not_empty = [](const std::string& name) {
+        return name.empty() ? "the name is empty" : "";
+    };
+    app.option("--listen", flags.listen,
+               "IPv4 address of this machine and port that the sensor sends to, such as "
+               "0.0.0.0:2368; a multicast group is joined")
+        .valueName("ADDRESS:PORT")
+        .group("Input");
+    app.option("--replay", flags.replay, "a network capture (.pcap, .pcapng) instead of a sensor")
+        .existingFile()
+        .group("Input");
+    app.option("--speed", flags.speed, "of --replay: 1 is as fast as it was recorded")
+        .between(0.001, 1e6)
+        .showDefault()
+        .valueName("X")
+        .group("Input");
+    app.option("--model", flags.live.model, "the sensor:" + live::liveModels())
+        .valueName("NAME")
+        .group("Input");
+    app.option("--calibration", flags.live.calibration,
+               "calibration of an HDL-64E (Velodyne's db.xml)")
+        .existingFile()
+        .group("Input");
+    app.option("--sensor-json", flags.sensor_json,
+               "metadata of an Ouster, which is not supported yet")
+        .existingFile()
+        .group("Input");
+    app.option("--duration", flags.live.duration_s, "ends after this time (default: on Ctrl-C)")
+        .between(0.001, 1e9)
+        .valueName("SECONDS")
+        .group("Input");
+    const Flag record = app.option("--record", flags.live.recording.file,
+                                   "segmented rawlog of the turns, as rawlog-segment writes it")
+                            .check(not_empty, "PATH")
+                            .group("Output");
+    app.option("--rotate-mb", flags.rotate_mb,
+               "a new file whenever one is this long: NAME.0001.rawlog and so on")
+        .between(0.001, 1e6)
+        .valueName("N")
+        .needs(record)
+        .group("Output");
+    app.option("--stats", flags.live.stats, "JSON: packets, losses, latencies, nearest obstacles")
+        .check(not_empty, "PATH")
+        .group("Output");
+    app.flag("--overwrite", flags.overwrite, "replace existing outputs").group("Output");
+    app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
+    app.option("-c,--config", flags.configs,
+               "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
+               "override earlier ones")
+        .once()
+        .group("Settings");
+    app.version(HAGEN_VERSION);
+}
+
+void check(Flags& flags) {
+    if (flags.listen.empty() == flags.replay.empty()) {
+        throw UsageError("one of --listen and --replay is required");
+    }
+    if (!flags.sensor_json.empty()) {
+        throw UsageError("--sensor-json",
+                         "an Ouster cannot be labelled live; supported are" + live::liveModels());
+    }
+    if (flags.replay.empty() && flags.speed != 1) {
+        throw UsageError("--speed", "is of --replay only");
+    }
+    if (flags.live.model.empty()) {
+        throw UsageError("--model is required:" + live::liveModels());
+    }
+    flags.live.overwrite = flags.live.recording.overwrite = flags.overwrite;
+    flags.live.recording.rotate_bytes = static_cast<std::size_t>(flags.rotate_mb * 1e6);
+    try {
+        live::checkLive(flags.live);
+    } catch (const std::runtime_error& e) {
+        throw UsageError(e.what());
+    }
+}
+
+/// The status, on one line of the terminal.
+class StatusLine {
+ public:
+    explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+    void show(const live::LiveReport& report, const live::LiveStatus& status) const {
+        if (!is_shown_) return;
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "%.1f turns/s, latency p50 %.2f p99 %.2f max %.2f ms, lost %zu, late %zu, "
+                      "foreign %zu, nearest %.1f m%s",
+                      status.turns_per_s, 1e3 * status.p50_s, 1e3 * status.p99_s,
+                      1e3 * status.max_s, report.lost, report.late,
+                      report.foreign + report.wrong_size, static_cast<double>(status.nearest_m),
+                      status.is_silent ? ", silent" : "");
+        std::cerr << clearLine << text << std::flush;
+    }
+    void clear() const {
+        if (is_shown_) std::cerr << clearLine << std::flush;
+    }
+
+ private:
+    bool is_shown_;
+};
+
+void printSummary(const live::LiveReport& r) {
+    std::printf("%zu packets in %zu turns, %zu lost, %zu late, %zu repeated, %zu dropped\n",
+                r.packets, r.scans, r.lost, r.late, r.repeated, r.dropped);
+    std::printf(
+        "left out: %zu datagrams of another size, %zu of other sensors, %zu of position "
+        "or IMU\n",
+        r.wrong_size, r.foreign, r.position);
+    std::printf("%zu sectors, %zu returns, %zu RoI\n", r.sectors, r.returns, r.roi);
+    if (r.latency.count() > 0) {
+        std::printf(
+            "from a sector's last packet to its labels: p50 %.2f, p99 %.2f, p99.9 %.2f, "
+            "max %.2f ms\n",
+            1e3 * r.latency.quantile_s(0.5), 1e3 * r.latency.quantile_s(0.99),
+            1e3 * r.latency.quantile_s(0.999), 1e3 * r.latency.max_s());
+    }
+    for (const auto& file : r.recorded.files) std::cout << "recorded: " << file.string() << "\n";
+    if (r.recorded.left_out > 0) {
+        std::cout << r.recorded.left_out << " turns are not recorded: the disk was too slow\n";
+    }
+}
+
+int run(const Program& program, Flags& flags) {
+    check(flags);
+    try {
+        for (const std::string& config : flags.configs) {
+            observations::mergeSettings(observations::presetFile(config), flags.live.settings);
+        }
+        std::unique_ptr<live::PacketSource> source;
+        if (!flags.replay.empty()) {
+            source = std::make_unique<live::ReplaySource>(flags.replay, flags.speed);
+        } else {
+            live::Address address;
+            try {
+                address = live::parseAddress(flags.listen);
+            } catch (const std::runtime_error& e) {
+                throw UsageError("--listen", e.what());
+            }
+            source = std::make_unique<live::UdpSource>(address);
+            if (!flags.is_quiet) std::cerr << "listening on " << flags.listen << "\n";
+        }
+        catchSignals();
+        const StatusLine line(flags.is_quiet);
+        live::LiveListener listener;
+        listener.keep_going = [] { return !isInterrupted(); };
+        listener.status = [&](const auto& report, const auto& status) {
+            line.show(report, status);
+        };
+        listener.remark = [&](const std::string& remark) {
+            line.clear();
+            if (!flags.is_quiet) std::cerr << remark << "\n";
+        };
+        const live::LiveReport report = live::runLive(*source, flags.live, listener);
+        line.clear();
+        if (!flags.is_quiet) printSummary(report);
+        if (report.packets > 0) return kDone;
+        return program.fail(kFailed, "no packet of a " + flags.live.model + " has come");
+    } catch (const observations::SettingsError& e) {
+        return program.fail(kWrongUsage, e.what());
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Program program(
+        "live-segment",
+        "Separates near obstacles (RoI) from ground and far returns (ROU) while a LiDAR "
+        "sends its packets, before its turn ends.");
+    program.footer(
+        "Examples:\n"
+        "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.rawlog\n"
+        "  live-segment --replay flight.pcap --model HDL-32E -c hdl32e --stats flight.json\n"
+        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+    Flags flags;
+    declare(program, flags);
+    return program.run(argc, argv, [&] { return run(program, flags); });
+}

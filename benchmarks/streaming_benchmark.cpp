@@ -1,0 +1,281 @@
+// What labels of sectors cost, and how they differ from those of whole scans: the table of
+// docs/live.md.
+#include <hagen/base/NumberText.h>
+#include <hagen/base/ProcessCost.h>
+#include <hagen/base/Quantile.h>
+#include <hagen/logs/ScanFolder.h>
+#include <hagen/logs/ScanSource.h>
+#include <hagen/observations/ObservationScan.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/streaming/VelodyneStream.h>
+#include <mrpt/math/CQuaternion.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace hagen;
+using mrpt::obs::CObservationVelodyneScan;
+
+constexpr float kNear_m = 5;
+
+/// A turn of a recording, and its labels by the whole scan.
+struct Turn {
+    CObservationVelodyneScan::ConstPtr packets;
+    std::optional<Attitude> attitude;
+    std::optional<Eigen::Isometry3d> pose;
+    std::vector<Label> whole, truth;
+    std::vector<float> range_m;
+    std::vector<std::uint16_t> place;  ///< degree and row of each return
+};
+
+struct Recording {
+    std::vector<Turn> turns;
+    observations::Settings settings;
+    double whole_us = 0;  ///< median CPU time of the filter on a whole scan
+};
+
+struct Confusion {
+    std::size_t hits = 0, missed = 0, false_alarms = 0;
+    void add(Label label, Label truth) {
+        if (truth == Label::Unclassified || label == Label::Unclassified) return;
+        hits += label == Label::Roi && truth == Label::Roi;
+        missed += label != Label::Roi && truth == Label::Roi;
+        false_alarms += label == Label::Roi && truth != Label::Roi;
+    }
+    double f1() const {
+        const std::size_t all = 2 * hits + missed + false_alarms;
+        return all == 0 ? std::nan("")
+                        : 200.0 * static_cast<double>(hits) / static_cast<double>(all);
+    }
+};
+
+Eigen::Isometry3d isometryOf(const mrpt::poses::CPose3D& pose) {
+    return Eigen::Isometry3d(pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen());
+}
+
+Recording read(const std::string& file, const std::string& preset, bool levels) {
+    Recording recording;
+    if (!preset.empty()) observations::mergeSettings(preset, recording.settings);
+    const auto source = logs::openRecording(file);
+    source->usePoses({});
+    observations::ObservedScan observed;
+    std::optional<HagenFilter> filter;
+    const std::string truth_folder = file.substr(0, file.rfind('.')) + ".truth";
+    std::optional<logs::ScanFolder> folder;
+    if (std::filesystem::exists(truth_folder)) folder.emplace(truth_folder);
+    std::vector<double> whole_us;
+    while (const auto scan = source->nextScan()) {
+        Turn turn;
+        turn.packets = std::dynamic_pointer_cast<const CObservationVelodyneScan>(scan->observation);
+        if (!turn.packets) continue;
+        if (levels) turn.attitude = scan->pose.attitude;
+        if (scan->pose.sensor_pose) turn.pose = isometryOf(*scan->pose.sensor_pose);
+        observations::readObservation(*turn.packets, recording.settings, observed);
+        if (!filter) filter.emplace(observed.sensor, recording.settings.options);
+        const auto start = base::threadCpuTime();
+        turn.whole = filter->segment(observed.scan, turn.attitude).returns.label;
+        whole_us.push_back(
+            std::chrono::duration<double, std::micro>(base::threadCpuTime() - start).count());
+        turn.range_m = observed.scan.range_m;
+        for (std::size_t i = 0; i < observed.scan.size(); ++i) {
+            const double azimuth_deg = degrees(observed.scan.azimuth_rad[i]);
+            const int degree = std::min(359, static_cast<int>(azimuth_deg + 180));
+            turn.place.push_back(static_cast<std::uint16_t>(degree * 128 + observed.scan.row[i]));
+        }
+        if (folder && recording.turns.size() < folder->size()) {
+            for (const auto word : logs::readLabels(folder->labelFile(recording.turns.size()))) {
+                turn.truth.push_back(static_cast<Label>(word & 0xffff));
+            }
+            if (turn.truth.size() != turn.whole.size()) turn.truth.clear();
+        }
+        recording.turns.push_back(std::move(turn));
+    }
+    recording.whole_us = base::quantile(whole_us, 0.5);
+    return recording;
+}
+
+struct Figures {
+    std::size_t same = 0, different = 0, near = 0, near_missed = 0, near_missed_long = 0;
+    Confusion whole, streamed;
+    std::vector<double> sector_us;
+    double turn_us = 0;
+};
+
+/// What is known of the sensor's motion.
+enum class Known { Nothing, Attitude, Pose };
+
+Attitude attitudeOf(const Eigen::Isometry3d& pose) {
+    const Eigen::Vector3d up = pose.linear().transpose() * Eigen::Vector3d::UnitZ();
+    return {static_cast<float>(std::atan2(up.y(), up.z())),
+            static_cast<float>(std::asin(std::clamp(-up.x(), -1.0, 1.0)))};
+}
+
+void setMotion(const Recording& recording, std::size_t k, double part, Known known,
+               streaming::VelodyneStream& packets) {
+    const Turn& turn = recording.turns[k];
+    const bool has_next = k + 1 < recording.turns.size() && recording.turns[k + 1].pose;
+    if (known == Known::Nothing || !turn.pose || !has_next) return;
+    const Eigen::Isometry3d& a = *turn.pose;
+    const Eigen::Isometry3d& b = *recording.turns[k + 1].pose;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = (1 - part) * a.translation() + part * b.translation();
+    pose.linear() = Eigen::Quaterniond(a.linear())
+                        .slerp(part, Eigen::Quaterniond(b.linear()))
+                        .toRotationMatrix();
+    packets.setAttitude(attitudeOf(pose));
+    if (known == Known::Pose) packets.setPose(pose);
+}
+
+void stream(const Recording& recording, const streaming::StreamingOptions& options, Known known,
+            Figures& figures) {
+    std::vector<Label> labels;
+    std::vector<bool> is_doubtful;
+    double label_us = 0;
+    const auto take = [&](const streaming::LabelledSector& sector) {
+        labels.insert(labels.end(), sector.label.begin(), sector.label.end());
+        is_doubtful.resize(labels.size(), sector.is_doubtful);
+    };
+    const auto& model =
+        observations::velodyneModel(observations::sensorOf(*recording.turns.front().packets).name);
+    streaming::VelodyneStream packets(model, recording.settings, take, options);
+    double time_s = 0;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < recording.turns.size(); ++k) {
+        const Turn& turn = recording.turns[k];
+        const auto& raw = turn.packets->scan_packets;
+        for (std::size_t p = 0; p < raw.size(); ++p) {
+            const double part = static_cast<double>(p) / static_cast<double>(raw.size());
+            setMotion(recording, k, part, known, packets);
+            time_s += 1e-6 * model.packetPeriodUs(false);
+            const std::size_t before = packets.segmenter().sectors();
+            const auto start = base::threadCpuTime();
+            packets.add(reinterpret_cast<const std::uint8_t*>(&raw[p]), sizeof raw[p], time_s);
+            const double us =
+                std::chrono::duration<double, std::micro>(base::threadCpuTime() - start).count();
+            label_us += us;
+            if (k > 0 && packets.segmenter().sectors() > before) figures.sector_us.push_back(us);
+        }
+        count += 1;
+    }
+    packets.flush();
+    figures.turn_us += label_us / static_cast<double>(count);
+    std::size_t at = 0;
+    // Where a near return was missed: by degree and row.
+    std::vector<bool> missed(360 * 128), missed_before;
+    for (std::size_t k = 0; k < recording.turns.size(); ++k) {
+        const Turn& turn = recording.turns[k];
+        missed_before = missed;
+        missed.assign(missed.size(), false);
+        for (std::size_t i = 0; i < turn.whole.size(); ++i, ++at) {
+            if (is_doubtful[at]) continue;
+            const Label label = labels.at(at);
+            const bool is_same = label == turn.whole[i];
+            figures.same += is_same;
+            figures.different += !is_same;
+            if (turn.whole[i] == Label::Roi && turn.range_m[i] < kNear_m) {
+                ++figures.near;
+                if (label != Label::Roi) {
+                    ++figures.near_missed;
+                    figures.near_missed_long += missed_before[turn.place[i]];
+                    missed[turn.place[i]] = true;
+                }
+            }
+            if (!turn.truth.empty() && turn.range_m[i] <= recording.settings.options.zone_m) {
+                figures.whole.add(turn.whole[i], turn.truth[i]);
+                figures.streamed.add(label, turn.truth[i]);
+            }
+        }
+    }
+}
+
+int run(int argc, char** argv) {
+    std::vector<std::string> files;
+    std::string preset;
+    std::vector<streaming::StreamingOptions> all;
+    Known known = Known::Nothing;
+    double skip_rad = streaming::StreamingOptions().skip_ahead_rad;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "-c" && i + 1 < argc) {
+            preset = argv[++i];
+        } else if (word == "--attitude") {
+            known = Known::Attitude;
+        } else if (word == "--pose") {
+            known = Known::Pose;
+        } else if (word == "--skip-deg" && i + 1 < argc) {
+            skip_rad = radians(std::atof(argv[++i]));
+        } else if (word == "--try" && i + 3 < argc) {
+            streaming::StreamingOptions options;
+            options.sector_rad = radians(std::atof(argv[++i]));
+            options.window_rad = radians(std::atof(argv[++i]));
+            options.keep_every = std::atoi(argv[++i]);
+            all.push_back(options);
+        } else {
+            files.push_back(word);
+        }
+    }
+    if (files.empty()) {
+        std::fprintf(stderr,
+                     "Usage: streaming-benchmark [-c SETTINGS] [--skip-deg ANGLE] [--attitude | "
+                     "--pose] [--context-s "
+                     "S] [--try SECTOR_DEG "
+                     "WINDOW_DEG EVERY]... RECORDING...\nGround truth: RECORDING.truth beside "
+                     "RECORDING.rawlog (rawlog-simulate --kitti)\n");
+        return 2;
+    }
+    if (all.empty()) all.emplace_back();
+    for (auto& options : all) options.skip_ahead_rad = skip_rad;
+    std::vector<Recording> recordings;
+    for (const std::string& file : files) {
+        recordings.push_back(read(file, preset, known != Known::Nothing));
+        std::printf("%s: %zu turns, whole scan %.0f us\n", file.c_str(),
+                    recordings.back().turns.size(), recordings.back().whole_us);
+    }
+    std::printf(
+        "| sector | window | every | equal %% | worst %% | RoI < 5 m missed | in two turns | F1 "
+        "whole | F1 | "
+        "ms/turn | sector us p50 | p99 | p99.9 "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const auto& options : all) {
+        Figures sum;
+        double worst = 100;
+        for (const Recording& recording : recordings) {
+            const std::size_t same = sum.same, different = sum.different;
+            stream(recording, options, known, sum);
+            const auto n_same = static_cast<double>(sum.same - same);
+            const auto n_all = n_same + static_cast<double>(sum.different - different);
+            if (n_all > 0) worst = std::min(worst, 100 * n_same / n_all);
+        }
+        std::printf(
+            "| %.1f | %.0f | %d | %.2f | %.2f | %zu of %zu | %zu | %.2f | %.2f | %.2f | %.0f | "
+            "%.0f | %.0f |\n",
+            degrees(options.sector_rad), degrees(options.window_rad), options.keep_every,
+            100.0 * static_cast<double>(sum.same) / static_cast<double>(sum.same + sum.different),
+            worst, sum.near_missed, sum.near, sum.near_missed_long, sum.whole.f1(),
+            sum.streamed.f1(), 1e-3 * sum.turn_us / static_cast<double>(recordings.size()),
+            base::quantile(sum.sector_us, 0.5), base::quantile(sum.sector_us, 0.99),
+            base::quantile(sum.sector_us, 0.999));
+        std::fflush(stdout);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "streaming-benchmark: %s\n", e.what());
+        return 1;
+    }
+}

@@ -1,0 +1,41 @@
+// Labels before the turn ends: packets of a VLP-16 in, the nearest obstacle in each direction out.
+#include <hagen/live/PacketSource.h>
+#include <hagen/streaming/SectorDistances.h>
+#include <hagen/streaming/VelodyneStream.h>
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+    using namespace hagen;
+    try {
+        // What is done with each sector, a few milliseconds after its last packet.
+        streaming::SectorDistances distances(sensorModel("VLP-16"));
+        streaming::VelodyneStream stream(
+            observations::velodyneModel("VLP-16"), {},
+            [&](const streaming::LabelledSector& sector) { distances.take(sector); });
+        // With an IMU: stream.setAttitude() before each packet.
+
+        live::UdpSource source(live::parseAddress(argc > 1 ? argv[1] : "0.0.0.0:2368"));
+        live::Packet packet;
+        for (double next_s = live::steadyNow_s();;) {
+            if (source.next(packet) == live::PacketSource::Next::Packet) {
+                stream.add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s);
+            }
+            if (live::steadyNow_s() < next_s) continue;
+            next_s += 0.1;
+            for (const auto& s : distances.at(live::steadyNow_s())) {
+                const bool is_free = s.state == streaming::SectorDistances::State::SeenNothing;
+                if (s.state == streaming::SectorDistances::State::Obstacle) {
+                    std::printf("%4.1f ", static_cast<double>(s.distance_m));
+                } else {
+                    std::printf("%4s ", is_free ? "-" : "?");
+                }
+            }
+            std::printf("\n");
+        }
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        return 1;
+    }
+}

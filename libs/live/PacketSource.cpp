@@ -1,0 +1,166 @@
+#include <hagen/live/PacketSource.h>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+namespace hagen::live {
+namespace {
+
+constexpr int kBufferBytes = 8 << 20;      // a second of an HDL-64E
+constexpr std::size_t kMostBytes = 65536;  // of a datagram
+constexpr double kLongestWait_s = 0.1;
+
+[[noreturn]] void fail(const std::string& what) {
+    throw std::runtime_error(what + ": " + std::system_category().message(errno));
+}
+
+std::int64_t nanoseconds(const timespec& time) {
+    return std::int64_t{time.tv_sec} * 1000000000 + time.tv_nsec;
+}
+
+}  // namespace
+
+Address parseAddress(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    const std::string host = text.substr(0, colon);
+    in_addr ip{};
+    if (colon == std::string::npos || inet_pton(AF_INET, host.c_str(), &ip) != 1) {
+        throw std::runtime_error("'" + text +
+                                 "' is no IPv4 address and port, such as 0.0.0.0:2368");
+    }
+    const std::string port = text.substr(colon + 1);
+    const bool is_number = !port.empty() && port.size() <= 5 &&
+                           port.find_first_not_of("0123456789") == std::string::npos;
+    const int number = is_number ? std::stoi(port) : 0;
+    if (number < 1 || number > 65535) {
+        throw std::runtime_error("'" + text + "': the port must be 1 to 65535");
+    }
+    return {ntohl(ip.s_addr), static_cast<std::uint16_t>(number)};
+}
+
+UdpSource::UdpSource(const Address& address)
+    : port_(address.port),
+      name_(captures::ipText(address.ip) + ":" + std::to_string(address.port)),
+      buffer_(kMostBytes) {
+    socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (socket_ < 0) fail(name_);
+    try {
+        const int yes = 1;
+        // More than net.core.rmem_max is not given, unless the process may.
+        if (setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &kBufferBytes, sizeof kBufferBytes) !=
+            0)
+            setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &kBufferBytes, sizeof kBufferBytes);
+        socklen_t size = sizeof buffer_bytes_;
+        getsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes_, &size);
+        setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
+        // Several programs may listen to a group; of other addresses, a second one would take the
+        // packets away.
+        if (address.isMulticast()) {
+            setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+        }
+        sockaddr_in at{};
+        at.sin_family = AF_INET;
+        at.sin_port = htons(address.port);
+        at.sin_addr.s_addr = htonl(address.ip);
+        if (bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0) {
+            fail(name_ + ": cannot listen");
+        }
+        if (address.isMulticast()) {
+            ip_mreq group{};
+            group.imr_multiaddr.s_addr = htonl(address.ip);
+            if (setsockopt(socket_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) != 0) {
+                fail(name_ + ": cannot join the group");
+            }
+        }
+    } catch (...) {
+        close(socket_);
+        throw;
+    }
+}
+
+UdpSource::~UdpSource() { close(socket_); }
+
+PacketSource::Next UdpSource::next(Packet& packet) {
+    pollfd waits{socket_, POLLIN, 0};
+    const int ready = poll(&waits, 1, static_cast<int>(1000 * kLongestWait_s));
+    if (ready < 0 && errno != EINTR) fail(name_);
+    if (ready <= 0) return Next::Nothing;
+    sockaddr_in from{};
+    iovec part{buffer_.data(), buffer_.size()};
+    alignas(cmsghdr) std::array<char, 128> control{};
+    msghdr message{};
+    message.msg_name = &from;
+    message.msg_namelen = sizeof from;
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    const ssize_t size = recvmsg(socket_, &message, MSG_DONTWAIT);
+    if (size < 0) {
+        // A port that nobody has is told to a socket that has sent; ours has not.
+        if (errno == EINTR || errno == EAGAIN || errno == ECONNREFUSED) return Next::Nothing;
+        fail(name_);
+    }
+    packet.bytes.assign(buffer_.begin(), buffer_.begin() + size);
+    packet.from_ip = ntohl(from.sin_addr.s_addr);
+    packet.to_port = port_;
+    packet.arrival_s = steadyNow_s();
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    packet.time_ns = nanoseconds(now);
+    for (cmsghdr* part_of = CMSG_FIRSTHDR(&message); part_of != nullptr;
+         part_of = CMSG_NXTHDR(&message, part_of)) {
+        if (part_of->cmsg_level != SOL_SOCKET || part_of->cmsg_type != SCM_TIMESTAMPNS) continue;
+        timespec stamp{};
+        std::memcpy(&stamp, CMSG_DATA(part_of), sizeof stamp);
+        const std::int64_t waited_ns = packet.time_ns - nanoseconds(stamp);
+        // The system's clock may have been set meanwhile.
+        if (waited_ns < 0 || waited_ns > 1000000000) continue;
+        packet.arrival_s -= 1e-9 * static_cast<double>(waited_ns);
+        packet.time_ns -= waited_ns;
+    }
+    return Next::Packet;
+}
+
+ReplaySource::ReplaySource(const std::filesystem::path& file, double speed)
+    : capture_(file), speed_(speed) {}
+
+PacketSource::Next ReplaySource::next(Packet& packet) {
+    if (!has_waiting_) {
+        if (!capture_.next(waiting_)) return Next::End;
+        has_waiting_ = true;
+        if (!first_ns_) {
+            first_ns_ = waiting_.time_ns;
+            start_s_ = steadyNow_s();
+        }
+    }
+    const double due_s =
+        start_s_ + 1e-9 * static_cast<double>(waiting_.time_ns - *first_ns_) / speed_;
+    const double wait_s = due_s - steadyNow_s();
+    if (wait_s > 0) {
+        std::this_thread::sleep_for(
+            std::chrono::duration<double>(std::min(wait_s, kLongestWait_s)));
+        if (wait_s > kLongestWait_s) return Next::Nothing;
+    }
+    has_waiting_ = false;
+    packet.bytes.assign(waiting_.bytes, waiting_.bytes + waiting_.size);
+    packet.time_ns = waiting_.time_ns;
+    packet.from_ip = waiting_.from_ip;
+    packet.to_port = waiting_.to_port;
+    packet.arrival_s = steadyNow_s();
+    return Next::Packet;
+}
+
+}  // namespace hagen::live

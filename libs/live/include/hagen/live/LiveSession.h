@@ -1,0 +1,96 @@
+#pragma once
+#include <hagen/live/LatencyHistogram.h>
+#include <hagen/live/PacketSource.h>
+#include <hagen/live/TurnRecorder.h>
+#include <hagen/streaming/LivoxStream.h>
+#include <hagen/streaming/SectorDistances.h>
+#include <hagen/streaming/VelodyneStream.h>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace hagen::live {
+
+/// A sensor to label while it runs.
+struct LiveOptions {
+    /// "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
+    std::string model;
+    std::filesystem::path calibration;  ///< of an HDL-64E
+    observations::Settings settings;
+    streaming::StreamingOptions streaming;
+    TurnRecorder::Options recording;  ///< an empty name: none
+    std::filesystem::path stats;      ///< JSON; empty: none
+    bool overwrite = false;           ///< replaces an existing file of `stats`
+    double duration_s = std::numeric_limits<double>::infinity();
+};
+
+/// What came so far.
+struct LiveReport {
+    std::size_t datagrams = 0;   ///< all
+    std::size_t packets = 0;     ///< of the sensor, taken
+    std::size_t lost = 0;        ///< missing by the sensor's clock
+    std::size_t late = 0;        ///< came after a later one
+    std::size_t repeated = 0;    ///< came again
+    std::size_t wrong_size = 0;  ///< datagrams that are no data packets
+    std::size_t position = 0;    ///< position packets and those of an IMU
+    std::size_t foreign = 0;     ///< of another model, or of another sensor
+    std::size_t unsound = 0;     ///< without a sound block
+    std::size_t dropped = 0;     ///< the filter was too slow for
+    std::size_t interruptions = 0, mode_changes = 0, silences = 0;
+    std::size_t scans = 0;  ///< turns; of a sensor without turns, tenths of a second
+    std::size_t sectors = 0, sectors_cut = 0;
+    std::size_t sectors_doubtful = 0;  ///< too little of a turn was known: all near is RoI
+    std::size_t returns = 0, roi = 0;
+    LatencyHistogram latency;  ///< from a sector's last packet to its labels; not of those cut
+    /// The nearest RoI return of the run in each direction, as SectorDistances, but for doubtful
+    /// sectors; infinity: none.
+    std::array<float, streaming::SectorDistances::kSectors> nearest_m{};
+    std::array<streaming::SectorDistances::Sector, streaming::SectorDistances::kSectors> latest{};
+    double seconds = 0;             ///< that it ran
+    double filter_cpu_s = 0;        ///< CPU time of the thread that labels
+    double process_cpu_s = 0;       ///< of all threads
+    TurnRecorder::Counts recorded;  ///< if it was
+};
+
+/// The last second.
+struct LiveStatus {
+    double turns_per_s = 0;
+    double p50_s = 0, p99_s = 0, max_s = 0;                     ///< latency; NaN: no sector
+    float nearest_m = std::numeric_limits<float>::quiet_NaN();  ///< NaN: no obstacle is known
+    bool is_silent = false;
+};
+
+/// Callbacks of a session, all on the thread that calls run().
+struct LiveListener {
+    /// What the user should know now: silence, another mode, another rate.
+    std::function<void(const std::string& remark)> remark = [](const auto&) {};
+    /// Called every half a second.
+    std::function<void(const LiveReport&, const LiveStatus&)> status = [](const auto&,
+                                                                          const auto&) {};
+    /// Called with each labelled sector; keep it short.
+    std::function<void(const streaming::LabelledSector&)> sector = [](const auto&) {};
+    /// False ends the session.
+    std::function<bool()> keep_going = [] { return true; };
+};
+
+/// The models that LiveOptions takes: " VLP-16, ...".
+std::string liveModels();
+
+/// Throws std::runtime_error saying what is wrong, and what is supported, unless such a sensor can
+/// be labelled and recorded as the options say.
+void checkLive(const LiveOptions& options);
+
+/// Labels the packets of a source until it ends, the time is over or the listener says so. One
+/// thread receives, one labels (that of the caller), one records. What a packet holds never ends
+/// it.
+///
+/// Throws std::runtime_error naming the file or address that failed, and SettingsError.
+LiveReport runLive(PacketSource& source, const LiveOptions& options,
+                   const LiveListener& listener = {});
+
+}  // namespace hagen::live

@@ -1,0 +1,76 @@
+#pragma once
+#include <hagen/captures/CaptureFile.h>
+#include <hagen/live/PacketQueue.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hagen::live {
+
+/// An IPv4 address and a port.
+struct Address {
+    std::uint32_t ip = 0;  ///< 0: all of this machine
+    std::uint16_t port = 0;
+
+    bool isMulticast() const { return (ip >> 28) == 0xe; }
+};
+/// Reads "192.168.1.77:2368" or "0.0.0.0:2368". Throws std::runtime_error saying what is wrong.
+Address parseAddress(const std::string& text);
+
+/// Where packets come from.
+class PacketSource {
+ public:
+    enum class Next { Packet, Nothing, End };
+
+    virtual ~PacketSource() = default;
+    /// Waits for the next packet, at most a tenth of a second. Throws std::runtime_error naming the
+    /// source if it cannot be read.
+    virtual Next next(Packet& packet) = 0;
+    /// Whether packets are lost if nobody takes them in time.
+    virtual bool isLive() const = 0;
+};
+
+/// Datagrams that come to an address of this machine, or to a multicast group. Their arrival is
+/// that of the kernel's time stamp.
+class UdpSource : public PacketSource {
+ public:
+    /// Throws std::runtime_error naming the address if it cannot be listened on.
+    explicit UdpSource(const Address& address);
+    ~UdpSource() override;
+    UdpSource(const UdpSource&) = delete;
+    UdpSource& operator=(const UdpSource&) = delete;
+
+    Next next(Packet& packet) override;
+    bool isLive() const override { return true; }
+    /// Bytes that the kernel buffers.
+    int bufferBytes() const { return buffer_bytes_; }
+
+ private:
+    int socket_ = -1, buffer_bytes_ = 0;
+    std::uint16_t port_ = 0;
+    std::string name_;
+    std::vector<std::uint8_t> buffer_;
+};
+
+/// The datagrams of a capture, as fast as they were recorded, or `speed` times as fast.
+class ReplaySource : public PacketSource {
+ public:
+    /// Throws BrokenCapture naming the file.
+    ReplaySource(const std::filesystem::path& file, double speed);
+
+    Next next(Packet& packet) override;
+    bool isLive() const override { return false; }
+
+ private:
+    captures::CaptureFile capture_;
+    double speed_;
+    captures::Datagram waiting_;
+    bool has_waiting_ = false;
+    std::optional<std::int64_t> first_ns_;
+    double start_s_ = 0;
+};
+
+}  // namespace hagen::live

@@ -1,0 +1,108 @@
+#include <hagen/observations/Mount.h>
+#include <hagen/range_image/Airframe.h>
+#include <hagen/streaming/LivoxStream.h>
+
+#include <utility>
+
+namespace hagen::streaming {
+namespace {
+
+constexpr std::uint64_t kInterruption_ns = 1000000000;
+constexpr std::size_t kMostPackets = 1000;  // of a frame, whatever the clock says; usual are 42
+
+}  // namespace
+
+LivoxStream::LivoxStream(const observations::Settings& settings, StreamingSegmenter::Take take,
+                         double frame_s, double window_s)
+    : settings_(settings), frame_s_(frame_s) {
+    SensorModel sensor = sensorModel("Mid-360");
+    sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
+    sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
+    observations::filterFor(sensor, settings.options);  // throws SettingsError
+    StreamingOptions streaming;
+    // A frame counts as old as its last packet.
+    streaming.context_s = window_s - frame_s / 2;
+    segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
+                                                      std::move(take), streaming);
+    setAttitude({});
+}
+
+void LivoxStream::setAttitude(const std::optional<Attitude>& attitude) {
+    if (attitude) return segmenter_->setAttitude(attitude);
+    segmenter_->setAttitude(observations::sensorTilt({}, mrpt::poses::CPose3D(), settings_.mount));
+}
+
+void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
+    segmenter_->setPose(map_from_sensor);
+}
+
+LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size, double arrival_s) {
+    captures::Datagram datagram;
+    datagram.bytes = bytes;
+    datagram.size = size;
+    if (captures::isLivoxImu(datagram)) {
+        ++counts_.imu;
+        return Taken::Imu;
+    }
+    const auto packet = captures::livoxPacketOf(datagram);
+    if (!packet) {
+        ++counts_.foreign;
+        return Taken::Foreign;
+    }
+    bool is_late = false;
+    if (has_last_) {
+        const auto step =
+            static_cast<std::int16_t>(static_cast<std::uint16_t>(packet->number - last_number_));
+        if (step == 0 && packet->time_ns == last_ns_) {
+            ++counts_.repeated;
+            return Taken::Repeated;
+        }
+        const bool is_earlier = packet->time_ns < last_ns_;
+        const std::uint64_t gap_ns =
+            is_earlier ? last_ns_ - packet->time_ns : packet->time_ns - last_ns_;
+        if (gap_ns > kInterruption_ns) {
+            ++counts_.interruptions;
+            flush();
+            segmenter_->restart();
+        } else if (is_earlier) {
+            is_late = true;
+            ++counts_.late;
+            if (step < 0 && counts_.lost > 0) --counts_.lost;
+        } else if (step > 1) {
+            // The number starts again with each frame of some firmware.
+            counts_.lost += static_cast<std::size_t>(step - 1);
+        }
+    }
+    if (!is_begun_) {
+        is_begun_ = true;
+        start_ns_ = packet->time_ns;
+    }
+    if (!is_late) {
+        has_last_ = true;
+        last_ns_ = packet->time_ns;
+        last_number_ = packet->number;
+    }
+    ++counts_.packets;
+    ++packets_of_frame_;
+    last_arrival_s_ = arrival_s;
+    appendPoints(*packet, start_ns_, frame_, tags_);
+    const double packet_s = packet->point_interval_s * static_cast<double>(packet->count);
+    const bool is_whole =
+        last_ns_ >= start_ns_ &&
+        1e-9 * static_cast<double>(last_ns_ - start_ns_) + 1.5 * packet_s > frame_s_;
+    if (is_whole || packets_of_frame_ >= kMostPackets) flush();
+    return Taken::Yes;
+}
+
+void LivoxStream::flush() {
+    if (!is_begun_) return;
+    is_begun_ = false;
+    packets_of_frame_ = 0;
+    locateBeams(segmenter_->sensor(), frame_);
+    counts_.returns_masked += maskAirframe(settings_.airframe.parts, frame_);
+    segmenter_->addFrame(frame_, last_arrival_s_);
+    frame_.clear();
+    tags_.clear();
+}
+
+}  // namespace hagen::streaming

@@ -1,0 +1,113 @@
+#include <hagen/range_image/Angle.h>
+#include <hagen/streaming/SectorDistances.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagen::streaming {
+namespace {
+
+constexpr double kTurn_rad = 2 * kPi;
+// Packets begin and end between the firings, and beams have a width.
+constexpr double kTolerance_rad = 0.005;
+constexpr double kPeriod_s = 0.1;  // of a sensor without turns
+
+}  // namespace
+
+SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& settings)
+    : settings_(settings) {
+    const double lowest_rad = static_cast<double>(sensor.elevations_rad.front());
+    const double highest_rad = static_cast<double>(sensor.elevations_rad.back());
+    const Eigen::Matrix3d sensor_from_body =
+        settings.body_from_sensor.linear().cast<double>().transpose();
+    for (int bin = 0; bin < kBins; ++bin) {
+        const double clockwise_rad = (bin + 0.5) * kTurn_rad / kBins;
+        const Eigen::Vector3d ahead =
+            sensor_from_body *
+            Eigen::Vector3d(std::cos(clockwise_rad), -std::sin(clockwise_rad), 0);
+        const double elevation_rad = std::asin(std::clamp(ahead.z(), -1.0, 1.0));
+        const bool is_seen = elevation_rad >= lowest_rad && elevation_rad <= highest_rad;
+        sensor_rad_[bin] = is_seen ? -std::atan2(ahead.y(), ahead.x()) : std::nan("");
+    }
+}
+
+/// Without turns: what was seen in the period before the last one is forgotten.
+void SectorDistances::beginFrame(double time_s) {
+    const double since_s = time_s - period_start_s_;
+    if (since_s >= 0 && since_s < kPeriod_s) return;
+    period_start_s_ = time_s;
+    for (Bin& bin : bins_) {
+        bin.earlier_roi_m = bin.roi_m;
+        if (since_s < 0 || since_s >= 2 * kPeriod_s) bin.earlier_roi_m = kNothing;
+        bin.roi_m = kNothing;
+    }
+}
+
+void SectorDistances::take(const LabelledSector& sector) {
+    const double now_rad = sector.sweep ? sector.sweep->to_rad : 0;
+    if (!sector.sweep) beginFrame(sector.first_time_s);
+    for (int bin = 0; bin < kBins; ++bin) {
+        if (std::isnan(sensor_rad_[bin])) continue;
+        if (sector.sweep) {
+            // A bin counts as swept with the sector that has its centre.
+            const double into_rad = sensor_rad_[bin] - sector.sweep->from_rad + kTolerance_rad;
+            const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
+            const double width_rad = sector.sweep->to_rad - sector.sweep->from_rad;
+            if (turned_rad > width_rad + 2 * kTolerance_rad) continue;
+        }
+        bins_[bin].swept_s = sector.first_time_s;
+        bins_[bin].swept_rad = now_rad;
+    }
+    const Scan& scan = sector.returns;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (sector.label[i] != Label::Roi) continue;
+        const Eigen::Vector3f at =
+            settings_.body_from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+        if (at.z() < settings_.low_m || at.z() > settings_.high_m) continue;
+        const double clockwise_rad = -std::atan2(static_cast<double>(at.y()), at.x());
+        const double turned_rad = clockwise_rad < 0 ? clockwise_rad + kTurn_rad : clockwise_rad;
+        Bin& bin = bins_[std::min(static_cast<int>(turned_rad / kTurn_rad * kBins), kBins - 1)];
+        // What an earlier turn saw is replaced. The sectors on both sides of a bin's centre are of
+        // the same turn.
+        const bool is_replaced = std::abs(now_rad - bin.roi_rad) > kPi;
+        const float distance_m = at.head<2>().norm();
+        bin.roi_m = is_replaced ? distance_m : std::min(bin.roi_m, distance_m);
+        bin.roi_s = sector.first_time_s;
+        bin.roi_rad = now_rad;
+    }
+}
+
+std::array<SectorDistances::Sector, SectorDistances::kSectors> SectorDistances::at(
+    double now_s) const {
+    std::array<Sector, kSectors> sectors;
+    const auto isFresh = [&](double time_s) {
+        const double age_s = now_s - time_s;
+        return age_s >= 0 && age_s <= settings_.stale_s;
+    };
+    for (int k = 0; k < kSectors; ++k) {
+        Sector& sector = sectors[k];
+        bool is_swept = true;
+        double oldest_s = now_s, nearest_m = std::numeric_limits<double>::infinity();
+        for (int bin = k * kParts; bin < (k + 1) * kParts; ++bin) {
+            const Bin& b = bins_[bin];
+            // An obstacle is gone once the bin was swept again without it, or when it is stale.
+            const float roi_m = std::min(b.roi_m, b.earlier_roi_m);
+            const bool is_gone = std::abs(b.swept_rad - b.roi_rad) > kPi && b.swept_s > b.roi_s;
+            if (isFresh(b.roi_s) && !is_gone && std::isfinite(roi_m)) {
+                nearest_m = std::min(nearest_m, static_cast<double>(roi_m));
+                oldest_s = std::min(oldest_s, b.roi_s);
+            }
+            is_swept = is_swept && isFresh(b.swept_s);
+            if (isFresh(b.swept_s)) oldest_s = std::min(oldest_s, b.swept_s);
+        }
+        if (std::isfinite(nearest_m)) {
+            sector = {State::Obstacle, static_cast<float>(nearest_m), oldest_s};
+        } else if (is_swept) {
+            sector.state = State::SeenNothing;
+            sector.time_s = oldest_s;
+        }
+    }
+    return sectors;
+}
+
+}  // namespace hagen::streaming

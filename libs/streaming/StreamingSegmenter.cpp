@@ -1,0 +1,278 @@
+#include <hagen/range_image/Angle.h>
+#include <hagen/range_image/RangeImage.h>
+#include <hagen/streaming/StreamingSegmenter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace hagen::streaming {
+namespace {
+
+constexpr double kTurn_rad = 2 * kPi;
+constexpr std::size_t kMostPackets = 4000;  // whatever the clock says; a turn has up to 600
+constexpr double kRounding_rad = 0.01;      // of where packets begin and end
+// Less than this moves no return to another pixel.
+constexpr double kLeastMotion_m = 0.01, kLeastMotion_rad = 1e-3;
+
+template <class Value>
+void append(const std::vector<Value>& from, std::vector<Value>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+void append(const Scan& from, Scan& to) {
+    append(from.x_m, to.x_m);
+    append(from.y_m, to.y_m);
+    append(from.z_m, to.z_m);
+    append(from.intensity, to.intensity);
+    append(from.range_m, to.range_m);
+    append(from.azimuth_rad, to.azimuth_rad);
+    append(from.row, to.row);
+}
+
+void append(const Scan& from, std::size_t i, Scan& to) {
+    to.x_m.push_back(from.x_m[i]);
+    to.y_m.push_back(from.y_m[i]);
+    to.z_m.push_back(from.z_m[i]);
+    to.intensity.push_back(from.intensity[i]);
+    to.range_m.push_back(from.range_m[i]);
+    to.azimuth_rad.push_back(from.azimuth_rad[i]);
+    to.row.push_back(from.row[i]);
+}
+
+bool isStill(const Eigen::Isometry3d& motion) {
+    return motion.translation().norm() < kLeastMotion_m &&
+           Eigen::AngleAxisd(motion.linear()).angle() < kLeastMotion_rad;
+}
+
+/// The angle between two directions that a sensor swept, in any turn.
+double between(const Sweep& a, const Sweep& b) {
+    const double middle =
+        std::abs(std::remainder((a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2, kTurn_rad));
+    return middle - (a.to_rad - a.from_rad + b.to_rad - b.from_rad) / 2;
+}
+
+void check(bool is_right, const std::string& what) {
+    if (!is_right) throw std::invalid_argument("streaming: " + what);
+}
+
+}  // namespace
+
+StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take take,
+                                       const StreamingOptions& streaming)
+    : filter_(std::move(sensor), options), streaming_(streaming), take_(std::move(take)) {
+    check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
+          "sector_rad must be above 0 and at most a turn");
+    check(streaming.window_rad >= 0, "window_rad must not be negative");
+    check(streaming.skip_ahead_rad >= 0 && streaming.skip_ahead_rad < kPi,
+          "skip_ahead_rad must be at least 0 and less than half a turn");
+    check(streaming.keep_every >= 0, "keep_every must not be negative");
+    check(streaming.context_s > 0, "context_s must be positive");
+    check(streaming.least_known_rad >= 0 && streaming.least_known_rad <= kTurn_rad,
+          "least_known_rad must be at least 0 and at most a turn");
+    check(streaming.longest_sector_s > 0, "longest_sector_s must be positive");
+    check(take_ != nullptr, "there is no function that takes the sectors");
+}
+
+void StreamingSegmenter::setAttitude(const std::optional<Attitude>& attitude) {
+    attitude_ = attitude;
+}
+
+void StreamingSegmenter::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
+    pose_ = map_from_sensor;
+}
+
+StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double time_s) {
+    checkLocated(returns, filter_.sensor());
+    if (packets_.size() >= kMostPackets) restart();
+    if (spare_.empty()) {
+        packets_.emplace_back();
+    } else {
+        packets_.push_back(std::move(spare_.back()));
+        spare_.pop_back();
+    }
+    ++open_;
+    Packet& packet = packets_.back();
+    packet.returns.clear();
+    append(returns, packet.returns);
+    packet.returns.intensity.resize(returns.size());
+    packet.returns.beams = returns.beams;
+    packet.thinned.clear();
+    packet.sweep.reset();
+    packet.time_s = time_s;
+    packet.pose = pose_;
+    if (!pose_ && attitude_) {
+        packet.pose = Eigen::Isometry3d::Identity();
+        packet.pose->linear() = levelFromSensor(*attitude_).cast<double>();
+    }
+    return packet;
+}
+
+/// Each n-th column, so that those that are left have all their beams.
+void StreamingSegmenter::thin(Packet& packet) const {
+    if (streaming_.keep_every == 0) return;
+    const Scan& all = packet.returns;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const int column = nearestColumn(all.azimuth_rad[i], filter_.options().columns);
+        if (column % streaming_.keep_every == 0) append(all, i, packet.thinned);
+    }
+}
+
+void StreamingSegmenter::add(const Scan& returns, const Sweep& sweep, double time_s) {
+    if (open_ > 0 && time_s - packets_[packets_.size() - open_].time_s > streaming_.context_s) {
+        flush();
+    }
+    const bool is_first = packets_.empty();
+    Packet& packet = push(returns, time_s);
+    packet.sweep = sweep;
+    thin(packet);
+    if (is_first) {
+        head_rad_ = sweep.to_rad;
+        start_rad_ = sweep.from_rad;
+    } else {
+        head_rad_ = std::max(head_rad_, sweep.to_rad);
+        if (open_ == 1) start_rad_ = sweep.from_rad;
+        start_rad_ = std::min(start_rad_, sweep.from_rad);
+    }
+    const double swept_rad = head_rad_ - start_rad_;
+    const double packet_rad = std::max(0.0, sweep.to_rad - sweep.from_rad);
+    const double lasted_s = time_s - packets_[packets_.size() - open_].time_s;
+    if (swept_rad + packet_rad > streaming_.sector_rad * (1 + 1e-9) ||
+        lasted_s > streaming_.longest_sector_s) {
+        label(false);
+    }
+}
+
+void StreamingSegmenter::addFrame(const Scan& returns, double time_s) {
+    push(returns, time_s);
+    label(false);
+}
+
+void StreamingSegmenter::flush() {
+    if (open_ > 0) label(true);
+}
+
+void StreamingSegmenter::restart() {
+    flush();
+    std::move(packets_.begin(), packets_.end(), std::back_inserter(spare_));
+    packets_.clear();
+}
+
+/// Packets that were overwritten by the latest turn, or that are too old. A clock that went back
+/// does not tell how old they are.
+void StreamingSegmenter::forget(double now_s) {
+    while (packets_.size() > open_) {
+        const Packet& oldest = packets_.front();
+        const bool is_overwritten = oldest.sweep && oldest.sweep->to_rad <= head_rad_ - kTurn_rad;
+        const double age_s = now_s - oldest.time_s;
+        if (!is_overwritten && age_s >= 0 && age_s < streaming_.context_s) break;
+        spare_.push_back(std::move(packets_.front()));
+        packets_.pop_front();
+    }
+}
+
+/// The returns ahead of the sensor of a packet that it has begun to overwrite.
+void StreamingSegmenter::addAhead(const Scan& scan, double head_rad) {
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const double clockwise_rad = -static_cast<double>(scan.azimuth_rad[i]);
+        if (std::remainder(clockwise_rad - head_rad, kTurn_rad) > 0) append(scan, i, window_);
+    }
+}
+
+/// Beams are located later, all at once.
+void StreamingSegmenter::addMoved(const Scan& scan, const Eigen::Isometry3d& motion) {
+    const Eigen::Matrix3f turn = motion.linear().cast<float>();
+    const Eigen::Vector3f way_m = motion.translation().cast<float>();
+    const std::size_t first = moved_.size();
+    for (auto* values : {&moved_.x_m, &moved_.y_m, &moved_.z_m, &moved_.intensity}) {
+        values->resize(first + scan.size());
+    }
+    std::size_t at = first;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const float x_m = scan.x_m[i], y_m = scan.y_m[i], z_m = scan.z_m[i];
+        moved_.x_m[at] = turn(0, 0) * x_m + turn(0, 1) * y_m + turn(0, 2) * z_m + way_m.x();
+        moved_.y_m[at] = turn(1, 0) * x_m + turn(1, 1) * y_m + turn(1, 2) * z_m + way_m.y();
+        moved_.z_m[at] = turn(2, 0) * x_m + turn(2, 1) * y_m + turn(2, 2) * z_m + way_m.z();
+        moved_.intensity[at] = scan.intensity[i];
+        at += std::isfinite(scan.range_m[i]);  // the airframe moves with the sensor
+    }
+    for (auto* values : {&moved_.x_m, &moved_.y_m, &moved_.z_m, &moved_.intensity}) {
+        values->resize(at);
+    }
+}
+
+void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
+    bool is_near = true, is_cut = false;
+    const Packet& latest = packets_.back();
+    const bool has_motion = packet.pose && latest.pose;
+    if (packet.sweep) {
+        const double ahead_rad = packet.sweep->from_rad - (head_rad_ - kTurn_rad);
+        if (!has_motion && ahead_rad < streaming_.skip_ahead_rad) return;
+        is_near = between(*packet.sweep, sector) <= streaming_.window_rad;
+        is_cut = packet.sweep->from_rad < head_rad_ - kTurn_rad;
+    }
+    const Scan& scan = is_near ? packet.returns : packet.thinned;
+    if (has_motion && !is_cut) {
+        const Eigen::Isometry3d motion = latest.pose->inverse() * *packet.pose;
+        if (!isStill(motion)) return addMoved(scan, motion);
+    }
+    if (is_cut) return addAhead(scan, head_rad_);
+    append(scan, window_);
+}
+
+/// Whether enough is in sight to tell what is ground.
+bool StreamingSegmenter::knowsEnough() const {
+    double known_rad = 0;
+    for (const Packet& packet : packets_) {
+        if (packet.sweep) known_rad += packet.sweep->to_rad - packet.sweep->from_rad;
+    }
+    if (!packets_.back().sweep) {
+        const double known_s = packets_.back().time_s - packets_.front().time_s;
+        known_rad = kTurn_rad * known_s / streaming_.context_s;
+    }
+    return known_rad >= streaming_.least_known_rad - kRounding_rad;
+}
+
+void StreamingSegmenter::label(bool is_cut) {
+    forget(packets_.back().time_s);
+    const std::size_t first_open = packets_.size() - open_;
+    const Packet& first = packets_[first_open];
+    const Packet& last = packets_.back();
+    const Sweep sector{start_rad_, head_rad_};
+
+    // The sector comes first, so that its labels are the first ones.
+    sector_.clear();
+    for (std::size_t i = first_open; i < packets_.size(); ++i) append(packets_[i].returns, sector_);
+    sector_.beams = last.returns.beams;
+    window_.clear();
+    append(sector_, window_);
+    window_.beams = sector_.beams;
+    moved_.clear();
+    for (std::size_t i = 0; i < first_open; ++i) addContext(packets_[i], sector);
+    locateBeams(filter_.sensor(), moved_);
+    append(moved_, window_);
+
+    const SegmentationResult& result = filter_.segment(window_, attitude_);
+    const auto begin = result.returns.label.begin();
+    labels_.assign(begin, begin + static_cast<std::ptrdiff_t>(sector_.size()));
+    const bool is_doubtful = !knowsEnough();
+    if (is_doubtful) {
+        for (std::size_t i = 0; i < labels_.size(); ++i) {
+            const bool is_in_zone = sector_.range_m[i] <= filter_.options().zone_m;
+            if (labels_[i] == Label::Rou && is_in_zone) labels_[i] = Label::Roi;
+        }
+    }
+    const bool turns = last.sweep.has_value();
+    const std::optional<Sweep>& oldest = packets_.front().sweep;
+    const bool has_turn =
+        turns ? oldest && oldest->from_rad < head_rad_ - kTurn_rad + kRounding_rad : first_open > 0;
+    ++sectors_;
+    open_ = 0;
+    take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt, first.time_s,
+           last.time_s, has_turn, is_doubtful, is_cut, result});
+}
+
+}  // namespace hagen::streaming

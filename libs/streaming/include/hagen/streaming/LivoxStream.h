@@ -1,0 +1,60 @@
+#pragma once
+#include <hagen/captures/LivoxPacket.h>
+#include <hagen/observations/Settings.h>
+#include <hagen/streaming/StreamingSegmenter.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace hagen::streaming {
+
+/// Labels the packets of a Livox Mid-360 frame by frame: each is 20 ms, judged together with the
+/// returns of the 80 ms before.
+class LivoxStream {
+ public:
+    struct Counts {
+        std::size_t packets = 0;        ///< taken
+        std::size_t imu = 0;            ///< packets of the IMU, left out
+        std::size_t foreign = 0;        ///< datagrams of something else
+        std::size_t repeated = 0;       ///< came again, left out
+        std::size_t late = 0;           ///< came after a later one; they join the frame in progress
+        std::size_t lost = 0;           ///< missing by their numbers
+        std::size_t interruptions = 0;  ///< jumps of the sensor's clock by more than a second
+        std::size_t returns_masked = 0;  ///< of the airframe
+    };
+    enum class Taken { Yes, Foreign, Repeated, Imu };
+
+    /// Throws SettingsError if the options do not fit the sensor.
+    LivoxStream(const observations::Settings& settings, StreamingSegmenter::Take take,
+                double frame_s = 0.02, double window_s = 0.1);
+
+    /// Takes a datagram that came at `arrival_s`, in seconds of any clock that does not go back.
+    Taken add(const std::uint8_t* bytes, std::size_t size, double arrival_s);
+    /// Labels what has come: the sensor is silent.
+    void flush();
+
+    /// As of StreamingSegmenter.
+    void setAttitude(const std::optional<Attitude>& attitude);
+    void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
+
+    const Counts& counts() const { return counts_; }
+    const StreamingSegmenter& segmenter() const { return *segmenter_; }
+
+ private:
+    observations::Settings settings_;
+    double frame_s_;
+    std::unique_ptr<StreamingSegmenter> segmenter_;
+    bool is_begun_ = false, has_last_ = false;
+    std::uint64_t start_ns_ = 0, last_ns_ = 0;
+    std::uint16_t last_number_ = 0;
+    std::size_t packets_of_frame_ = 0;
+    double last_arrival_s_ = 0;
+    Scan frame_;
+    std::vector<std::uint8_t> tags_;
+    Counts counts_;
+};
+
+}  // namespace hagen::streaming

@@ -1,0 +1,71 @@
+#pragma once
+#include <hagen/streaming/StreamingSegmenter.h>
+#include <Eigen/Geometry>
+#include <array>
+#include <limits>
+
+namespace hagen::streaming {
+
+/// The nearest obstacle in each direction around the vehicle, from labelled sectors, as protocols
+/// of autopilots want it: 72 sectors of 5 degrees in the body frame (x forward, y left, z up).
+///
+/// **Stale is never free.** A direction that was not swept for 0.3 s is unknown, and so is one that
+/// was swept in part. "Seen nothing" means that the sensor swept all of it, at the horizon of the
+/// body, and that none of the returns is RoI. A sensor that does not turn is taken to look all
+/// around within each tenth of a second; what it saw in a direction holds for one to two of these.
+class SectorDistances {
+ public:
+    static constexpr int kSectors = 72;
+
+    enum class State { Unknown, SeenNothing, Obstacle };
+    struct Sector {
+        State state = State::Unknown;
+        /// Horizontal distance of the nearest RoI return from the body's origin; NaN unless there
+        /// is an obstacle. In a sector that is swept in part, a nearer one may be in the rest.
+        float distance_m = std::numeric_limits<float>::quiet_NaN();
+        /// When the oldest packet that this rests on came; -infinity if it is unknown.
+        double time_s = -std::numeric_limits<double>::infinity();
+    };
+
+    struct Settings {
+        Eigen::Isometry3f body_from_sensor = Eigen::Isometry3f::Identity();
+        /// Obstacles are RoI returns between these heights above the body's origin.
+        float low_m = -std::numeric_limits<float>::infinity();
+        float high_m = std::numeric_limits<float>::infinity();
+        double stale_s = 0.3;
+    };
+
+    /// `sensor` tells where its beams look: a sensor that is tilted so far that it does not see the
+    /// body's horizon in a direction never sees nothing there.
+    explicit SectorDistances(const SensorModel& sensor) : SectorDistances(sensor, Settings()) {}
+    SectorDistances(const SensorModel& sensor, const Settings& settings);
+
+    void take(const LabelledSector& sector);
+
+    /// Sector 0 begins straight ahead, at azimuth 0, and sectors run clockwise, as in MAVLink's
+    /// OBSTACLE_DISTANCE with angle_offset 2.5 degrees: sector k is from 5 k to 5 (k + 1) degrees.
+    /// Time is of the clock of the packets' arrival.
+    std::array<Sector, kSectors> at(double now_s) const;
+
+ private:
+    static constexpr int kParts = 5;  ///< of a sector, a degree each
+    static constexpr int kBins = kSectors * kParts;
+    static constexpr double kNever = -std::numeric_limits<double>::infinity();
+    static constexpr float kNothing = std::numeric_limits<float>::infinity();
+    struct Bin {
+        double swept_s = kNever, swept_rad = kNever;  ///< when last, and how far it had turned then
+        double roi_s = kNever, roi_rad = kNever;      ///< likewise, of the nearest RoI return
+        float roi_m = kNothing;
+        float earlier_roi_m = kNothing;  ///< without turns: of the period before
+    };
+
+    void beginFrame(double time_s);
+
+    Settings settings_;
+    std::array<double, kBins>
+        sensor_rad_{};  ///< where the sensor sees the bin, clockwise; NaN: not
+    std::array<Bin, kBins> bins_{};
+    double period_start_s_ = kNever;  ///< without turns
+};
+
+}  // namespace hagen::streaming

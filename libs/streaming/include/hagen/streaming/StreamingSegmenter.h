@@ -1,0 +1,137 @@
+#pragma once
+#include <hagen/range_image/Scan.h>
+#include <hagen/range_image/SensorModel.h>
+#include <hagen/segmentation/HagenFilter.h>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace hagen::streaming {
+
+/// How a turn is cut, and what a sector is judged by. docs/live.md has what other values cost.
+struct StreamingOptions {
+    /// A sector ends with the last packet that still fits into this angle; it has at least one.
+    double sector_rad = 0.4363323129985824;  // 25 degrees
+    /// Context on both sides of a sector: all returns of the latest turn.
+    double window_rad = 0.5235987755982988;  // 30 degrees
+    /// Context beyond: each n-th column of the image; 1: all, 0: none.
+    int keep_every = 4;
+    /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
+    /// moved since, those up to this angle are no context: ground that is tilted against that of
+    /// the sector looks like a step. Less than half a turn.
+    double skip_ahead_rad = 0.5235987755982988;  // 30 degrees
+    /// Returns older than this are no context: the sensor was silent. For a sensor that does not
+    /// turn, the time that is judged at once.
+    double context_s = 0.25;
+    /// Until the latest returns cover this angle, nothing in the zone is ROU: too little ground is
+    /// in sight to tell (docs/live.md). For a sensor that does not turn: this share of a turn is
+    /// the share of `context_s`.
+    double least_known_rad = 3.141592653589793;
+    /// A sector ends at the latest after this time, however slowly the sensor turns.
+    double longest_sector_s = 0.05;
+};
+
+/// What a rotating sensor swept while it measured the returns of a packet: from one azimuth to
+/// another, clockwise from x. Angles go on from turn to turn: one turn later they are 2 pi larger.
+struct Sweep {
+    double from_rad, to_rad;
+};
+
+/// The returns of a sector with their labels. References are valid during the call only.
+struct LabelledSector {
+    const Scan& returns;               ///< in the order in which they came, as measured
+    const std::vector<Label>& label;   ///< one per return
+    std::optional<Sweep> sweep;        ///< none: of a sensor that does not turn
+    double first_time_s, last_time_s;  ///< when its first and its last packet came
+    bool has_turn;                     ///< whether the rest of a turn was known
+    bool is_doubtful;                  ///< all in the zone is RoI: too little of a turn was known
+    bool is_cut;                       ///< ended by flush() or restart()
+    const SegmentationResult& result;  ///< of the sector and its context
+};
+
+/// Labels the returns of a LiDAR sector by sector, while it turns.
+///
+/// It runs HagenFilter on the latest turn with the new sector in its place: on all returns in a
+/// window around the sector, and on some of the others, which show where the ground is. On the
+/// leading side, those are of the turn before. Labels are those of the whole scan but for a few.
+/// Without a turn before, sectors are judged by what there is, but all in the zone is RoI until
+/// half a turn is known: doubt is RoI, as in the filter.
+///
+///     StreamingSegmenter segmenter(sensorModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+///         for (std::size_t i = 0; i < sector.returns.size(); ++i) ...
+///     });
+///     while (...) segmenter.add(returns_of_packet, sweep, arrival_s);
+///
+/// No allocation after the first turns but for those of the function. Not thread-safe.
+class StreamingSegmenter {
+ public:
+    using Take = std::function<void(const LabelledSector&)>;
+
+    /// Throws std::invalid_argument if options and sensor do not fit together (checkOptions()), or
+    /// if a streaming option is out of range; the message names it.
+    StreamingSegmenter(SensorModel sensor, Options options, Take take,
+                       const StreamingOptions& streaming = {});
+
+    /// The tilt and the pose of the sensor (map from sensor) from now on, as far as they are known.
+    /// Context is moved by the pose since it was measured, or, without one, turned by the tilt;
+    /// without both it stays where it was measured. None: unknown.
+    void setAttitude(const std::optional<Attitude>& attitude);
+    void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
+
+    /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and when it
+    /// came, in seconds of any clock. `sweep` of packets that come late may be before that of
+    /// others: their returns are labelled with the sector in progress. Calls the function if that
+    /// ends a sector.
+    void add(const Scan& returns, const Sweep& sweep, double time_s);
+    /// The same for a frame of a sensor that does not turn, which is a sector.
+    void addFrame(const Scan& returns, double time_s);
+    /// Labels the sector in progress: no packet followed for some time.
+    void flush();
+    /// Forgets the context: packets that follow are of another place or sensor mode. The sector in
+    /// progress is labelled before.
+    void restart();
+
+    std::size_t sectors() const { return sectors_; }
+    const SensorModel& sensor() const { return filter_.sensor(); }
+    const Options& options() const { return filter_.options(); }
+    const StreamingOptions& streaming() const { return streaming_; }
+
+ private:
+    struct Packet {
+        Scan returns, thinned;
+        std::optional<Sweep> sweep;
+        double time_s = 0;
+        std::optional<Eigen::Isometry3d> pose;  ///< of the sensor; its rotation only: without place
+    };
+
+    Packet& push(const Scan& returns, double time_s);
+    void thin(Packet& packet) const;
+    void forget(double now_s);
+    void label(bool is_cut);
+    bool knowsEnough() const;
+    void addContext(const Packet& packet, const Sweep& sector);
+    void addMoved(const Scan& scan, const Eigen::Isometry3d& motion);
+    void addAhead(const Scan& scan, double head_rad);
+
+    HagenFilter filter_;
+    StreamingOptions streaming_;
+    Take take_;
+    std::optional<Attitude> attitude_;
+    std::optional<Eigen::Isometry3d> pose_;
+
+    std::deque<Packet> packets_;  ///< of the latest turn, in the order in which they came
+    std::vector<Packet> spare_;   ///< their memory, reused
+    std::size_t open_ = 0;        ///< the last ones of these: of the sector in progress
+    double head_rad_ = 0;         ///< how far the sensor has turned
+    double start_rad_ = 0;        ///< of the sector in progress
+    std::size_t sectors_ = 0;
+    Scan window_, moved_;  ///< reused
+    Scan sector_;
+    std::vector<Label> labels_;
+};
+
+}  // namespace hagen::streaming

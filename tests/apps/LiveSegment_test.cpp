@@ -1,0 +1,173 @@
+// live-segment, as a user would run it.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/logs/RawlogReader.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "support/CaptureWriter.h"
+#include "support/ProgramTest.h"
+
+namespace hagen {
+namespace {
+
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+class LiveSegment : public test::ProgramTest {
+ protected:
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
+        return test::run(HAGEN_LIVE_SEGMENT, arguments);
+    }
+    static std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans() {
+        logs::RawlogReader reader(fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog");
+        std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> all;
+        while (const auto entry = reader.next()) {
+            const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
+            if (scan) all.push_back(scan);
+        }
+        return all;
+    }
+    std::string capture() const {
+        test::CaptureWriter writer;
+        double time_s = 1700000000;
+        for (const auto& scan : scans()) {
+            writer.packets(*scan, time_s, 1.33e-3);
+            time_s += 0.1;
+        }
+        return writer.write(path("flight.pcap"));
+    }
+    nlohmann::json stats() const {
+        return nlohmann::json::parse(test::readFile(path("stats.json")));
+    }
+
+    const std::vector<std::string> sensor_{"--model", "VLP-16"};
+};
+
+/// A port of this machine that nobody listens on.
+std::uint16_t freePort() {
+    const int probe = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    bind(probe, reinterpret_cast<const sockaddr*>(&at), sizeof at);
+    socklen_t size = sizeof at;
+    getsockname(probe, reinterpret_cast<sockaddr*>(&at), &size);
+    close(probe);
+    return ntohs(at.sin_port);
+}
+
+TEST_F(LiveSegment, ARecordingIsWhatRawlogSegmentWrites) {
+    const std::string file = capture();
+    const auto outcome = run(with(sensor_, {"--replay", file, "--speed", "20", "--record",
+                                            path("live.rawlog"), "--stats", path("stats.json")}));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("recorded: " + path("live.rawlog")));
+    ASSERT_EQ(
+        test::run(HAGEN_RAWLOG_SEGMENT, {"-q", "-i", file, "-o", path("whole.rawlog")}).exit_code,
+        0);
+    EXPECT_EQ(test::readFile(path("live.rawlog")), test::readFile(path("whole.rawlog")));
+    const auto json = stats();
+    EXPECT_EQ(json["packets"]["dropped"], 0);
+    EXPECT_EQ(json["packets"]["taken"], json["packets"]["datagrams"]);
+    EXPECT_GT(json["sectors"], 10);
+    EXPECT_GT(json["roi"], 50);
+    EXPECT_EQ(json["nearest_m"].size(), 72u);
+    EXPECT_GT(json["latency_ms"]["p50"], 0);
+    EXPECT_GE(json["latency_ms"]["max"], json["latency_ms"]["p50"]);
+}
+
+TEST_F(LiveSegment, RecordingsAreRotated) {
+    const auto outcome = run(with(sensor_, {"-q", "--replay", capture(), "--speed", "50",
+                                            "--record", path("a.rawlog"), "--rotate-mb", "0.001"}));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out + outcome.err, "");
+    EXPECT_TRUE(fs::exists(path("a.0001.rawlog")));
+    EXPECT_FALSE(fs::exists(path("a.rawlog")));
+}
+
+TEST_F(LiveSegment, ReceivesFromTheNetwork) {
+    const std::uint16_t port = freePort();
+    std::vector<std::string> packets;
+    for (const auto& scan : scans()) {
+        for (const auto& packet : scan->scan_packets) packets.push_back(test::bytesOf(packet));
+    }
+    packets.erase(packets.begin() + 40, packets.begin() + 43);
+    std::atomic<bool> is_done = false;
+    std::size_t sent = 0;
+    // Sends until the program has ended: nobody knows when it begins to listen.
+    std::thread sender([&] {
+        const int out = socket(AF_INET, SOCK_DGRAM, 0);
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_port = htons(port);
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const auto send = [&](const std::string& bytes) {
+            sendto(out, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to),
+                   sizeof to);
+        };
+        for (std::size_t i = 0; !is_done; ++i) {
+            send(packets[i % packets.size()]);
+            if (i % 50 == 7) send("noise");
+            if (i % 50 == 9) {  // a sensor of another model
+                std::string other = packets[i % packets.size()];
+                other.back() = '\x21';
+                send(other);
+            }
+            std::this_thread::sleep_for(std::chrono::microseconds(1300));
+            ++sent;
+        }
+        close(out);
+    });
+    const auto outcome =
+        run(with(sensor_, {"--listen", "127.0.0.1:" + std::to_string(port), "--duration", "1.5",
+                           "--stats", path("stats.json"), "--record", path("a.rawlog")}));
+    is_done = true;
+    sender.join();
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto json = stats();
+    EXPECT_GT(json["packets"]["taken"], 50);
+    EXPECT_GT(json["packets"]["lost"], 0);
+    EXPECT_GT(json["packets"]["wrong_size"], 0);
+    EXPECT_GT(json["packets"]["foreign"], 0);
+    EXPECT_GT(json["sectors"], 5);
+    EXPECT_TRUE(fs::exists(path("a.rawlog")));
+}
+
+TEST_F(LiveSegment, SilenceIsAnError) {
+    expectFailure(with(sensor_, {"-q", "--listen", "127.0.0.1:" + std::to_string(freePort()),
+                                 "--duration", "0.1"}),
+                  1, "no packet of a VLP-16 has come");
+}
+
+TEST_F(LiveSegment, WrongFlagsAreExplained) {
+    const std::string file = capture();
+    expectFailure({"--model", "VLP-16"}, 2, "one of --listen and --replay is required");
+    expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,
+                  "one of --listen and --replay is required");
+    expectFailure({"--replay", file}, 2, "--model is required: VLP-16");
+    expectFailure({"--replay", file, "--model", "OS1-64"}, 2, "supported are VLP-16");
+    expectFailure({"--replay", file, "--model", "HDL-64E"}, 2, "--calibration FILE");
+    expectFailure({"--listen", "here", "--model", "VLP-16"}, 2, "'here' is no IPv4 address");
+    expectFailure({"--listen", "0.0.0.0:2368", "--speed", "2", "--model", "VLP-16"}, 2, "--speed");
+    expectFailure({"--replay", file, "--sensor-json", file, "--model", "VLP-16"}, 2, "Ouster");
+    expectFailure({"--replay", path("none.pcap"), "--model", "VLP-16"}, 2, "none.pcap");
+    expectFailure(with(sensor_, {"--replay", file, "--rotate-mb", "5"}), 2, "--record");
+    folder_.write("a.txt", "no capture");
+    expectFailure(with(sensor_, {"--replay", path("a.txt")}), 1, "a.txt");
+    folder_.write("a.rawlog", "mine");
+    expectFailure(with(sensor_, {"-q", "--replay", file, "--record", path("a.rawlog")}), 1,
+                  "a.rawlog");
+    EXPECT_EQ(test::readFile(path("a.rawlog")), "mine");
+}
+
+}  // namespace
+}  // namespace hagen

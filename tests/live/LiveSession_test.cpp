@@ -1,0 +1,192 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/live/LiveSession.h>
+
+#include <algorithm>
+#include <deque>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/CaptureWriter.h"
+#include "support/Program.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen::live {
+namespace {
+
+using observations::velodyneModel;
+using streaming::SectorDistances;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A source of given packets, without pauses but those asked for.
+class GivenPackets : public PacketSource {
+ public:
+    GivenPackets& add(const std::string& bytes, std::uint32_t from_ip = 0x0a000064) {
+        Packet packet;
+        packet.bytes.assign(bytes.begin(), bytes.end());
+        packet.from_ip = from_ip;
+        packet.time_ns = 1700000000000000000 + 1330000 * static_cast<std::int64_t>(packets_.size());
+        packets_.push_back(packet);
+        return *this;
+    }
+    GivenPackets& addAll(const std::vector<std::string>& packets) {
+        for (const std::string& packet : packets) add(packet);
+        return *this;
+    }
+    GivenPackets& pause(double seconds) {
+        Packet packet;
+        packet.arrival_s = seconds;
+        packets_.push_back(packet);
+        return *this;
+    }
+
+    Next next(Packet& packet) override {
+        if (packets_.empty()) return Next::End;
+        packet = packets_.front();
+        packets_.pop_front();
+        if (packet.arrival_s > 0) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(packet.arrival_s));
+            return Next::Nothing;
+        }
+        packet.arrival_s = steadyNow_s();
+        return Next::Packet;
+    }
+    bool isLive() const override { return false; }
+
+ private:
+    std::deque<Packet> packets_;
+};
+
+std::vector<std::string> turnsOf(int turns, std::uint32_t first_us = 1000000,
+                                 const char* name = "VLP-16", bool is_dual = false) {
+    test::SimpleScene scene;
+    scene.poles.push_back({8, 3, 0.2, 6});
+    const auto& model = velodyneModel(name);
+    observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});
+    if (is_dual) firings.last_range_m = firings.range_m;
+    std::vector<std::string> packets;
+    for (int k = 0; k < turns; ++k) {
+        firings.first_time_us = first_us + 100000 * static_cast<std::uint32_t>(k);
+        for (const auto& packet : encodePackets(model, firings)) {
+            packets.push_back(test::bytesOf(packet));
+        }
+    }
+    return packets;
+}
+
+class LiveSessionTest : public testing::Test {
+ protected:
+    LiveReport run(GivenPackets& packets) {
+        LiveListener listener;
+        listener.remark = [this](const std::string& remark) { remarks_.push_back(remark); };
+        listener.sector = [this](const streaming::LabelledSector& sector) {
+            returns_ += sector.returns.size();
+        };
+        return runLive(packets, options_, listener);
+    }
+    LiveOptions options_{"VLP-16", {}, {}, {}, {}, {}, false};
+    std::vector<std::string> remarks_;
+    std::size_t returns_ = 0;
+};
+
+TEST_F(LiveSessionTest, EverythingIsCountedOnce) {
+    auto packets = turnsOf(3);
+    const std::string first = packets[0];
+    packets.erase(packets.begin() + 100, packets.begin() + 102);  // lost
+    std::swap(packets[50], packets[51]);                          // late
+    packets.insert(packets.begin() + 30, packets[29]);            // repeated
+    GivenPackets source;
+    source.addAll(packets);
+    source.add(std::string(512, 'p'));                // a position packet
+    source.add("hello").add(std::string(1206, 'x'));  // something else
+    source.add(turnsOf(1, 0, "HDL-32E")[0]);          // another model
+    source.add(turnsOf(1, 9000000)[0], 0x0a000065);   // another VLP-16
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.datagrams, 228u - 2 + 1 + 5);
+    EXPECT_EQ(report.packets, 226u);
+    EXPECT_EQ(report.lost, 2u);
+    EXPECT_EQ(report.late, 1u);
+    EXPECT_EQ(report.repeated, 1u);
+    EXPECT_EQ(report.position, 1u);
+    EXPECT_EQ(report.wrong_size, 2u);
+    EXPECT_EQ(report.foreign, 2u);
+    EXPECT_EQ(report.dropped, 0u);
+    EXPECT_EQ(report.returns, returns_);
+    EXPECT_GT(report.roi, 100u);
+    EXPECT_EQ(report.latency.count() + report.sectors_cut, report.sectors);
+    // The pole is 8.5 m away, 20 degrees to the left.
+    const int sector = (360 - 21) / 5;
+    EXPECT_NEAR(report.nearest_m[sector], 8.35, 0.3);
+    EXPECT_TRUE(std::isinf(report.nearest_m[(sector + 36) % 72]));
+    EXPECT_EQ(report.latest[sector].state, SectorDistances::State::Obstacle);
+    EXPECT_THAT(remarks_, IsEmpty());
+}
+
+TEST_F(LiveSessionTest, ASensorThatFallsSilentAndComesBackIsTold) {
+    GivenPackets source;
+    auto turn = turnsOf(1);
+    turn.resize(74);  // not a whole number of sectors
+    source.addAll(turn).pause(1.2).add(turnsOf(1, 2400000)[0], 0x0a000066);
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.silences, 1u);
+    EXPECT_EQ(report.interruptions, 1u);
+    EXPECT_EQ(report.packets, 75u);
+    EXPECT_EQ(report.foreign, 0u);
+    EXPECT_EQ(report.sectors_cut, 2u);  // at the silence and at the end
+    EXPECT_THAT(remarks_, Contains(HasSubstr("no packets of the sensor for 1 s")));
+    EXPECT_THAT(remarks_, Contains(HasSubstr("the sensor is now at 10.0.0.102")));
+    EXPECT_THAT(remarks_, Contains(HasSubstr("packets come again")));
+}
+
+TEST_F(LiveSessionTest, AnotherModeIsTold) {
+    GivenPackets source;
+    source.addAll(turnsOf(1))
+        .addAll(turnsOf(1, 1100000, "VLP-16", true))
+        .addAll(turnsOf(1, 1200000));
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.mode_changes, 2u);
+    EXPECT_EQ(report.lost, 0u);
+    EXPECT_THAT(remarks_, testing::ElementsAre(HasSubstr("two returns"), HasSubstr("one return")));
+}
+
+TEST_F(LiveSessionTest, WithoutPacketsItEndsAfterItsTime) {
+    GivenPackets source;
+    source.pause(0.3);
+    options_.duration_s = 0.05;
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.datagrams, 0u);
+    EXPECT_EQ(report.latest[0].state, SectorDistances::State::Unknown);
+}
+
+TEST_F(LiveSessionTest, WhatIsNotSupportedIsNamed) {
+    const auto messageWith = [&](auto change) {
+        LiveOptions options = options_;
+        change(options);
+        return test::messageOf([&] { checkLive(options); });
+    };
+    EXPECT_EQ(messageWith([](auto&) {}), "");
+    EXPECT_THAT(messageWith([](auto& o) { o.model = "OS1-64"; }),
+                HasSubstr("supported are VLP-16, Puck Hi-Res, HDL-32E, VLP-32C, HDL-64E, Mid-360"));
+    EXPECT_THAT(messageWith([](auto& o) { o.model = "HDL-64E"; }), HasSubstr("--calibration"));
+    EXPECT_THAT(messageWith([](auto& o) { o.calibration = "db.xml"; }), HasSubstr("db.xml"));
+    EXPECT_THAT(messageWith([](auto& o) {
+                    o.model = "Mid-360";
+                    o.recording.file = "a.rawlog";
+                }),
+                HasSubstr("cannot be recorded"));
+}
+
+TEST_F(LiveSessionTest, AFailingSourceIsReported) {
+    class Failing : public PacketSource {
+     public:
+        Next next(Packet&) override { throw std::runtime_error("eth0: is gone"); }
+        bool isLive() const override { return true; }
+    } source;
+    EXPECT_EQ(test::messageOf([&] { runLive(source, options_); }), "eth0: is gone");
+}
+
+}  // namespace
+}  // namespace hagen::live

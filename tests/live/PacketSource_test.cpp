@@ -1,0 +1,127 @@
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/live/PacketSource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "support/CaptureWriter.h"
+#include "support/Program.h"
+
+namespace hagen::live {
+namespace {
+
+using Next = PacketSource::Next;
+using testing::HasSubstr;
+
+/// A socket that sends to a port of this machine.
+class Sender {
+ public:
+    Sender() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {}
+    ~Sender() { close(socket_); }
+    void send(const std::string& bytes, const char* ip, std::uint16_t port) const {
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_port = htons(port);
+        inet_pton(AF_INET, ip, &to.sin_addr);
+        sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to),
+               sizeof to);
+    }
+
+ private:
+    int socket_;
+};
+
+/// A port that nobody listens on.
+std::uint16_t freePort() {
+    const int probe = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    bind(probe, reinterpret_cast<const sockaddr*>(&at), sizeof at);
+    socklen_t size = sizeof at;
+    getsockname(probe, reinterpret_cast<sockaddr*>(&at), &size);
+    close(probe);
+    return ntohs(at.sin_port);
+}
+
+TEST(Address, IsReadOrRefused) {
+    const Address address = parseAddress("192.168.1.77:2368");
+    EXPECT_EQ(address.ip, 0xc0a8014du);
+    EXPECT_EQ(address.port, 2368);
+    EXPECT_FALSE(address.isMulticast());
+    EXPECT_TRUE(parseAddress("239.1.2.3:1").isMulticast());
+    EXPECT_FALSE(parseAddress("240.1.2.3:1").isMulticast());
+    EXPECT_EQ(parseAddress("0.0.0.0:65535").ip, 0u);
+    for (const char* wrong : {"", "2368", ":2368", "1.2.3:4", "localhost:5", "1.2.3.4", "1.2.3.4:",
+                              "1.2.3.4:0", "1.2.3.4:65536", "1.2.3.4:-1", "1.2.3.4:9x"}) {
+        EXPECT_NE(test::messageOf([&] { parseAddress(wrong); }), "") << wrong;
+    }
+}
+
+TEST(UdpSource, ReceivesWhatIsSent) {
+    const std::uint16_t port = freePort();
+    UdpSource source({0x7f000001, port});
+    EXPECT_TRUE(source.isLive());
+    Packet packet;
+    EXPECT_EQ(source.next(packet), Next::Nothing);
+    const double before_s = steadyNow_s();
+    const Sender sender;
+    sender.send("abc", "127.0.0.1", port);
+    sender.send("", "127.0.0.1", port);
+    sender.send(std::string(9000, 'x'), "127.0.0.1", port);
+    ASSERT_EQ(source.next(packet), Next::Packet);
+    EXPECT_EQ(std::string(packet.bytes.begin(), packet.bytes.end()), "abc");
+    EXPECT_EQ(packet.from_ip, 0x7f000001u);
+    EXPECT_EQ(packet.to_port, port);
+    EXPECT_GE(packet.arrival_s, before_s - 0.001);
+    EXPECT_LE(packet.arrival_s, steadyNow_s());
+    EXPECT_GT(packet.time_ns, 1700000000000000000);
+    ASSERT_EQ(source.next(packet), Next::Packet);
+    EXPECT_TRUE(packet.bytes.empty());
+    ASSERT_EQ(source.next(packet), Next::Packet);
+    EXPECT_EQ(packet.bytes.size(), 9000u);
+}
+
+TEST(UdpSource, AnAddressThatIsTakenOrForeignIsNamed) {
+    const std::uint16_t port = freePort();
+    const UdpSource source({0x7f000001, port});
+    EXPECT_THAT(test::messageOf([&] {
+                    UdpSource({0x7f000001, port});
+                }),
+                HasSubstr("127.0.0.1:" + std::to_string(port) + ": cannot listen"));
+    EXPECT_THAT(test::messageOf([&] { UdpSource({0x08080808, port}); }), HasSubstr("8.8.8.8"));
+}
+
+TEST(ReplaySource, PacketsComeAsTheyWereRecorded) {
+    const test::TemporaryFolder folder;
+    test::CaptureWriter writer;
+    for (int i = 0; i < 5; ++i) {
+        test::SentDatagram datagram;
+        datagram.content = std::string(10, static_cast<char>('a' + i));
+        datagram.time_s = 1700000000 + 0.1 * i;
+        writer.datagram(datagram);
+    }
+    const auto file = writer.write(folder / "a.pcap");
+    for (const double speed : {1.0, 10.0}) {
+        ReplaySource source(file, speed);
+        EXPECT_FALSE(source.isLive());
+        const double start_s = steadyNow_s();
+        Packet packet;
+        int count = 0;
+        for (Next next = source.next(packet); next != Next::End; next = source.next(packet)) {
+            if (next == Next::Nothing) continue;
+            // Not earlier; later by what a busy machine takes.
+            EXPECT_GE(steadyNow_s() - start_s, 0.1 * count / speed - 0.001);
+            EXPECT_EQ(packet.bytes[0], 'a' + count);
+            EXPECT_NEAR(1e-9 * static_cast<double>(packet.time_ns), 1700000000 + 0.1 * count, 1e-4);
+            ++count;
+        }
+        EXPECT_EQ(count, 5);
+    }
+}
+
+}  // namespace
+}  // namespace hagen::live

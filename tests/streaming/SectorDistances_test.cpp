@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/streaming/SectorDistances.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace hagen::streaming {
+namespace {
+
+using State = SectorDistances::State;
+
+constexpr double kTurn_rad = 2 * kPi;
+
+struct Point {
+    double azimuth_deg, distance_m;  ///< clockwise from ahead; horizontal
+    Label label = Label::Roi;
+    float z_m = 0;
+};
+
+class SectorDistancesTest : public testing::Test {
+ protected:
+    /// A sector from one azimuth to another, in degrees clockwise from ahead.
+    void take(double from_deg, double to_deg, double time_s, const std::vector<Point>& points,
+              SectorDistances& distances) {
+        take(Sweep{radians(from_deg), radians(to_deg)}, time_s, points, distances);
+    }
+    void take(const std::optional<Sweep>& sweep, double time_s, const std::vector<Point>& points,
+              SectorDistances& distances) {
+        Scan scan;
+        std::vector<Label> labels;
+        for (const Point& p : points) {
+            scan.x_m.push_back(static_cast<float>(p.distance_m * std::cos(radians(p.azimuth_deg))));
+            scan.y_m.push_back(
+                static_cast<float>(-p.distance_m * std::sin(radians(p.azimuth_deg))));
+            scan.z_m.push_back(p.z_m);
+            labels.push_back(p.label);
+        }
+        distances.take({scan, labels, sweep, time_s, time_s + 0.005, true, false, false, result_});
+    }
+    /// A whole turn in sectors of 20 degrees, each `turn_s / 18` after the one before.
+    void turn(int number, double turn_s, const std::vector<Point>& points,
+              SectorDistances& distances) {
+        for (int k = 0; k < 18; ++k) {
+            std::vector<Point> of_sector;
+            for (const Point& p : points) {
+                if (p.azimuth_deg >= 20 * k && p.azimuth_deg < 20 * (k + 1)) of_sector.push_back(p);
+            }
+            take(360.0 * number + 20 * k, 360.0 * number + 20 * (k + 1),
+                 turn_s * (number + k / 18.0), of_sector, distances);
+        }
+    }
+
+    const SensorModel sensor_ = sensorModel("VLP-16");
+    SegmentationResult result_;
+};
+
+TEST_F(SectorDistancesTest, NothingIsKnownAtFirst) {
+    for (const auto& sector : SectorDistances(sensor_).at(0)) {
+        EXPECT_EQ(sector.state, State::Unknown);
+        EXPECT_TRUE(std::isnan(sector.distance_m));
+        EXPECT_TRUE(std::isinf(sector.time_s));
+    }
+}
+
+TEST_F(SectorDistancesTest, SectorsAreClockwiseFromAhead) {
+    SectorDistances distances(sensor_);
+    // Three times per direction, at known distances.
+    turn(0, 0.1, {{2, 7}, {3, 6}, {92, 5}, {268, 4}, {359, 3}, {181, 9, Label::Rou}}, distances);
+    const auto at = distances.at(0.1);
+    for (int k = 0; k < SectorDistances::kSectors; ++k) {
+        const double expected_m = k == 0    ? 6
+                                  : k == 18 ? 5  // right
+                                  : k == 53 ? 4  // left
+                                  : k == 71 ? 3  // just left of ahead
+                                            : 0;
+        EXPECT_EQ(at[k].state, expected_m > 0 ? State::Obstacle : State::SeenNothing) << k;
+        if (expected_m > 0) {
+            EXPECT_NEAR(at[k].distance_m, expected_m, 1e-4) << k;
+        }
+        EXPECT_NEAR(at[k].time_s, 0.1 * (5 * k / 20) / 18, 1e-9) << k;
+    }
+}
+
+TEST_F(SectorDistancesTest, StaleIsNeverFree) {
+    SectorDistances distances(sensor_);
+    turn(0, 0.1, {{32, 5}}, distances);
+    EXPECT_EQ(distances.at(0.29)[0].state, State::SeenNothing);
+    EXPECT_EQ(distances.at(0.31)[0].state, State::Unknown);
+    EXPECT_EQ(distances.at(0.29)[6].state, State::Obstacle);
+    EXPECT_EQ(distances.at(0.5)[6].state, State::Unknown);
+    // A clock that goes back: the future is not fresh.
+    EXPECT_EQ(distances.at(-1)[6].state, State::Unknown);
+    EXPECT_EQ(distances.at(-1)[0].state, State::Unknown);
+}
+
+TEST_F(SectorDistancesTest, APartOfASectorIsNotFree) {
+    SectorDistances distances(sensor_);
+    take(0, 13, 1, {{11, 4}}, distances);
+    const auto at = distances.at(1);
+    EXPECT_EQ(at[0].state, State::SeenNothing);
+    EXPECT_EQ(at[1].state, State::SeenNothing);
+    EXPECT_EQ(at[2].state, State::Obstacle);  // what is known of it
+    EXPECT_EQ(at[3].state, State::Unknown);
+    SectorDistances others(sensor_);
+    take(0, 13, 1, {}, others);
+    EXPECT_EQ(others.at(1)[2].state, State::Unknown);
+    take(13, 20, 1.01, {}, others);
+    EXPECT_EQ(others.at(1.01)[2].state, State::SeenNothing);
+    EXPECT_EQ(others.at(1.01)[2].time_s, 1);  // of the older part
+}
+
+TEST_F(SectorDistancesTest, AnObstacleAtTheBorderOfTwoSweepsStays) {
+    // The degree from 10 to 11 is swept in two parts; the obstacle is in the first.
+    SectorDistances distances(sensor_);
+    take(0, 10.4, 1, {{10.2, 4}}, distances);
+    take(10.4, 20, 1.005, {{10.8, 9}}, distances);
+    EXPECT_EQ(distances.at(1.01)[2].state, State::Obstacle);
+    EXPECT_NEAR(distances.at(1.01)[2].distance_m, 4, 1e-4);
+}
+
+TEST_F(SectorDistancesTest, TheNextTurnReplacesWhatTheLastOneSaw) {
+    for (const double turn_s : {0.05, 0.1, 0.2}) {  // 20, 10 and 5 times per second
+        SectorDistances distances(sensor_);
+        turn(0, turn_s, {{47, 4}, {100, 3}}, distances);
+        turn(1, turn_s, {{47, 8}}, distances);
+        const auto at = distances.at(2 * turn_s);
+        EXPECT_NEAR(at[9].distance_m, 8, 1e-4) << turn_s;       // it went away
+        EXPECT_EQ(at[20].state, State::SeenNothing) << turn_s;  // it is gone
+    }
+}
+
+TEST_F(SectorDistancesTest, DistancesAreOfTheBody) {
+    SectorDistances::Settings settings;
+    // The sensor looks to the right of the body, half a metre ahead of its origin.
+    settings.body_from_sensor =
+        Eigen::Translation3f(0.5f, 0, 0) *
+        Eigen::AngleAxisf(-static_cast<float>(kPi) / 2, Eigen::Vector3f::UnitZ());
+    SectorDistances distances(sensor_, settings);
+    take(0, 20, 1, {}, distances);             // right of the body
+    take(260, 280, 1, {{271, 4}}, distances);  // ahead of it
+    const auto at = distances.at(1);
+    EXPECT_EQ(at[19].state, State::SeenNothing);
+    EXPECT_EQ(at[1].state, State::SeenNothing);
+    EXPECT_EQ(at[0].state, State::Obstacle);
+    EXPECT_NEAR(at[0].distance_m, 4.5, 0.01);
+}
+
+TEST_F(SectorDistancesTest, HeightsAreLimited) {
+    SectorDistances::Settings settings;
+    settings.low_m = -1;
+    settings.high_m = 2;
+    SectorDistances distances(sensor_, settings);
+    take(0, 20, 1, {{2, 4, Label::Roi, 3}, {7, 4, Label::Roi, -1.5f}, {12, 4, Label::Roi, 1}},
+         distances);
+    const auto at = distances.at(1);
+    EXPECT_EQ(at[0].state, State::SeenNothing);
+    EXPECT_EQ(at[1].state, State::SeenNothing);
+    EXPECT_EQ(at[2].state, State::Obstacle);
+}
+
+TEST_F(SectorDistancesTest, WhereATiltedSensorDoesNotSeeTheHorizonNothingIsFree) {
+    SectorDistances::Settings settings;
+    settings.body_from_sensor =
+        Eigen::AngleAxisf(static_cast<float>(radians(30.0)), Eigen::Vector3f::UnitY());
+    SectorDistances distances(sensor_, settings);
+    take(0, 360, 1, {}, distances);
+    const auto at = distances.at(1);
+    EXPECT_EQ(at[0].state, State::Unknown);       // ahead, the beams end 15 degrees lower
+    EXPECT_EQ(at[36].state, State::Unknown);      // behind, they begin higher
+    EXPECT_EQ(at[18].state, State::SeenNothing);  // beside, they are level
+}
+
+TEST_F(SectorDistancesTest, WithoutTurnsWhatWasSeenHoldsForATenthOfASecond) {
+    SectorDistances distances(sensorModel("Mid-360"));
+    take(std::nullopt, 1.00, {{2, 4}}, distances);
+    for (int k = 1; k < 5; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);
+    EXPECT_NEAR(distances.at(1.09)[0].distance_m, 4, 1e-4);
+    EXPECT_EQ(distances.at(1.09)[9].state, State::SeenNothing);
+    for (int k = 5; k < 16; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);
+    EXPECT_NEAR(distances.at(1.31)[0].distance_m, 5, 1e-4);  // it does not stay for ever
+    EXPECT_EQ(distances.at(1.7)[0].state, State::Unknown);
+    for (int k = 0; k < 15; ++k) take(std::nullopt, 2 + 0.02 * k, {}, distances);
+    EXPECT_EQ(distances.at(2.29)[0].state, State::SeenNothing);
+}
+
+}  // namespace
+}  // namespace hagen::streaming
