@@ -1,7 +1,7 @@
 // Datagrams of a Livox with any content.
 #include <hagen/range_image/SensorModel.h>
 
-#include "captures/LivoxPacket.h"
+#include <hagen/captures/LivoxPacket.h>
 #include "fuzz/Target.h"
 
 namespace hagen::fuzz {
