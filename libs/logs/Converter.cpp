@@ -158,16 +158,9 @@ bool Converter::read(EntryInConversion& entry) {
         }
         return true;
     } catch (...) {
-        endWith(std::current_exception());
+        reading_ended_ = std::current_exception();  // after the entries before are converted
         return false;
     }
-}
-
-/// Ends the conversion after the entries that are accounted for; the first reason counts.
-void Converter::endWith(std::exception_ptr why) {
-    const std::lock_guard lock(end_mutex_);
-    if (!end_) end_ = std::move(why);
-    has_ended_ = true;
 }
 
 // Segmentation, on any thread.
@@ -294,14 +287,14 @@ bool Converter::isReplaced(const EntryInConversion& entry) const {
 /// Accounts for an entry, unless one before it ended the conversion.
 void Converter::accountInOrder(EntryInConversion& entry) {
     entry.member.clear();
-    if (is_accounted_to_end_) return;
+    if (accounting_ended_) return;
     try {
         account(entry);
         // Without outputs there is nothing to go on for; run() tells why there are none.
         has_ended_ = has_ended_ || !outputs_.hasAny();
     } catch (...) {
-        is_accounted_to_end_ = true;
-        endWith(std::current_exception());
+        accounting_ended_ = std::current_exception();
+        has_ended_ = true;
     }
 }
 
@@ -374,6 +367,8 @@ ConversionReport Converter::run() {
                                             std::to_string(threads) + " are used");
     }
     report_.left_out_before = source_->entriesSkipped();
+    // Reading is ahead: what ended it is about later entries.
+    end_ = accounting_ended_ ? accounting_ended_ : reading_ended_;
     if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: each failed
     if (!end_) return finish();
     if (report_.entries == 0 || isWrongUsage(end_)) std::rethrow_exception(end_);

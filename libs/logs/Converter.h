@@ -68,7 +68,6 @@ class Converter {
     void remarkOnRecording();
     void checkLabels() const;
     void accountInOrder(EntryInConversion& entry);
-    void endWith(std::exception_ptr why);
     [[noreturn]] void keepWhatThereIs();
 
     const Conversion& conversion_;
@@ -82,10 +81,10 @@ class Converter {
     std::map<std::string, mrpt::Clock::time_point> last_segmented_;
     SensorCheck sensor_check_;
     ConversionReport report_;
-    std::mutex end_mutex_;
-    std::exception_ptr end_;  ///< why the conversion ends early
-    std::atomic<bool> has_ended_{false};
-    bool is_accounted_to_end_ = false;  ///< nothing after this entry is in an output
+    // Why the conversion ends early; each is written by one step only. After the entry that ended
+    // accounting, nothing is in an output.
+    std::exception_ptr reading_ended_, accounting_ended_, end_;
+    std::atomic<bool> has_ended_{false};  ///< nothing needs to be read any more
 };
 
 }  // namespace hagen::logs
