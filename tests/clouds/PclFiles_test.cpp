@@ -12,6 +12,8 @@
 #include <cstring>
 #include <limits>
 
+#include "support/Program.h"
+
 namespace hagen::clouds {
 namespace {
 
@@ -56,7 +58,8 @@ class PclFilesTest : public testing::Test {
         }
     }
 
-    const std::string file_ = (fs::path(testing::TempDir()) / "hagen_pcl_file").string();
+    const test::TemporaryFolder folder_;
+    const std::string file_ = (folder_ / "hagen_pcl_file").string();
     pcl::PointCloud<pcl::PointXYZI> cloud_;
 };
 

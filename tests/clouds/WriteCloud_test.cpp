@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "support/Program.h"
+
 namespace hagen::clouds {
 namespace {
 
@@ -36,10 +38,8 @@ PointTable twoPoints() {
 class WriteCloudTest : public testing::TestWithParam<OutputFormat> {
  protected:
     void SetUp() override {
-        file_ =
-            fs::path(testing::TempDir()) / (std::string("write_cloud") + extensionOf(GetParam()));
+        file_ = folder_ / (std::string("write_cloud") + extensionOf(GetParam()));
     }
-    void TearDown() override { fs::remove(file_); }
 
     CloudFile writeAndRead(const PointTable& table) const {
         writeCloud(file_, GetParam(), table);
@@ -50,6 +50,7 @@ class WriteCloudTest : public testing::TestWithParam<OutputFormat> {
         return field == nullptr ? Numbers() : columnOf(cloud.table, *field);
     }
 
+    const test::TemporaryFolder folder_;
     fs::path file_;
 };
 
@@ -129,7 +130,8 @@ TEST(WriteCloud, PlyRoundsLargeIntegersAndSaysSo) {
 }
 
 TEST(WriteCloud, APlyIsWhatTheFormatSays) {
-    const fs::path file = fs::path(testing::TempDir()) / "write_cloud_bytes.ply";
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "write_cloud_bytes.ply";
     PointTable table;
     table.points = 1;
     addColumn("x", NumberType::Float32, {1}, table);
