@@ -192,9 +192,7 @@ int run(const Program& program, Flags& flags) {
     }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int command(int argc, char** argv) {
     Program program(
         "live-segment",
         "Separates near obstacles (RoI) from ground and far returns (ROU) while a LiDAR "
@@ -208,3 +206,7 @@ int main(int argc, char** argv) {
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return guarded(argc, argv, command); }

@@ -1,7 +1,9 @@
 // Compares obstacle avoidance with and without a map: flights, recorded logs, reports.
 #include "Commands.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int command(int argc, char** argv) {
     hagen::Program program("octomap-compare",
                            "Compares obstacle avoidance based on RoI points of the filter with "
                            "avoidance based on maps.");
@@ -23,3 +25,7 @@ int main(int argc, char** argv) {
     hagen::addReplay(program);
     return program.run(argc, argv);
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return hagen::command_line::guarded(argc, argv, command); }

@@ -302,9 +302,7 @@ int run(const Program& program, Flags& flags) {
     }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int command(int argc, char** argv) {
     Program program(
         "rawlog-segment",
         "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
@@ -327,3 +325,7 @@ int main(int argc, char** argv) {
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return guarded(argc, argv, command); }

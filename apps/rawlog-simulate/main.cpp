@@ -133,9 +133,7 @@ int run(const simulated_logs::SimulatedLog& log, bool is_quiet) {
     return kDone;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int command(int argc, char** argv) {
     Program program(
         "rawlog-simulate",
         "Simulates a flight with a LiDAR over a generated scene, and writes its scans with ground "
@@ -152,3 +150,7 @@ int main(int argc, char** argv) {
     declare(program, log, is_quiet);
     return program.run(argc, argv, [&] { return run(log, is_quiet); });
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return guarded(argc, argv, command); }

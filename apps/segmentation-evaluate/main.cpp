@@ -167,9 +167,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int command(int argc, char** argv) {
     Program program(
         "segmentation-evaluate",
         "Score the filter on labelled scan folders (KITTI layout; labels 1 ROU, 2 RoI).");
@@ -194,3 +192,7 @@ int main(int argc, char** argv) {
         }
     });
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return guarded(argc, argv, command); }

@@ -1,6 +1,7 @@
 #include "BagFolder.h"
 
 #include <hagen/base/ReadFile.h>
+#include <hagen/base/Folder.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -63,10 +64,10 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
 
 std::vector<fs::path> foundFiles(const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const fs::path ending = entry.path().extension();
-        if (entry.is_regular_file() && (ending == ".mcap" || ending == ".db3")) {
-            files.push_back(entry.path());
+    for (const fs::path& file : base::entriesOf(folder)) {
+        const fs::path ending = file.extension();
+        if (fs::is_regular_file(file) && (ending == ".mcap" || ending == ".db3")) {
+            files.push_back(file);
         }
     }
     // flight_2 comes before flight_10.

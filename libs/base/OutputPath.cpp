@@ -4,6 +4,7 @@
 
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
+#include <hagen/base/Folder.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -20,11 +21,11 @@ namespace fs = std::filesystem;
 /// folders deep; empty if there is none.
 fs::path foreignPart(const fs::path& folder, const fs::path& output, const OutputKind& kind,
                      int depth) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const bool is_file = fs::is_regular_file(fs::symlink_status(entry.path()));
-        if (is_file && kind.holds(entry.path().lexically_relative(output))) continue;
-        if (depth == 0 || !entry.is_directory() || entry.is_symlink()) return entry.path();
-        fs::path foreign = foreignPart(entry.path(), output, kind, depth - 1);
+    for (const fs::path& entry : entriesOf(folder)) {
+        const fs::file_status status = fs::symlink_status(entry);
+        if (fs::is_regular_file(status) && kind.holds(entry.lexically_relative(output))) continue;
+        if (depth == 0 || !fs::is_directory(status)) return entry;
+        fs::path foreign = foreignPart(entry, output, kind, depth - 1);
         if (!foreign.empty()) return foreign;
     }
     return {};
@@ -96,6 +97,12 @@ void syncFolder(const fs::path& folder, const fs::path& named) {
     if (error != 0) throwWriteError(named, error);
 }
 
+/// Throws std::filesystem::filesystem_error.
+void removeOld(const fs::path& path) {
+    const std::error_code error = removeAll(path);
+    if (error) throw fs::filesystem_error("cannot be removed", path, error);
+}
+
 /// Whether a temporary name is that of a process that does not run any more.
 bool isLeftBehind(const std::string& name, const std::string& output) {
     const std::string start = output + kTemporaryMark;
@@ -132,8 +139,7 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
 }
 
 OutputPath::~OutputPath() {
-    std::error_code ignored;  // destructors must not throw
-    fs::remove_all(temporary_, ignored);
+    removeAll(temporary_);
 }
 
 void OutputPath::checkFree() const {
@@ -166,7 +172,7 @@ void OutputPath::commit() {
     }
     // rename() does not replace a non-empty folder. Exchanged, the name always has one of the two.
     if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) {
-        fs::remove_all(temporary_);
+        removeOld(temporary_);
         return;
     }
     // Some file systems cannot exchange.
@@ -178,7 +184,7 @@ void OutputPath::commit() {
         fs::rename(old, path_);
         throw;
     }
-    fs::remove_all(old);
+    removeOld(old);
 }
 
 fs::path OutputPath::keepPartial() {
@@ -218,8 +224,8 @@ std::vector<fs::path> partialOutputs(const fs::path& path) {
         (fs::is_directory(path) ? path.filename() : path.stem()).string() + ".partial";
     const std::string end = fs::is_directory(path) ? "" : path.extension().string();
     std::error_code unreadable;
-    for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
-        const std::string name = entry.path().filename().string();
+    for (const fs::path& entry : entriesOf(folder, unreadable)) {
+        const std::string name = entry.filename().string();
         if (isLeftBehind(name, path.filename().string())) {
             found.push_back(path.parent_path() / name);
             continue;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -243,6 +244,17 @@ std::string extrasText(const CLI::App& app, int argc, char** argv) {
 }
 
 }  // namespace
+
+int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
+    try {
+        return program(argc, argv);
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "%s: out of memory\n", program_invocation_short_name);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s: %s\n", program_invocation_short_name, e.what());
+    }
+    return kFailed;
+}
 
 Program::Program(std::string name, const std::string& description)
     : Program(std::make_unique<CLI::App>(description), std::move(name)) {}

@@ -1,6 +1,7 @@
 #include <hagen/labelled_scans/LabelRows.h>
 
 #include <hagen/observations/Settings.h>
+#include <hagen/base/Folder.h>
 #include <algorithm>
 #include <stdexcept>
 
@@ -11,9 +12,9 @@ namespace fs = std::filesystem;
 
 bool hasLabelFiles(const fs::path& folder) {
     if (!fs::is_directory(folder)) return false;
-    const fs::directory_iterator files(folder);
-    return std::any_of(begin(files), end(files),
-                       [](const auto& file) { return file.path().extension() == ".label"; });
+    const std::vector<fs::path> files = base::entriesOf(folder);
+    return std::any_of(files.begin(), files.end(),
+                       [](const fs::path& file) { return file.extension() == ".label"; });
 }
 
 std::vector<Label> readFoundLabels(const fs::path& file, std::size_t returns) {

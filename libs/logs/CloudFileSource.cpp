@@ -5,6 +5,7 @@
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/observations/TableCloud.h>
+#include <hagen/base/Folder.h>
 
 #include <algorithm>
 #include <new>
@@ -63,12 +64,12 @@ void sortByName(std::vector<fs::path>& files) {
 CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOptions& options)
     : ScanSource(options) {
     if (fs::is_directory(file_or_folder)) {
-        for (const auto& entry : fs::directory_iterator(file_or_folder)) {
-            if (!entry.is_regular_file()) continue;
-            if (clouds::hasCloudName(entry.path())) {
-                files_.push_back(entry.path());
+        for (const fs::path& entry : base::entriesOf(file_or_folder)) {
+            if (!fs::is_regular_file(entry)) continue;
+            if (clouds::hasCloudName(entry)) {
+                files_.push_back(entry);
             } else {
-                other_files_ += entry.path().filename() != kCloudsMarker;
+                other_files_ += entry.filename() != kCloudsMarker;
             }
         }
         if (files_.empty()) {
@@ -92,9 +93,9 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
 }
 
 bool CloudFileSource::hasClouds(const fs::path& folder) {
-    const fs::directory_iterator entries(folder);
-    return std::any_of(begin(entries), end(entries), [](const auto& entry) {
-        return entry.is_regular_file() && clouds::hasCloudName(entry.path());
+    const std::vector<fs::path> entries = base::entriesOf(folder);
+    return std::any_of(entries.begin(), entries.end(), [](const fs::path& entry) {
+        return fs::is_regular_file(entry) && clouds::hasCloudName(entry);
     });
 }
 

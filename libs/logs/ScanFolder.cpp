@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include <hagen/base/WriteFile.h>
+#include <hagen/base/Folder.h>
 
 namespace hagen::logs {
 namespace {
@@ -79,8 +80,8 @@ ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
         throw std::runtime_error(folder_.string() +
                                  ": not a scan folder (no subfolder 'velodyne' with .bin files)");
     }
-    for (const auto& entry : fs::directory_iterator(scans)) {
-        if (entry.path().extension() == ".bin") names_.push_back(entry.path().stem().string());
+    for (const fs::path& file : base::entriesOf(scans)) {
+        if (file.extension() == ".bin") names_.push_back(file.stem().string());
     }
     if (names_.empty()) throw std::runtime_error(scans.string() + ": contains no .bin files");
     std::sort(names_.begin(), names_.end());

@@ -3,6 +3,7 @@
 #include <hagen/bags/BagFile.h>
 #include <hagen/captures/CaptureFile.h>
 #include <hagen/clouds/CloudFile.h>
+#include <hagen/base/Folder.h>
 #include <algorithm>
 
 #include "BagSource.h"
@@ -98,28 +99,22 @@ namespace fs = std::filesystem;
 /// Recordings in a folder, which are read one by one, in the order of their names.
 std::vector<fs::path> recordingsIn(const fs::path& folder) {
     std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const fs::path& path = entry.path();
-        const bool is_file = entry.is_regular_file();
+    for (const fs::path& path : base::entriesOf(folder)) {
+        const bool is_file = fs::is_regular_file(path);
         const bool is_recording = is_file ? bags::isBag(path) || captures::isCapture(path) ||
                                                 path.extension() == ".rawlog"
-                                          : entry.is_directory() && bags::isBag(path);
+                                          : fs::is_directory(path) && bags::isBag(path);
         if (is_recording) found.push_back(path);
     }
-    std::sort(found.begin(), found.end());
     return found;
 }
 
 /// The first folder with scans in a folder, up to two levels deep; empty if there is none. Folders
 /// that may not be read are none.
 fs::path scansWithin(const fs::path& folder, int depth = 2) {
-    std::vector<fs::path> folders;
     std::error_code unreadable;
-    for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
-        if (entry.is_directory(unreadable)) folders.push_back(entry.path());
-    }
-    std::sort(folders.begin(), folders.end());
-    for (const fs::path& within : folders) {
+    for (const fs::path& within : base::entriesOf(folder, unreadable)) {
+        if (!fs::is_directory(within, unreadable)) continue;
         if (fs::is_empty(within, unreadable) || unreadable) continue;
         if (fs::is_directory(within / "velodyne") || CloudFileSource::hasClouds(within)) {
             return within;

@@ -1,5 +1,6 @@
 #include <hagen/base/WriteFile.h>
 #include <hagen/logs/SensorFolders.h>
+#include <hagen/base/Folder.h>
 
 #include <cctype>
 
@@ -46,8 +47,7 @@ void SensorFolders::unwrapOnlyFolder() {
         fs::remove(path_.temporary());
         fs::rename(lifted, path_.temporary());
     } catch (const fs::filesystem_error&) {
-        std::error_code ignored;
-        fs::remove_all(lifted, ignored);
+        base::removeAll(lifted);
         throw;
     }
 }

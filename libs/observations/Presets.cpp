@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include <hagen/observations/Settings.h>
+#include <hagen/base/Folder.h>
 #include "YamlParts.h"
 
 namespace hagen::observations {
@@ -94,9 +95,8 @@ std::vector<std::string> presetNames(const std::function<bool(const fs::path&)>&
     std::set<std::string> seen, names;
     for (const fs::path& folder : presetFolders()) {
         std::error_code error;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-            const fs::path& file = entry.path();
-            if (file.extension() != ".yaml" || !entry.is_regular_file(error)) continue;
+        for (const fs::path& file : base::entriesOf(folder, error)) {
+            if (file.extension() != ".yaml" || !fs::is_regular_file(file, error)) continue;
             // An earlier folder's file of the same name hides this one.
             const std::string name = file.stem().string();
             if (seen.insert(name).second && isUsable(file)) names.insert(name);

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <hagen/trials/Journal.h>
 #include <hagen/trials/MeasuredTable.h>
+#include <hagen/base/Folder.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -52,14 +53,12 @@ std::vector<JournalLine> readJournal(const fs::path& file) {
 }
 
 std::vector<fs::path> journalsIn(const fs::path& folder) {
-    std::vector<fs::path> journals;
     const fs::path place = folder / "journal";
     std::error_code error;  // the campaign may end, and remove them, at any time
-    for (const auto& entry : fs::directory_iterator(place, error)) journals.push_back(entry.path());
+    std::vector<fs::path> journals = base::entriesOf(place, error);
     if (error && error != std::errc::no_such_file_or_directory) {
         throw std::runtime_error(place.string() + ": cannot be read: " + error.message());
     }
-    std::sort(journals.begin(), journals.end());
     return journals;
 }
 

@@ -20,6 +20,10 @@ namespace hagen::command_line {
 /// Exit codes of all programs.
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
+/// What main() returns: the exit code of `program`. Should it throw (out of memory, before or after
+/// Program::run()), prints so with no more memory, and returns kFailed.
+int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept;
+
 /// Wrong usage that is detected only after parsing all flags. Programs print the message and how to
 /// get help, and exit with kWrongUsage.
 struct UsageError : std::runtime_error {

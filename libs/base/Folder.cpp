@@ -1,0 +1,54 @@
+#include <dirent.h>
+#include <ftw.h>
+
+#include <hagen/base/Folder.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+
+namespace hagen::base {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> entriesOf(const fs::path& folder, std::error_code& error) {
+    error.clear();
+    std::vector<fs::path> entries;
+    const auto fail = [&] { error.assign(errno, std::generic_category()); };
+    const auto close = [](DIR* open) { closedir(open); };
+    const std::unique_ptr<DIR, decltype(close)> open(opendir(folder.c_str()), close);
+    if (open == nullptr) {
+        fail();
+        return entries;
+    }
+    while (true) {
+        errno = 0;
+        const dirent* const entry = readdir(open.get());
+        if (entry == nullptr) break;
+        const std::string_view name = entry->d_name;
+        if (name != "." && name != "..") entries.push_back(folder / name);
+    }
+    if (errno != 0) fail();
+    std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
+std::vector<fs::path> entriesOf(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> entries = entriesOf(folder, error);
+    if (error) throw fs::filesystem_error("cannot be listed", folder, error);
+    return entries;
+}
+
+std::error_code removeAll(const fs::path& path) noexcept {
+    constexpr int kOpenFolders = 16;
+    const auto removeOne = [](const char* one, const struct stat*, int, FTW*) {
+        return std::remove(one);
+    };
+    errno = 0;
+    if (nftw(path.c_str(), removeOne, kOpenFolders, FTW_DEPTH | FTW_PHYS) == 0) return {};
+    return errno == ENOENT ? std::error_code() : std::error_code(errno, std::generic_category());
+}
+
+}  // namespace hagen::base
