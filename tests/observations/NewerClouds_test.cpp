@@ -241,7 +241,8 @@ TEST(NewerClouds, IntensitiesOfAnyTypeAreScaledWhenTheScanIsRead) {
     readObservation(observation, {}, observed);
     EXPECT_EQ(observed.remark,
               "the filter does not use these fields of its cloud; --cloud generic, --clouds and "
-              "--mcap keep them: t, gps_time, ring, color_r, rgba");
+              "--mcap keep them: gps_time, ring, color_r, rgba");
+    EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));
 }
 
 /// A simple cloud in the bytes of the installed MRPT, and in those of one since 2.15.3.
