@@ -2,9 +2,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <hagen/base/Folder.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
-#include <hagen/base/Folder.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -138,9 +138,7 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     temporary_ = secretName(path_, kTemporaryMark);
 }
 
-OutputPath::~OutputPath() {
-    removeAll(temporary_);
-}
+OutputPath::~OutputPath() { removeAll(temporary_); }
 
 void OutputPath::checkFree() const {
     if (!fs::exists(fs::symlink_status(path_))) return;

@@ -1,10 +1,14 @@
-// For LD_PRELOAD: the n-th allocation of a program by `new`, counted from the start of main(),
-// fails once. n is HAGEN_FAILING_NEW; without it, all are counted and their number is printed at
-// the end. malloc() is left alone: libraries in C say what they do without memory, C++ throws.
+// For LD_PRELOAD, by scripts/inject-faults:
+//   HAGEN_FAILING_NEW   n: the n-th allocation of a program by `new`, counted from the start of
+//                       main(), fails once. 0: all are counted, and their number is printed at the
+//                       end. malloc() is left alone: libraries in C say what they do without
+//                       memory.
+//   HAGEN_STOP_AT_MAIN  the program stops itself at the start of main(), until strace is attached.
 #include <dlfcn.h>
 
 #include <algorithm>
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -22,10 +26,17 @@ Main program = nullptr;
 int countedMain(int argc, char** argv, char** environment) {
     const char* const wanted = std::getenv("HAGEN_FAILING_NEW");
     failing = wanted != nullptr ? std::atol(wanted) : 0;
-    is_in_main = true;
+    // Programs that this one starts are traced, too: they do not stop.
+    if (std::getenv("HAGEN_STOP_AT_MAIN") != nullptr) {
+        unsetenv("HAGEN_STOP_AT_MAIN");
+        raise(SIGSTOP);
+    }
+    is_in_main = wanted != nullptr;
     const int exit_code = program(argc, argv, environment);
     is_in_main = false;
-    if (failing == 0) std::fprintf(stderr, "allocations: %ld\n", allocations.load());
+    if (wanted != nullptr && failing == 0) {
+        std::fprintf(stderr, "allocations: %ld\n", allocations.load());
+    }
     return exit_code;
 }
 
