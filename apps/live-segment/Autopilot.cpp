@@ -73,7 +73,10 @@ std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& fl
     };
     listener.sector = [to](const streaming::LabelledSector& sector) { to->take(sector); };
     listener.motion = [to](double time_s) { return to->motionAt(time_s); };
-    listener.counts["mavlink"] = [to] { return to->counts(); };
+    listener.counts["mavlink"] = [to] {
+        to->stop();
+        return to->counts();
+    };
     return opened;
 }
 

@@ -76,7 +76,7 @@ struct LiveListener {
     std::function<void(const SensorModel&, const Options&)> begin = [](const auto&, const auto&) {};
     /// The motion at a time of steadyNow_s(), called with each packet. Empty: it is not known.
     std::function<streaming::SensorMotion(double time_s)> motion;
-    /// More counts for `stats`: the name of a section, and its values.
+    /// More counts for `stats`, called at the end: the name of a section, and its values.
     std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
     /// What the user should know now: silence, another mode, another rate.
     std::function<void(const std::string& remark)> remark = [](const auto&) {};
