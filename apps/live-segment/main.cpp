@@ -7,12 +7,15 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include <hagen/command_line/CommandLine.h>
 #include <hagen/command_line/Interrupt.h>
 #include <hagen/command_line/Terminal.h>
+
+#include "Autopilot.h"
 
 namespace {
 
@@ -26,6 +29,7 @@ struct Flags {
     double speed = 1, rotate_mb = 0;
     std::vector<std::string> configs;
     bool overwrite = false, is_quiet = false;
+    AutopilotFlags autopilot;
 };
 
 void declare(Program& app, Flags& flags) {
@@ -75,6 +79,7 @@ void declare(Program& app, Flags& flags) {
         .group("Output");
     app.flag("--overwrite", flags.overwrite, "replace existing outputs").group("Output");
     app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
+    declareAutopilot(app, flags.autopilot);
     app.option("-c,--config", flags.configs,
                "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
                "override earlier ones")
@@ -97,6 +102,7 @@ void check(Flags& flags) {
     if (flags.live.model.empty()) {
         throw UsageError("--model is required:" + live::liveModels());
     }
+    checkAutopilot(flags.autopilot);
     flags.live.overwrite = flags.live.recording.overwrite = flags.overwrite;
     flags.live.recording.rotate_bytes = static_cast<std::size_t>(flags.rotate_mb * 1e6);
     try {
@@ -178,13 +184,17 @@ int run(const Program& program, Flags& flags) {
         listener.status = [&](const auto& report, const auto& status) {
             line.show(report, status);
         };
+        std::mutex remarks;  // the autopilot's thread has some, too
         listener.remark = [&](const std::string& remark) {
+            const std::lock_guard lock(remarks);
             line.clear();
             if (!flags.is_quiet) std::cerr << remark << "\n";
         };
+        const auto link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
         const live::LiveReport report = live::runLive(*source, flags.live, listener);
         line.clear();
         if (!flags.is_quiet) printSummary(report);
+        if (!flags.is_quiet && link) printLink(*link);
         if (report.packets > 0) return kDone;
         return program.fail(kFailed, "no packet of a " + flags.live.model + " has come");
     } catch (const observations::SettingsError& e) {
@@ -201,6 +211,7 @@ int command(int argc, char** argv) {
         "Examples:\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.rawlog\n"
         "  live-segment --replay flight.pcap --model HDL-32E -c hdl32e --stats flight.json\n"
+        "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --mavlink udp:192.168.1.10:14550\n"
         "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     Flags flags;
     declare(program, flags);

@@ -61,6 +61,10 @@ class Session {
     LiveReport& report() { return report_; }
 
  private:
+    const streaming::StreamingSegmenter& segmenter() const {
+        return velodyne_ ? velodyne_->segmenter() : livox_->segmenter();
+    }
+    void move(double time_s);
     void takeVelodyne(const Packet& packet);
     void takeLivox(const Packet& packet);
     bool isOfSensor(const Packet& packet);
@@ -96,6 +100,7 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     if (options.model == kLivox) {
         livox_ = std::make_unique<streaming::LivoxStream>(options.settings, take);
         distances_.emplace(livox_->segmenter().sensor());
+        listener_.begin(segmenter().sensor(), segmenter().options());
         return;
     }
     std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration;
@@ -107,6 +112,7 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     velodyne_ = std::make_unique<streaming::VelodyneStream>(model, options.settings, take,
                                                             options.streaming, calibration);
     distances_.emplace(velodyne_->segmenter().sensor());
+    listener_.begin(segmenter().sensor(), segmenter().options());
     if (options.recording.file.empty()) return;
     turns_.emplace(model, "velodyne", calibration);
     TurnRecorder::Options recording = options.recording;
@@ -163,8 +169,21 @@ bool Session::isOfSensor(const Packet& packet) {
     return true;
 }
 
+/// Tells the stream how the sensor moves.
+void Session::move(double time_s) {
+    if (!listener_.motion) return;
+    const streaming::SensorMotion motion = listener_.motion(time_s);
+    const auto tell = [&](auto& stream) {
+        stream.setAttitude(motion.attitude);
+        stream.setPose(motion.map_from_sensor);
+    };
+    if (velodyne_) tell(*velodyne_);
+    if (livox_) tell(*livox_);
+}
+
 void Session::take(const Packet& packet) {
     ++report_.datagrams;
+    move(packet.arrival_s);
     if (velodyne_) {
         takeVelodyne(packet);
     } else {
@@ -331,7 +350,8 @@ LiveReport Session::finish(double start_cpu_s) {
 
 base::Json numberOrNull(double value) { return std::isfinite(value) ? base::Json(value) : nullptr; }
 
-void writeStats(const LiveReport& r, const LiveOptions& options, base::OutputPath& file) {
+void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListener& listener,
+                base::OutputPath& file) {
     base::Json json{{"model", options.model},
                     {"seconds", r.seconds},
                     {"packets",
@@ -373,6 +393,9 @@ void writeStats(const LiveReport& r, const LiveOptions& options, base::OutputPat
                                       {"left_out", r.recorded.left_out},
                                       {"unreadable", r.recorded.unreadable},
                                       {"files", files}};
+    }
+    for (const auto& [name, counts] : listener.counts) {
+        for (const auto& [what, number] : counts()) json[name][what] = number;
     }
     std::ofstream out(file.temporary());
     out << json.dump(2) << '\n';
@@ -465,7 +488,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     session.report().dropped = dropped;
     LiveReport report = session.finish(cpu_s);
     report.process_cpu_s = processCpu_s() - process_s;
-    if (stats) writeStats(report, options, *stats);
+    if (stats) writeStats(report, options, listener, *stats);
     if (failure) std::rethrow_exception(failure);
     return report;
 }

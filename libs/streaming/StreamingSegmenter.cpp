@@ -104,6 +104,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     packet.sweep.reset();
     packet.time_s = time_s;
     packet.pose = pose_;
+    packet.has_place = pose_.has_value();
     if (!pose_ && attitude_) {
         packet.pose = Eigen::Isometry3d::Identity();
         packet.pose->linear() = levelFromSensor(*attitude_).cast<double>();
@@ -207,7 +208,8 @@ void StreamingSegmenter::addMoved(const Scan& scan, const Eigen::Isometry3d& mot
 void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
     bool is_near = true, is_cut = false;
     const Packet& latest = packets_.back();
-    const bool has_motion = packet.pose && latest.pose;
+    // A tilt and a pose do not compare: the pose has a heading and a place.
+    const bool has_motion = packet.pose && latest.pose && packet.has_place == latest.has_place;
     if (packet.sweep) {
         const double ahead_rad = packet.sweep->from_rad - (head_rad_ - kTurn_rad);
         if (!has_motion && ahead_rad < streaming_.skip_ahead_rad) return;
@@ -245,7 +247,11 @@ void StreamingSegmenter::label(bool is_cut) {
 
     // The sector comes first, so that its labels are the first ones.
     sector_.clear();
-    for (std::size_t i = first_open; i < packets_.size(); ++i) append(packets_[i].returns, sector_);
+    sweeps_.clear();
+    for (std::size_t i = first_open; i < packets_.size(); ++i) {
+        append(packets_[i].returns, sector_);
+        if (packets_[i].sweep) sweeps_.push_back(*packets_[i].sweep);
+    }
     sector_.beams = last.returns.beams;
     window_.clear();
     append(sector_, window_);
@@ -272,7 +278,7 @@ void StreamingSegmenter::label(bool is_cut) {
     ++sectors_;
     open_ = 0;
     take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt, first.time_s,
-           last.time_s, has_turn, is_doubtful, is_cut, result});
+           last.time_s, has_turn, is_doubtful, is_cut, result, &sweeps_});
 }
 
 }  // namespace hagen::streaming

@@ -4,6 +4,7 @@
 #include <hagen/live/TurnRecorder.h>
 #include <hagen/streaming/LivoxStream.h>
 #include <hagen/streaming/SectorDistances.h>
+#include <hagen/streaming/SensorMotion.h>
 #include <hagen/streaming/VelodyneStream.h>
 
 #include <array>
@@ -11,8 +12,12 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace hagen::live {
 
@@ -67,6 +72,12 @@ struct LiveStatus {
 
 /// Callbacks of a session, all on the thread that calls run().
 struct LiveListener {
+    /// Called first, with the sensor and the options of its filter.
+    std::function<void(const SensorModel&, const Options&)> begin = [](const auto&, const auto&) {};
+    /// The motion at a time of steadyNow_s(), called with each packet. Empty: it is not known.
+    std::function<streaming::SensorMotion(double time_s)> motion;
+    /// More counts for `stats`, called at the end: the name of a section, and its values.
+    std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
     /// What the user should know now: silence, another mode, another rate.
     std::function<void(const std::string& remark)> remark = [](const auto&) {};
     /// Called every half a second.

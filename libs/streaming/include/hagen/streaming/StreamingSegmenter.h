@@ -51,6 +51,8 @@ struct LabelledSector {
     bool is_doubtful;                  ///< all in the zone is RoI: too little of a turn was known
     bool is_cut;                       ///< ended by flush() or restart()
     const SegmentationResult& result;  ///< of the sector and its context
+    /// What each of its packets swept; less than `sweep`, if one is lost. Null: not known.
+    const std::vector<Sweep>* packets = nullptr;
 };
 
 /// Labels the returns of a LiDAR sector by sector, while it turns.
@@ -106,6 +108,7 @@ class StreamingSegmenter {
         std::optional<Sweep> sweep;
         double time_s = 0;
         std::optional<Eigen::Isometry3d> pose;  ///< of the sensor; its rotation only: without place
+        bool has_place = false;
     };
 
     Packet& push(const Scan& returns, double time_s);
@@ -132,6 +135,7 @@ class StreamingSegmenter {
     Scan window_, moved_;  ///< reused
     Scan sector_;
     std::vector<Label> labels_;
+    std::vector<Sweep> sweeps_;  ///< of the sector's packets
 };
 
 }  // namespace hagen::streaming

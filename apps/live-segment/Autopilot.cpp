@@ -1,0 +1,94 @@
+#include "Autopilot.h"
+
+#include <hagen/range_image/Angle.h>
+
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+namespace hagen {
+
+using command_line::Flag;
+using command_line::UsageError;
+
+void declareAutopilot(command_line::Program& app, AutopilotFlags& flags) {
+    const Flag peer =
+        app.option("--mavlink", flags.peer,
+                   "sends obstacles to an autopilot, and takes its attitude and position: "
+                   "udp:HOST:PORT[:OUR_PORT] or serial:DEVICE:BAUD (docs/autopilot.md)")
+            .valueName("PEER")
+            .group("Autopilot");
+    app.option("--mavlink-system", flags.system, "number of the vehicle (its system id), and ours")
+        .between(1, 255)
+        .showDefault()
+        .valueName("N")
+        .needs(peer)
+        .group("Autopilot");
+    app.option("--sensor-yaw", flags.sensor_yaw_deg,
+               "the sensor's x axis is turned from the vehicle's front by this, clockwise from "
+               "above")
+        .between(-360.0, 360.0)
+        .showDefault()
+        .valueName("DEG")
+        .needs(peer)
+        .group("Autopilot");
+    app.option("--obstacle-height", flags.height_m,
+               "obstacles are RoI returns up to this far above or below the sensor (default: all)")
+        .positive()
+        .valueName("M")
+        .needs(peer)
+        .group("Autopilot");
+    app.option("--obstacles", flags.nearest, "nearest obstacles that are sent one by one")
+        .between(0, 20)
+        .showDefault()
+        .valueName("N")
+        .needs(peer)
+        .group("Autopilot");
+}
+
+void checkAutopilot(const AutopilotFlags& flags) {
+    if (flags.peer.empty()) return;
+    try {
+        mavlink::parsePeer(flags.peer);
+    } catch (const std::runtime_error& e) {
+        throw UsageError("--mavlink", e.what());
+    }
+}
+
+std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
+                                                        const observations::Settings& settings,
+                                                        live::LiveListener& listener) {
+    if (flags.peer.empty()) return nullptr;
+    autopilot::AutopilotLink::Settings link;
+    link.peer = mavlink::parsePeer(flags.peer);
+    link.system = static_cast<std::uint8_t>(flags.system);
+    link.nearest = static_cast<std::size_t>(flags.nearest);
+    const Eigen::AngleAxisd yaw(-radians(flags.sensor_yaw_deg), Eigen::Vector3d::UnitZ());
+    link.surroundings.vehicle_from_sensor = yaw * levelFromSensor(settings.mount).cast<double>();
+    if (flags.height_m) link.surroundings.height_m = *flags.height_m;
+    auto opened = std::make_unique<autopilot::AutopilotLink>(link, listener.remark);
+    autopilot::AutopilotLink* const to = opened.get();
+    listener.begin = [to](const SensorModel& sensor, const Options& options) {
+        to->begin(sensor, {options.zone_m, sensor.min_range_m});
+    };
+    listener.sector = [to](const streaming::LabelledSector& sector) { to->take(sector); };
+    listener.motion = [to](double time_s) { return to->motionAt(time_s); };
+    listener.counts["mavlink"] = [to] {
+        to->stop();
+        return to->counts();
+    };
+    return opened;
+}
+
+void printLink(const autopilot::AutopilotLink& link) {
+    std::map<std::string, std::size_t> n;
+    for (const auto& [name, number] : link.counts()) n[name] = number;
+    std::printf(
+        "MAVLink: %zu messages sent (%zu OBSTACLE_DISTANCE, %zu of them unknown in all "
+        "directions), %zu not sent; %zu received, %zu refused\n",
+        n["obstacle_distance"] + n["obstacle_distance_3d"] + n["distance_sensor"] + n["heartbeat"],
+        n["obstacle_distance"], n["all_unknown"], n["not_sent"], n["received"],
+        n["refused"] + n["bad_checksum"] + n["incompatible"]);
+}
+
+}  // namespace hagen

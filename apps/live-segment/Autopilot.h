@@ -1,0 +1,33 @@
+#pragma once
+#include <hagen/autopilot/AutopilotLink.h>
+#include <hagen/live/LiveSession.h>
+#include <hagen/observations/Settings.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <hagen/command_line/CommandLine.h>
+
+namespace hagen {
+
+/// The flags of a link to an autopilot.
+struct AutopilotFlags {
+    std::string peer;  ///< empty: none
+    int system = 1, nearest = 5;
+    double sensor_yaw_deg = 0;
+    std::optional<float> height_m;
+};
+
+void declareAutopilot(command_line::Program& app, AutopilotFlags& flags);
+/// Throws UsageError if the peer is none.
+void checkAutopilot(const AutopilotFlags& flags);
+
+/// Opens the link and has the listener of a session feed it; null without --mavlink. It tells by
+/// `listener.remark`, from a thread of its own. Throws std::runtime_error naming the peer.
+std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
+                                                        const observations::Settings& settings,
+                                                        live::LiveListener& listener);
+void printLink(const autopilot::AutopilotLink& link);
+
+}  // namespace hagen

@@ -1,0 +1,72 @@
+#pragma once
+#include <hagen/autopilot/VehicleMotion.h>
+#include <hagen/range_image/SensorModel.h>
+#include <hagen/streaming/StreamingSegmenter.h>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <deque>
+#include <limits>
+#include <vector>
+
+namespace hagen::autopilot {
+
+/// What is known of a direction around the vehicle.
+struct Direction {
+    enum class State { Unknown, SeenNothing, Obstacle };
+    State state = State::Unknown;
+    /// Of the nearest RoI return: horizontal, from the sensor; NaN unless there is an obstacle.
+    float distance_m = std::numeric_limits<float>::quiet_NaN();
+    /// Where it is now, in the vehicle's level frame (heading as the vehicle's, z up).
+    Eigen::Vector3f at_m = Eigen::Vector3f::Zero();
+};
+
+/// 72 directions of 5 degrees, clockwise; the middle of the first is straight ahead.
+using Directions = std::array<Direction, 72>;
+
+/// The obstacles around a vehicle that turns, tilts and moves, from labelled sectors.
+///
+/// What a sector saw is turned and moved by the vehicle's motion since. Directions are level: a
+/// vehicle that rolls sees an obstacle on its right on its right. **Stale is never free**: what was
+/// not swept within 0.3 s is unknown, and so is a direction in which the sensor, as it was tilted
+/// then, has no beam at the horizon. An obstacle is forgotten when its direction was swept again,
+/// a turn later, or after 0.3 s. (streaming::SectorDistances is the same for a sensor that stays.)
+class Surroundings {
+ public:
+    struct Settings {
+        /// How the sensor is mounted.
+        Eigen::Matrix3d vehicle_from_sensor = Eigen::Matrix3d::Identity();
+        /// RoI returns farther above or below the sensor than this are no obstacles.
+        float height_m = std::numeric_limits<float>::infinity();
+        double stale_s = 0.3;
+    };
+    Surroundings(const SensorModel& sensor, const Settings& settings);
+
+    void take(const streaming::LabelledSector& sector);
+    /// What is known at a time of the clock by which packets came.
+    Directions at(double now_s, const VehicleMotion& motion) const;
+    /// When the latest packet of a sector came; -infinity: there was no sector.
+    double latest_s() const { return latest_s_; }
+
+ private:
+    static constexpr int kParts = 5;  ///< of a direction, a degree each
+    static constexpr int kBins = 72 * kParts;
+
+    /// What remains of a sector.
+    struct Seen {
+        double first_time_s = 0, last_time_s = 0;
+        std::vector<streaming::Sweep> sweeps;  ///< of its packets; none: of a sensor without turns
+        double to_rad = 0;                     ///< how far the sensor has turned
+        std::vector<Eigen::Vector3f> roi_m;    ///< in the sensor's frame
+    };
+    bool isFresh(const Seen& seen, double now_s) const;
+    bool covers(const Seen& seen, const Eigen::Vector3d& ahead) const;
+
+    Settings settings_;
+    double lowest_, highest_;  ///< sines of the elevations of its beams
+    std::deque<Seen> seen_;    ///< in the order in which they came
+    std::vector<Seen> spare_;  ///< their memory
+    double latest_s_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace hagen::autopilot

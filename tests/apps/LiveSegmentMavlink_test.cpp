@@ -1,0 +1,495 @@
+// live-segment --mavlink, as an autopilot on the other end sees it.
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/mavlink/Messages.h>
+#include <hagen/mavlink/Parser.h>
+#include <hagen/range_image/Angle.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "autopilot/Vehicle.h"
+#include "support/CaptureWriter.h"
+#include "support/ProgramTest.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen {
+namespace {
+
+using autopilot::Vehicle;
+using testing::HasSubstr;
+
+constexpr std::uint16_t kNothing_cm = 2001, kUnknown_cm = 65535;
+
+double now_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Two poles on flat ground, from 2 m: one 20 degrees left of ahead, one on the right.
+test::SimpleScene poles() {
+    test::SimpleScene scene;
+    scene.poles.push_back({8, 3, 0.2, 6});
+    scene.poles.push_back({-1, -6, 0.2, 6});
+    return scene;
+}
+
+/// A UDP socket of this machine, and all that comes to it.
+class Autopilot {
+ public:
+    Autopilot() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+        sockaddr_in at{};
+        at.sin_family = AF_INET;
+        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at);
+        socklen_t size = sizeof at;
+        getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size);
+        port_ = ntohs(at.sin_port);
+        const timeval wait{0, 10000};
+        setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
+        receiver_ = std::thread([this] { receive(); });
+    }
+    ~Autopilot() {
+        stop();
+        close(socket_);
+    }
+    void stop() {
+        is_at_end_ = true;
+        if (receiver_.joinable()) receiver_.join();
+    }
+    /// To whom messages came from.
+    void send(mavlink::Frame frame) {
+        if (!has_sender_) return;
+        frame.sequence = sequence_++;
+        frame.system = frame.component = 1;
+        const auto bytes = mavlink::encode(frame, 48);
+        sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&from_),
+               sizeof from_);
+    }
+    std::string peer() const { return "udp:127.0.0.1:" + std::to_string(port_); }
+    bool hasSender() const { return has_sender_; }
+    /// After stop().
+    const std::string& bytes() const { return bytes_; }
+    std::vector<mavlink::Frame> frames() const { return framesOf(bytes_); }
+
+    static std::vector<mavlink::Frame> framesOf(const std::string& bytes) {
+        std::vector<mavlink::Frame> frames;
+        mavlink::Parser parser;
+        const auto take = [&](const mavlink::Frame& frame) { frames.push_back(frame); };
+        parser.add(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), take);
+        parser.end(take);
+        EXPECT_EQ(parser.counts().skipped_bytes, 0u);
+        EXPECT_EQ(parser.counts().lost, 0u);
+        return frames;
+    }
+
+ private:
+    void receive() {
+        std::array<char, 2048> buffer{};
+        while (!is_at_end_) {
+            socklen_t size = sizeof from_;
+            sockaddr_in from{};
+            const ssize_t got = recvfrom(socket_, buffer.data(), buffer.size(), 0,
+                                         reinterpret_cast<sockaddr*>(&from), &size);
+            if (got <= 0) continue;
+            bytes_.append(buffer.data(), static_cast<std::size_t>(got));
+            if (has_sender_) continue;
+            from_ = from;
+            has_sender_ = true;
+        }
+    }
+
+    int socket_;
+    std::uint16_t port_ = 0;
+    std::uint8_t sequence_ = 0;
+    sockaddr_in from_{};
+    std::atomic<bool> has_sender_ = false, is_at_end_ = false;
+    std::string bytes_;
+    std::thread receiver_;
+};
+
+template <class Message>
+std::vector<Message> all(const std::vector<mavlink::Frame>& frames) {
+    std::vector<Message> messages;
+    for (const mavlink::Frame& frame : frames) {
+        if (const auto message = mavlink::messageOf<Message>(frame)) messages.push_back(*message);
+    }
+    return messages;
+}
+
+class LiveSegmentMavlink : public test::ProgramTest {
+ protected:
+    test::Outcome run(const std::vector<std::string>& arguments) const override {
+        return test::run(HAGEN_LIVE_SEGMENT, with({"--model", "VLP-16"}, arguments));
+    }
+    /// Turns of a sensor that stays, with a pause after half of them.
+    std::string capture(int turns, double pause_s = 0) const {
+        const auto& model = observations::velodyneModel("VLP-16");
+        observations::Firings firings = test::fireAt(poles(), model, {0, 0, 2});
+        test::CaptureWriter writer;
+        for (int k = 0; k < turns; ++k) {
+            const double time_s = 0.1 * k + (k >= turns / 2 ? pause_s : 0);
+            firings.first_time_us = static_cast<std::uint32_t>(1e6 * time_s);
+            writer.packets(*encodeScan(model, firings), 1700000000 + time_s, 1.327e-3);
+        }
+        return writer.write(path("flight.pcap"));
+    }
+    nlohmann::json stats() const {
+        return nlohmann::json::parse(test::readFile(path("stats.json")))["mavlink"];
+    }
+};
+
+TEST_F(LiveSegmentMavlink, AnAutopilotIsToldWhatIsAround) {
+    Autopilot autopilot;
+    const auto outcome = run({"--replay", capture(12), "--mavlink", autopilot.peer(), "--stats",
+                              path("stats.json"), "--obstacles", "2"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    autopilot.stop();
+    EXPECT_THAT(outcome.out, HasSubstr("MAVLink: "));
+    const auto frames = autopilot.frames();
+    const auto distances = all<mavlink::ObstacleDistance>(frames);
+    ASSERT_GT(distances.size(), 10u);
+    const auto is_right = [](const mavlink::ObstacleDistance& message) {
+        for (int k = 0; k < 72; ++k) {
+            const double deg = 5.0 * k;
+            const int distance_cm = message.distances[k];
+            const bool is_left_pole = std::abs(deg - (360 - 20.6)) < 6;
+            const bool is_right_pole = std::abs(deg - 99.5) < 6;
+            const bool is_as_it_is = deg == 340      ? std::abs(distance_cm - 834) < 8
+                                     : deg == 100    ? std::abs(distance_cm - 588) < 8
+                                     : is_left_pole  ? distance_cm > 800
+                                     : is_right_pole ? distance_cm > 550
+                                                     : distance_cm == kNothing_cm;
+            if (!is_as_it_is) return false;
+        }
+        return true;
+    };
+    // The others are those of the beginning, and the last one.
+    EXPECT_GT(std::count_if(distances.begin(), distances.end(), is_right),
+              static_cast<std::ptrdiff_t>(distances.size() / 2));
+    for (const std::uint16_t distance_cm : distances.back().distances) {
+        EXPECT_EQ(distance_cm, kUnknown_cm);
+    }
+    const auto obstacles = all<mavlink::ObstacleDistance3d>(frames);
+    ASSERT_GT(obstacles.size(), 4u);
+    const auto& nearest = obstacles[obstacles.size() / 2 / 2 * 2];
+    EXPECT_NEAR(std::hypot(nearest.x, nearest.y), 5.88, 0.1);
+    EXPECT_GT(nearest.y, 5);  // on the right
+    for (const auto& below : all<mavlink::DistanceSensor>(frames)) {
+        EXPECT_NEAR(below.current_distance, 200, 8);
+    }
+    EXPECT_GT(all<mavlink::DistanceSensor>(frames).size(), 3u);
+    const auto json = stats();
+    EXPECT_EQ(json["obstacle_distance"], distances.size());
+    EXPECT_EQ(json["obstacle_distance_3d"], obstacles.size());
+    EXPECT_EQ(json["not_sent"], 0);
+}
+
+/// tests/mavlink/read_mavlink.mjs: a parser by others, with the definitions of their own.
+TEST_F(LiveSegmentMavlink, AnotherParserReadsTheSame) {
+    const std::filesystem::path modules = test::dataFolder("HAGEN_NODE_MODULES");
+    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with node-mavlink";
+    Autopilot autopilot;
+    ASSERT_EQ(run({"-q", "--replay", capture(12), "--mavlink", autopilot.peer()}).exit_code, 0);
+    autopilot.stop();
+    const auto file = folder_.write("bytes", autopilot.bytes());
+    const auto read = test::run(
+        "/usr/bin/env",
+        {"-C", modules.string(), "node",
+         std::string(HAGEN_SOURCE_DIR) + "/tests/mavlink/read_mavlink.mjs", file.string()});
+    if (read.exit_code == 127 || read.exit_code == 77) {
+        GTEST_SKIP() << "node or node-mavlink is not there: " << read.err;
+    }
+    ASSERT_EQ(read.exit_code, 0) << read.err;
+
+    const auto frames = autopilot.frames();
+    std::map<std::string, int> messages;
+    std::optional<std::uint64_t> last_us;
+    std::size_t line_number = 0;
+    std::istringstream lines(read.out);
+    nlohmann::json json;
+    for (std::string line; std::getline(lines, line); ++line_number) {
+        json = nlohmann::json::parse(line);
+        if (json.contains("counts")) break;
+        ++messages[json["name"]];
+        const auto& frame = frames.at(line_number);
+        EXPECT_EQ(json["magic"], 0xfd);
+        EXPECT_EQ(json["seq"], line_number % 256);
+        EXPECT_EQ(json["sysid"], 1);
+        EXPECT_EQ(json["compid"], 196);
+        const auto& value = json["value"];
+        if (const auto m = mavlink::messageOf<mavlink::ObstacleDistance>(frame)) {
+            EXPECT_EQ(json["name"], "OBSTACLE_DISTANCE");
+            EXPECT_EQ(value["distances"], m->distances);
+            EXPECT_EQ(value["timeUsec"], m->time_usec);
+            EXPECT_EQ(value["minDistance"], 1);
+            EXPECT_EQ(value["maxDistance"], 2000);
+            EXPECT_EQ(value["increment"], 5);
+            EXPECT_EQ(value["incrementF"], 5.0);
+            EXPECT_EQ(value["angleOffset"], 0.0);
+            EXPECT_EQ(value["frame"], 12);
+            EXPECT_EQ(value["sensorType"], 0);
+            if (last_us) {
+                EXPECT_GT(m->time_usec, *last_us);
+            }
+            last_us = m->time_usec;
+        } else if (const auto d3 = mavlink::messageOf<mavlink::ObstacleDistance3d>(frame)) {
+            EXPECT_EQ(json["name"], "OBSTACLE_DISTANCE_3D");
+            EXPECT_NEAR(value["x"], d3->x, 1e-6);
+            EXPECT_NEAR(value["y"], d3->y, 1e-6);
+            EXPECT_NEAR(value["z"], d3->z, 1e-6);
+            EXPECT_EQ(value["obstacleId"], d3->obstacle_id);
+            EXPECT_EQ(value["frame"], 12);
+            EXPECT_EQ(value["maxDistance"], 20.0);
+            EXPECT_EQ(value["timeBootMs"], d3->time_boot_ms);
+        } else if (mavlink::messageOf<mavlink::DistanceSensor>(frame)) {
+            EXPECT_EQ(json["name"], "DISTANCE_SENSOR");
+            EXPECT_NEAR(value["currentDistance"], 200, 8);
+            EXPECT_EQ(value["orientation"], 25);
+            EXPECT_EQ(value["covariance"], 255);
+            EXPECT_EQ(value["type"], 0);
+        } else {
+            EXPECT_EQ(json["name"], "HEARTBEAT");
+            EXPECT_EQ(value["type"], 18);
+            EXPECT_EQ(value["autopilot"], 8);
+            EXPECT_EQ(value["mavlinkVersion"], 3);
+        }
+    }
+    ASSERT_TRUE(json.contains("counts")) << read.out;
+    EXPECT_EQ(line_number, frames.size());
+    EXPECT_EQ(json["counts"]["bad"], 0);
+    EXPECT_EQ(json["counts"]["bytes"], autopilot.bytes().size());
+    // 20 of these for 10 of those (up to 5 obstacles each) and one heartbeat.
+    EXPECT_GE(messages["OBSTACLE_DISTANCE"], 20 * (messages["HEARTBEAT"] - 1));
+    EXPECT_GT(messages["HEARTBEAT"], 0);
+    EXPECT_GT(messages["OBSTACLE_DISTANCE_3D"], 4);
+    EXPECT_GT(messages["DISTANCE_SENSOR"], 3);
+}
+
+TEST_F(LiveSegmentMavlink, DuringSilenceNothingIsFreeAndItIsTold) {
+    Autopilot autopilot;
+    const auto outcome = run({"--replay", capture(10, 1.2), "--mavlink", autopilot.peer(),
+                              "--stats", path("stats.json")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    autopilot.stop();
+    EXPECT_THAT(outcome.err, HasSubstr("all directions are sent as unknown"));
+    EXPECT_THAT(outcome.err, HasSubstr("directions are known again"));
+    EXPECT_GE(stats()["stalls"], 1);
+    // Free, then unknown, then free again, then the end.
+    std::string states;
+    for (const auto& message : all<mavlink::ObstacleDistance>(autopilot.frames())) {
+        const auto& d = message.distances;
+        const auto unknown = std::count(d.begin(), d.end(), kUnknown_cm);
+        const char state = unknown == 72 ? 'u' : unknown == 0 ? 'k' : ' ';
+        if (state != ' ' && (states.empty() || states.back() != state)) states += state;
+    }
+    EXPECT_THAT(states, HasSubstr("kuk"));
+    EXPECT_EQ(states.front(), 'u');
+    EXPECT_EQ(states.back(), 'u');
+    EXPECT_GT(stats()["all_unknown"], 5);
+}
+
+/// Sends what a sensor measures on a vehicle that yaws and rolls, and the vehicle's attitude, both
+/// at the time at which they are sent.
+class FlyingSensor {
+ public:
+    FlyingSensor(std::uint16_t port, Autopilot& autopilot)
+        : autopilot_(autopilot), socket_(socket(AF_INET, SOCK_DGRAM, 0)), start_s_(now_s()) {
+        to_.sin_family = AF_INET;
+        to_.sin_port = htons(port);
+        to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        firings_.range_m.resize(16, 24);
+        firings_.intensity.setConstant(16, 24, 0.5f);
+    }
+    ~FlyingSensor() { close(socket_); }
+
+    Vehicle vehicleAt(double time_s) const {
+        const double t = time_s - start_s_, roll = 0.14, rate = 4, yaw_rate = 1;
+        Vehicle vehicle;
+        vehicle.yaw_rad = yaw_rate * t;
+        vehicle.roll_rad = roll * std::sin(rate * t);
+        vehicle.rates_rad_s = {roll * rate * std::cos(rate * t),
+                               yaw_rate * std::sin(vehicle.roll_rad),
+                               yaw_rate * std::cos(vehicle.roll_rad)};
+        return vehicle;
+    }
+    /// The next packet, when it is due.
+    void send() {
+        const auto& model = observations::velodyneModel("VLP-16");
+        const double due_s = start_s_ + 24e-6 * model.firing_period_us * packet_;
+        std::this_thread::sleep_for(std::chrono::duration<double>(due_s - now_s()));
+        if (packet_ % 15 == 0) {
+            const double time_s = now_s();
+            autopilot_.send(vehicleAt(time_s).quaternion(time_s - start_s_ + 60));
+        }
+        const double step_deg = 360e-5 * model.firing_period_us;
+        firings_.azimuth_step_deg = step_deg;
+        firings_.first_azimuth_deg = std::fmod(24 * step_deg * packet_, 360.0);
+        firings_.first_time_us =
+            static_cast<std::uint32_t>(24.0 * model.firing_period_us * packet_);
+        measure(model, vehicleAt(now_s()));
+        const auto packets = encodePackets(model, firings_);
+        const std::string bytes = test::bytesOf(packets[0]);
+        sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
+               sizeof to_);
+        ++packet_;
+    }
+
+ private:
+    void measure(const observations::VelodyneModel& model, const Vehicle& vehicle) {
+        static const auto rows = observations::rowsOfLasers(
+            mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model.calibration));
+        static const test::SimpleScene scene = poles();
+        static const SensorModel sensor = sensorModel("VLP-16");
+        // North, west, up: the scene's x, y, z.
+        const Eigen::Vector3d flip(1, -1, -1);
+        const Eigen::Matrix3d scene_from_sensor =
+            flip.asDiagonal() * vehicle.nedFromFrd() * flip.asDiagonal();
+        for (int firing = 0; firing < 24; ++firing) {
+            for (int laser = 0; laser < 16; ++laser) {
+                const double azimuth_rad =
+                    -radians(firingAzimuthDeg(model, firings_, laser, firing));
+                const double elevation_rad =
+                    static_cast<double>(sensor.elevations_rad[rows[laser]]);
+                const test::Hit hit =
+                    castRay(scene, {0, 0, 2},
+                            scene_from_sensor * test::directionOf(azimuth_rad, elevation_rad));
+                firings_.range_m(laser, firing) =
+                    hit.range_m < 100 ? static_cast<float>(hit.range_m) : 0;
+            }
+        }
+    }
+
+    Autopilot& autopilot_;
+    int socket_, packet_ = 0;
+    double start_s_;
+    sockaddr_in to_{};
+    observations::Firings firings_;
+};
+
+TEST_F(LiveSegmentMavlink, AVehicleThatYawsAndRollsSeesThePolesWhereTheyAre) {
+    Autopilot autopilot;
+    const std::uint16_t port = 23680;
+    std::atomic<bool> is_done = false;
+    FlyingSensor sensor(port, autopilot);
+    std::thread sender([&] {
+        while (!is_done) sensor.send();
+    });
+    const auto outcome = run({"--listen", "127.0.0.1:" + std::to_string(port), "--duration", "4",
+                              "--mavlink", autopilot.peer(), "--stats", path("stats.json")});
+    is_done = true;
+    sender.join();
+    autopilot.stop();
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_GT(stats()["attitude"], 50);
+    EXPECT_THAT(outcome.err, HasSubstr("the attitude of vehicle 1 is known"));
+
+    const auto messages = all<mavlink::ObstacleDistance>(autopilot.frames());
+    ASSERT_GT(messages.size(), 40u);
+    // Clocks are the same on this machine. A process that waits for a processor is late: what it
+    // sends is then unknown, and a few messages may be wrong.
+    int compared = 0, wrong = 0;
+    for (std::size_t i = messages.size() / 3; i + 1 < messages.size(); ++i) {
+        const auto& distances = messages[i].distances;
+        if (std::count(distances.begin(), distances.end(), kUnknown_cm) > 0) continue;
+        const Vehicle vehicle = sensor.vehicleAt(1e-6 * static_cast<double>(messages[i].time_usec));
+        bool is_right = true;
+        std::vector<bool> may_be(72, false);
+        for (const auto& pole : poles().poles) {
+            const Eigen::Vector3d foot_ned(pole.x_m, -pole.y_m, 0);
+            const double bearing_deg = vehicle.bearing_deg(foot_ned);
+            const double distance_cm = 100 * (std::hypot(pole.x_m, pole.y_m) - pole.radius_m);
+            double nearest_cm = kNothing_cm;
+            for (double deg = bearing_deg - 4; deg <= bearing_deg + 4; deg += 0.5) {
+                const auto k = static_cast<std::size_t>((deg + 362.5) / 5) % 72;
+                may_be[k] = true;
+                nearest_cm = std::min<double>(nearest_cm, distances[k]);
+            }
+            is_right = is_right && std::abs(nearest_cm - distance_cm) < 20;
+        }
+        for (std::size_t k = 0; k < 72; ++k) {
+            is_right = is_right && (may_be[k] || distances[k] == kNothing_cm);
+        }
+        ++compared;
+        wrong += is_right ? 0 : 1;
+    }
+    RecordProperty("compared", compared);
+    RecordProperty("wrong", wrong);
+    if (compared < 20) GTEST_SKIP() << "this machine is too slow at the moment: " << compared;
+    EXPECT_LE(wrong, compared / 5) << "of " << compared;
+}
+
+TEST_F(LiveSegmentMavlink, ASerialLineHasTheSameMessages) {
+    const int line = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    ASSERT_GE(line, 0);
+    grantpt(line);
+    unlockpt(line);
+    const std::string name = ptsname(line);
+    std::atomic<bool> is_done = false;
+    std::string bytes;
+    std::thread reader([&] {
+        std::array<char, 4096> buffer{};
+        while (!is_done) {
+            const ssize_t got = read(line, buffer.data(), buffer.size());
+            if (got > 0) bytes.append(buffer.data(), static_cast<std::size_t>(got));
+            if (got <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    });
+    const auto outcome = run({"-q", "--replay", capture(8), "--mavlink",
+                              "serial:" + name + ":921600", "--mavlink-system", "7"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    is_done = true;
+    reader.join();
+    close(line);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto frames = Autopilot::framesOf(bytes);
+    EXPECT_GT(all<mavlink::ObstacleDistance>(frames).size(), 8u);
+    for (const auto& frame : frames) EXPECT_EQ(frame.system, 7);
+}
+
+TEST_F(LiveSegmentMavlink, WithoutAnAutopilotItGoesOnAndSaysSo) {
+    std::string peer;
+    {
+        Autopilot gone;
+        peer = gone.peer();
+    }
+    const auto outcome =
+        run({"--replay", capture(6), "--mavlink", peer, "--stats", path("stats.json")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("nobody listens there"));
+    EXPECT_EQ(stats()["peer_troubles"], 1);
+    EXPECT_EQ(stats()["received"], 0);
+}
+
+TEST_F(LiveSegmentMavlink, WrongPeersAreExplained) {
+    const std::string file = capture(2);
+    const auto with_peer = [&](const std::string& peer) {
+        return std::vector<std::string>{"-q", "--replay", file, "--mavlink", peer};
+    };
+    expectFailure(with_peer("192.168.1.10:14550"), 2, "neither udp:HOST:PORT nor serial:DEVICE");
+    expectFailure(with_peer("udp:192.168.1.10:0"), 2, "1 to 65535");
+    expectFailure(with_peer("serial:/dev/ttyS0:57600"), 2, "115200 baud or more");
+    expectFailure(with_peer("serial:" + path("none") + ":115200"), 1, "No such file");
+    expectFailure({"--replay", file, "--mavlink-system", "2"}, 2, "--mavlink");
+    expectFailure(with(with_peer("udp:127.0.0.1:9"), {"--mavlink-system", "0"}), 2,
+                  "--mavlink-system");
+    expectFailure(with(with_peer("udp:127.0.0.1:9"), {"--obstacle-height", "-1"}), 2,
+                  "--obstacle-height");
+}
+
+}  // namespace
+}  // namespace hagen

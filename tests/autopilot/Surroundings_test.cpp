@@ -1,0 +1,326 @@
+#include <gtest/gtest.h>
+#include <hagen/autopilot/Surroundings.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/HagenFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "autopilot/Vehicle.h"
+
+namespace hagen::autopilot {
+namespace {
+
+using State = Direction::State;
+using streaming::LabelledSector;
+using streaming::Sweep;
+
+constexpr double kTurn_s = 0.1, kPacket_rad = kPi / 36;  // 5 degrees
+constexpr int kPacketsPerTurn = 72, kPacketsPerSector = 5;
+
+struct Pole {
+    double north_m, east_m, radius_m = 0.15;
+};
+
+/// A LiDAR on a vehicle that moves among poles without end. All that it hits is RoI.
+class Flight {
+ public:
+    std::vector<Pole> poles;
+    std::function<Vehicle(double time_s)> vehicleAt = [](double) { return Vehicle(); };
+    Eigen::Matrix3d vehicle_from_sensor = Eigen::Matrix3d::Identity();
+    std::function<bool(int packet)> isLost = [](int) { return false; };
+    VehicleMotion motion;
+    bool has_attitude = true, has_place = true;
+
+    /// Flies on, up to this time.
+    void fly(double until_s, Surroundings& surroundings) {
+        for (; packet_ * kTurn_s / kPacketsPerTurn < until_s; ++packet_) {
+            const double time_s = packet_ * kTurn_s / kPacketsPerTurn;
+            const Vehicle vehicle = vehicleAt(time_s);
+            if (packet_ % 14 == 0) {  // about 50 times per second
+                if (has_attitude) motion.take(vehicle.attitude(time_s), time_s);
+                if (has_place) motion.take(vehicle.place(time_s), time_s);
+            }
+            if (!isLost(packet_)) measure(vehicle);
+            last_time_s_ = time_s;
+            if (sweeps_.empty()) first_time_s_ = time_s;
+            if (packet_ % kPacketsPerSector == kPacketsPerSector - 1) label(surroundings);
+        }
+    }
+
+ private:
+    void measure(const Vehicle& vehicle) {
+        if (sweeps_.empty()) first_time_s_ = packet_ * kTurn_s / kPacketsPerTurn;
+        sweeps_.push_back({packet_ * kPacket_rad, (packet_ + 1) * kPacket_rad});
+        const Eigen::Vector3d flip(1, -1, -1);
+        const Eigen::Matrix3d ned_from_sensor =
+            vehicle.nedFromFrd() * flip.asDiagonal() * vehicle_from_sensor;
+        for (double azimuth = sweeps_.back().from_rad; azimuth < sweeps_.back().to_rad;
+             azimuth += radians(0.2)) {
+            for (const float elevation : sensorModel("VLP-16").elevations_rad) {
+                const double e = static_cast<double>(elevation);
+                const Eigen::Vector3d beam(std::cos(e) * std::cos(azimuth),
+                                           -std::cos(e) * std::sin(azimuth), std::sin(e));
+                const double range_m = rangeOf(vehicle, ned_from_sensor * beam);
+                if (range_m > 20) continue;
+                scan_.x_m.push_back(static_cast<float>(range_m * beam.x()));
+                scan_.y_m.push_back(static_cast<float>(range_m * beam.y()));
+                scan_.z_m.push_back(static_cast<float>(range_m * beam.z()));
+            }
+        }
+    }
+    double rangeOf(const Vehicle& vehicle, const Eigen::Vector3d& ray) const {
+        double nearest_m = 1e9;
+        for (const Pole& pole : poles) {
+            // A line and a circle, from above.
+            const Eigen::Vector2d from =
+                vehicle.ned_m.head<2>() - Eigen::Vector2d(pole.north_m, pole.east_m);
+            const Eigen::Vector2d way = ray.head<2>();
+            const double a = way.squaredNorm(), b = from.dot(way),
+                         c = from.squaredNorm() - pole.radius_m * pole.radius_m;
+            const double root = b * b - a * c;
+            if (root < 0 || b > 0) continue;
+            nearest_m = std::min(nearest_m, (-b - std::sqrt(root)) / a);
+        }
+        return nearest_m;
+    }
+    void label(Surroundings& surroundings) {
+        const std::vector<Label> labels(scan_.size(), Label::Roi);
+        if (!sweeps_.empty()) {
+            const Sweep all{sweeps_.front().from_rad, sweeps_.back().to_rad};
+            surroundings.take({scan_, labels, all, first_time_s_, last_time_s_, true, false, false,
+                               result_, &sweeps_});
+        }
+        scan_.clear();
+        sweeps_.clear();
+    }
+
+    int packet_ = 0;
+    double first_time_s_ = 0, last_time_s_ = 0;
+    Scan scan_;
+    std::vector<Sweep> sweeps_;
+    SegmentationResult result_;
+};
+
+class SurroundingsTest : public testing::Test {
+ protected:
+    /// Compares with where the poles are by geometry; returns how many were compared.
+    int compare(const Flight& flight, const Surroundings& surroundings, double now_s,
+                bool all_is_seen = true) {
+        const Vehicle vehicle = flight.vehicleAt(now_s);
+        const Directions directions = surroundings.at(now_s, flight.motion);
+        int compared = 0;
+        std::vector<bool> may_be_obstacle(72, false);
+        for (const Pole& pole : flight.poles) {
+            const Eigen::Vector3d foot(pole.north_m, pole.east_m, 0);
+            const double bearing_deg = vehicle.bearing_deg(foot);
+            const double distance_m = (foot - vehicle.ned_m).head<2>().norm() - pole.radius_m;
+            const double half_deg = degrees(std::asin(pole.radius_m / distance_m)) + 0.6;
+            for (const double edge_deg :
+                 {bearing_deg - half_deg, bearing_deg, bearing_deg + half_deg}) {
+                const double turned = edge_deg + 2.5 + 360;
+                may_be_obstacle[static_cast<std::size_t>(turned / 5) % 72] = true;
+            }
+            // Not at the edge of a direction.
+            const double into_deg = std::remainder(bearing_deg, 5);
+            if (std::abs(into_deg) > 1.5) continue;
+            const auto k = static_cast<std::size_t>((bearing_deg + 2.5) / 5) % 72;
+            EXPECT_EQ(directions[k].state, State::Obstacle) << bearing_deg << " at " << now_s;
+            EXPECT_NEAR(directions[k].distance_m, distance_m, 0.12)
+                << bearing_deg << " at " << now_s;
+            ++compared;
+        }
+        for (std::size_t k = 0; k < 72; ++k) {
+            if (may_be_obstacle[k]) continue;
+            EXPECT_NE(directions[k].state, State::Obstacle) << k << " at " << now_s;
+            if (all_is_seen) {
+                EXPECT_EQ(directions[k].state, State::SeenNothing) << k << " at " << now_s;
+            }
+        }
+        return compared;
+    }
+    static std::vector<Pole> around() {
+        return {{10, 0}, {7, 7}, {0, 12}, {-5, 9}, {-14, -1}, {-6, -8}, {1, -5}, {9, -9}};
+    }
+    static Surroundings::Settings settings(const Eigen::Matrix3d& mount) {
+        Surroundings::Settings settings;
+        settings.vehicle_from_sensor = mount;
+        return settings;
+    }
+
+    const SensorModel sensor_ = sensorModel("VLP-16");
+};
+
+TEST_F(SurroundingsTest, NothingIsKnownAtFirst) {
+    for (const Direction& direction : Surroundings(sensor_, {}).at(1, {})) {
+        EXPECT_EQ(direction.state, State::Unknown);
+        EXPECT_TRUE(std::isnan(direction.distance_m));
+    }
+}
+
+TEST_F(SurroundingsTest, DirectionsAreClockwiseFromAhead) {
+    Flight flight;
+    flight.has_attitude = flight.has_place = false;
+    // Ahead, on the right, behind, on the left.
+    flight.poles = {{6, 0}, {0, 7}, {-8, 0}, {0, -9}};
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.2, surroundings);
+    const Directions at = surroundings.at(0.2, flight.motion);
+    const float expected_m[] = {5.85f, 6.85f, 7.85f, 8.85f};
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(at[18 * k].state, State::Obstacle);
+        EXPECT_NEAR(at[18 * k].distance_m, expected_m[k], 0.02);
+        EXPECT_EQ(at[18 * k + 9].state, State::SeenNothing);
+    }
+    EXPECT_NEAR(at[18].at_m.y(), -6.85, 0.05);  // y is left
+    EXPECT_EQ(compare(flight, surroundings, 0.2), 4);
+}
+
+TEST_F(SurroundingsTest, AVehicleThatYawsRollsAndMovesSeesPolesWhereTheyAre) {
+    Flight flight;
+    flight.poles = around();
+    flight.vehicleAt = [](double t) {
+        Vehicle vehicle;
+        const double roll = 0.2, rate = 6;
+        vehicle.yaw_rad = 0.5 + 1.6 * t;  // 92 degrees per second
+        vehicle.roll_rad = roll * std::sin(rate * t);
+        // Rates about the vehicle's axes.
+        vehicle.rates_rad_s = {roll * rate * std::cos(rate * t), 1.6 * std::sin(vehicle.roll_rad),
+                               1.6 * std::cos(vehicle.roll_rad)};
+        vehicle.speed_m_s = {4, -3, 0.5};
+        vehicle.ned_m = (t - 0.5) * vehicle.speed_m_s;
+        return vehicle;
+    };
+    Surroundings surroundings(sensor_, {});
+    int compared = 0;
+    for (double now_s = 0.25; now_s < 1; now_s += 0.013) {
+        flight.fly(now_s - 0.01, surroundings);  // labels take a while
+        compared += compare(flight, surroundings, now_s);
+    }
+    EXPECT_GT(compared, 200);
+}
+
+TEST_F(SurroundingsTest, AMountThatIsTurnedAndUpsideDownChangesNothing) {
+    using Eigen::AngleAxisd;
+    using Eigen::Vector3d;
+    for (const double roll_deg : {0.0, 180.0}) {
+        Flight flight;
+        flight.poles = around();
+        flight.vehicle_from_sensor = (AngleAxisd(radians(-75), Vector3d::UnitZ()) *
+                                      AngleAxisd(radians(8), Vector3d::UnitY()) *
+                                      AngleAxisd(radians(roll_deg), Vector3d::UnitX()))
+                                         .toRotationMatrix();
+        Surroundings surroundings(sensor_, settings(flight.vehicle_from_sensor));
+        flight.fly(0.3, surroundings);
+        EXPECT_GT(compare(flight, surroundings, 0.3), 3);
+    }
+}
+
+TEST_F(SurroundingsTest, WhereATiltedSensorHasNoBeamAtTheHorizonNothingIsFree) {
+    Flight flight;
+    flight.poles = around();
+    flight.vehicleAt = [](double) {
+        Vehicle vehicle;
+        vehicle.roll_rad = radians(30);
+        return vehicle;
+    };
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.3, surroundings);
+    compare(flight, surroundings, 0.3, false);
+    const Directions at = surroundings.at(0.3, flight.motion);
+    EXPECT_EQ(at[1].state, State::SeenNothing);  // ahead and behind
+    EXPECT_EQ(at[38].state, State::SeenNothing);
+    EXPECT_EQ(at[20].state, State::Unknown);  // on the sides it looks up and down
+    EXPECT_EQ(at[52].state, State::Unknown);
+}
+
+TEST_F(SurroundingsTest, StaleIsNeverFree) {
+    Flight flight;
+    flight.poles = {{6, 0}};
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.5, surroundings);
+    const auto count = [&](double now_s, State state) {
+        const Directions at = surroundings.at(now_s, flight.motion);
+        return std::count_if(at.begin(), at.end(),
+                             [&](const Direction& each) { return each.state == state; });
+    };
+    EXPECT_EQ(count(0.5, State::Unknown), 0);
+    EXPECT_GE(count(0.5, State::Obstacle), 1);
+    // What was swept before 0.45 is stale at 0.75, and so on.
+    const auto unknown = count(0.75, State::Unknown);
+    EXPECT_GT(unknown, 30);
+    EXPECT_LT(unknown, 45);
+    EXPECT_EQ(count(0.81, State::Unknown), 72);
+    // A clock that goes back tells nothing.
+    EXPECT_EQ(count(0.1, State::Unknown), 72);
+}
+
+TEST_F(SurroundingsTest, ADirectionWhosePacketsAreLostIsUnknownAfterAWhile) {
+    Flight flight;
+    // One packet of each turn from the third on, in the middle of a sector.
+    flight.isLost = [](int packet) {
+        return packet >= 2 * kPacketsPerTurn && packet % kPacketsPerTurn == 42;
+    };
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.4, surroundings);
+    EXPECT_EQ(surroundings.at(0.4, flight.motion)[42].state, State::SeenNothing);
+    flight.fly(0.7, surroundings);
+    const Directions at = surroundings.at(0.7, flight.motion);
+    for (std::size_t k = 0; k < 72; ++k) {
+        // The packet is half in each of two directions.
+        EXPECT_EQ(at[k].state, k == 42 || k == 43 ? State::Unknown : State::SeenNothing) << k;
+    }
+}
+
+TEST_F(SurroundingsTest, AnObstacleIsForgottenWhenTheNextTurnDoesNotSeeIt) {
+    Flight flight;
+    flight.poles = {{6, 0}};
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.25, surroundings);
+    flight.poles.clear();
+    flight.fly(0.26, surroundings);
+    EXPECT_EQ(surroundings.at(0.26, flight.motion)[0].state, State::Obstacle);
+    flight.fly(0.36, surroundings);
+    EXPECT_EQ(surroundings.at(0.36, flight.motion)[0].state, State::SeenNothing);
+}
+
+TEST_F(SurroundingsTest, WithoutAttitudeTheSensorIsTakenToBeAsItWas) {
+    Flight flight;
+    flight.has_attitude = flight.has_place = false;
+    flight.poles = around();
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.3, surroundings);
+    EXPECT_GT(compare(flight, surroundings, 0.3), 3);
+}
+
+TEST_F(SurroundingsTest, WhatIsFarAboveOrBelowIsNoObstacleIfAsked) {
+    Surroundings::Settings low;
+    low.height_m = 1;
+    Surroundings surroundings(sensor_, low);
+    Scan scan;
+    scan.x_m = {6, 8};
+    scan.y_m = {0, 0};
+    scan.z_m = {-1.5f, 0.9f};
+    SegmentationResult result;
+    const std::vector<Label> labels(2, Label::Roi);
+    surroundings.take({scan, labels, Sweep{0, 2 * kPi}, 1, 1.1, true, false, false, result});
+    EXPECT_NEAR(surroundings.at(1.1, {})[0].distance_m, 8, 1e-5);
+}
+
+TEST_F(SurroundingsTest, ASensorWithoutTurnsSeesAllAroundFor200Ms) {
+    Surroundings surroundings(sensorModel("Mid-360"), {});
+    Scan scan;
+    scan.x_m = {6};
+    scan.y_m = {0};
+    scan.z_m = {0};
+    SegmentationResult result;
+    surroundings.take({scan, {Label::Roi}, std::nullopt, 1, 1.02, true, false, false, result});
+    EXPECT_EQ(surroundings.at(1.1, {})[0].state, State::Obstacle);
+    EXPECT_EQ(surroundings.at(1.1, {})[36].state, State::SeenNothing);
+    EXPECT_EQ(surroundings.at(1.21, {})[0].state, State::Unknown);
+}
+
+}  // namespace
+}  // namespace hagen::autopilot
