@@ -43,7 +43,7 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
         throw std::runtime_error(path.string() +
                                  ": not a folder, so it is not replaced; choose another name");
     }
-    if (kind.marker != nullptr && !fs::is_empty(path) && !fs::exists(path / kind.marker)) {
+    if (kind.marker != nullptr && !entriesOf(path).empty() && !fs::exists(path / kind.marker)) {
         throw std::runtime_error(path.string() + ": has no '" + kind.marker + "', so it is not " +
                                  kind.what +
                                  " of an earlier run, and is not replaced; choose another name");

@@ -125,7 +125,7 @@ fs::path scansWithin(const fs::path& folder, int depth = 2) {
     std::error_code unreadable;
     for (const fs::path& within : base::entriesOf(folder, unreadable)) {
         if (!fs::is_directory(within, unreadable)) continue;
-        if (fs::is_empty(within, unreadable) || unreadable) continue;
+        if (base::entriesOf(within, unreadable).empty() || unreadable) continue;
         if (fs::is_directory(within / "velodyne") || CloudFileSource::hasClouds(within)) {
             return within;
         }

@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ReturnLimit.h"
+
 namespace hagen::observations {
 namespace {
 
@@ -23,6 +25,7 @@ using mrpt::obs::CObservationVelodyneScan;
 
 template <class Coordinates>
 void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates& z, Scan& scan) {
+    checkReturns(x.size());
     scan.x_m.assign(x.begin(), x.end());
     scan.y_m.assign(y.begin(), y.end());
     scan.z_m.assign(z.begin(), z.end());

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ReturnLimit.h"
 #include "VelodyneReturns.h"
 
 namespace hagen::observations {
@@ -354,6 +355,7 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
         scan.clear();
         return 0;
     }
+    checkReturns(observation.scan_packets.size() * kBlocks * kReturnsOfBlock);
     if (isOfHdl64(observation)) return decodeHdl64(observation, scan, work);
     const VelodyneModel& model = modelOf(observation, 0);
     for (std::size_t p = 1; p < observation.scan_packets.size(); ++p) {

@@ -30,7 +30,7 @@ void CampaignFolder::open(bool overwrite) {
     fs::create_directories(folder_);
     lock_ = lockFolder(folder_);  // first of all, because another program may be setting it up
     removeUnfinished();
-    const bool is_new = fs::is_empty(folder_);
+    const bool is_new = base::entriesOf(folder_).empty();
     if (!is_new && !fs::exists(folder_ / "campaign.json")) {
         throw std::runtime_error(folder_.string() +
                                  ": exists and contains no campaign; choose another folder");

@@ -194,6 +194,16 @@ TEST(VelodyneDecoder, APacketThatWasRecordedLateIsBeforeTheFirstOne) {
     }
 }
 
+TEST(VelodyneDecoder, MorePacketsThanAnyTurnHasAreRefused) {
+    const auto scan =
+        encodeScan(velodyneModel("VLP-16"), randomFirings(58, velodyneModel("VLP-16"), 24, 0.0));
+    Scan decoded;
+    scan->scan_packets.resize(43691, scan->scan_packets.front());  // 16777344 returns
+    EXPECT_THAT(test::messageOf([&] { decodePackets(*scan, decoded); }),
+                testing::HasSubstr("16777344 returns, more than the 16777216"));
+    EXPECT_EQ(decoded.size(), 0u);
+}
+
 TEST(VelodyneDecoder, BothReturnsOfAFiringHaveItsTime) {
     const VelodyneModel& model = velodyneModel("HDL-32E");
     Firings firings = randomFirings(61, model, 60, 0.0);
