@@ -17,6 +17,7 @@ struct AutopilotFlags {
     int system = 1, nearest = 5;
     double sensor_yaw_deg = 0;
     std::optional<float> height_m;
+    bool has_no_ground = false;
 };
 
 void declareAutopilot(command_line::Program& app, AutopilotFlags& flags);

@@ -50,7 +50,7 @@ class AutopilotLink::Work {
     }
 
     void take(const streaming::LabelledSector& sector) {
-        const auto below = sector.is_doubtful
+        const auto below = sector.is_doubtful || !settings_.has_ground
                                ? std::nullopt
                                : groundBelow(sector.result.ground, vehicleFromSensor());
         const std::lock_guard lock(mutex_);

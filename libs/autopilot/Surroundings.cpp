@@ -89,6 +89,9 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
 
     for (auto seen = seen_.rbegin(); seen != seen_.rend(); ++seen) {
         if (!isFresh(*seen, now_s)) continue;
+        // All was swept again, by a later turn.
+        const double least_rad = *std::min_element(swept_rad.begin(), swept_rad.end());
+        if (least_rad - seen->to_rad > kPi) continue;
         const auto then = motion.at((seen->first_time_s + seen->last_time_s) / 2);
         const Eigen::Isometry3d level = levelFromSensor(settings_.vehicle_from_sensor, then, now);
         const Eigen::Matrix3d sensor_from_level = level.linear().transpose();

@@ -55,8 +55,8 @@ class Session {
     Session(const LiveOptions& options, const LiveListener& listener, bool is_live);
 
     void take(const Packet& packet);
-    /// Nothing came: ends sectors, tells silence, shows the status.
-    void look();
+    /// Tells silence, shows the status; if no packet waits, ends the sector in progress.
+    void look(bool is_idle);
     LiveReport finish(double start_cpu_s);
     LiveReport& report() { return report_; }
 
@@ -308,9 +308,9 @@ void Session::showStatus(double now_s) {
     listener_.status(report_, status);
 }
 
-void Session::look() {
+void Session::look(bool is_idle) {
     const double now_s = steadyNow_s();
-    if (report_.datagrams > 0 && !is_flushed_ && now_s - last_packet_s_ > kFlush_s) {
+    if (is_idle && report_.datagrams > 0 && !is_flushed_ && now_s - last_packet_s_ > kFlush_s) {
         if (velodyne_) velodyne_->flush();
         if (livox_) livox_->flush();
         is_flushed_ = true;
@@ -478,7 +478,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
             const auto popped = queue.pop(packet, std::chrono::milliseconds(10));
             if (popped == PacketQueue::Popped::Closed) break;
             if (popped == PacketQueue::Popped::Packet) session.take(packet);
-            session.look();
+            session.look(popped == PacketQueue::Popped::Nothing);
         }
     } catch (...) {
         stop();

@@ -142,11 +142,11 @@ class AutopilotLinkTest : public testing::Test {
 
     Autopilot autopilot_;
     AutopilotLink::Settings settings_;
-    std::unique_ptr<AutopilotLink> link_;
     const SensorModel sensor_ = sensorModel("VLP-16");
     double turned_rad_ = 0;
     std::mutex mutex_;
     std::vector<std::string> remarks_;
+    std::unique_ptr<AutopilotLink> link_;  // whose thread uses the others
 };
 
 TEST_F(AutopilotLinkTest, BeforeAnythingIsLabelledNothingIsKnown) {

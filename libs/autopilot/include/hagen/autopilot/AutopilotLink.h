@@ -31,6 +31,7 @@ class AutopilotLink {
         mavlink::PeerAddress peer;
         std::uint8_t system = 1;  ///< of the vehicle, and ours
         std::size_t nearest = 5;  ///< obstacles that are sent one by one
+        bool has_ground = true;   ///< whether the ground below is sent
         Surroundings::Settings surroundings;
     };
     /// What was sent and received so far, by name.
