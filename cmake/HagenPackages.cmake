@@ -89,7 +89,7 @@ endif()
 set(documents ${CMAKE_INSTALL_DATADIR}/doc)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents}/hagen-tools COMPONENT tools)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents}/hagen-tools COMPONENT tools
-        PATTERN Doxyfile EXCLUDE PATTERN "*.tar.xz" EXCLUDE)
+        PATTERN Doxyfile EXCLUDE PATTERN "*.tar.xz" EXCLUDE PATTERN site EXCLUDE)
 if(HAGEN_BUILD_PYTHON)
   install(FILES ${PROJECT_SOURCE_DIR}/docs/python.md DESTINATION ${documents}/python3-hagen COMPONENT python)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python/ DESTINATION ${documents}/python3-hagen/examples
