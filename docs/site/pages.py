@@ -60,7 +60,7 @@ class Block:
     notes: dict = field(default_factory=dict)
 
 
-NOTE = re.compile(r"<!-- *([a-z ]+?):\s*(.*?)\s*-->", re.S)
+NOTE = re.compile(r"<!-- *([a-z ]+?)(?::\s*(.*?))?\s*-->", re.S)
 BLOCK = re.compile(r"(?P<notes>(?:^<!--(?:(?!-->).)*-->\n+)*)^```(?P<language>[\w+]*)\n(?P<code>.*?)^```[^\n]*$", re.S | re.M)
 
 

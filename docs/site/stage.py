@@ -60,7 +60,13 @@ def relinked(page, text, out, api):
         return str(shown)
 
     def in_prose(prose):
+        prose = re.sub(r"\[[\w/]*\.md\](?=\((\S+?)[#)])", title, prose)
         return pages.LINK.sub(lambda match: match[1] + target_on_site(match[2]) + match[3], prose)
+
+    def title(match):
+        """What a link says that is only the name of a file, "[live.md](live.md)": the page's title."""
+        path = pages.ROOT / os.path.normpath(page.parent / match[1])
+        return f"[{re.search(r'^# (.*)$', path.read_text(), re.M)[1]}]"
 
     parts = re.split(r"(^```.*?^```[^\n]*$|`[^`\n]*`)", text, flags=re.S | re.M)
     return "".join(part if i % 2 else in_prose(part) for i, part in enumerate(parts))

@@ -80,9 +80,7 @@ void readPoints(const CObservationPointCloud& observation, Scan& scan) {
     const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
     assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
                  cloud.getPointsBufferRef_z(), scan);
-    if (const auto* with_intensity = dynamic_cast<const IntensityCloud*>(&cloud)) {
-        assignIntensities(with_intensity->getPointsBufferRef_intensity(), scan);
-    }
+    if (const auto* intensities = intensitiesOf(cloud)) assignIntensities(*intensities, scan);
 }
 
 /// What the fields of a cloud say of its returns.
@@ -300,7 +298,7 @@ mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uin
     if (cloud_class == CloudClass::Simple) {
         return fill(PortableCloud::Create(), [](auto&, std::size_t, std::uint32_t) {});
     }
-    return fill(IntensityCloud::Create(),
+    return fill(std::make_shared<IntensityCloud>(),
                 [&](IntensityCloud& points, std::size_t k, std::uint32_t i) {
                     points.setPointIntensity(k, scan.intensity[i]);
                 });

@@ -71,7 +71,7 @@ TEST(TableCloud, CoordinatesTooLargeForAFloatAreNotFinite) {
 TEST(TableCloud, IntensitiesAreScaledByTheirGreatest) {
     const auto intensities = [](const char* name, NumberType type, const Numbers& numbers) {
         const TableCloud cloud = cloudWith(name, type, numbers);
-        const auto& all = cloud.getPointsBufferRef_intensity();
+        const auto& all = *intensitiesOf(cloud);
         return std::vector<float>(all.begin(), all.end());
     };
     EXPECT_THAT(intensities("intensity", NumberType::Float32, {0.5, 1}), ElementsAre(0.5f, 1.0f));

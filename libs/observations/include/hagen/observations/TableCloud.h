@@ -1,8 +1,8 @@
 #pragma once
+#include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/PointTable.h>
 #include <hagen/range_image/Scan.h>
 #include <mrpt/core/Clock.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -27,7 +27,7 @@ namespace hagen::observations {
 ///
 /// Points with a coordinate that is not finite are no returns: they stay in the table, but are not
 /// in the cloud.
-class TableCloud : public mrpt::maps::CPointsMapXYZI {
+class TableCloud : public IntensityCloud {
  public:
     /// Throws std::runtime_error that says why if the table is unsound (check()), has no x, y or z,
     /// or more points than 32 bits can number.
