@@ -43,6 +43,19 @@ double now_s() {
         .count();
 }
 
+/// A port of this machine that nobody listens on.
+std::uint16_t freePort() {
+    const int probe = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    bind(probe, reinterpret_cast<const sockaddr*>(&at), sizeof at);
+    socklen_t size = sizeof at;
+    getsockname(probe, reinterpret_cast<sockaddr*>(&at), &size);
+    close(probe);
+    return ntohs(at.sin_port);
+}
+
 /// Two poles on flat ground, from 2 m: one 20 degrees left of ahead, one on the right.
 test::SimpleScene poles() {
     test::SimpleScene scene;
@@ -386,7 +399,7 @@ class FlyingSensor {
 
 TEST_F(LiveSegmentMavlink, AVehicleThatYawsAndRollsSeesThePolesWhereTheyAre) {
     Autopilot autopilot;
-    const std::uint16_t port = 23680;
+    const std::uint16_t port = freePort();
     std::atomic<bool> is_done = false;
     FlyingSensor sensor(port, autopilot);
     std::thread sender([&] {
@@ -543,7 +556,7 @@ TEST_F(LiveSegmentMavlink, WhateverTheNetworkLosesNothingStaleIsFree) {
     const char* const longer = std::getenv("HAGEN_NETWORK_FAULT_SECONDS");
     const std::string duration = longer != nullptr ? longer : "4";
     Autopilot autopilot;
-    const std::uint16_t port = 23682;
+    const std::uint16_t port = freePort();
     std::atomic<bool> is_done = false;
     FaultyNetwork network(port);
     std::thread sender([&] {
