@@ -12,6 +12,12 @@ constexpr double kTurn_rad = 2 * kPi;
 constexpr double kTolerance_rad = 0.005;
 constexpr double kPeriod_s = 0.1;  // of a sensor without turns
 
+bool isSwept(const Sweep& sweep, double clockwise_rad) {
+    const double into_rad = clockwise_rad - sweep.from_rad + kTolerance_rad;
+    const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
+    return turned_rad <= sweep.to_rad - sweep.from_rad + 2 * kTolerance_rad;
+}
+
 }  // namespace
 
 SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& settings)
@@ -47,13 +53,15 @@ void SectorDistances::take(const LabelledSector& sector) {
     const double now_rad = sector.sweep ? sector.sweep->to_rad : 0;
     if (!sector.sweep) beginFrame(sector.first_time_s);
     for (int bin = 0; bin < kBins; ++bin) {
-        if (std::isnan(sensor_rad_[bin])) continue;
-        if (sector.sweep) {
-            // A bin counts as swept with the sector that has its centre.
-            const double into_rad = sensor_rad_[bin] - sector.sweep->from_rad + kTolerance_rad;
-            const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
-            const double width_rad = sector.sweep->to_rad - sector.sweep->from_rad;
-            if (turned_rad > width_rad + 2 * kTolerance_rad) continue;
+        // A bin counts as swept with the sector that has its centre; what a lost packet would have
+        // swept does not.
+        const double rad = sensor_rad_[bin];
+        const auto has = [&](const Sweep& sweep) { return isSwept(sweep, rad); };
+        if (std::isnan(rad)) continue;
+        if (sector.sweep && !has(*sector.sweep)) continue;
+        if (sector.sweep && sector.packets &&
+            std::none_of(sector.packets->begin(), sector.packets->end(), has)) {
+            continue;
         }
         bins_[bin].swept_s = sector.first_time_s;
         bins_[bin].swept_rad = now_rad;
