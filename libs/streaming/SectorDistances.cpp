@@ -12,6 +12,13 @@ constexpr double kTurn_rad = 2 * kPi;
 constexpr double kTolerance_rad = 0.005;
 constexpr double kPeriod_s = 0.1;  // of a sensor without turns
 
+/// Whether a direction is in what a packet swept, in any turn.
+bool isWithin(double direction_rad, const Sweep& sweep) {
+    const double into_rad = direction_rad - sweep.from_rad + kTolerance_rad;
+    const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
+    return turned_rad <= sweep.to_rad - sweep.from_rad + 2 * kTolerance_rad;
+}
+
 }  // namespace
 
 SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& settings)
@@ -48,12 +55,16 @@ void SectorDistances::take(const LabelledSector& sector) {
     if (!sector.sweep) beginFrame(sector.first_time_s);
     for (int bin = 0; bin < kBins; ++bin) {
         if (std::isnan(sensor_rad_[bin])) continue;
-        if (sector.sweep) {
-            // A bin counts as swept with the sector that has its centre.
-            const double into_rad = sensor_rad_[bin] - sector.sweep->from_rad + kTolerance_rad;
-            const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
-            const double width_rad = sector.sweep->to_rad - sector.sweep->from_rad;
-            if (turned_rad > width_rad + 2 * kTolerance_rad) continue;
+        // A bin counts as swept with the packet that has its centre.
+        const auto hasCentre = [&](const Sweep& sweep) {
+            return isWithin(sensor_rad_[bin], sweep);
+        };
+        if (sector.sweep && sector.packets != nullptr) {
+            // What a lost packet would have seen is not known.
+            const std::vector<Sweep>& packets = *sector.packets;
+            if (std::none_of(packets.begin(), packets.end(), hasCentre)) continue;
+        } else if (sector.sweep && !hasCentre(*sector.sweep)) {
+            continue;
         }
         bins_[bin].swept_s = sector.first_time_s;
         bins_[bin].swept_rad = now_rad;
