@@ -25,7 +25,7 @@ using namespace hagen::command_line;
 struct Flags {
     live::LiveOptions live;
     std::string listen;
-    std::filesystem::path replay, sensor_json;
+    std::filesystem::path replay;
     double speed = 1, rotate_mb = 0;
     std::vector<std::string> configs;
     bool overwrite = false, is_quiet = false;
@@ -56,8 +56,7 @@ void declare(Program& app, Flags& flags) {
                "calibration of an HDL-64E (Velodyne's db.xml)")
         .existingFile()
         .group("Input");
-    app.option("--sensor-json", flags.sensor_json,
-               "metadata of an Ouster, which is not supported yet")
+    app.option("--sensor-json", flags.live.sensor_json, "metadata of an Ouster, instead of --model")
         .existingFile()
         .group("Input");
     app.option("--duration", flags.live.duration_s, "ends after this time (default: on Ctrl-C)")
@@ -92,15 +91,12 @@ void check(Flags& flags) {
     if (flags.listen.empty() == flags.replay.empty()) {
         throw UsageError("one of --listen and --replay is required");
     }
-    if (!flags.sensor_json.empty()) {
-        throw UsageError("--sensor-json",
-                         "an Ouster cannot be labelled live; supported are" + live::liveModels());
-    }
     if (flags.replay.empty() && flags.speed != 1) {
         throw UsageError("--speed", "is of --replay only");
     }
-    if (flags.live.model.empty()) {
-        throw UsageError("--model is required:" + live::liveModels());
+    if (flags.live.model.empty() && flags.live.sensor_json.empty()) {
+        throw UsageError("--model or, of an Ouster, --sensor-json is required; models:" +
+                         live::liveModels());
     }
     checkAutopilot(flags.autopilot);
     flags.live.overwrite = flags.live.recording.overwrite = flags.overwrite;
@@ -196,7 +192,10 @@ int run(const Program& program, Flags& flags) {
         if (!flags.is_quiet) printSummary(report);
         if (!flags.is_quiet && link) printLink(*link);
         if (report.packets > 0) return kDone;
-        return program.fail(kFailed, "no packet of a " + flags.live.model + " has come");
+        return program.fail(kFailed, flags.live.model.empty()
+                                         ? "no packet of the Ouster of " +
+                                               flags.live.sensor_json.string() + " has come"
+                                         : "no packet of a " + flags.live.model + " has come");
     } catch (const observations::SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }

@@ -42,19 +42,24 @@ OusterFrame emptyFrame(const OusterSensor& sensor, std::uint16_t id, std::int64_
 
 }  // namespace
 
-void OusterFrames::add(const std::uint8_t* packet, std::int64_t time_ns) {
+const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t time_ns,
+                                     std::vector<std::size_t>* taken) {
+    if (taken != nullptr) taken->clear();
     const bool is_legacy = sensor_.profile.is_legacy;
     constexpr std::size_t kPacketHeader = 32;
     ++counts_.packets;
     OusterFrame* const frame = frameOf(frameIdOf(packet, sensor_), time_ns);
     if (frame == nullptr) {
         ++counts_.late_packets;
-        return;
+        return nullptr;
     }
     const std::uint8_t* const first = packet + (is_legacy ? 0 : kPacketHeader);
     for (std::size_t c = 0; c < sensor_.columns_per_packet; ++c) {
-        readColumn(first + c * sensor_.columnBytes(), *frame);
+        std::size_t number = 0;
+        const bool is_new = readColumn(first + c * sensor_.columnBytes(), number, *frame);
+        if (is_new && taken != nullptr) taken->push_back(number);
     }
+    return frame;
 }
 
 /// The open frame with this id, or a new one; null if it is complete already.
@@ -79,16 +84,17 @@ OusterFrame* OusterFrames::frameOf(std::uint16_t id, std::int64_t time_ns) {
     return &*open_.insert(place, emptyFrame(sensor_, id, time_ns));
 }
 
-void OusterFrames::readColumn(const std::uint8_t* column, OusterFrame& frame) {
+/// Returns whether the frame has not had it yet.
+bool OusterFrames::readColumn(const std::uint8_t* column, std::size_t& number, OusterFrame& frame) {
     const OusterProfile& profile = sensor_.profile;
-    const auto number = little<std::uint16_t>(column + 8);
+    number = little<std::uint16_t>(column + 8);
     if (number >= frame.columns) {
         ++counts_.wrong_columns;
-        return;
+        return false;
     }
     if (frame.state[number] != OusterFrame::Column::Missing) {
         ++counts_.repeated_columns;
-        return;
+        return false;
     }
     constexpr std::size_t kHeader = 12, kLegacyHeader = 16;
     const std::uint8_t* const pixels = column + (profile.is_legacy ? kLegacyHeader : kHeader);
@@ -108,6 +114,7 @@ void OusterFrames::readColumn(const std::uint8_t* column, OusterFrame& frame) {
             little<std::uint32_t>(pixel + profile.second_at) & profile.range_mask;
         frame.second_reflectivity[at] = pixel[profile.second_reflectivity_at];
     }
+    return true;
 }
 
 void OusterFrames::completeFirst() {

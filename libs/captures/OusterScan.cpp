@@ -50,12 +50,20 @@ Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor) {
     });
     Scan scan;
     scan.reserve(measured.size() * sensor.pixels);
+    scanColumns(frame, sensor, measured, scan);
+    return scan;
+}
+
+void scanColumns(const OusterFrame& frame, const OusterSensor& sensor,
+                 const std::vector<std::size_t>& columns, Scan& scan) {
+    scan.clear();
     const double unit_m = static_cast<double>(sensor.profile.range_unit_m);
-    for (const std::size_t column : measured) {
+    for (const std::size_t column : columns) {
+        if (frame.state[column] != OusterFrame::Column::Valid) continue;
         const double turned =
             static_cast<double>(column) / static_cast<double>(sensor.columns_per_frame);
         const std::uint64_t since_ns =
-            frame.column_time_ns[column] - frame.column_time_ns[measured.front()];
+            frame.column_time_ns[column] - frame.column_time_ns[columns.front()];
         const ColumnPlace place{2 * kPi * (1 - turned),
                                 static_cast<float>(1e-9 * static_cast<double>(since_ns))};
         for (std::size_t pixel = 0; pixel < sensor.pixels; ++pixel) {
@@ -70,7 +78,6 @@ Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor) {
         }
     }
     scan.beams = beamSpan(*sensor.model);
-    return scan;
 }
 
 mrpt::obs::CObservationPointCloud::Ptr observationOf(const OusterFrame& frame,

@@ -1,6 +1,8 @@
 #include <hagen/base/Json.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/ProcessCost.h>
+#include <hagen/captures/OusterScan.h>
+#include <hagen/captures/VelodyneTurns.h>
 #include <hagen/live/LiveSession.h>
 #include <hagen/observations/VelodyneCalibrationFile.h>
 #include <hagen/range_image/Angle.h>
@@ -28,6 +30,7 @@ constexpr std::size_t kQueue = 4096;  // packets: seconds
 constexpr double kSilence_s = 1.0;    // is told
 constexpr double kFlush_s = 0.02;     // without packets; the sector in progress gets its labels
 constexpr double kStatus_s = 0.5;
+constexpr double kDirections_s = 0.05;
 constexpr double kOtherRate = 0.2;  // of the turns, is told
 constexpr std::size_t kPositionBytes = 512;
 constexpr const char* kLivox = "Mid-360";
@@ -35,6 +38,11 @@ constexpr const char* kHdl64 = "HDL-64E";
 
 const observations::VelodyneModel& velodyneOf(const std::string& name) {
     return name == kHdl64 ? observations::hdl64Model() : observations::velodyneModel(name);
+}
+
+std::string nameOf(const LiveOptions& options) {
+    if (options.sensor_json.empty()) return "a " + options.model;
+    return "the Ouster of " + options.sensor_json.string();
 }
 
 double processCpu_s() {
@@ -62,15 +70,20 @@ class Session {
 
  private:
     const streaming::StreamingSegmenter& segmenter() const {
+        if (ouster_) return ouster_->segmenter();
         return velodyne_ ? velodyne_->segmenter() : livox_->segmenter();
     }
     void move(double time_s);
     void takeVelodyne(const Packet& packet);
     void takeLivox(const Packet& packet);
+    void takeOuster(const Packet& packet);
+    void recordOuster();
+    void flush();
     bool isOfSensor(const Packet& packet);
     void tell(const streaming::LabelledSector& sector);
     void noteNearest(const streaming::LabelledSector& sector);
     void tellChanges();
+    void countDirections(double now_s);
     void copyCounts();
     void showStatus(double now_s);
 
@@ -79,11 +92,12 @@ class Session {
     LiveReport report_;
     std::unique_ptr<streaming::VelodyneStream> velodyne_;
     std::unique_ptr<streaming::LivoxStream> livox_;
+    std::unique_ptr<streaming::OusterStream> ouster_;
     std::optional<captures::VelodyneTurns> turns_;
     std::unique_ptr<TurnRecorder> recorder_;
     std::optional<SectorDistances> distances_;
 
-    double start_s_, status_s_, last_packet_s_ = 0;
+    double start_s_, status_s_, last_packet_s_ = 0, counted_s_ = 0;
     std::optional<std::uint32_t> sensor_ip_;
     bool is_flushed_ = true, is_silent_ = false, is_recording_told_ = false;
     std::optional<bool> is_dual_;
@@ -97,6 +111,18 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     : options_(options), listener_(listener), start_s_(steadyNow_s()), status_s_(start_s_) {
     const auto take = [this](const streaming::LabelledSector& sector) { tell(sector); };
     report_.nearest_m.fill(std::numeric_limits<float>::infinity());
+    TurnRecorder::Options recording = options.recording;
+    recording.waits = !is_live;
+    if (!options.sensor_json.empty()) {
+        ouster_ = std::make_unique<streaming::OusterStream>(
+            captures::readOusterSensor(options.sensor_json), options.settings, take,
+            options.streaming);
+        distances_.emplace(segmenter().sensor());
+        listener_.begin(segmenter().sensor(), segmenter().options());
+        if (recording.file.empty()) return;
+        recorder_ = std::make_unique<TurnRecorder>(recording, options.settings);
+        return;
+    }
     if (options.model == kLivox) {
         livox_ = std::make_unique<streaming::LivoxStream>(options.settings, take);
         distances_.emplace(livox_->segmenter().sensor());
@@ -115,8 +141,6 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     listener_.begin(segmenter().sensor(), segmenter().options());
     if (options.recording.file.empty()) return;
     turns_.emplace(model, "velodyne", calibration);
-    TurnRecorder::Options recording = options.recording;
-    recording.waits = !is_live;
     recorder_ = std::make_unique<TurnRecorder>(recording, options.settings);
 }
 
@@ -144,7 +168,7 @@ void Session::noteNearest(const streaming::LabelledSector& sector) {
     const Scan& scan = sector.returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (sector.label[i] != Label::Roi) continue;
-        const double clockwise_rad = -static_cast<double>(std::atan2(scan.y_m[i], scan.x_m[i]));
+        const double clockwise_rad = -static_cast<double>(scan.azimuth_rad[i]);
         const double share = clockwise_rad / (2 * kPi) + (clockwise_rad < 0 ? 1 : 0);
         const int k = std::min(static_cast<int>(share * SectorDistances::kSectors),
                                SectorDistances::kSectors - 1);
@@ -179,6 +203,13 @@ void Session::move(double time_s) {
     };
     if (velodyne_) tell(*velodyne_);
     if (livox_) tell(*livox_);
+    if (ouster_) tell(*ouster_);
+}
+
+void Session::flush() {
+    if (velodyne_) velodyne_->flush();
+    if (livox_) livox_->flush();
+    if (ouster_) ouster_->flush();
 }
 
 void Session::take(const Packet& packet) {
@@ -186,6 +217,8 @@ void Session::take(const Packet& packet) {
     move(packet.arrival_s);
     if (velodyne_) {
         takeVelodyne(packet);
+    } else if (ouster_) {
+        takeOuster(packet);
     } else {
         takeLivox(packet);
     }
@@ -231,6 +264,29 @@ void Session::takeLivox(const Packet& packet) {
     }
 }
 
+void Session::takeOuster(const Packet& packet) {
+    const std::uint8_t* const bytes = packet.bytes.data();
+    const captures::OusterSensor& sensor = ouster_->sensor();
+    const bool is_packet =
+        packet.bytes.size() == sensor.packetBytes() && captures::isOfLidar(bytes, sensor);
+    const bool has_serial = !sensor.profile.is_legacy && !sensor.serial.empty();
+    if (is_packet && !has_serial && !isOfSensor(packet)) return;
+    const auto taken = ouster_->add(bytes, packet.bytes.size(), packet.arrival_s, packet.time_ns);
+    if (taken == streaming::OusterStream::Taken::Yes) {
+        last_packet_s_ = packet.arrival_s;
+        is_flushed_ = false;
+        tellChanges();
+    }
+    recordOuster();
+}
+
+void Session::recordOuster() {
+    for (const captures::OusterFrame& frame : ouster_->complete()) {
+        if (recorder_) recorder_->add(captures::observationOf(frame, ouster_->sensor()));
+    }
+    ouster_->complete().clear();
+}
+
 /// After a packet was taken.
 void Session::tellChanges() {
     if (is_silent_) {
@@ -255,6 +311,18 @@ void Session::copyCounts() {
         r.repeated = counts.repeated;
         r.wrong_size = counts.wrong_size;
         r.foreign = counts.other_model + foreign_ip_;
+        r.unsound = counts.unsound;
+        r.interruptions = counts.interruptions;
+        r.scans = counts.turns;
+    } else if (ouster_) {
+        const auto& counts = ouster_->counts();
+        r.packets = counts.packets;
+        r.lost = counts.lost;
+        r.late = counts.late;
+        r.repeated = counts.repeated;
+        r.wrong_size = counts.wrong_size;
+        r.position = counts.imu;
+        r.foreign = counts.other_sensor + foreign_ip_;
         r.unsound = counts.unsound;
         r.interruptions = counts.interruptions;
         r.scans = counts.turns;
@@ -290,10 +358,11 @@ void Session::showStatus(double now_s) {
     }
     // Another speed of the motor, twice in a row: packets may have come in a burst.
     const double rate = status.turns_per_s;
-    if (velodyne_ && rate > 0 && !is_silent_) {
+    if (!livox_ && rate > 0 && !is_silent_) {
         const bool is_odd = rate_told_ > 0 && std::abs(rate / rate_told_ - 1) > kOtherRate;
         odd_rates_ = is_odd ? odd_rates_ + 1 : 0;
         if (odd_rates_ == 2) {
+            ++report_.rate_changes;
             listener_.remark("the sensor turns " + fixed(rate, 1) + " times per second now, " +
                              fixed(rate_told_, 1) + " before");
         }
@@ -308,11 +377,28 @@ void Session::showStatus(double now_s) {
     listener_.status(report_, status);
 }
 
+void Session::countDirections(double now_s) {
+    if (now_s - counted_s_ < kDirections_s) return;
+    counted_s_ = now_s;
+    for (const auto& direction : distances_->at(now_s)) {
+        switch (direction.state) {
+            case SectorDistances::State::Unknown:
+                ++report_.times_unknown;
+                break;
+            case SectorDistances::State::SeenNothing:
+                ++report_.times_seen_nothing;
+                break;
+            case SectorDistances::State::Obstacle:
+                ++report_.times_obstacle;
+                break;
+        }
+    }
+}
+
 void Session::look(bool is_idle) {
     const double now_s = steadyNow_s();
     if (is_idle && report_.datagrams > 0 && !is_flushed_ && now_s - last_packet_s_ > kFlush_s) {
-        if (velodyne_) velodyne_->flush();
-        if (livox_) livox_->flush();
+        flush();
         is_flushed_ = true;
     }
     const double silent_s = now_s - (last_packet_s_ > 0 ? last_packet_s_ : start_s_);
@@ -322,7 +408,7 @@ void Session::look(bool is_idle) {
         copyCounts();
         listener_.remark(report_.packets > 0
                              ? "no packets of the sensor for " + fixed(kSilence_s, 0) + " s"
-                             : "no packet of a " + options_.model + " has come yet");
+                             : "no packet of " + nameOf(options_) + " has come yet");
     }
     if (recorder_ && !is_recording_told_) {
         const std::string failure = recorder_->failure();
@@ -331,15 +417,19 @@ void Session::look(bool is_idle) {
             listener_.remark("recording has ended: " + failure);
         }
     }
+    countDirections(now_s);
     if (now_s - status_s_ >= kStatus_s) showStatus(now_s);
 }
 
 LiveReport Session::finish(double start_cpu_s) {
-    if (velodyne_) velodyne_->flush();
-    if (livox_) livox_->flush();
+    flush();
+    if (ouster_) ouster_->finish();
     copyCounts();
     report_.filter_cpu_s = threadCpu_s() - start_cpu_s;
-    if (recorder_) {
+    if (recorder_ && ouster_) {
+        recordOuster();
+        report_.recorded = recorder_->finish();
+    } else if (recorder_) {
         turns_->finish();
         for (const auto& turn : turns_->complete()) recorder_->add(turn);
         turns_->complete().clear();
@@ -352,7 +442,7 @@ base::Json numberOrNull(double value) { return std::isfinite(value) ? base::Json
 
 void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListener& listener,
                 base::OutputPath& file) {
-    base::Json json{{"model", options.model},
+    base::Json json{{"model", options.sensor_json.empty() ? options.model : "Ouster"},
                     {"seconds", r.seconds},
                     {"packets",
                      {{"datagrams", r.datagrams},
@@ -368,6 +458,11 @@ void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListe
                     {"interruptions", r.interruptions},
                     {"silences", r.silences},
                     {"mode_changes", r.mode_changes},
+                    {"rate_changes", r.rate_changes},
+                    {"directions",
+                     {{"unknown", r.times_unknown},
+                      {"seen_nothing", r.times_seen_nothing},
+                      {"obstacle", r.times_obstacle}}},
                     {"scans", r.scans},
                     {"sectors", r.sectors},
                     {"sectors_cut", r.sectors_cut},
@@ -415,6 +510,15 @@ std::string liveModels() {
 }
 
 void checkLive(const LiveOptions& options) {
+    if (!options.sensor_json.empty()) {
+        if (!options.model.empty()) {
+            throw std::runtime_error("an Ouster's metadata name its model: leave out --model");
+        }
+        if (!options.calibration.empty()) {
+            throw std::runtime_error(options.calibration.string() + ": only an HDL-64E has one");
+        }
+        return;
+    }
     const bool is_hdl64 = options.model == kHdl64;
     if (options.model != kLivox && !is_hdl64) {
         try {
@@ -422,8 +526,7 @@ void checkLive(const LiveOptions& options) {
         } catch (const std::invalid_argument&) {
             throw std::runtime_error("'" + options.model +
                                      "' cannot be labelled live; supported are" + liveModels() +
-                                     ". Of an Ouster, record a capture and segment it with "
-                                     "rawlog-segment --sensor-json");
+                                     ". An Ouster needs its metadata: --sensor-json FILE");
         }
     }
     if (is_hdl64 && options.calibration.empty()) {

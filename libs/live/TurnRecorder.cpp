@@ -37,7 +37,7 @@ std::filesystem::path TurnRecorder::nextName() {
                                  options_.file.extension().string());
 }
 
-void TurnRecorder::add(const captures::VelodyneTurns::Turn& turn) {
+void TurnRecorder::add(const mrpt::obs::CObservation::ConstPtr& turn) {
     std::unique_lock lock(mutex_);
     if (options_.waits) {
         changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting || !failure_.empty(); });
@@ -61,7 +61,7 @@ void TurnRecorder::work() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return !waiting_.empty() || is_at_end_; });
         if (waiting_.empty()) return;
-        const captures::VelodyneTurns::Turn turn = std::move(waiting_.front());
+        const mrpt::obs::CObservation::ConstPtr turn = std::move(waiting_.front());
         waiting_.pop_front();
         lock.unlock();
         changed_.notify_all();

@@ -1,4 +1,5 @@
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/ColumnMap.h>
 #include <hagen/range_image/RangeImage.h>
 #include <algorithm>
 #include <cmath>
@@ -26,8 +27,9 @@ constexpr std::size_t kTogether = 128;
 
 /// The size of the image, and the ranges that enter it.
 struct Projection {
-    int rows, columns;
+    int rows, columns;  ///< columns of the whole turn
     float least_m, most_m;
+    const std::int32_t* to_image;  ///< of a column of the turn, that of the image; null: the same
 };
 
 /// Returns of a scan, and where their pixels go.
@@ -82,7 +84,8 @@ void projectTogether(Projection to, Returns returns, std::int32_t first_index,
     const hn::Rebind<std::uint8_t, decltype(d)> d_row;
     const auto in_order = hn::Iota(d_int, first_index);
     for (std::size_t i = 0; i < kTogether; i += hn::Lanes(d)) {
-        const auto column = nearestColumns(hn::LoadU(d, returns.azimuth_rad + i), to.columns);
+        auto column = nearestColumns(hn::LoadU(d, returns.azimuth_rad + i), to.columns);
+        if (to.to_image != nullptr) column = hn::GatherIndex(d_int, to.to_image, column);
         const auto row = hn::PromoteTo(d_int, hn::LoadU(d_row, returns.row + i));
         const auto pixel = hn::Add(hn::Mul(column, hn::Set(d_int, to.rows)), row);
         hn::StoreU(pixel, d_int, projected.pixel + i);
@@ -162,7 +165,36 @@ void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_
     std::copy_n(pixel, rest, depth_mapper + first);
 }
 
+// Fast because pixels are found for a vector of returns at a time, and the closest returns without
+// a branch.
+void project(const Scan& scan, const SensorModel& sensor, const Projection& to, int image_columns,
+             RangeImage& image, ProjectionWorkspace& work) {
+    checkLocated(scan, sensor);
+    std::vector<RangeAndIndex>& closest = work.closest;
+    closest.assign(static_cast<std::size_t>(to.rows) * image_columns, emptyPixel());
+    image.depth_mapper.resize(scan.size());
+    projectReturns(scan, to, image.depth_mapper.data(), closest.data());
+    image.depth_m.resize(to.rows, image_columns);
+    image.closest_return.resize(to.rows, image_columns);
+    split(closest.data(), closest.size(), image.depth_m.data(), image.closest_return.data());
+}
+
 }  // namespace
+
+void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
+                 RangeImage& image, ProjectionWorkspace& work) {
+    const float most_m = std::min(sensor.max_range_m, context_m);
+    project(scan, sensor, {sensor.rows(), columns, sensor.min_range_m, most_m, nullptr}, columns,
+            image, work);
+}
+
+void projectScan(const Scan& scan, const SensorModel& sensor, const ColumnMap& map, float context_m,
+                 RangeImage& image, ProjectionWorkspace& work) {
+    const float most_m = std::min(sensor.max_range_m, context_m);
+    project(scan, sensor,
+            {sensor.rows(), map.columns(), sensor.min_range_m, most_m, map.to_image.data()},
+            static_cast<int>(map.to_turn.size()), image, work);
+}
 
 int nearestColumn(float azimuth_rad, int columns) {
     const float turn = 0.5f - azimuth_rad * kTurnsPerRadian;  // clockwise from behind
@@ -172,22 +204,6 @@ int nearestColumn(float azimuth_rad, int columns) {
 
 float columnAzimuth(int column, int columns) {
     return static_cast<float>(kPi - 2.0 * kPi * (column + 0.5) / columns);
-}
-
-// Fast because pixels are found for a vector of returns at a time, and the closest returns without
-// a branch.
-void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
-                 RangeImage& image, ProjectionWorkspace& work) {
-    checkLocated(scan, sensor);
-    std::vector<RangeAndIndex>& closest = work.closest;
-    closest.assign(static_cast<std::size_t>(sensor.rows()) * columns, emptyPixel());
-    image.depth_mapper.resize(scan.size());
-    projectReturns(
-        scan, {sensor.rows(), columns, sensor.min_range_m, std::min(sensor.max_range_m, context_m)},
-        image.depth_mapper.data(), closest.data());
-    image.depth_m.resize(sensor.rows(), columns);
-    image.closest_return.resize(sensor.rows(), columns);
-    split(closest.data(), closest.size(), image.depth_m.data(), image.closest_return.data());
 }
 
 ReturnsByPixel returnsByPixel(const RangeImage& image) {

@@ -1,4 +1,5 @@
 #include <hagen/segmentation/CellTops.h>
+#include <hwy/highway.h>
 #include <algorithm>
 
 #include "GroundGrid.h"
@@ -7,6 +8,21 @@ namespace hagen {
 namespace {
 
 constexpr float kOverhead_m = 1.5f;  // what is higher need not stand in its cell
+
+/// The highest of each cell, and its second highest, or the highest if it is the only one.
+void separate(const float* two_m, float* highest_m, float* top_m) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<float, 4> d;  // has no better instruction set than the rest of this file
+    const auto none_m = hn::Set(d, CellTops::kNone_m);
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
+    static_assert(kGridSize % kLanes == 0);
+    for (int k = 0; k < kGridSize; k += kLanes) {
+        auto first_m = none_m, second_m = none_m;
+        hn::LoadInterleaved2(d, two_m + 2 * k, first_m, second_m);
+        hn::StoreU(first_m, d, highest_m + k);
+        hn::StoreU(hn::IfThenElse(hn::Eq(second_m, none_m), first_m, second_m), d, top_m + k);
+    }
+}
 
 }  // namespace
 
@@ -26,12 +42,7 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
 
     tops.highest_m.resize(kGridStride, kGridStride);
     tops.top_m.resize(kGridStride, kGridStride);
-    float *const highest_m = tops.highest_m.data(), *const top_m = tops.top_m.data();
-    for (int k = 0; k < kGridSize; ++k) {
-        const float first_m = two_m[2 * k], second_m = two_m[2 * k + 1];
-        highest_m[k] = first_m;
-        top_m[k] = second_m == CellTops::kNone_m ? first_m : second_m;  // the only one
-    }
+    separate(two_m, tops.highest_m.data(), tops.top_m.data());
 }
 
 }  // namespace hagen

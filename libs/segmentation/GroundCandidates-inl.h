@@ -65,22 +65,16 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, GroundFit<kSide>& fit,
 // The next two are not inlined: only returning from a function clears the upper halves of vectors,
 // which would slow down the scalar loops of the fit.
 
-/// Lists the pixels marked `wanted` in every `step`-th column of an image.
+/// Lists the pixels marked `wanted`.
 template <int kSide>
-HWY_NOINLINE void listMarked(const PixelSpan& image, std::size_t rows, std::size_t step,
-                             const std::uint8_t* HWY_RESTRICT mark, std::uint8_t wanted,
-                             GroundFit<kSide>& fit) {
-    const std::size_t at_once = step == 1 ? image.size : rows;
-    for (std::size_t first = 0; first < image.size; first += step * at_once) {
-        listCandidates(image.part(first, at_once), fit,
-                       [&](auto d, std::size_t pixel, auto, auto, auto) HAGEN_INLINE {
-                           const hn::RebindToSigned<decltype(d)> di;
-                           const hn::Rebind<std::uint8_t, decltype(d)> d8;
-                           const auto marks =
-                               hn::PromoteTo(di, hn::LoadU(d8, mark + first + pixel));
-                           return hn::RebindMask(d, hn::Eq(marks, hn::Set(di, wanted)));
-                       });
-    }
+HWY_NOINLINE void listMarked(const PixelSpan& pixels, const std::uint8_t* HWY_RESTRICT mark,
+                             std::uint8_t wanted, GroundFit<kSide>& fit) {
+    listCandidates(pixels, fit, [&](auto d, std::size_t pixel, auto, auto, auto) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const hn::Rebind<std::uint8_t, decltype(d)> d8;
+        const auto marks = hn::PromoteTo(di, hn::LoadU(d8, mark + pixel));
+        return hn::RebindMask(d, hn::Eq(marks, hn::Set(di, wanted)));
+    });
 }
 
 /// Lists the pixels close to a coarse surface with one height per cell; the tolerance grows with

@@ -136,6 +136,8 @@ void SumUpIn(const Points& points, const RobustWeight& weight, PartialSums& sums
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "SampleColumns.h"
+
 namespace hagen {
 namespace {
 
@@ -160,19 +162,19 @@ void weighByDistance(Points& points) {
 
 /// The lowest point of each cell that has points, in work.points.
 void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
-                       GroundFrameWorkspace& work) {
-    const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
-    const Eigen::Index step = std::max<Eigen::Index>(1, columns / kColumns);
-    const std::size_t size = static_cast<std::size_t>((columns + step - 1) / step * rows);
+                       const std::vector<std::int32_t>& columns, GroundFrameWorkspace& work) {
+    const Eigen::Index rows = pixels.x_m.rows();
+    const std::size_t size = columns.size() * static_cast<std::size_t>(rows);
     work.cell.resize(std::max(work.cell.size(), size));
     work.height.resize(std::max(work.height.size(), size));
     std::int32_t *const cell = work.cell.data(), *const height = work.height.data();
     Eigen::Index n_level = 0;
-    for (Eigen::Index column = 0; column < columns; column += step, n_level += rows) {
+    for (const std::int32_t column : columns) {
         const Eigen::Index first = column * rows;
         HWY_DYNAMIC_DISPATCH(LevelPixelsIn)
         (static_cast<std::size_t>(rows), pixels.x_m.data() + first, pixels.y_m.data() + first,
          pixels.z_m.data() + first, level, cell + n_level, height + n_level);
+        n_level += rows;
     }
 
     // The height followed by the pixel index: the minimum is the first of the lowest pixels.
@@ -195,7 +197,7 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
     resize(n, points);
     for (std::size_t k = 0; k < n; ++k) {
         const Eigen::Index listed = lowest[occupied[k]] & 0xffffffff;
-        const Eigen::Index pixel = listed / rows * step * rows + listed % rows;
+        const Eigen::Index pixel = columns[listed / rows] * rows + listed % rows;
         const Eigen::Vector3d point_m = (level * pixels.at(pixel)).cast<double>();
         points.x_m[k] = point_m.x();
         points.y_m[k] = point_m.y();
@@ -243,9 +245,14 @@ Eigen::Quaterniond turnUpwards(const Eigen::Vector3d& vector) {
 }  // namespace
 
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
-                                 GroundFrameWorkspace& work) {
+                                 GroundFrameWorkspace& work,
+                                 const std::vector<std::int32_t>* columns) {
     const Eigen::Matrix3f level = levelFromSensor(attitude);
-    findLowestOfCells(pixels, level, work);
+    if (columns == nullptr) {
+        sampleColumns(pixels.x_m.cols(), kColumns, work.columns);
+        columns = &work.columns;
+    }
+    findLowestOfCells(pixels, level, *columns, work);
     const Points& points = work.points;
 
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();

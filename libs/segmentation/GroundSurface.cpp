@@ -41,16 +41,20 @@ HWY_INLINE void fitSurface(GroundFit<kSide>& fit, float* HWY_RESTRICT surface_m,
 /// Fit to the pixels marked `true`.
 void FitMarkedIn(const PixelSpan& image, const std::uint8_t* mark, GroundFit<kCells>& fit,
                  float* HWY_RESTRICT surface_m) {
-    listMarked(image, image.size, 1, mark, true, fit);
+    listMarked(image, mark, true, fit);
     fitSurface<kCells, true>(fit, surface_m, kCells);
 }
 
-/// Fit to the ROU of every `step`-th column. Writes heights at the centres of the fine grid's
+/// Fit to the ROU of some columns. Writes heights at the centres of the fine grid's
 /// cells.
-void FitCoarseIn(const PixelSpan& image, std::size_t rows, std::size_t step,
+void FitCoarseIn(const PixelSpan& image, std::size_t rows, const std::vector<std::int32_t>& columns,
                  const std::uint8_t* labels, GroundFit<kCoarseCells>& fit,
                  float* HWY_RESTRICT fine_m) {
-    listMarked(image, rows, step, labels, static_cast<std::uint8_t>(Label::Rou), fit);
+    for (const std::int32_t column : columns) {
+        const std::size_t first = static_cast<std::size_t>(column) * rows;
+        listMarked(image.part(first, rows), labels + first, static_cast<std::uint8_t>(Label::Rou),
+                   fit);
+    }
     HeightGrid& coarse = fit.pyramid.front();
     fitSurface<kCoarseCells, true>(fit, coarse.height_m.data() + coarse.column(0),
                                    kStride<kCoarseCells>);
@@ -73,6 +77,8 @@ void FitCloseIn(const PixelSpan& image, const float* HWY_RESTRICT coarse_m, Grou
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "SampleColumns.h"
+
 namespace hagen {
 namespace {
 
@@ -110,12 +116,12 @@ PixelSpan spanOf(const PixelPoints& pixels) {
 }
 
 /// A rough surface under the ROU, from as few columns as necessary, in work.coarse_m.
-void fitCoarse(const PixelSpan& image, const Image<Label>& labels, GroundSurfaceWorkspace& work) {
-    const Eigen::Index step = std::max<Eigen::Index>(1, labels.cols() / kCoarseColumns);
+void fitCoarse(const PixelSpan& image, const Image<Label>& labels,
+               const std::vector<std::int32_t>& columns, GroundSurfaceWorkspace& work) {
     beginFit(image.size, work.coarse);
     work.coarse_m.resize(kGridSize);
     HWY_DYNAMIC_DISPATCH(FitCoarseIn)
-    (image, static_cast<std::size_t>(labels.rows()), static_cast<std::size_t>(step),
+    (image, static_cast<std::size_t>(labels.rows()), columns,
      reinterpret_cast<const std::uint8_t*>(labels.data()), work.coarse, work.coarse_m.data());
 }
 
@@ -133,9 +139,13 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate
 }
 
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels, GroundSurface& surface,
-                      GroundSurfaceWorkspace& work) {
+                      GroundSurfaceWorkspace& work, const std::vector<std::int32_t>* columns) {
     const PixelSpan image = spanOf(pixels);
-    fitCoarse(image, labels, work);
+    if (columns == nullptr) {
+        sampleColumns(labels.cols(), kCoarseColumns, work.columns);
+        columns = &work.columns;
+    }
+    fitCoarse(image, labels, *columns, work);
     beginFit(image.size, work.fine);
     surface.height_m.resize(kCells, kCells);
     HWY_DYNAMIC_DISPATCH(FitCloseIn)

@@ -33,35 +33,55 @@ HagenFilter::View HagenFilter::viewIn(Posture posture) const {
 
 const SegmentationResult& HagenFilter::segment(const Scan& scan,
                                                const std::optional<Attitude>& attitude) {
+    return segment(scan, attitude, nullptr);
+}
+
+const SegmentationResult& HagenFilter::segment(const Scan& scan,
+                                               const std::optional<Attitude>& attitude,
+                                               const ColumnMap& columns) {
+    return segment(scan, attitude, &columns);
+}
+
+const SegmentationResult& HagenFilter::segment(const Scan& scan,
+                                               const std::optional<Attitude>& attitude,
+                                               const ColumnMap* columns) {
     const std::optional<Attitude> horizon = options_.level_by_attitude ? attitude : std::nullopt;
     const Posture posture = postureOf(horizon);
-    if (posture == Posture::Upright) return segment(scan, horizon, views_.at(posture));
+    if (posture == Posture::Upright) {
+        runStages(scan, horizon, views_.at(posture), columns);
+        return result_;
+    }
 
     // The same, in a frame in which the rows of the image rise.
     checkLocated(scan, sensor_);
     auto view = views_.find(posture);
     if (view == views_.end()) view = views_.emplace(posture, viewIn(posture)).first;
     turnScan(scan, posture, horizon, view->second.sensor, work_.turned);
-    segment(work_.turned, attitudeIn(posture, horizon), view->second);
+    runStages(work_.turned, attitudeIn(posture, horizon), view->second, nullptr);
     Eigen::Isometry3f& from_sensor = result_.ground.from_sensor;
     from_sensor = from_sensor * Eigen::Isometry3f(imageFromSensor(posture, horizon));
     return result_;
 }
 
-const SegmentationResult& HagenFilter::segment(const Scan& scan,
-                                               const std::optional<Attitude>& horizon,
-                                               const View& view) {
+void HagenFilter::runStages(const Scan& scan, const std::optional<Attitude>& horizon,
+                            const View& view, const ColumnMap* columns) {
     const Options& o = options_;
     SegmentationResult& r = result_;
     FilterWorkspace& w = work_;
     const Image<float>& depth_m = r.repaired_m;
+    if (columns != nullptr) mapDirections(view.directions, *columns, w.directions);
+    const PixelDirections& directions = columns != nullptr ? w.directions : view.directions;
 
     // III-A: depth image
-    projectScan(scan, view.sensor, o.columns, std::max(o.context_m, o.zone_m), r.range_image,
-                w.projection);
+    const float most_m = std::max(o.context_m, o.zone_m);
+    if (columns != nullptr) {
+        projectScan(scan, view.sensor, *columns, most_m, r.range_image, w.projection);
+    } else {
+        projectScan(scan, view.sensor, o.columns, most_m, r.range_image, w.projection);
+    }
     repairGaps(r.range_image.depth_m, o.repair_max_step_m, r.repaired_m);
     if (o.bridge_dead_beams)
-        bridgeDeadBeams(r.range_image.depth_m, view.directions, r.repaired_m, w.dead_beams);
+        bridgeDeadBeams(r.range_image.depth_m, directions, r.repaired_m, w.dead_beams);
 
     // III-B: local maxima, sharpened
     proximityOf(depth_m, o.zone_m, r.proximity_m);
@@ -76,7 +96,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     }
 
     // III-C and III-D: range-angle image, smoothed
-    rangeAngles(r.merged_m, view.directions, horizon, r.range_angle_rad);
+    rangeAngles(r.merged_m, directions, horizon, r.range_angle_rad);
     if (o.gaps_are_level) levelGaps(r.range_angle_rad);
     smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad, w.ssa);
     carryAngles(r.smoothed_rad, r.pixel_angle_rad, o.angle_to_beam_above);
@@ -85,27 +105,28 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     labelRegions(depth_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,
                  radiansf(o.seed_gate_deg), r.labels, w.labelling);
     if (o.ground_surface || o.ground_is_roi_below_m > 0)
-        judgeByGround(scan, horizon, view.directions);
+        judgeByGround(scan, horizon, directions, columns != nullptr ? &columns->even : nullptr);
     if (o.context_m > o.zone_m) limitToZone(depth_m, o.zone_m, r.labels);
     numberRoiComponents(depth_m, r.labels, o.component_gap_m, r.components, w.components);
     extractReturns(scan, {r.range_image, r.labels, r.components}, r.own_labels,
                    {o.zone_m, o.component_gap_m}, r.returns, w.extraction);
-    return r;
 }
 
 /// Beyond the paper: uses the detected ground to find what else is ground, and what is too close.
 void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon,
-                                const PixelDirections& directions) {
+                                const PixelDirections& directions,
+                                const std::vector<std::int32_t>* even_columns) {
     SegmentationResult& r = result_;
     Ground& g = r.ground;
 
     // ground plane, if visible
     locatePixels(scan, directions, r.range_image, r.repaired_m, g.pixels);
-    g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}), work_.ground_frame);
+    g.from_sensor =
+        fitGroundFrame(g.pixels, horizon.value_or(Attitude{}), work_.ground_frame, even_columns);
     movePixels(g.from_sensor, g.pixels);
     g.is_seen = canBeGround(g.from_sensor, horizon, r.labels);
     g.has_surface = g.is_seen && options_.ground_surface;
-    if (g.has_surface) judgeByHeight();
+    if (g.has_surface) judgeByHeight(even_columns);
     if (options_.ground_surface && options_.ground_evidence && !g.is_seen) doubtAll(r.labels);
 
     // ground that is too close; returns behind the closest one of their pixel
@@ -116,7 +137,7 @@ void HagenFilter::judgeByGround(const Scan& scan, const std::optional<Attitude>&
 }
 
 /// Beyond the paper: labels every pixel by its height above the surface under the ROU.
-void HagenFilter::judgeByHeight() {
+void HagenFilter::judgeByHeight(const std::vector<std::int32_t>* even_columns) {
     const Options& o = options_;
     Image<Label>& labels = result_.labels;
     Ground& g = result_.ground;
@@ -129,7 +150,7 @@ void HagenFilter::judgeByHeight() {
         keepLevelRou(labels, g.is_level, w.candidates);
         candidates = &w.candidates;
     }
-    fitGroundSurface(g.pixels, *candidates, g.surface, w.ground_surface);
+    fitGroundSurface(g.pixels, *candidates, g.surface, w.ground_surface, even_columns);
     heightsAbove(g.surface, g.pixels, g.height_m);
     findCellTops(g.cells, g.height_m, g.tops);
     toleratedHeights(

@@ -15,6 +15,8 @@ namespace {
 constexpr double kTurn_rad = 2 * kPi;
 constexpr std::size_t kMostPackets = 4000;  // whatever the clock says; a turn has up to 600
 constexpr double kRounding_rad = 0.01;      // of where packets begin and end
+constexpr double kMargin_rad = 0.02;        // of the sector's image, ahead of it
+constexpr int kEmptyColumns = 16;           // are two columns, where no returns are kept
 // Less than this moves no return to another pixel.
 constexpr double kLeastMotion_m = 0.01, kLeastMotion_rad = 1e-3;
 
@@ -238,6 +240,29 @@ bool StreamingSegmenter::knowsEnough() const {
     return known_rad >= streaming_.least_known_rad - kRounding_rad;
 }
 
+/// Runs the filter on all columns in and beside the sector, and on those that are kept elsewhere.
+/// The image has the same size for each sector, unless late packets make one wide.
+const SegmentationResult& StreamingSegmenter::judge(const Sweep& sector) {
+    const int columns = filter_.options().columns;
+    const Sweep& latest = *packets_.back().sweep;
+    const double beside_rad = streaming_.window_rad + (latest.to_rad - latest.from_rad);
+    // Without motion, there is nothing ahead that needs narrow columns.
+    const bool has_ahead = packets_.back().pose || streaming_.skip_ahead_rad < beside_rad;
+    const double usual_rad =
+        std::max(streaming_.sector_rad, sector.to_rad - sector.from_rad) + beside_rad;
+    const double width_rad = usual_rad + (has_ahead ? beside_rad : kMargin_rad);
+    const int group = streaming_.keep_every > 0 ? streaming_.keep_every : kEmptyColumns;
+    if (group == 1) return filter_.segment(window_, attitude_);
+    const int groups = (columns + group - 1) / group;
+    const double group_rad = kTurn_rad * group / columns;
+    const int count = static_cast<int>(std::ceil(width_rad / group_rad)) + 1;
+    if (count >= groups) return filter_.segment(window_, attitude_);
+    const double end_rad = sector.to_rad + (has_ahead ? beside_rad : kMargin_rad);
+    const auto first_rad = static_cast<float>(std::remainder(width_rad - end_rad, kTurn_rad));
+    mapColumns(columns, group, nearestColumn(first_rad, columns) / group, count, columns_);
+    return filter_.segment(window_, attitude_, columns_);
+}
+
 void StreamingSegmenter::label(bool is_cut) {
     forget(packets_.back().time_s);
     const std::size_t first_open = packets_.size() - open_;
@@ -261,7 +286,8 @@ void StreamingSegmenter::label(bool is_cut) {
     locateBeams(filter_.sensor(), moved_);
     append(moved_, window_);
 
-    const SegmentationResult& result = filter_.segment(window_, attitude_);
+    const SegmentationResult& result =
+        last.sweep ? judge(sector) : filter_.segment(window_, attitude_);
     const auto begin = result.returns.label.begin();
     labels_.assign(begin, begin + static_cast<std::ptrdiff_t>(sector_.size()));
     const bool is_doubtful = !knowsEnough();

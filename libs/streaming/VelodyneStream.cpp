@@ -133,7 +133,8 @@ VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t
         return Taken::Repeated;
     }
     const bool is_dual = packet.isDual();
-    const double period_us = model_.packetPeriodUs(is_dual);
+    // From the packet before to this one: as long as the one before lasted.
+    const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : is_dual);
     double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
     if (has_last_ && (elapsed_us < -static_cast<double>(kMostLate) * period_us ||
                       elapsed_us > kInterruptionUs)) {

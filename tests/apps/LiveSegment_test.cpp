@@ -85,6 +85,33 @@ TEST_F(LiveSegment, ARecordingIsWhatRawlogSegmentWrites) {
     EXPECT_GE(json["latency_ms"]["max"], json["latency_ms"]["p50"]);
 }
 
+/// Labels and recordings of real captures of Ousters.
+TEST_F(LiveSegment, AnOustersRecordingIsWhatRawlogSegmentWrites) {
+    const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
+    const std::vector<std::pair<std::string, std::string>> captures{
+        {"OS-0-32-U1_v2.2.0_1024x10.pcap", "OS-0-32-U1_v2.2.0_1024x10.json"},
+        {"OS-1-128_v2.3.0_1024x10_lb_n3.pcap", "OS-1-128_v2.3.0_1024x10.json"}};
+    for (const auto& [capture, json] : captures) {
+        const std::string file = (folder / capture).string(), sensor = (folder / json).string();
+        const auto outcome =
+            run({"--replay", file, "--sensor-json", sensor, "--record", path("live.rawlog"),
+                 "--stats", path("stats.json"), "--overwrite"});
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        ASSERT_EQ(test::run(HAGEN_RAWLOG_SEGMENT, {"-q", "-i", file, "-o", path("whole.rawlog"),
+                                                   "--sensor-json", sensor, "--overwrite"})
+                      .exit_code,
+                  0);
+        EXPECT_EQ(test::readFile(path("live.rawlog")), test::readFile(path("whole.rawlog")));
+        const auto json_stats = stats();
+        EXPECT_EQ(json_stats["model"], "Ouster");
+        EXPECT_GT(json_stats["packets"]["taken"], 60);
+        EXPECT_EQ(json_stats["packets"]["lost"], 0);
+        EXPECT_GT(json_stats["sectors"], 20);
+        EXPECT_GT(json_stats["returns"], 20000);
+    }
+}
+
 TEST_F(LiveSegment, RecordingsAreRotated) {
     const auto outcome = run(with(sensor_, {"-q", "--replay", capture(), "--speed", "50",
                                             "--record", path("a.rawlog"), "--rotate-mb", "0.001"}));
@@ -153,12 +180,13 @@ TEST_F(LiveSegment, WrongFlagsAreExplained) {
     expectFailure({"--model", "VLP-16"}, 2, "one of --listen and --replay is required");
     expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,
                   "one of --listen and --replay is required");
-    expectFailure({"--replay", file}, 2, "--model is required: VLP-16");
+    expectFailure({"--replay", file}, 2, "is required; models: VLP-16");
     expectFailure({"--replay", file, "--model", "OS1-64"}, 2, "supported are VLP-16");
     expectFailure({"--replay", file, "--model", "HDL-64E"}, 2, "--calibration FILE");
     expectFailure({"--listen", "here", "--model", "VLP-16"}, 2, "'here' is no IPv4 address");
     expectFailure({"--listen", "0.0.0.0:2368", "--speed", "2", "--model", "VLP-16"}, 2, "--speed");
     expectFailure({"--replay", file, "--sensor-json", file, "--model", "VLP-16"}, 2, "Ouster");
+    expectFailure({"--replay", file, "--sensor-json", file}, 1, "flight.pcap");
     expectFailure({"--replay", path("none.pcap"), "--model", "VLP-16"}, 2, "none.pcap");
     expectFailure(with(sensor_, {"--replay", file, "--rotate-mb", "5"}), 2, "--record");
     folder_.write("a.txt", "no capture");

@@ -56,6 +56,18 @@ class SectorDistancesTest : public testing::Test {
     SegmentationResult result_;
 };
 
+TEST_F(SectorDistancesTest, WhatALostPacketWouldHaveSeenIsUnknown) {
+    const Scan scan;
+    const std::vector<Label> labels;
+    const std::vector<Sweep> packets{{radians(0), radians(5)}, {radians(10), radians(15)}};
+    SectorDistances distances(sensor_);
+    distances.take(
+        {scan, labels, Sweep{0, radians(15)}, 1, 1.01, true, false, false, result_, &packets});
+    EXPECT_EQ(distances.at(1.1)[0].state, State::SeenNothing);
+    EXPECT_EQ(distances.at(1.1)[1].state, State::Unknown);
+    EXPECT_EQ(distances.at(1.1)[2].state, State::SeenNothing);
+}
+
 TEST_F(SectorDistancesTest, NothingIsKnownAtFirst) {
     for (const auto& sector : SectorDistances(sensor_).at(0)) {
         EXPECT_EQ(sector.state, State::Unknown);

@@ -301,7 +301,7 @@ TEST_F(StreamingSegmenterTest, SilenceEndsTheContext) {
     addTurn(0, packets, segmenter);
     addTurn(1, packets, segmenter);
     EXPECT_TRUE(taken_.back().has_turn);
-    addTurn(20, packets, segmenter, 0, 12);
+    addTurn(20, packets, segmenter, 0, 11);
     EXPECT_FALSE(taken_.back().has_turn);
     segmenter.restart();
     EXPECT_TRUE(taken_.back().is_cut);

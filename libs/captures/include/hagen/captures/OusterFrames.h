@@ -44,8 +44,11 @@ class OusterFrames {
 
     explicit OusterFrames(const OusterSensor& sensor) : sensor_(sensor) {}
 
-    /// Takes a packet of OusterSensor::packetBytes().
-    void add(const std::uint8_t* packet, std::int64_t time_ns);
+    /// Takes a packet of OusterSensor::packetBytes(). Returns the frame that it is of, until the
+    /// next call, or null if that is complete already; `taken` gets those of the packet's columns
+    /// that it had not yet, in the packet's order.
+    const OusterFrame* add(const std::uint8_t* packet, std::int64_t time_ns,
+                           std::vector<std::size_t>* taken = nullptr);
     /// Ends the frames in progress.
     void finish();
 
@@ -55,7 +58,7 @@ class OusterFrames {
 
  private:
     OusterFrame* frameOf(std::uint16_t id, std::int64_t time_ns);
-    void readColumn(const std::uint8_t* column, OusterFrame& frame);
+    bool readColumn(const std::uint8_t* column, std::size_t& number, OusterFrame& frame);
     void completeFirst();
 
     const OusterSensor& sensor_;

@@ -3,6 +3,7 @@
 #include <hagen/live/PacketSource.h>
 #include <hagen/live/TurnRecorder.h>
 #include <hagen/streaming/LivoxStream.h>
+#include <hagen/streaming/OusterStream.h>
 #include <hagen/streaming/SectorDistances.h>
 #include <hagen/streaming/SensorMotion.h>
 #include <hagen/streaming/VelodyneStream.h>
@@ -26,6 +27,7 @@ struct LiveOptions {
     /// "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
     std::string model;
     std::filesystem::path calibration;  ///< of an HDL-64E
+    std::filesystem::path sensor_json;  ///< metadata of an Ouster; `model` is empty then
     observations::Settings settings;
     streaming::StreamingOptions streaming;
     TurnRecorder::Options recording;  ///< an empty name: none
@@ -47,6 +49,9 @@ struct LiveReport {
     std::size_t unsound = 0;     ///< without a sound block
     std::size_t dropped = 0;     ///< the filter was too slow for
     std::size_t interruptions = 0, mode_changes = 0, silences = 0;
+    std::size_t rate_changes = 0;  ///< another speed of the motor
+    /// How often directions of SectorDistances were in each state, every twentieth of a second.
+    std::size_t times_unknown = 0, times_seen_nothing = 0, times_obstacle = 0;
     std::size_t scans = 0;  ///< turns; of a sensor without turns, tenths of a second
     std::size_t sectors = 0, sectors_cut = 0;
     std::size_t sectors_doubtful = 0;  ///< too little of a turn was known: all near is RoI

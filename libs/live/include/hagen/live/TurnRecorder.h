@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/captures/VelodyneTurns.h>
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/observations/ObservationSegmenter.h>
+#include <mrpt/obs/CObservation.h>
 
 #include <condition_variable>
 #include <cstddef>
@@ -45,7 +45,7 @@ class TurnRecorder {
     TurnRecorder(const TurnRecorder&) = delete;
     TurnRecorder& operator=(const TurnRecorder&) = delete;
 
-    void add(const captures::VelodyneTurns::Turn& turn);
+    void add(const mrpt::obs::CObservation::ConstPtr& turn);
     /// Why recording ended early, naming the file; empty: it goes on.
     std::string failure() const;
     /// Completes the file. Throws std::runtime_error naming it, and what is left of it, if a turn
@@ -70,7 +70,7 @@ class TurnRecorder {
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<captures::VelodyneTurns::Turn> waiting_;
+    std::deque<mrpt::obs::CObservation::ConstPtr> waiting_;
     std::size_t left_out_ = 0;
     bool is_at_end_ = false;
     std::string failure_;

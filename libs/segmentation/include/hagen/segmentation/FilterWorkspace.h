@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/range_image/PixelDirections.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/segmentation/DeadBeams.h>
 #include <hagen/segmentation/Extraction.h>
@@ -21,6 +22,7 @@ namespace hagen {
 /// must not share one.
 struct FilterWorkspace {
     Scan turned;                     // of a sensor that is not upright
+    PixelDirections directions;      // of an image that has not all columns
     ProjectionWorkspace projection;  // stage 1
     DeadBeamsWorkspace dead_beams;   // stage 2
     MaximaWorkspace maxima;          // stage 3

@@ -13,6 +13,7 @@ namespace hagen {
 /// Workspace of fitGroundFrame(). Reuse it between scans to avoid allocations; it has no state.
 /// Lists may be longer than their contents.
 struct GroundFrameWorkspace {
+    std::vector<std::int32_t> columns;  ///< of the image
     /// The points that the plane is fitted to, and their weights by distance. The last of the four
     /// parts is padded with points of weight 0.
     struct Points {
@@ -32,12 +33,14 @@ struct GroundFrameWorkspace {
 /// The plane is fitted to the lowest point of each cell of a grid (0.75 m cells, within 40 m) by
 /// iteratively reweighted least squares. A cell's weight decreases with its distance from the
 /// plane, faster above than below, and with its distance from the sensor. Images of 400 columns or
-/// more are subsampled evenly to 200 to 400 columns. The sensor height is not assumed. The search
-/// starts from ground that is level according to `attitude`; without an attitude, it finds tilts of
-/// up to 15 degrees. With fewer than three occupied cells, returns the frame of a level plane (by
-/// `attitude`) through the lowest point, or through the sensor if there are no points.
+/// more are subsampled evenly to 200 to 400 columns, or to `columns`. The sensor height is not
+/// assumed. The search starts from ground that is level according to `attitude`; without an
+/// attitude, it finds tilts of up to 15 degrees. With fewer than three occupied cells, returns the
+/// frame of a level plane (by `attitude`) through the lowest point, or through the sensor if there
+/// are no points.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
-                                 GroundFrameWorkspace& work);
+                                 GroundFrameWorkspace& work,
+                                 const std::vector<std::int32_t>* columns = nullptr);
 
 /// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
 /// against the horizon (against the airframe if the attitude is unknown), and at least 20 pixels

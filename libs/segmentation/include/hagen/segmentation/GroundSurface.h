@@ -26,6 +26,7 @@ struct GroundSurface {
 struct GroundSurfaceWorkspace {
     GroundFit<GroundSurface::kCells> fine;
     GroundFit<GroundSurface::kCells / 2> coarse;
+    std::vector<std::int32_t> columns;
     std::vector<float> coarse_m;  ///< the coarse surface on the fine grid
 };
 
@@ -44,12 +45,13 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate
                       GroundSurface& surface, GroundSurfaceWorkspace& work);
 
 /// Fits the surface under a labelled image in two passes. The first is coarse, with cells twice as
-/// wide, to the ROU of 200 to 400 columns. Pixels close to its height at the centre of their cell
-/// may be ground, whatever their labels; this recovers ground that the labels have cut off. The
-/// surface is then fitted to these pixels by steps 3 and 4; strays and obstacles are not among
-/// them.
+/// wide, to the ROU of 200 to 400 columns, evenly, or of `columns`. Pixels close to its height at
+/// the centre of their cell may be ground, whatever their labels; this recovers ground that the
+/// labels have cut off. The surface is then fitted to these pixels by steps 3 and 4; strays and
+/// obstacles are not among them.
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels, GroundSurface& surface,
-                      GroundSurfaceWorkspace& work);
+                      GroundSurfaceWorkspace& work,
+                      const std::vector<std::int32_t>* columns = nullptr);
 
 /// Each pixel's height above the surface; NaN if it is empty.
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);

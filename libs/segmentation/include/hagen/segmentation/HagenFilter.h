@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/range_image/ColumnMap.h>
 #include <hagen/range_image/PixelDirections.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/Scan.h>
@@ -58,6 +59,12 @@ class HagenFilter {
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
 
+    /// The same on images with the columns of a map of `options().columns` only, which takes less
+    /// time: for scans that have few returns outside a window. A sensor that is not upright gets
+    /// all columns.
+    const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& attitude,
+                                      const ColumnMap& columns);
+
     /// Takes the result out of the filter, which uses the memory of `result` for the next scan
     /// instead. Keeps results beyond the next call without copying them.
     void exchangeResult(SegmentationResult& result) { std::swap(result_, result); }
@@ -72,11 +79,14 @@ class HagenFilter {
         PixelDirections directions;
     };
     View viewIn(Posture posture) const;
-    const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& horizon,
-                                      const View& view);
+    const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& attitude,
+                                      const ColumnMap* columns);
+    void runStages(const Scan& scan, const std::optional<Attitude>& horizon, const View& view,
+                   const ColumnMap* columns);
     void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon,
-                       const PixelDirections& directions);
-    void judgeByHeight();
+                       const PixelDirections& directions,
+                       const std::vector<std::int32_t>* even_columns);
+    void judgeByHeight(const std::vector<std::int32_t>* even_columns);
 
     SensorModel sensor_;
     Options options_;

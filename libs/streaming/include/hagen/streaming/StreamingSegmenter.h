@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/range_image/ColumnMap.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/HagenFilter.h>
@@ -15,11 +16,11 @@ namespace hagen::streaming {
 /// How a turn is cut, and what a sector is judged by. docs/live.md has what other values cost.
 struct StreamingOptions {
     /// A sector ends with the last packet that still fits into this angle; it has at least one.
-    double sector_rad = 0.4363323129985824;  // 25 degrees
+    double sector_rad = 0.2617993877991494;  // 15 degrees
     /// Context on both sides of a sector: all returns of the latest turn.
-    double window_rad = 0.5235987755982988;  // 30 degrees
+    double window_rad = 0.3490658503988659;  // 20 degrees
     /// Context beyond: each n-th column of the image; 1: all, 0: none.
-    int keep_every = 4;
+    int keep_every = 6;
     /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
     /// moved since, those up to this angle are no context: ground that is tilted against that of
     /// the sector looks like a step. Less than half a turn.
@@ -50,7 +51,8 @@ struct LabelledSector {
     bool has_turn;                     ///< whether the rest of a turn was known
     bool is_doubtful;                  ///< all in the zone is RoI: too little of a turn was known
     bool is_cut;                       ///< ended by flush() or restart()
-    const SegmentationResult& result;  ///< of the sector and its context
+    /// Of the sector and its context; its images have all columns around the sector only.
+    const SegmentationResult& result;
     /// What each of its packets swept; less than `sweep`, if one is lost. Null: not known.
     const std::vector<Sweep>* packets = nullptr;
 };
@@ -119,6 +121,7 @@ class StreamingSegmenter {
     void addContext(const Packet& packet, const Sweep& sector);
     void addMoved(const Scan& scan, const Eigen::Isometry3d& motion);
     void addAhead(const Scan& scan, double head_rad);
+    const SegmentationResult& judge(const Sweep& sector);
 
     HagenFilter filter_;
     StreamingOptions streaming_;
@@ -133,6 +136,7 @@ class StreamingSegmenter {
     double start_rad_ = 0;        ///< of the sector in progress
     std::size_t sectors_ = 0;
     Scan window_, moved_;  ///< reused
+    ColumnMap columns_;    ///< reused
     Scan sector_;
     std::vector<Label> labels_;
     std::vector<Sweep> sweeps_;  ///< of the sector's packets

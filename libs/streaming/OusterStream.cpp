@@ -1,0 +1,122 @@
+#include <hagen/captures/OusterScan.h>
+#include <hagen/observations/Mount.h>
+#include <hagen/range_image/Airframe.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/streaming/OusterStream.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+namespace hagen::streaming {
+namespace {
+
+constexpr long long kMostLate = 16;  // packets
+constexpr int kMostTurns = 2;        // missing; more: the sensor was started again
+constexpr std::size_t kImuBytes = 48;
+
+/// From one frame id to another; ids wrap.
+int stepOf(std::uint16_t from, std::uint16_t to) {
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
+}
+
+}  // namespace
+
+OusterStream::OusterStream(const captures::OusterSensor& sensor,
+                           const observations::Settings& settings, StreamingSegmenter::Take take,
+                           const StreamingOptions& streaming)
+    : sensor_(sensor), settings_(settings), frames_(sensor_) {
+    SensorModel model = *sensor_.model;
+    model.min_range_m = settings.sensor.min_range_m.value_or(model.min_range_m);
+    model.max_range_m = settings.sensor.max_range_m.value_or(model.max_range_m);
+    observations::filterFor(model, settings.options);  // throws SettingsError
+    segmenter_ = std::make_unique<StreamingSegmenter>(std::move(model), settings.options,
+                                                      std::move(take), streaming);
+    const Eigen::Matrix3d turned = sensor_.lidar_to_sensor.linear();
+    ahead_rad_ = -std::atan2(turned(1, 0), turned(0, 0));
+    setAttitude({});
+}
+
+void OusterStream::setAttitude(const std::optional<Attitude>& attitude) {
+    if (attitude) return segmenter_->setAttitude(attitude);
+    segmenter_->setAttitude(observations::sensorTilt({}, mrpt::poses::CPose3D(), settings_.mount));
+}
+
+void OusterStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
+    segmenter_->setPose(map_from_sensor);
+}
+
+/// What is missing is known when a turn is complete. The first one may have begun before.
+void OusterStream::countLosses() {
+    const auto& frames = frames_.counts();
+    if (frames.frames == counts_.turns) return;
+    if (counts_.turns == 0) missing_of_first_ = frames.missing_columns;
+    counts_.turns = frames.frames;
+    counts_.lost = (frames.missing_columns - missing_of_first_ +
+                    frames.lost_frames * sensor_.windowColumns()) /
+                   sensor_.columns_per_packet;
+}
+
+OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t size, double arrival_s,
+                                      std::int64_t time_ns) {
+    if (size == kImuBytes) {
+        ++counts_.imu;
+        return Taken::Imu;
+    }
+    if (size != sensor_.packetBytes() || !captures::isOfLidar(bytes, sensor_)) {
+        ++counts_.wrong_size;
+        return Taken::WrongSize;
+    }
+    const bool has_serial = !sensor_.profile.is_legacy && !sensor_.serial.empty();
+    if (has_serial && std::to_string(captures::serialOf(bytes, sensor_)) != sensor_.serial) {
+        ++counts_.other_sensor;
+        return Taken::OtherSensor;
+    }
+    const std::uint16_t id = captures::frameIdOf(bytes, sensor_);
+    const int step = has_last_ ? stepOf(last_id_, id) : 0;
+    if (std::abs(step) > kMostTurns) {
+        ++counts_.interruptions;
+        segmenter_->restart();
+        has_last_ = false;
+    }
+    const std::size_t repeated = frames_.counts().repeated_columns;
+    const captures::OusterFrame* const frame = frames_.add(bytes, time_ns, &columns_);
+    countLosses();
+    if (frame == nullptr) {
+        ++counts_.late;
+        ++counts_.too_late;
+        return Taken::Late;
+    }
+    if (columns_.empty()) {
+        const bool is_repeated = frames_.counts().repeated_columns > repeated;
+        ++(is_repeated ? counts_.repeated : counts_.unsound);
+        return is_repeated ? Taken::Repeated : Taken::Unsound;
+    }
+    const auto columns = static_cast<long long>(sensor_.columns_per_frame);
+    const auto of_packet = static_cast<long long>(sensor_.columns_per_packet);
+    const long long turn = has_last_ ? turn_ + step : 0;
+    const long long at = turn * columns + static_cast<long long>(columns_.front());
+    ++counts_.packets;
+    if (has_last_ && at < last_at_) {
+        ++counts_.late;
+        if (last_at_ - at > kMostLate * of_packet) {
+            ++counts_.too_late;
+            return Taken::Late;
+        }
+    } else {
+        has_last_ = true;
+        last_id_ = id;
+        turn_ = turn;
+        last_at_ = at;
+    }
+    captures::scanColumns(*frame, sensor_, columns_, returns_);
+    counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
+    const double column_rad = 2 * kPi / static_cast<double>(columns);
+    const double from_rad = ahead_rad_ + column_rad * static_cast<double>(at);
+    segmenter_->add(returns_, {from_rad, from_rad + column_rad * static_cast<double>(of_packet)},
+                    arrival_s);
+    return Taken::Yes;
+}
+
+}  // namespace hagen::streaming

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+#include <hagen/captures/OusterScan.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/streaming/OusterStream.h>
+
+#include <string>
+#include <vector>
+
+#include "support/OusterPackets.h"
+
+namespace hagen::streaming {
+namespace {
+
+using captures::OusterFrame;
+using captures::OusterSensor;
+using Taken = OusterStream::Taken;
+
+const std::uint8_t* bytesOf(const std::string& packet) {
+    return reinterpret_cast<const std::uint8_t*>(packet.data());
+}
+
+observations::Settings settingsOfFourBeams() {
+    observations::Settings settings;
+    settings.options.columns = 64;
+    settings.options.window_size = 2;
+    settings.options.principal_components = 1;
+    return settings;
+}
+
+class OusterStreamTest : public testing::Test {
+ protected:
+    /// Frame `id`, packet by packet; they are of 16 columns of 64.
+    std::vector<std::string> packetsOf(std::uint16_t id) {
+        frames_.push_back(test::randomFrame(sensor_, id));
+        return test::packetsOf(sensor_, frames_.back());
+    }
+    Taken add(const std::string& packet) {
+        time_s_ += 0.025;
+        return stream_.add(bytesOf(packet), packet.size(), time_s_, 0);
+    }
+
+    const OusterSensor sensor_ = captures::ousterSensorOf(test::ousterJson(), "test");
+    std::vector<OusterFrame> frames_;
+    double time_s_ = 0;
+    std::size_t returns_ = 0, labels_ = 0;
+    std::vector<Sweep> swept_;
+    OusterStream stream_{sensor_, settingsOfFourBeams(), [this](const LabelledSector& sector) {
+                             returns_ += sector.returns.size();
+                             labels_ += sector.label.size();
+                             swept_.insert(swept_.end(), sector.packets->begin(),
+                                           sector.packets->end());
+                         }};
+};
+
+TEST_F(OusterStreamTest, EachReturnOfAFrameIsLabelled) {
+    std::size_t expected = 0;
+    for (const int id : {65534, 65535, 0, 1}) {
+        for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) {
+            EXPECT_EQ(add(packet), Taken::Yes);
+        }
+        expected += captures::scanOf(frames_.back(), sensor_).size();
+    }
+    stream_.flush();
+    EXPECT_EQ(returns_, expected);
+    EXPECT_EQ(labels_, expected);
+    EXPECT_GT(expected, 200u);
+    EXPECT_EQ(stream_.counts().packets, 16u);
+    EXPECT_EQ(stream_.counts().lost, 0u);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+    ASSERT_EQ(swept_.size(), 16u);
+    for (std::size_t p = 1; p < swept_.size(); ++p) {
+        EXPECT_NEAR(swept_[p].from_rad, swept_[p - 1].to_rad, 1e-9) << p;
+        EXPECT_NEAR(swept_[p].to_rad - swept_[p].from_rad, kPi / 2, 1e-9) << p;
+    }
+}
+
+/// The returns of a packet are where its sweep is.
+TEST_F(OusterStreamTest, ASweepIsWhereTheReturnsAre) {
+    bool is_checked = false;
+    OusterStream stream(sensor_, settingsOfFourBeams(), [&](const LabelledSector& sector) {
+        const double middle_rad = (sector.sweep->from_rad + sector.sweep->to_rad) / 2;
+        const double half_rad = (sector.sweep->to_rad - sector.sweep->from_rad) / 2;
+        for (std::size_t i = 0; i < sector.returns.size(); ++i) {
+            if (sector.returns.range_m[i] < 1) continue;  // the beams do not start at the origin
+            const double off_rad = std::remainder(
+                -static_cast<double>(sector.returns.azimuth_rad[i]) - middle_rad, 2 * kPi);
+            EXPECT_LT(std::abs(off_rad), half_rad + radians(12));  // pixels are staggered
+            is_checked = true;
+        }
+    });
+    for (const auto& packet : packetsOf(7)) {
+        stream.add(bytesOf(packet), packet.size(), 0.01, 0);
+        stream.flush();
+    }
+    EXPECT_TRUE(is_checked);
+}
+
+TEST_F(OusterStreamTest, LossesRepetitionsAndLatePacketsAreCounted) {
+    for (const auto& packet : packetsOf(1)) add(packet);
+    const auto second = packetsOf(2);
+    add(second[0]);
+    EXPECT_EQ(add(second[0]), Taken::Repeated);
+    add(second[2]);  // number 1 comes later
+    EXPECT_EQ(add(second[1]), Taken::Yes);
+    // Number 3 is lost.
+    for (int id = 3; id < 6; ++id) {
+        for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) add(packet);
+    }
+    EXPECT_EQ(stream_.counts().repeated, 1u);
+    EXPECT_EQ(stream_.counts().late, 1u);
+    EXPECT_EQ(stream_.counts().lost, 1u);
+    EXPECT_EQ(add(second[3]), Taken::Late);  // its turn is complete
+    EXPECT_EQ(stream_.counts().too_late, 1u);
+}
+
+TEST_F(OusterStreamTest, AJumpOfTheTurnsEndsTheContext) {
+    for (const auto& packet : packetsOf(1)) add(packet);
+    for (const auto& packet : packetsOf(500)) EXPECT_EQ(add(packet), Taken::Yes);
+    for (const auto& packet : packetsOf(30000)) EXPECT_EQ(add(packet), Taken::Yes);
+    EXPECT_EQ(stream_.counts().interruptions, 2u);
+}
+
+TEST_F(OusterStreamTest, OtherDatagramsAreRefused) {
+    EXPECT_EQ(add(std::string(48, 'x')), Taken::Imu);
+    EXPECT_EQ(add("noise"), Taken::WrongSize);
+    EXPECT_EQ(add(std::string(sensor_.packetBytes(), '\0')), Taken::WrongSize);
+    const OusterSensor other =
+        captures::ousterSensorOf(test::ousterJson("RNG19_RFL8_SIG16_NIR16", "17"), "test");
+    EXPECT_EQ(add(test::packetsOf(other, test::randomFrame(other, 1)).front()), Taken::OtherSensor);
+    EXPECT_EQ(stream_.counts().wrong_size, 2u);
+    EXPECT_EQ(stream_.counts().other_sensor, 1u);
+    EXPECT_EQ(stream_.counts().packets, 0u);
+    EXPECT_EQ(stream_.segmenter().sectors(), 0u);
+}
+
+}  // namespace
+}  // namespace hagen::streaming
