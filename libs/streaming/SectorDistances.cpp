@@ -12,8 +12,9 @@ constexpr double kTurn_rad = 2 * kPi;
 constexpr double kTolerance_rad = 0.005;
 constexpr double kPeriod_s = 0.1;  // of a sensor without turns
 
-bool isSwept(const Sweep& sweep, double clockwise_rad) {
-    const double into_rad = clockwise_rad - sweep.from_rad + kTolerance_rad;
+/// Whether a direction is in what a packet swept, in any turn.
+bool isWithin(double direction_rad, const Sweep& sweep) {
+    const double into_rad = direction_rad - sweep.from_rad + kTolerance_rad;
     const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
     return turned_rad <= sweep.to_rad - sweep.from_rad + 2 * kTolerance_rad;
 }
@@ -53,14 +54,16 @@ void SectorDistances::take(const LabelledSector& sector) {
     const double now_rad = sector.sweep ? sector.sweep->to_rad : 0;
     if (!sector.sweep) beginFrame(sector.first_time_s);
     for (int bin = 0; bin < kBins; ++bin) {
-        // A bin counts as swept with the sector that has its centre; what a lost packet would have
-        // swept does not.
-        const double rad = sensor_rad_[bin];
-        const auto has = [&](const Sweep& sweep) { return isSwept(sweep, rad); };
-        if (std::isnan(rad)) continue;
-        if (sector.sweep && !has(*sector.sweep)) continue;
-        if (sector.sweep && sector.packets &&
-            std::none_of(sector.packets->begin(), sector.packets->end(), has)) {
+        if (std::isnan(sensor_rad_[bin])) continue;
+        // A bin counts as swept with the packet that has its centre.
+        const auto hasCentre = [&](const Sweep& sweep) {
+            return isWithin(sensor_rad_[bin], sweep);
+        };
+        if (sector.sweep && sector.packets != nullptr) {
+            // What a lost packet would have seen is not known.
+            const std::vector<Sweep>& packets = *sector.packets;
+            if (std::none_of(packets.begin(), packets.end(), hasCentre)) continue;
+        } else if (sector.sweep && !hasCentre(*sector.sweep)) {
             continue;
         }
         bins_[bin].swept_s = sector.first_time_s;
