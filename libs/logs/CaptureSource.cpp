@@ -9,7 +9,9 @@ namespace hagen::logs {
 CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
     : ScanSource(options),
       file_(capture),
-      capture_(captures::openCapture(capture, options.sensor_json, options.calibration)) {}
+      capture_(captures::openCapture(capture, options.sensor_json, options.calibration)) {
+    capture_->checkWhileReading([this] { checkInterruption(); });
+}
 
 std::optional<RecordedEntry> CaptureSource::nextEntry() {
     while (turns_ <= options_.last_entry) {
@@ -31,6 +33,7 @@ std::optional<RecordedEntry> CaptureSource::nextEntry() {
 RawlogSurvey CaptureSource::survey() const {
     RawlogSurvey survey;
     const auto ahead = captures::openCapture(file_, options_.sensor_json, options_.calibration);
+    ahead->checkWhileReading([this] { checkInterruption(); });
     try {
         while (const auto turn = ahead->nextScan()) {
             checkInterruption();
