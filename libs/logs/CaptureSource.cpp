@@ -9,7 +9,9 @@ namespace hagen::logs {
 CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
     : ScanSource(options),
       file_(capture),
-      capture_(captures::openCapture(capture, options.sensor_json, options.calibration)) {}
+      capture_(captures::openCapture(capture, options.sensor_json, options.calibration)) {
+    capture_->checkWhileReading([this] { checkInterruption(); });
+}
 
 std::optional<RecordedEntry> CaptureSource::nextEntry() {
     while (turns_ <= options_.last_entry) {
@@ -38,6 +40,7 @@ RawlogSurvey CaptureSource::survey() {
     RawlogSurvey survey;
     std::size_t turns = 0;
     const auto ahead = captures::openCapture(file_, options_.sensor_json, options_.calibration);
+    ahead->checkWhileReading([this] { checkInterruption(); });
     try {
         while (const auto turn = ahead->nextScan()) {
             checkInterruption();

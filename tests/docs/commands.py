@@ -69,6 +69,8 @@ class Flags:
             text = script.read_text()
             if call[0] == "scripts/test":  # passes its arguments on
                 text += self.help_of("ctest", None)
+        elif name.endswith("-benchmarks"):  # of Google Benchmark, which knows no --help
+            text = "--benchmark_"
         elif name in self.programs:
             words = [argument for argument in call[1:2] if not argument.startswith("-")]
             text = self.help_of(name, words[0] if words else None)
