@@ -103,7 +103,7 @@ class Session {
     std::optional<bool> is_dual_;
     std::size_t foreign_ip_ = 0;
     LatencyHistogram recent_;
-    double recent_sweep_rad_ = 0, rate_told_ = 0;
+    double recent_sweep_rad_ = 0, recent_first_s_ = 0, recent_last_s_ = 0, rate_told_ = 0;
     int odd_rates_ = 0;
 };
 
@@ -156,7 +156,11 @@ void Session::tell(const streaming::LabelledSector& sector) {
     report_.returns += sector.returns.size();
     report_.roi +=
         static_cast<std::size_t>(std::count(sector.label.begin(), sector.label.end(), Label::Roi));
-    if (sector.sweep) recent_sweep_rad_ += sector.sweep->to_rad - sector.sweep->from_rad;
+    if (sector.sweep) {
+        if (recent_sweep_rad_ == 0) recent_first_s_ = sector.first_time_s;
+        recent_last_s_ = sector.last_time_s;
+        recent_sweep_rad_ += sector.sweep->to_rad - sector.sweep->from_rad;
+    }
     distances_->take(sector);
     report_.sectors_doubtful += sector.is_doubtful;
     noteNearest(sector);
@@ -357,7 +361,8 @@ void Session::showStatus(double now_s) {
         if (!(sector.distance_m >= status.nearest_m)) status.nearest_m = sector.distance_m;
     }
     // Another speed of the motor, twice in a row: packets may have come in a burst.
-    const double rate = status.turns_per_s;
+    const double arrived_s = recent_last_s_ - recent_first_s_;  // not all of the time, at first
+    const double rate = arrived_s > kStatus_s / 4 ? recent_sweep_rad_ / (2 * kPi) / arrived_s : 0;
     if (!livox_ && rate > 0 && !is_silent_) {
         const bool is_odd = rate_told_ > 0 && std::abs(rate / rate_told_ - 1) > kOtherRate;
         odd_rates_ = is_odd ? odd_rates_ + 1 : 0;

@@ -1,4 +1,5 @@
 #include <hagen/live/TurnRecorder.h>
+#include <hagen/logs/RecordedObject.h>
 
 #include <cstdio>
 #include <exception>
@@ -37,7 +38,7 @@ std::filesystem::path TurnRecorder::nextName() {
                                  options_.file.extension().string());
 }
 
-void TurnRecorder::add(const mrpt::obs::CObservation::ConstPtr& turn) {
+void TurnRecorder::add(const mrpt::obs::CObservation::Ptr& turn) {
     std::unique_lock lock(mutex_);
     if (options_.waits) {
         changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting || !failure_.empty(); });
@@ -61,12 +62,12 @@ void TurnRecorder::work() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return !waiting_.empty() || is_at_end_; });
         if (waiting_.empty()) return;
-        const mrpt::obs::CObservation::ConstPtr turn = std::move(waiting_.front());
+        const mrpt::obs::CObservation::Ptr turn = std::move(waiting_.front());
         waiting_.pop_front();
         lock.unlock();
         changed_.notify_all();
         try {
-            write(*turn);
+            write(turn);
         } catch (const std::exception& e) {
             const std::lock_guard failing(mutex_);
             failure_ = e.what();
@@ -78,15 +79,15 @@ void TurnRecorder::work() {
     }
 }
 
-void TurnRecorder::write(const mrpt::obs::CObservation& turn) {
+void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
     if (!writer_) {
         writing_ = nextName();
         writer_.emplace(writing_, options_.overwrite);
     }
     entries_.clear();
-    logs::serialise(turn, entries_);
+    logs::serialise(*logs::objectOf(turn, observations::CloudClass::Simple), entries_);
     try {
-        segmenter_.process(turn, output_);
+        segmenter_.process(*turn, output_);
         logs::serialise(*output_.roi, entries_);
         logs::serialise(*output_.non_roi, entries_);
     } catch (const std::runtime_error&) {  // as rawlog-segment: kept, not segmented

@@ -1,9 +1,9 @@
 #pragma once
+#include <hagen/logs/RecordedObject.h>
 #include <hagen/observations/ObservationScan.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/serialization/CSerializable.h>
 
-#include <optional>
 #include <vector>
 
 namespace hagen::logs {
@@ -16,12 +16,6 @@ std::vector<mrpt::obs::CObservation::Ptr> observationsOf(
 /// Takes the null objects out of a sensory frame: MRPT reads such frames, but cannot write them.
 /// Returns their number.
 std::size_t takeOutNulls(const mrpt::serialization::CSerializable::Ptr& entry);
-
-/// What an output rawlog holds of a scan of a capture or a bag: packets as they are, a cloud of the
-/// class asked for; null if none is asked for.
-mrpt::serialization::CSerializable::Ptr objectOf(
-    const mrpt::obs::CObservation::Ptr& scan,
-    const std::optional<observations::CloudClass>& cloud_class);
 
 /// Has the clouds of an entry that were read as CGenericPointsMap written as such, with all fields.
 void keepFields(const mrpt::serialization::CSerializable::Ptr& entry);

@@ -87,7 +87,11 @@ class LiveSessionTest : public testing::Test {
         };
         return runLive(packets, options_, listener);
     }
-    LiveOptions options_{"VLP-16", {}, {}, {}, {}, {}, false};
+    LiveOptions options_ = [] {
+        LiveOptions options;
+        options.model = "VLP-16";
+        return options;
+    }();
     std::vector<std::string> remarks_;
     std::size_t returns_ = 0;
 };
@@ -177,6 +181,13 @@ TEST_F(LiveSessionTest, WhatIsNotSupportedIsNamed) {
                     o.recording.file = "a.rawlog";
                 }),
                 HasSubstr("cannot be recorded"));
+    EXPECT_THAT(messageWith([](auto& o) { o.sensor_json = "os.json"; }), HasSubstr("--model"));
+    EXPECT_THAT(messageWith([](auto& o) {
+                    o.model.clear();
+                    o.sensor_json = "os.json";
+                    o.calibration = "db.xml";
+                }),
+                HasSubstr("db.xml"));
 }
 
 TEST_F(LiveSessionTest, AFailingSourceIsReported) {

@@ -27,13 +27,13 @@ struct LiveOptions {
     /// "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
     std::string model;
     std::filesystem::path calibration;  ///< of an HDL-64E
-    std::filesystem::path sensor_json;  ///< metadata of an Ouster; `model` is empty then
     observations::Settings settings;
     streaming::StreamingOptions streaming;
     TurnRecorder::Options recording;  ///< an empty name: none
     std::filesystem::path stats;      ///< JSON; empty: none
     bool overwrite = false;           ///< replaces an existing file of `stats`
     double duration_s = std::numeric_limits<double>::infinity();
+    std::filesystem::path sensor_json;  ///< metadata of an Ouster; `model` is empty then
 };
 
 /// What came so far.

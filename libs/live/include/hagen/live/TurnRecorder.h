@@ -45,7 +45,7 @@ class TurnRecorder {
     TurnRecorder(const TurnRecorder&) = delete;
     TurnRecorder& operator=(const TurnRecorder&) = delete;
 
-    void add(const mrpt::obs::CObservation::ConstPtr& turn);
+    void add(const mrpt::obs::CObservation::Ptr& turn);
     /// Why recording ended early, naming the file; empty: it goes on.
     std::string failure() const;
     /// Completes the file. Throws std::runtime_error naming it, and what is left of it, if a turn
@@ -55,7 +55,7 @@ class TurnRecorder {
  private:
     std::filesystem::path nextName();
     void work();
-    void write(const mrpt::obs::CObservation& turn);
+    void write(const mrpt::obs::CObservation::Ptr& turn);
     void endFile();
 
     const Options options_;
@@ -70,7 +70,7 @@ class TurnRecorder {
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<mrpt::obs::CObservation::ConstPtr> waiting_;
+    std::deque<mrpt::obs::CObservation::Ptr> waiting_;
     std::size_t left_out_ = 0;
     bool is_at_end_ = false;
     std::string failure_;
