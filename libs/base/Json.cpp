@@ -122,9 +122,21 @@ Json::Json(std::nullptr_t) {}
 Json::Json(std::string text) : value_(std::move(text)) {}
 Json::Json(const char* text) : value_(std::string(text)) {}
 Json::Json(Scalar number) : value_(number) {}
-Json::Json(const Json& other) = default;
+// Where a copy throws, libstdc++'s variant of such types ends what was not begun (GCC 12): only
+// moves are left to it.
+Json::Json(const Json& other) {
+    std::visit(
+        [this](const auto& value) {
+            auto copy = value;
+            value_ = std::move(copy);
+        },
+        other.value_);
+}
 Json::Json(Json&& other) noexcept = default;
-Json& Json::operator=(const Json& other) = default;
+Json& Json::operator=(const Json& other) {
+    if (this != &other) *this = Json(other);
+    return *this;
+}
 Json& Json::operator=(Json&& other) noexcept = default;
 Json::~Json() = default;
 

@@ -205,7 +205,12 @@ RenamingNote::RenamingNote(const std::vector<fs::path>& outputs) {
     fs::path first = outputs.front();
     if (!first.has_filename()) first = first.parent_path();
     file_ = secretName(first, ".unfinished-");
-    std::ofstream(file_) << text;
+    try {
+        std::ofstream(file_) << text;
+    } catch (const std::bad_alloc&) {  // for its buffer, once the file is there
+        std::error_code ignored;
+        fs::remove(file_, ignored);
+    }
 }
 
 RenamingNote::~RenamingNote() {
