@@ -54,8 +54,8 @@ class CaptureFile {
     /// Reads the next datagram; false at the end. Throws BrokenCapture.
     bool next(Datagram& datagram);
 
-    /// Calls `check` after each kFramesPerCheck frames: what it throws ends next(), which may read a
-    /// whole file in search of a datagram.
+    /// Calls `check` after each kFramesPerCheck frames: what it throws ends next(), which may read
+    /// a whole file in search of a datagram.
     void checkWhileReading(const std::function<void()>& check);
     static constexpr std::size_t kFramesPerCheck = 1024;
 
