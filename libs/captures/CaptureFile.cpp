@@ -136,7 +136,8 @@ bool CaptureFile::next(Datagram& datagram) {
     Bytes frame;
     const pcap_pkthdr* header = nullptr;
     while (true) {
-        if (r.check && r.counts.frames % kFramesPerCheck == 0) r.check();
+        const std::size_t frames = r.counts.frames;
+        if (r.check && frames > 0 && frames % kFramesPerCheck == 0) r.check();
         if (!r.nextFrame(frame, header)) return false;
         ++r.counts.frames;
         const IpPacket packet = readFrame(r.link_type, frame);

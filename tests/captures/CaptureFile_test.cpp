@@ -69,7 +69,7 @@ TEST_F(CaptureFileTest, ACheckEndsTheReadingOfFramesThatAreNoDatagrams) {
     });
     Datagram datagram;
     EXPECT_THROW(capture.next(datagram), Stop);
-    EXPECT_EQ(capture.counts().frames, 2 * CaptureFile::kFramesPerCheck);
+    EXPECT_EQ(capture.counts().frames, 3 * CaptureFile::kFramesPerCheck);
     // Goes on where it was.
     EXPECT_FALSE(capture.next(datagram));
     EXPECT_EQ(capture.counts().other_traffic, 5000u);

@@ -54,9 +54,8 @@ class CaptureFile {
     /// Reads the next datagram; false at the end. Throws BrokenCapture.
     bool next(Datagram& datagram);
 
-    /// Calls `check` before each frame whose number is a multiple of kFramesPerCheck: what it
-    /// throws ends next(), which may read a whole file without a datagram that its caller waits
-    /// for.
+    /// Calls `check` after each kFramesPerCheck frames: what it throws ends next(), which may read
+    /// a whole file in search of a datagram.
     void checkWhileReading(const std::function<void()>& check);
     static constexpr std::size_t kFramesPerCheck = 1024;
 
