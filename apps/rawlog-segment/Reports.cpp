@@ -1,9 +1,11 @@
 #include "Reports.h"
 
+#include <hagen/base/Folder.h>
 #include <hagen/base/NumberText.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -19,21 +21,26 @@ std::string counted(std::size_t number, const std::string& one, const std::strin
     return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
-/// Of a file or of all files in a folder: "12.3 MB".
-std::string sizeText(const std::filesystem::path& path) {
+/// Bytes of a file or of all files in a folder; without those that another program takes away
+/// meanwhile.
+double bytesOf(const std::filesystem::path& path) {
     namespace fs = std::filesystem;
-    std::error_code unreadable;  // another program may take it away meanwhile
-    double bytes = 0;
+    std::error_code unreadable;
     if (fs::is_directory(path, unreadable)) {
-        for (const auto& file : fs::recursive_directory_iterator(path, unreadable)) {
-            if (!file.is_regular_file(unreadable)) continue;
-            bytes += static_cast<double>(file.file_size(unreadable));
+        double bytes = 0;
+        for (const fs::path& entry : hagen::base::entriesOf(path, unreadable)) {
+            if (!fs::is_symlink(entry, unreadable)) bytes += bytesOf(entry);
         }
-    } else {
-        bytes = static_cast<double>(fs::file_size(path, unreadable));
+        return bytes;
     }
+    const std::uintmax_t bytes = fs::file_size(path, unreadable);
+    return unreadable ? 0 : static_cast<double>(bytes);
+}
+
+/// "12.3 MB".
+std::string sizeText(const std::filesystem::path& path) {
     const char* unit = "kB";
-    double size = bytes / 1e3;
+    double size = bytesOf(path) / 1e3;
     for (const char* larger : {"MB", "GB"}) {
         if (size < 1000) break;
         size /= 1e3;

@@ -123,17 +123,16 @@ class AutopilotLink::Work {
 
     void sendPeriod(std::size_t period) {
         const double time_s = now_s();
-        Directions directions;
-        std::optional<VehiclePose> pose;
         std::optional<float> below_m;
-        double latest_s = 0;
-        {
-            const std::lock_guard lock(mutex_);
-            directions = surroundings_->at(time_s, motion_);
-            pose = motion_.at(time_s);
-            latest_s = surroundings_->latest_s();
-            if (time_s - below_s_ <= settings_.surroundings.stale_s) below_m = below_m_;
-        }
+        // Copies, so that those who label do not wait while directions are made of them.
+        std::unique_lock lock(mutex_);
+        const Surroundings surroundings = *surroundings_;
+        const VehicleMotion motion = motion_;
+        if (time_s - below_s_ <= settings_.surroundings.stale_s) below_m = below_m_;
+        lock.unlock();
+        const Directions directions = surroundings.at(time_s, motion);
+        const std::optional<VehiclePose> pose = motion.at(time_s);
+        const double latest_s = surroundings.latest_s();
         watch(latest_s, time_s);
         if (std::all_of(directions.begin(), directions.end(), [](const Direction& each) {
                 return each.state == Direction::State::Unknown;

@@ -18,8 +18,8 @@ ClockOffset::Result ClockOffset::ourTime(double stamp_s, double arrival_s) {
         known_s != kNone && (offset_s > known_s + kJump_s || offset_s < known_s - kJump_s);
     if (has_restarted) least_s_ = least_before_s_ = kNone;
     if (arrival_s - window_start_s_ > kWindow_s || has_restarted) {
-        const bool is_next = arrival_s - window_start_s_ <= 2 * kWindow_s;
-        least_before_s_ = is_next ? least_s_ : kNone;
+        least_before_s_ = least_s_;
+        if (arrival_s - window_start_s_ > 2 * kWindow_s) least_before_s_ = kNone;
         least_s_ = kNone;
         window_start_s_ = arrival_s;
     }

@@ -36,19 +36,9 @@ Surroundings::Surroundings(const SensorModel& sensor, const Settings& settings)
       highest_(std::sin(static_cast<double>(sensor.elevations_rad.back()))) {}
 
 void Surroundings::take(const streaming::LabelledSector& sector) {
-    while (!seen_.empty() && !isFresh(seen_.front(), sector.last_time_s)) {
-        spare_.push_back(std::move(seen_.front()));
-        seen_.pop_front();
-    }
-    if (spare_.empty()) spare_.emplace_back();
-    seen_.push_back(std::move(spare_.back()));
-    spare_.pop_back();
-    Seen& seen = seen_.back();
+    Seen seen;
     seen.first_time_s = sector.first_time_s;
     seen.last_time_s = sector.last_time_s;
-    latest_s_ = std::max(latest_s_, sector.last_time_s);
-    seen.sweeps.clear();
-    seen.roi_m.clear();
     seen.to_rad = sector.sweep ? sector.sweep->to_rad : 0;
     if (sector.sweep && sector.packets) seen.sweeps = *sector.packets;
     if (sector.sweep && !sector.packets) seen.sweeps.push_back(*sector.sweep);
@@ -57,6 +47,9 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
         if (sector.label[i] != Label::Roi) continue;
         seen.roi_m.emplace_back(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
     }
+    latest_s_ = std::max(latest_s_, sector.last_time_s);
+    while (!seen_.empty() && !isFresh(*seen_.front(), sector.last_time_s)) seen_.pop_front();
+    seen_.push_back(std::make_shared<const Seen>(std::move(seen)));
 }
 
 bool Surroundings::isFresh(const Seen& seen, double now_s) const {
@@ -87,7 +80,8 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
     const std::optional<VehiclePose> now = motion.at(now_s);
     constexpr double kPart_rad = kTurn_rad / kBins, kHalf_rad = kTurn_rad / 72 / 2;
 
-    for (auto seen = seen_.rbegin(); seen != seen_.rend(); ++seen) {
+    for (auto each = seen_.rbegin(); each != seen_.rend(); ++each) {
+        const Seen* const seen = each->get();
         if (!isFresh(*seen, now_s)) continue;
         // All was swept again, by a later turn.
         const double least_rad = *std::min_element(swept_rad.begin(), swept_rad.end());

@@ -1,7 +1,7 @@
 #include "BagFolder.h"
 
-#include <hagen/base/ReadFile.h>
 #include <hagen/base/Folder.h>
+#include <hagen/base/ReadFile.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>

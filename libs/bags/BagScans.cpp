@@ -113,7 +113,7 @@ struct BagScans::Reader {
     std::shared_ptr<const SensorModel> mid360 =
         std::make_shared<const SensorModel>(sensorModel("Mid-360"));
     bool is_at_end = false;
-    std::size_t scans = 0;
+    std::size_t scans = 0, messages = 0;
     std::size_t bytes_untrimmed = 0;  ///< of scans read since trimHeap()
     std::string broken_because;
 
@@ -410,6 +410,7 @@ CObservation::Ptr BagScans::next() {
     while (r.complete.empty() && !r.is_at_end) {
         try {
             if (r.bag->next(message)) {
+                ++r.messages;
                 r.take(message);
             } else {
                 r.finish();
@@ -430,6 +431,8 @@ CObservation::Ptr BagScans::next() {
 }
 
 const BagPlan& BagScans::plan() const { return reader_->plan; }
+
+std::size_t BagScans::messagesRead() const { return reader_->messages; }
 
 double BagScans::fractionRead() const {
     return reader_->is_at_end ? 1.0 : reader_->bag->fractionRead();

@@ -39,6 +39,7 @@ class Surveyor {
         while (survey_.topics.size() < topics.size()) addTopic(topics[survey_.topics.size()]);
         BagSurvey::Topic& topic = survey_.topics[message.topic];
         ++topic.messages;
+        ++survey_.messages;
         try {
             read(message, topic);
         } catch (const std::bad_alloc&) {

@@ -6,46 +6,115 @@
 
 namespace hagen::base {
 
-/// Converts to nlohmann's values and back.
+// Only scalars become values of nlohmann's: when one of its objects or arrays ends, it allocates,
+// and so ends the program if memory runs out.
+using Value = nlohmann::ordered_json;
+
+/// Writes values as text; its Builder reads them.
 struct Json::Text {
-    using Value = nlohmann::ordered_json;
+    class Builder;
 
-    static Value valueOf(const Json& json) {
-        if (const auto* number = std::get_if<Scalar>(&json.value_)) {
-            return std::visit([](auto value) { return Value(value); }, *number);
-        }
-        if (const auto* text = std::get_if<std::string>(&json.value_)) return Value(*text);
+    const int indent;  ///< spaces per level; negative: one line
+    const Value::error_handler_t not_utf8;
+    std::string text;
+
+    void write(const Json& json, int depth) {
         if (const auto* items = std::get_if<Array>(&json.value_)) {
-            Value::array_t values;
-            values.reserve(items->size());
-            for (const Json& item : *items) values.push_back(valueOf(item));
-            return Value(std::move(values));
+            writeAll(*items, '[', ']', depth, [&](const Json& item) { write(item, depth + 1); });
+        } else if (const auto* members = std::get_if<Object>(&json.value_)) {
+            writeAll(*members, '{', '}', depth, [&](const auto& member) {
+                write(Value(member.first));
+                text += indent < 0 ? ":" : ": ";
+                write(member.second, depth + 1);
+            });
+        } else if (const auto* number = std::get_if<Scalar>(&json.value_)) {
+            std::visit([&](auto value) { write(Value(value)); }, *number);
+        } else if (const auto* words = std::get_if<std::string>(&json.value_)) {
+            write(Value(*words));
+        } else {
+            write(Value());
         }
-        if (const auto* members = std::get_if<Object>(&json.value_)) {
-            Value object = Value::object();
-            for (const auto& [key, member] : *members) object[key] = valueOf(member);
-            return object;
-        }
-        return Value();
     }
 
-    static Json jsonOf(const Value& value) {
-        if (value.is_boolean()) return Json(value.get<bool>());
-        if (value.is_number_unsigned()) return Json(value.get<std::uint64_t>());
-        if (value.is_number_integer()) return Json(value.get<std::int64_t>());
-        if (value.is_number_float()) return Json(value.get<double>());
-        if (value.is_string()) return Json(value.get<std::string>());
-        Json json;
-        if (value.is_array()) {
-            json.value_ = Array();
-            for (const Value& item : value) json.push_back(jsonOf(item));
-        }
-        if (value.is_object()) {
-            json.value_ = Object();
-            for (const auto& [key, member] : value.items()) json[key] = jsonOf(member);
-        }
-        return json;
+ private:
+    void write(const Value& scalar) { text += scalar.dump(-1, ' ', false, not_utf8); }
+    void breakLine(int depth) {
+        if (indent < 0) return;
+        text += '\n';
+        text.append(static_cast<std::size_t>(indent * depth), ' ');
     }
+    template <class Parts, class WritePart>
+    void writeAll(const Parts& parts, char open, char close, int depth,
+                  const WritePart& writePart) {
+        text += open;
+        bool is_first = true;
+        for (const auto& part : parts) {
+            if (!is_first) text += ',';
+            is_first = false;
+            breakLine(depth + 1);
+            writePart(part);
+        }
+        if (!is_first) breakLine(depth);
+        text += close;
+    }
+};
+
+/// Makes a value of what the parser meets.
+class Json::Text::Builder : public nlohmann::json_sax<Value> {
+ public:
+    bool null() override { return add(Json()); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(std::int64_t value) override { return add(value); }
+    bool number_unsigned(std::uint64_t value) override { return add(value); }
+    bool number_float(double value, const std::string&) override { return add(value); }
+    bool string(std::string& text) override { return add(std::move(text)); }
+    bool binary(Value::binary_t&) override { return false; }  // JSON has none
+    bool start_object(std::size_t) override { return open(Json::object()); }
+    bool start_array(std::size_t) override { return open(Json::array()); }
+    bool key(std::string& key) override {
+        member_ = &(*open_.back())[key];
+        return true;
+    }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool parse_error(std::size_t position, const std::string&,
+                     const nlohmann::detail::exception& error) override {
+        is_syntax_error_ = dynamic_cast<const nlohmann::detail::parse_error*>(&error) != nullptr;
+        position_ = position;
+        why_ = error.what();
+        return false;
+    }
+
+    Json root;
+    bool is_syntax_error_ = false;
+    std::size_t position_ = 0;  ///< bytes read when it was met
+    std::string why_;
+
+ private:
+    /// Where the next value belongs.
+    Json& place() {
+        if (open_.empty()) return root;
+        if (!open_.back()->isArray()) return *member_;
+        auto& items = std::get<Array>(open_.back()->value_);
+        return items.emplace_back();
+    }
+    bool add(Json value) {
+        place() = std::move(value);
+        return true;
+    }
+    bool open(Json value) {
+        Json& at = place();
+        at = std::move(value);
+        open_.push_back(&at);
+        return true;
+    }
+    bool close() {
+        open_.pop_back();
+        return true;
+    }
+
+    std::vector<Json*> open_;  ///< objects and arrays, from the outermost
+    Json* member_ = nullptr;   ///< of the object that is open
 };
 
 Json::Json() = default;
@@ -53,9 +122,21 @@ Json::Json(std::nullptr_t) {}
 Json::Json(std::string text) : value_(std::move(text)) {}
 Json::Json(const char* text) : value_(std::string(text)) {}
 Json::Json(Scalar number) : value_(number) {}
-Json::Json(const Json& other) = default;
+// Where a copy throws, libstdc++'s variant of such types ends what was not begun (GCC 12): only
+// moves are left to it.
+Json::Json(const Json& other) {
+    std::visit(
+        [this](const auto& value) {
+            auto copy = value;
+            value_ = std::move(copy);
+        },
+        other.value_);
+}
 Json::Json(Json&& other) noexcept = default;
-Json& Json::operator=(const Json& other) = default;
+Json& Json::operator=(const Json& other) {
+    if (this != &other) *this = Json(other);
+    return *this;
+}
 Json& Json::operator=(Json&& other) noexcept = default;
 Json::~Json() = default;
 
@@ -136,16 +217,14 @@ std::string faultOf(const std::string& text, std::size_t bytes, const std::strin
 }  // namespace
 
 Json Json::parse(const std::string& text) {
-    try {
-        return Text::jsonOf(Text::Value::parse(text));
-    } catch (const nlohmann::json::parse_error& e) {
-        throw std::runtime_error("is no JSON: " + faultOf(text, e.byte, e.what()));
-    } catch (const nlohmann::json::exception& e) {
-        const std::string what = e.what();  // "[json.exception...] what"
-        const std::size_t end = what.find("] ");
-        throw std::runtime_error("is no JSON: " +
-                                 what.substr(end == std::string::npos ? 0 : end + 2));
+    Text::Builder builder;
+    if (Value::sax_parse(text, &builder)) return std::move(builder.root);
+    if (builder.is_syntax_error_) {
+        throw std::runtime_error("is no JSON: " + faultOf(text, builder.position_, builder.why_));
     }
+    const std::size_t end = builder.why_.find("] ");  // "[json.exception...] what"
+    throw std::runtime_error("is no JSON: " +
+                             builder.why_.substr(end == std::string::npos ? 0 : end + 2));
 }
 
 Json& Json::operator[](const std::string& key) {
@@ -243,9 +322,12 @@ std::vector<std::string> Json::texts() const {
 }
 
 std::string Json::dump(int indent, NotUtf8 not_utf8) const {
-    const auto handler = not_utf8 == NotUtf8::Replace ? Text::Value::error_handler_t::replace
-                                                      : Text::Value::error_handler_t::strict;
-    return Text::valueOf(*this).dump(indent, ' ', false, handler);
+    Text written{indent,
+                 not_utf8 == NotUtf8::Replace ? Value::error_handler_t::replace
+                                              : Value::error_handler_t::strict,
+                 {}};
+    written.write(*this, 0);
+    return std::move(written.text);
 }
 
 }  // namespace hagen::base

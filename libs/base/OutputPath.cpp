@@ -2,9 +2,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <hagen/base/Folder.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
-#include <hagen/base/Folder.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -43,7 +43,7 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
         throw std::runtime_error(path.string() +
                                  ": not a folder, so it is not replaced; choose another name");
     }
-    if (kind.marker != nullptr && !fs::is_empty(path) && !fs::exists(path / kind.marker)) {
+    if (kind.marker != nullptr && !entriesOf(path).empty() && !fs::exists(path / kind.marker)) {
         throw std::runtime_error(path.string() + ": has no '" + kind.marker + "', so it is not " +
                                  kind.what +
                                  " of an earlier run, and is not replaced; choose another name");
@@ -138,9 +138,7 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     temporary_ = secretName(path_, kTemporaryMark);
 }
 
-OutputPath::~OutputPath() {
-    removeAll(temporary_);
-}
+OutputPath::~OutputPath() { removeAll(temporary_); }
 
 void OutputPath::checkFree() const {
     if (!fs::exists(fs::symlink_status(path_))) return;
@@ -207,7 +205,12 @@ RenamingNote::RenamingNote(const std::vector<fs::path>& outputs) {
     fs::path first = outputs.front();
     if (!first.has_filename()) first = first.parent_path();
     file_ = secretName(first, ".unfinished-");
-    std::ofstream(file_) << text;
+    try {
+        std::ofstream(file_) << text;
+    } catch (const std::bad_alloc&) {  // for its buffer, once the file is there
+        std::error_code ignored;
+        fs::remove(file_, ignored);
+    }
 }
 
 RenamingNote::~RenamingNote() {

@@ -63,6 +63,7 @@ struct CaptureFile::Reader {
     int link_type;
     FrameCounts counts;
     Fragments fragments;
+    std::function<void()> check;  ///< of checkWhileReading()
 
     explicit Reader(const std::filesystem::path& name)
         : file(name),
@@ -134,7 +135,9 @@ bool CaptureFile::next(Datagram& datagram) {
     Reader& r = *reader_;
     Bytes frame;
     const pcap_pkthdr* header = nullptr;
-    while (r.nextFrame(frame, header)) {
+    while (true) {
+        if (r.check && r.counts.frames % kFramesPerCheck == 0) r.check();
+        if (!r.nextFrame(frame, header)) return false;
         ++r.counts.frames;
         const IpPacket packet = readFrame(r.link_type, frame);
         r.counts.tagged += packet.is_tagged;
@@ -150,8 +153,9 @@ bool CaptureFile::next(Datagram& datagram) {
             ++r.counts.cut_frames;
         }
     }
-    return false;
 }
+
+void CaptureFile::checkWhileReading(const std::function<void()>& check) { reader_->check = check; }
 
 const FrameCounts& CaptureFile::counts() const { return reader_->counts; }
 

@@ -166,6 +166,10 @@ CObservationPointCloud::Ptr LivoxCapture::next() {
     return nullptr;
 }
 
+void LivoxCapture::checkWhileReading(const std::function<void()>& check) {
+    reader_->capture.checkWhileReading(check);
+}
+
 double LivoxCapture::fractionRead() const { return reader_->capture.fractionRead(); }
 
 std::vector<std::string> LivoxCapture::remarks() const {

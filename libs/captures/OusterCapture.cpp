@@ -127,6 +127,10 @@ CObservationPointCloud::Ptr OusterCapture::next() {
     return nullptr;
 }
 
+void OusterCapture::checkWhileReading(const std::function<void()>& check) {
+    reader_->capture.checkWhileReading(check);
+}
+
 double OusterCapture::fractionRead() const { return reader_->capture.fractionRead(); }
 
 std::vector<std::string> OusterCapture::remarks() const {

@@ -172,6 +172,10 @@ CObservationVelodyneScan::Ptr VelodyneCapture::next() {
     return nullptr;
 }
 
+void VelodyneCapture::checkWhileReading(const std::function<void()>& check) {
+    reader_->capture.checkWhileReading(check);
+}
+
 double VelodyneCapture::fractionRead() const { return reader_->capture.fractionRead(); }
 
 std::vector<std::string> VelodyneCapture::remarks() const {

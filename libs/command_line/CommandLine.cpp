@@ -252,6 +252,8 @@ int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexce
         std::fprintf(stderr, "%s: out of memory\n", program_invocation_short_name);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "%s: %s\n", program_invocation_short_name, e.what());
+    } catch (...) {
+        std::fprintf(stderr, "%s: ended by an unknown error\n", program_invocation_short_name);
     }
     return kFailed;
 }

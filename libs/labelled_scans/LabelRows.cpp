@@ -1,7 +1,7 @@
 #include <hagen/labelled_scans/LabelRows.h>
 
-#include <hagen/observations/Settings.h>
 #include <hagen/base/Folder.h>
+#include <hagen/observations/Settings.h>
 #include <algorithm>
 #include <stdexcept>
 

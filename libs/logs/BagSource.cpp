@@ -26,13 +26,14 @@ RawlogSurvey posesOf(const bags::PoseSeries& series) {
 BagSource::BagSource(const std::filesystem::path& bag, const SourceOptions& options)
     : ScanSource(options), file_(bag), survey_(surveyInAdvance()), scans_(openScans()) {}
 
-bags::BagSurvey BagSource::surveyInAdvance() const {
+bags::BagSurvey BagSource::surveyInAdvance() {
     bool is_interrupted = false;
     bags::BagSurvey survey = bags::surveyBag(file_, [&] {
         is_interrupted = !options_.keep_going();
         return !is_interrupted;
     });
     if (is_interrupted) throw Interrupted("interrupted");
+    if (!survey.broken_because.empty()) brokeOffAhead(survey.messages, survey.broken_because);
     return survey;
 }
 
@@ -46,7 +47,11 @@ std::optional<RecordedEntry> BagSource::nextEntry() {
         checkInterruption();
         const auto observation = scans_->next();
         is_read_to_end_ = observation == nullptr;
-        if (!observation) return std::nullopt;
+        if (!observation) {
+            const std::string missed = missedAhead(scans_->messagesRead() + 1);
+            if (!missed.empty()) throw bags::BrokenBag(missed);
+            return std::nullopt;
+        }
         if (++seen_ > shown_) ahead_.reset();  // it is rarely needed again, and holds a chunk
         see(*observation);
         if (!observations::isLidarScan(*observation)) continue;
@@ -58,10 +63,12 @@ std::optional<RecordedEntry> BagSource::nextEntry() {
         addIfScan(observation, "", entry);
         return entry;
     }
+    const std::string missed = missedAhead(scans_->messagesRead());
+    if (!missed.empty()) throw bags::BrokenBag(missed);
     return std::nullopt;
 }
 
-RawlogSurvey BagSource::surveyScans() const {
+RawlogSurvey BagSource::surveyScans() {
     RawlogSurvey survey;
     const auto ahead = openScans();
     try {
@@ -71,8 +78,9 @@ RawlogSurvey BagSource::surveyScans() const {
             survey.scans[scan->sensorLabel].push_back(
                 {scan->timestamp, mrpt::poses::CPose3D(scan->sensorPose())});
         }
-    } catch (const bags::BrokenBag&) {
-        survey.is_whole = false;  // nextEntry() reports the break
+    } catch (const bags::BrokenBag& e) {
+        survey.is_whole = false;
+        brokeOffAhead(ahead->messagesRead(), e.what());
     }
     return survey;
 }
@@ -98,8 +106,9 @@ bool BagSource::showClouds(observations::CloudSensors& sensors) {
         if (!observation) return false;
         sensors.see(*observation);
         return true;
-    } catch (const bags::BrokenBag&) {
-        return false;  // nextEntry() reports the break
+    } catch (const bags::BrokenBag& e) {
+        brokeOffAhead(ahead_ ? ahead_->messagesRead() : 0, e.what());
+        return false;
     }
 }
 

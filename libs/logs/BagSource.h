@@ -22,8 +22,8 @@ class BagSource : public ScanSource {
 
  private:
     /// Reads the times of all scans, up to where the bag breaks off.
-    RawlogSurvey surveyScans() const;
-    bags::BagSurvey surveyInAdvance() const;
+    RawlogSurvey surveyScans();
+    bags::BagSurvey surveyInAdvance();
     std::unique_ptr<bags::BagScans> openScans() const;
 
     std::filesystem::path file_;

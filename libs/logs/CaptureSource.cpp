@@ -9,14 +9,20 @@ namespace hagen::logs {
 CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
     : ScanSource(options),
       file_(capture),
-      capture_(captures::openCapture(capture, options.sensor_json, options.calibration)) {}
+      capture_(captures::openCapture(capture, options.sensor_json, options.calibration)) {
+    capture_->checkWhileReading([this] { checkInterruption(); });
+}
 
 std::optional<RecordedEntry> CaptureSource::nextEntry() {
     while (turns_ <= options_.last_entry) {
         checkInterruption();
         const auto turn = capture_->nextScan();
         is_read_to_end_ = turn == nullptr;
-        if (!turn) return std::nullopt;
+        if (!turn) {
+            const std::string missed = missedAhead(turns_ + 1);
+            if (!missed.empty()) throw captures::BrokenCapture(missed);
+            return std::nullopt;
+        }
         RecordedEntry entry;
         entry.number = turns_++;
         if (skips(entry.number)) continue;
@@ -25,20 +31,26 @@ std::optional<RecordedEntry> CaptureSource::nextEntry() {
         addIfScan(turn, "", entry);
         return entry;
     }
+    const std::string missed = missedAhead(turns_);
+    if (!missed.empty()) throw captures::BrokenCapture(missed);
     return std::nullopt;
 }
 
-RawlogSurvey CaptureSource::survey() const {
+RawlogSurvey CaptureSource::survey() {
     RawlogSurvey survey;
+    std::size_t turns = 0;
     const auto ahead = captures::openCapture(file_, options_.sensor_json, options_.calibration);
+    ahead->checkWhileReading([this] { checkInterruption(); });
     try {
         while (const auto turn = ahead->nextScan()) {
             checkInterruption();
+            ++turns;
             survey.scans[turn->sensorLabel].push_back(
                 {turn->timestamp, mrpt::poses::CPose3D(turn->sensorPose())});
         }
-    } catch (const captures::BrokenCapture&) {
-        survey.is_whole = false;  // nextEntry() reports the break
+    } catch (const captures::BrokenCapture& e) {
+        survey.is_whole = false;
+        brokeOffAhead(turns, e.what());
     }
     return survey;
 }

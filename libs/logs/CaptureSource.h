@@ -23,7 +23,7 @@ class CaptureSource : public ScanSource {
 
  private:
     /// Reads the capture in advance, up to where it breaks off.
-    RawlogSurvey survey() const;
+    RawlogSurvey survey();
 
     std::filesystem::path file_;
     std::unique_ptr<captures::LidarCapture> capture_;

@@ -2,10 +2,10 @@
 
 #include "CloudOutput.h"
 
+#include <hagen/base/Folder.h>
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/observations/TableCloud.h>
-#include <hagen/base/Folder.h>
 
 #include <algorithm>
 #include <new>
@@ -152,6 +152,8 @@ std::optional<RecordedEntry> CloudFileSource::nextEntry() {
         for (RecordedScan& scan : entry.scans) scan.pose.is_of_sensor = true;
         return entry;
     }
+    const std::string missed = missedAhead(next_);
+    if (!missed.empty()) throw BrokenScan(missed);
     return std::nullopt;
 }
 
@@ -177,10 +179,11 @@ bool CloudFileSource::showClouds(observations::CloudSensors& sensors) {
         sensors.see(
             *observations::observationOf(std::make_shared<const PointTable>(std::move(file.table)),
                                          kCloudLabel, mrpt::Clock::fromDouble(times_s_[i])));
-    } catch (const std::runtime_error&) {
-        return true;  // nextEntry() reports it
+    } catch (const std::runtime_error& e) {
+        if (i >= options_.first_entry) brokeOffAhead(i, e.what());
     } catch (const std::bad_alloc&) {
-        return true;  // likewise
+        const std::string why = files_[i].string() + ": does not fit into memory";
+        if (i >= options_.first_entry) brokeOffAhead(i, why);
     }
     return true;
 }

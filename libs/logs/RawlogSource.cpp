@@ -30,8 +30,8 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
         checkInterruption();
         entry.object = reader_.next();
         if (!entry.object) {
-            // What was read in advance (poses, beams) ended there, and lacks the rest.
-            if (!break_ahead_.empty()) throw BrokenRawlog(break_ahead_ + " (read in advance)");
+            const std::string missed = missedAhead(reader_.entries() + 1);
+            if (!missed.empty()) throw BrokenRawlog(missed);
             return std::nullopt;
         }
         const bool is_skipped = skips(entry.number);
@@ -51,6 +51,8 @@ std::optional<RecordedEntry> RawlogSource::nextEntry() {
         entry.fraction_read = reader_.fractionRead();
         return entry;
     }
+    const std::string missed = missedAhead(reader_.entries());
+    if (!missed.empty()) throw BrokenRawlog(missed);
     return std::nullopt;
 }
 
@@ -80,7 +82,7 @@ const RawlogSurvey& RawlogSource::survey() {
         return !is_interrupted;
     });
     if (is_interrupted) throw Interrupted("interrupted");
-    break_ahead_ = survey.break_found;
+    if (!survey.break_found.empty()) brokeOffAhead(survey.entries, survey.break_found);
     survey_ = std::move(survey);
     return *survey_;
 }
@@ -105,7 +107,7 @@ bool RawlogSource::showClouds(observations::CloudSensors& sensors) {
         for (const auto& observation : observationsOf(entry)) sensors.see(*observation);
         return true;
     } catch (const BrokenRawlog& e) {
-        break_ahead_ = e.what();  // nextEntry() reports the break
+        brokeOffAhead(ahead_->entries(), e.what());
         return false;
     }
 }

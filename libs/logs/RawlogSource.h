@@ -26,7 +26,6 @@ class RawlogSource : public ScanSource {
 
     std::filesystem::path rawlog_;
     RawlogReader reader_;
-    std::string break_ahead_;                 ///< met by reading in advance; empty: none
     std::size_t null_objects_ = 0;            ///< taken out of sensory frames
     bool has_scans_ = false;                  ///< among the selected entries
     std::map<std::string, std::size_t> has_;  ///< number of objects of each class among them

@@ -139,6 +139,7 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
         why = e.what();
     }
     RawlogSurvey survey = std::move(surveyor).survey();
+    survey.entries = reader.entries();
     survey.break_found = why;
     survey.is_whole = is_whole;
     return survey;

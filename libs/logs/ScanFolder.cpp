@@ -9,8 +9,8 @@
 #include <set>
 #include <stdexcept>
 
-#include <hagen/base/WriteFile.h>
 #include <hagen/base/Folder.h>
+#include <hagen/base/WriteFile.h>
 
 namespace hagen::logs {
 namespace {

@@ -33,6 +33,8 @@ std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
         for (RecordedScan& scan : entry.scans) scan.pose.is_of_sensor = true;
         return entry;
     }
+    const std::string missed = missedAhead(next_);
+    if (!missed.empty()) throw BrokenScan(missed);
     return std::nullopt;
 }
 
@@ -42,11 +44,13 @@ LogPoses ScanFolderSource::readPoses(const std::filesystem::path& file) {
 
 bool ScanFolderSource::showClouds(observations::CloudSensors& sensors) {
     if (next_shown_ >= folder_.size()) return false;
+    const std::size_t i = next_shown_++;
     Scan cloud;
     try {
-        readScan(folder_.scanFile(next_shown_++), cloud);
-    } catch (const BrokenScan&) {
-        return true;  // nextEntry() reports it
+        readScan(folder_.scanFile(i), cloud);
+    } catch (const BrokenScan& e) {
+        if (i >= options_.first_entry) brokeOffAhead(i, e.what());
+        return true;
     }
     sensors.see(kFolderLabel, cloud);
     return true;

@@ -30,9 +30,8 @@ PointTable tableOf(const mrpt::maps::CPointsMap& cloud) {
     add("x", NumberType::Float32, cloud.getPointsBufferRef_x());
     add("y", NumberType::Float32, cloud.getPointsBufferRef_y());
     add("z", NumberType::Float32, cloud.getPointsBufferRef_z());
-    if (const auto* const with_intensity =
-            dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
-        add("intensity", NumberType::Float32, with_intensity->getPointsBufferRef_intensity());
+    if (const auto* const intensities = observations::intensitiesOf(cloud)) {
+        add("intensity", NumberType::Float32, *intensities);
     }
     if (const auto* const located = dynamic_cast<const observations::LocatedCloud*>(&cloud)) {
         if (located->sensor().has_rings) add("ring", NumberType::UInt16, located->rows());

@@ -1,9 +1,9 @@
 #include <hagen/logs/ScanSource.h>
 
 #include <hagen/bags/BagFile.h>
+#include <hagen/base/Folder.h>
 #include <hagen/captures/CaptureFile.h>
 #include <hagen/clouds/CloudFile.h>
-#include <hagen/base/Folder.h>
 #include <algorithm>
 
 #include "BagSource.h"
@@ -50,6 +50,16 @@ const observations::SharedBeams& ScanSource::beamsOf(const std::string& sensor_l
 
 observations::Settings ScanSource::settingsFor(const observations::Settings& settings) const {
     return settings;
+}
+
+void ScanSource::brokeOffAhead(std::size_t entries, const std::string& why) {
+    if (!break_ahead_.empty() && break_ahead_at_ <= entries) return;
+    break_ahead_ = why + " (read in advance)";
+    break_ahead_at_ = entries;
+}
+
+std::string ScanSource::missedAhead(std::size_t entries) const {
+    return break_ahead_at_ < entries ? break_ahead_ : "";
 }
 
 void ScanSource::checkInterruption() const {
@@ -115,7 +125,7 @@ fs::path scansWithin(const fs::path& folder, int depth = 2) {
     std::error_code unreadable;
     for (const fs::path& within : base::entriesOf(folder, unreadable)) {
         if (!fs::is_directory(within, unreadable)) continue;
-        if (fs::is_empty(within, unreadable) || unreadable) continue;
+        if (base::entriesOf(within, unreadable).empty() || unreadable) continue;
         if (fs::is_directory(within / "velodyne") || CloudFileSource::hasClouds(within)) {
             return within;
         }

@@ -1,6 +1,6 @@
+#include <hagen/base/Folder.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/logs/SensorFolders.h>
-#include <hagen/base/Folder.h>
 
 #include <cctype>
 

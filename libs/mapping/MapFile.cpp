@@ -1,8 +1,7 @@
 #include <hagen/mapping/MapFile.h>
+#include <hagen/mrpt_scene/MrptScene.h>
 #include <mrpt/img/color_maps.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/opengl/COctoMapVoxels.h>
-#include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
 
@@ -26,8 +25,8 @@ namespace fs = std::filesystem;
 }
 
 /// Returns the occupied voxels in MRPT's drawing, coloured by height from blue (lowest) to red.
-mrpt::opengl::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
-    auto voxels = mrpt::opengl::COctoMapVoxels::Create();
+mrpt_scene::viz::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
+    auto voxels = mrpt_scene::viz::COctoMapVoxels::Create();
     voxels->resizeVoxelSets(1);
     voxels->enableLights(true);
     voxels->enableCubeTransparency(false);
@@ -41,17 +40,17 @@ mrpt::opengl::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
         if (!tree.isNodeOccupied(*leaf)) continue;
         const octomap::point3d at = leaf.getCoordinate();
         const double height = (static_cast<double>(at.z()) - least[2]) / (most[2] - least[2]);
-        const mrpt::img::TColor color =
-            mrpt::img::colormap(mrpt::img::cmJET, static_cast<float>(std::clamp(height, 0.0, 1.0)));
+        const mrpt::img::TColor color = mrpt_scene::colorOf(mrpt::img::colormap(
+            mrpt::img::cmJET, static_cast<float>(std::clamp(height, 0.0, 1.0))));
         voxels->push_back_Voxel(
             0, {mrpt::math::TPoint3Df(at.x(), at.y(), at.z()), leaf.getSize(), color});
     }
-    voxels->setVisualizationMode(mrpt::opengl::COctoMapVoxels::FIXED);
+    voxels->setVisualizationMode(mrpt_scene::viz::COctoMapVoxels::FIXED);
     return voxels;
 }
 
 void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
-    mrpt::opengl::COpenGLScene scene;
+    mrpt_scene::Scene scene;
     scene.insert(voxelsOf(tree));
     // MRPT's own streams do not report a full disk.
     mrpt::io::CMemoryStream bytes;

@@ -77,7 +77,7 @@ class UdpPeer : public Peer {
     [[noreturn]] void fail(const std::string& what, int error) const {
         throw std::runtime_error(name_ + ": " + what + ": " + errorText(error));
     }
-    in_addr resolve(const std::string& host) const {
+    static in_addr resolve(const std::string& host) {
         addrinfo wanted{};
         wanted.ai_family = AF_INET;
         wanted.ai_socktype = SOCK_DGRAM;

@@ -37,6 +37,19 @@ inline std::string readName(mrpt::serialization::CArchive& in) {
     return name;
 }
 
+/// As long as it lives, what is printed on standard error goes nowhere.
+class StandardErrorAside {
+ public:
+    StandardErrorAside() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
+    ~StandardErrorAside() { std::cerr.rdbuf(before_); }
+    StandardErrorAside(const StandardErrorAside&) = delete;
+    StandardErrorAside& operator=(const StandardErrorAside&) = delete;
+
+ private:
+    std::ostringstream text_;
+    std::streambuf* before_;
+};
+
 /// Registers a class under the name of another. The entries live as long as the program.
 template <class Derived, class Base>
 void registerAs(const char* name) {
@@ -45,10 +58,8 @@ void registerAs(const char* name) {
         [] { return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<Derived>()); },
         [] { return CLASS_ID(Base); }};
     // MRPT warns on standard error if the name is taken.
-    std::ostringstream warning;
-    std::streambuf* const error = std::cerr.rdbuf(warning.rdbuf());
+    const StandardErrorAside aside;
     mrpt::rtti::registerClassCustomName(name, &id);
-    std::cerr.rdbuf(error);
 }
 
 }  // namespace hagen::observations

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ReturnLimit.h"
+
 namespace hagen::observations {
 namespace {
 
@@ -128,6 +130,9 @@ const CObservation3DRangeScan* depthScanOf(const mrpt::obs::CObservation& observ
 void readDepthScan(const CObservation3DRangeScan& observation, Scan& scan) {
     scan.clear();
     load(observation);
+    checkReturns(std::max(observation.points3D_x.size(),
+                          static_cast<std::size_t>(observation.rangeImage.size()) *
+                              (1 + observation.rangeImageOtherLayers.size())));
     if (observation.hasPoints3D && !observation.points3D_x.empty()) {
         const auto &x = observation.points3D_x, &y = observation.points3D_y,
                    &z = observation.points3D_z;

@@ -2,6 +2,7 @@
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/PointFields.h>
 #include <hagen/observations/Results.h>
 #include <hagen/observations/RotatingScan.h>
 #include <hagen/observations/TableCloud.h>
@@ -14,6 +15,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ReturnLimit.h"
+
 namespace hagen::observations {
 namespace {
 
@@ -22,6 +25,7 @@ using mrpt::obs::CObservationVelodyneScan;
 
 template <class Coordinates>
 void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates& z, Scan& scan) {
+    checkReturns(x.size());
     scan.x_m.assign(x.begin(), x.end());
     scan.y_m.assign(y.begin(), y.end());
     scan.z_m.assign(z.begin(), z.end());
@@ -76,21 +80,49 @@ void readPoints(const CObservationPointCloud& observation, Scan& scan) {
     const mrpt::maps::CPointsMap& cloud = *observation.pointcloud;
     assignPoints(cloud.getPointsBufferRef_x(), cloud.getPointsBufferRef_y(),
                  cloud.getPointsBufferRef_z(), scan);
-    if (const auto* with_intensity = dynamic_cast<const IntensityCloud*>(&cloud)) {
-        assignIntensities(with_intensity->getPointsBufferRef_intensity(), scan);
-    }
+    if (const auto* intensities = intensitiesOf(cloud)) assignIntensities(*intensities, scan);
 }
 
-/// Names the fields of a newer MRPT's cloud that get lost.
-std::string remarkOnFields(const CObservationPointCloud& observation) {
-    const std::vector<std::string> fields = fieldsNotKept(*observation.pointcloud);
+/// What the fields of a cloud say of its returns.
+struct FieldsOfReturns {
+    PointFieldValues<std::int32_t> rings;
+    PointFieldValues<float> times_s;
+};
+
+FieldsOfReturns fieldsOfReturns(const CObservationPointCloud& observation) {
+    FieldsOfReturns found;
+    if (const TableCloud* const table = tableCloudOf(observation)) {
+        found.rings.values = table->rings();
+        found.times_s.values = table->times_s();
+    } else if (const PointTable* const fields = otherFieldsOf(*observation.pointcloud)) {
+        if (fields->points != observation.pointcloud->size()) return found;
+        std::vector<std::uint32_t> all(fields->points);
+        std::iota(all.begin(), all.end(), 0u);
+        found = {ringsOf(*fields, all), timesOf(*fields, all)};
+    }
+    return found;
+}
+
+/// Names the fields of a newer MRPT's cloud that get lost, and says what is wrong with others.
+std::string remarkOnFields(const CObservationPointCloud& observation, const FieldsOfReturns& used,
+                           bool are_rings_used) {
     std::string names;
-    for (const std::string& field : fields) names += (names.empty() ? "" : ", ") + field;
-    if (names.empty()) return "";
-    return "the filter does not use these fields of its cloud; --cloud generic, --clouds and "
-           "--mcap "
-           "keep them: " +
-           names;
+    for (const std::string& field : fieldsNotKept(*observation.pointcloud)) {
+        if (field == used.times_s.field || (are_rings_used && field == used.rings.field)) continue;
+        names += (names.empty() ? "" : ", ") + field;
+    }
+    std::string remark;
+    const auto add = [&](const std::string& text) {
+        if (!text.empty()) remark += (remark.empty() ? "" : "; ") + text;
+    };
+    if (!names.empty()) {
+        add("the filter does not use these fields of its cloud; --cloud generic, --clouds and "
+            "--mcap keep them: " +
+            names);
+    }
+    add(used.rings.remark);
+    add(used.times_s.remark);
+    return remark;
 }
 
 const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {
@@ -130,6 +162,21 @@ void readLocated(const CObservationPointCloud& observation, const LocatedCloud& 
     locateBeams(observed.sensor, observed.scan);
     observed.scan.row = cloud.rows();  // exact, also for near returns
     observed.scan.time_s = cloud.times_s();
+}
+
+/// Reads a cloud whose beams are named, recovered, or told by a field.
+void readCloud(const CObservationPointCloud& observation, const Settings& settings,
+               const SharedBeams& beams, ObservedScan& observed) {
+    readPoints(observation, observed.scan);
+    takeCloudSensor(settings, beams, observed);
+    locateBeams(observed.sensor, observed.scan);
+    FieldsOfReturns fields = fieldsOfReturns(observation);
+    if (observed.recovered) {
+        takeRings(fields.rings.values, observed.recovered->row_of_ring, observed.scan);
+    }
+    const bool are_rings_used = observed.recovered && !observed.recovered->row_of_ring.empty();
+    observed.remark = remarkOnFields(observation, fields, are_rings_used);
+    observed.scan.time_s = std::move(fields.times_s.values);
 }
 
 void readRotating(const mrpt::obs::CObservationRotatingScan& observation, const Settings& settings,
@@ -193,9 +240,9 @@ bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
     } else if (const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
         readPoints(*velodyne, scan);
     } else {
-        readPoints(dynamic_cast<const CObservationPointCloud&>(observation), scan);
-        const TableCloud* const table = tableCloudOf(observation);
-        if (table != nullptr && rings != nullptr) *rings = table->rings();
+        const auto& cloud = dynamic_cast<const CObservationPointCloud&>(observation);
+        readPoints(cloud, scan);
+        if (rings != nullptr) *rings = fieldsOfReturns(cloud).rings.values;
     }
     return true;
 }
@@ -220,10 +267,10 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
     } else if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
         if (const LocatedCloud* located = locatedCloudOf(observation)) {
             readLocated(*cloud, *located, settings, observed);
-            return;
+        } else {
+            readCloud(*cloud, settings, beams, observed);
         }
-        readPoints(*cloud, observed.scan);
-        observed.remark = remarkOnFields(*cloud);
+        return;
     } else if (const auto* depth = depthScanOf(observation)) {
         readDepthScan(*depth, observed.scan);
     } else {
@@ -231,12 +278,6 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
     }
     takeCloudSensor(settings, beams, observed);
     locateBeams(observed.sensor, observed.scan);
-    if (const TableCloud* const table = tableCloudOf(observation)) {
-        observed.scan.time_s = table->times_s();
-        if (observed.recovered) {
-            takeRings(table->rings(), observed.recovered->row_of_ring, observed.scan);
-        }
-    }
 }
 
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
@@ -257,7 +298,7 @@ mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uin
     if (cloud_class == CloudClass::Simple) {
         return fill(PortableCloud::Create(), [](auto&, std::size_t, std::uint32_t) {});
     }
-    return fill(IntensityCloud::Create(),
+    return fill(std::make_shared<IntensityCloud>(),
                 [&](IntensityCloud& points, std::size_t k, std::uint32_t i) {
                     points.setPointIntensity(k, scan.intensity[i]);
                 });

@@ -36,7 +36,16 @@ bool areSameFor(const Options& a, const Options& b) {
            a.principal_components == b.principal_components;
 }
 
+/// MRPT's constructor ends the program if there is no memory for the name; copying throws.
+const mrpt::system::CTimeLogger& profilerToCopy() {
+    static const mrpt::system::CTimeLogger profiler(false, "hagen::ObservationSegmenter");
+    return profiler;
+}
+[[maybe_unused]] const auto& kMadeBeforeMain = profilerToCopy();
+
 }  // namespace
+
+mrpt::system::CTimeLogger ObservationSegmenter::idleProfiler() { return profilerToCopy(); }
 
 void ObservationSegmenter::initialize(const Settings& settings) {
     if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <system_error>
 
-#include <hagen/observations/Settings.h>
 #include <hagen/base/Folder.h>
+#include <hagen/observations/Settings.h>
 #include "YamlParts.h"
 
 namespace hagen::observations {

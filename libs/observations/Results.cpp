@@ -1,8 +1,8 @@
+#include <hagen/mrpt_scene/MrptScene.h>
 #include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/Results.h>
 
 #include <mrpt/obs/CObservation3DScene.h>
-#include <mrpt/opengl/CSetOfObjects.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,10 +51,10 @@ std::string suffixOf(const mrpt::obs::CObservation& observation) {
 }
 
 /// The object of a preview; null: the observation is none.
-mrpt::opengl::CSetOfObjects::Ptr previewIn(const mrpt::obs::CObservation& observation) {
+mrpt_scene::viz::CSetOfObjects::Ptr previewIn(const mrpt::obs::CObservation& observation) {
     const auto* scene = dynamic_cast<const mrpt::obs::CObservation3DScene*>(&observation);
     if (scene == nullptr || !scene->scene) return nullptr;
-    return std::dynamic_pointer_cast<mrpt::opengl::CSetOfObjects>(
+    return std::dynamic_pointer_cast<mrpt_scene::viz::CSetOfObjects>(
         scene->scene->getByName(kPreviewName));
 }
 

@@ -41,7 +41,7 @@ void RoiPointCloudFilter::filter(mrpt::maps::CPointsMap* inout_pointcloud,
 
     std::vector<bool> deleted(scan_.size(), true);
     for (const std::uint32_t i : filter_.segment(scan_, tilt_).returns.roi) deleted[i] = false;
-    if (params == nullptr || !params->do_not_delete) inout_pointcloud->applyDeletionMask(deleted);
+    if (params == nullptr || !params->do_not_delete) deletePoints(deleted, *inout_pointcloud);
     if (params != nullptr && params->out_deletion_mask != nullptr) {
         *params->out_deletion_mask = std::move(deleted);
     }

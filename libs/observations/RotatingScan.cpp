@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "ArchiveParts.h"
+#include "ReturnLimit.h"
 
 namespace hagen::observations {
 namespace {
@@ -133,6 +134,7 @@ std::string sizeText(std::ptrdiff_t rows, std::ptrdiff_t columns) {
 void checkSizes(const CObservationRotatingScan& scan, const OrganizedPoints* points) {
     const int rows = rowsOf(scan), columns = columnsOf(scan);
     if (rows == 0 || columns == 0) throw std::runtime_error("it has no range image");
+    checkReturns(std::size_t(rows) * std::size_t(columns));
     const auto check = [&](const std::string& what, std::ptrdiff_t its_rows,
                            std::ptrdiff_t its_columns) {
         if (its_rows == rows && its_columns == columns) return;

@@ -1,12 +1,8 @@
+#include <hagen/mrpt_scene/MrptScene.h>
 #include <hagen/observations/Results.h>
 #include <hagen/observations/ScenePreview.h>
 #include <hagen/segmentation/RoiBoxes.h>
 #include <mrpt/img/TColor.h>
-#include <mrpt/opengl/CDisk.h>
-#include <mrpt/opengl/CPointCloudColoured.h>
-#include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfObjects.h>
-#include <mrpt/opengl/stock_objects.h>
 
 namespace hagen::observations {
 namespace {
@@ -14,9 +10,9 @@ namespace {
 const mrpt::img::TColor kZoneColor(240, 240, 240), kBoxColor(255, 190, 120);
 constexpr float kRoiPixels = 4.0f, kNonRoiPixels = 2.0f;
 
-mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& points,
-                                                const mrpt::img::TColor& color, float pixels) {
-    auto cloud = mrpt::opengl::CPointCloudColoured::Create();
+mrpt_scene::viz::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& points,
+                                                   const mrpt::img::TColor& color, float pixels) {
+    auto cloud = mrpt_scene::viz::CPointCloudColoured::Create();
     cloud->setPointSize(pixels);
     cloud->reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -28,7 +24,7 @@ mrpt::opengl::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMap& po
 }
 
 /// The twelve edges of a box.
-void addEdges(const Eigen::AlignedBox3f& box, mrpt::opengl::CSetOfLines& lines) {
+void addEdges(const Eigen::AlignedBox3f& box, mrpt_scene::viz::CSetOfLines& lines) {
     using Box = Eigen::AlignedBox3f;
     // Bit k of a corner's number tells whether it is at the upper end of axis k.
     for (int corner = 0; corner < 8; ++corner) {
@@ -46,20 +42,20 @@ void addEdges(const Eigen::AlignedBox3f& box, mrpt::opengl::CSetOfLines& lines) 
 mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& observation,
                                               const ObservationSegmenter::Output& segmented,
                                               float zone_m) {
-    auto sensor = mrpt::opengl::CSetOfObjects::Create();
+    auto sensor = mrpt_scene::viz::CSetOfObjects::Create();
     sensor->setName(kPreviewName);
     sensor->setPose(mrpt::poses::CPose3D(observation.sensorPose()));
     sensor->insert(coloured(*segmented.non_roi->pointcloud, kNonRoiColor, kNonRoiPixels));
     sensor->insert(coloured(*segmented.roi->pointcloud, kRoiColor, kRoiPixels));
     // Lines, as MRPT 3 cannot read the boxes of MRPT 2.
-    auto frames = mrpt::opengl::CSetOfLines::Create();
+    auto frames = mrpt_scene::viz::CSetOfLines::Create();
     frames->setName("obstacles");
     frames->setColor_u8(kBoxColor);
     const auto boxes = boxRoiComponents(*segmented.scan, segmented.result->returns);
     for (const RoiBox& box : boxesToDraw(boxes)) addEdges(box.extents_m, *frames);
     sensor->insert(frames);
-    sensor->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 2.0f));
-    auto zone = mrpt::opengl::CDisk::Create(zone_m, zone_m - 0.15f, 100);
+    sensor->insert(mrpt_scene::viz::stock_objects::CornerXYZSimple(1.0f, 2.0f));
+    auto zone = mrpt_scene::viz::CDisk::Create(zone_m, zone_m - 0.15f, 100);
     zone->setColor_u8(kZoneColor);
     zone->setName(std::string(kPreviewOfPrefix) + observation.sensorLabel);
     sensor->insert(zone);
@@ -68,7 +64,7 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     preview->timestamp = observation.timestamp;
     preview->sensorLabel = observation.sensorLabel + "_preview";
     preview->sensorPose = mrpt::poses::CPose3D(observation.sensorPose());
-    preview->scene = mrpt::opengl::COpenGLScene::Create();
+    preview->scene = std::make_shared<mrpt_scene::Scene>();
     preview->scene->insert(sensor);
     return preview;
 }

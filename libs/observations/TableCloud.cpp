@@ -1,4 +1,5 @@
 #include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/PointFields.h>
 #include <hagen/observations/TableCloud.h>
 
 #include <algorithm>
@@ -10,30 +11,7 @@
 namespace hagen::observations {
 namespace {
 
-constexpr double kLongestScan_s = 2.0;
 constexpr double kFarthest_m = 1000.0;  // of any sensor
-constexpr std::int32_t kHighestRing = 65535;
-
-bool isInteger(NumberType type) {
-    return type != NumberType::Float32 && type != NumberType::Float64;
-}
-
-/// The unit of times that are `span` apart [s].
-double timeUnit(const PointField& field, const std::string& lower_name, double span) {
-    if (lower_name == "gps_time" || lower_name == "gpstime") return 1.0;
-    if (isInteger(field.type)) return span > 0 && span < 1e6 ? 1e-6 : 1e-9;
-    for (const double unit : {1.0, 1e-3, 1e-6}) {
-        if (span * unit <= kLongestScan_s) return unit;
-    }
-    return 1e-9;
-}
-
-std::string lowerCase(std::string text) {
-    for (char& letter : text) {
-        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-    }
-    return text;
-}
 
 }  // namespace
 
@@ -71,24 +49,26 @@ TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::mo
             "Coordinates must be in metres from the sensor");
     }
     takeIntensities();
-    takeRings();
-    takeTimes();
+    const auto note = [&](const std::string& remark) {
+        if (!remark.empty()) remarks_.push_back(remark);
+    };
+    PointFieldValues<std::int32_t> rings = ringsOf(*table_, point_of_return_);
+    rings_ = std::move(rings.values);
+    note(rings.remark);
+    PointFieldValues<float> times = timesOf(*table_, point_of_return_);
+    times_s_ = std::move(times.values);
+    note(times.remark);
     mark_as_modified();
-}
-
-std::vector<double> TableCloud::ofReturns(const PointField& field) const {
-    const std::vector<double> all = columnOf(*table_, field);
-    std::vector<double> numbers;
-    numbers.reserve(point_of_return_.size());
-    for (const std::uint32_t i : point_of_return_) numbers.push_back(all[i]);
-    return numbers;
 }
 
 void TableCloud::takeIntensities() {
     const PointField* const field =
         findField(*table_, {"intensity", "i", "reflectivity", "remission"});
     if (field == nullptr) return;
-    const std::vector<double> intensities = ofReturns(*field);
+    const std::vector<double> of_points = columnOf(*table_, *field);
+    std::vector<double> intensities;
+    intensities.reserve(point_of_return_.size());
+    for (const std::uint32_t i : point_of_return_) intensities.push_back(of_points[i]);
     double full = 0.0;
     for (const double intensity : intensities) {
         if (std::isfinite(intensity)) full = std::max(full, intensity);
@@ -101,48 +81,6 @@ void TableCloud::takeIntensities() {
     for (std::size_t k = 0; k < intensities.size(); ++k) {
         const double share = std::isfinite(intensities[k]) ? intensities[k] / full : 0.0;
         setPointIntensity(k, static_cast<float>(std::clamp(share, 0.0, 1.0)));
-    }
-}
-
-void TableCloud::takeRings() {
-    const PointField* const field = findField(*table_, {"ring", "channel", "line"});
-    if (field == nullptr) return;
-    for (const double ring : ofReturns(*field)) {
-        if (!(ring >= 0 && ring <= kHighestRing) || ring != std::floor(ring)) {
-            remarks_.push_back("the field '" + field->name +
-                               "' is not a number of a beam, and is not used");
-            rings_.clear();
-            return;
-        }
-        rings_.push_back(static_cast<std::int32_t>(ring));
-    }
-}
-
-void TableCloud::takeTimes() {
-    const PointField* const field =
-        findField(*table_, {"time", "t", "timestamp", "time_stamp", "offset_time", "time_offset",
-                            "gps_time", "gpstime"});
-    if (field == nullptr || point_of_return_.empty()) return;
-    const std::vector<double> times = ofReturns(*field);
-    const auto [first, last] = std::minmax_element(times.begin(), times.end());
-    const bool are_finite =
-        std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
-    if (!are_finite) {
-        remarks_.push_back("the field '" + field->name +
-                           "' has times that are not finite, and is not used");
-        return;
-    }
-    const double unit_s = timeUnit(*field, lowerCase(field->name), *last - *first);
-    if ((*last - *first) * unit_s > kLongestScan_s) {
-        remarks_.push_back("the times of its points, in '" + field->name +
-                           "', span more than 2 s: they are not used");
-        return;
-    }
-    const bool is_relative = std::max(std::abs(*first), std::abs(*last)) * unit_s <= kLongestScan_s;
-    const double start = is_relative ? 0.0 : *first;
-    times_s_.reserve(times.size());
-    for (const double time : times) {
-        times_s_.push_back(static_cast<float>((time - start) * unit_s));
     }
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ReturnLimit.h"
 #include "VelodyneReturns.h"
 
 namespace hagen::observations {
@@ -57,6 +58,10 @@ class Packet {
 
     const std::uint8_t* bytes_;
 };
+
+/// From one time of a packet to another: within half an hour, since they wrap around every hour. A
+/// packet that was recorded out of order is before the first, not an hour after it.
+double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
 
 /// The sine and cosine of an angle.
 struct SineCosine {
@@ -241,8 +246,7 @@ std::size_t collectBlocks(const CObservationVelodyneScan& observation, const Vel
     VelodyneBlock* next = blocks.data();
     for (const auto& raw : observation.scan_packets) {
         const Packet packet(raw);
-        double packet_us = static_cast<double>(packet.time_us()) - first_us;
-        if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
+        const double packet_us = elapsedUs(first_us, packet.time_us());
         for (int b = 0; b < kBlocks; ++b) {
             if (!packet.isValid(b)) continue;
             const int firing = b / packet.blocksPerFiring();
@@ -300,8 +304,7 @@ std::size_t decodeHdl64(const CObservationVelodyneScan& observation, Scan& scan,
     VelodyneBlock& block = work.blocks.front();
     for (const auto& raw : observation.scan_packets) {
         const Packet packet(raw);
-        double packet_us = static_cast<double>(packet.time_us()) - first_us;
-        if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
+        const double packet_us = elapsedUs(first_us, packet.time_us());
         for (int b = 0; b < kBlocks; ++b) {
             if (!packet.isValid(b) && !packet.isLower(b)) {
                 ++unsound_blocks;
@@ -352,6 +355,7 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
         scan.clear();
         return 0;
     }
+    checkReturns(observation.scan_packets.size() * kBlocks * kReturnsOfBlock);
     if (isOfHdl64(observation)) return decodeHdl64(observation, scan, work);
     const VelodyneModel& model = modelOf(observation, 0);
     for (std::size_t p = 1; p < observation.scan_packets.size(); ++p) {

@@ -1,4 +1,5 @@
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/MostReturns.h>
 #include <hagen/range_image/Scan.h>
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,11 @@ BeamSpan beamSpan(const SensorModel& sensor) {
 }
 
 void checkLocated(const Scan& scan, const SensorModel& sensor) {
+    if (scan.size() > kMostReturns) {
+        throw std::invalid_argument("the scan has " + std::to_string(scan.size()) +
+                                    " returns, more than the " + std::to_string(kMostReturns) +
+                                    " that it may have");
+    }
     if (scan.y_m.size() != scan.size() || scan.z_m.size() != scan.size()) {
         throw std::invalid_argument("the scan's x, y and z coordinates differ in number");
     }

@@ -1,11 +1,5 @@
 #include <hagen/base/WriteFile.h>
-#include <mrpt/opengl/COctoMapVoxels.h>
-#include <mrpt/opengl/COpenGLScene.h>
-#include <mrpt/opengl/CPointCloud.h>
-#include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfTriangles.h>
-#include <mrpt/opengl/CSphere.h>
-#include <mrpt/opengl/CVectorField3D.h>
+#include <hagen/mrpt_scene/MrptScene.h>
 
 #include <algorithm>
 #include <array>
@@ -15,8 +9,9 @@
 namespace hagen::replays {
 namespace {
 
-using namespace mrpt::opengl;
+using namespace mrpt_scene::viz;
 using mrpt::img::TColor;
+using mrpt_scene::Scene;
 
 CPointCloud::Ptr cloudOf(const std::vector<Eigen::Vector3f>& points_m, const TColor& color,
                          float size, const std::string& name) {
@@ -28,7 +23,8 @@ CPointCloud::Ptr cloudOf(const std::vector<Eigen::Vector3f>& points_m, const TCo
     return cloud;
 }
 
-CRenderizable::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& centres_m, float edge_m) {
+mrpt_scene::VisualObject::Ptr voxelsOf(const std::vector<Eigen::Vector3f>& centres_m,
+                                       float edge_m) {
     const auto voxels = COctoMapVoxels::Create();
     voxels->resizeVoxelSets(1);
     voxels->setName("obstacles of the model");
@@ -108,7 +104,7 @@ void addShape(const simulation::Shape& shape, const Eigen::Affine3f& pose, const
             const Eigen::Vector3f p = pose * shape.vertices_m[corners[i]];
             at[i] = {p.x(), p.y(), p.z()};
         }
-        mrpt::opengl::TTriangle triangle(at[0], at[1], at[2]);
+        TTriangle triangle(at[0], at[1], at[2]);
         triangle.setColor(color);
         all.insertTriangle(triangle);
     }
@@ -136,7 +132,7 @@ CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
 void writeReplayScene(const Recording& recording, const std::filesystem::path& place,
                       const std::filesystem::path& file) {
     base::openToWrite(place, file);  // MRPT does not report why writing fails
-    COpenGLScene scene;
+    Scene scene;
     scene.insert(linesOf(recording.scene.ground));
     if (!recording.scene.shapes.empty()) scene.insert(trueSceneOf(recording));
     const std::vector<Eigen::Vector3f> held_m = lastOf(recording);

@@ -1,3 +1,4 @@
+#include <hagen/base/Folder.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/Journal.h>
@@ -15,6 +16,11 @@ namespace hagen::trials {
 
 namespace fs = std::filesystem;
 
+namespace {
+/// The one that tells a campaign's folder is the last: it is removed last.
+constexpr const char* kFiles[] = {"profile.json", "runs.csv", "measured.csv", "campaign.json"};
+}  // namespace
+
 CampaignFolder::CampaignFolder(fs::path folder, const LatencyProfile& profile, bool overwrite)
     : folder_(std::move(folder)), profile_(profile), campaign_{hashOfSettings(profile), {}} {
     open(overwrite);
@@ -23,7 +29,8 @@ CampaignFolder::CampaignFolder(fs::path folder, const LatencyProfile& profile, b
 void CampaignFolder::open(bool overwrite) {
     fs::create_directories(folder_);
     lock_ = lockFolder(folder_);  // first of all, because another program may be setting it up
-    const bool is_new = fs::is_empty(folder_);
+    removeUnfinished();
+    const bool is_new = base::entriesOf(folder_).empty();
     if (!is_new && !fs::exists(folder_ / "campaign.json")) {
         throw std::runtime_error(folder_.string() +
                                  ": exists and contains no campaign; choose another folder");
@@ -38,22 +45,34 @@ void CampaignFolder::open(bool overwrite) {
             "another folder, give the profile of this one, or use --overwrite");
     }
     campaign_ = std::move(found);
+    if (!fs::exists(profileFile())) writeProfile();  // begin() was stopped in between
     readTables();
     readJournals();
 }
 
 void CampaignFolder::begin() {
     writeCampaignFile(campaign_, profile_, folder_);
+    writeProfile();
+}
+
+void CampaignFolder::writeProfile() const {
     base::OutputPath profile(profileFile(), base::kFile, true);
     writeLatencyProfile(profile_, profile.temporary());
     profile.commit();
 }
 
-void CampaignFolder::removeAll() {
-    for (const char* name : {"campaign.json", "profile.json", "runs.csv", "measured.csv"}) {
-        fs::remove(folder_ / name);
+void CampaignFolder::removeUnfinished() const {
+    for (const char* name : kFiles) {
+        for (const fs::path& left : base::partialOutputs(folder_ / name)) {
+            if (left.filename().string().find(".tmp-") != std::string::npos) fs::remove(left);
+        }
     }
-    fs::remove_all(folder_ / "journal");
+}
+
+void CampaignFolder::removeAll() const {
+    const std::error_code error = base::removeAll(folder_ / "journal");
+    if (error) throw fs::filesystem_error("cannot be removed", folder_ / "journal", error);
+    for (const char* name : kFiles) fs::remove(folder_ / name);
 }
 
 void CampaignFolder::addPlan(const std::string& plan) {
@@ -145,7 +164,8 @@ void CampaignFolder::finish() {
     }
     writeWhole(folder_ / "measured.csv", measured);
     writeWhole(folder_ / "runs.csv", table);
-    fs::remove_all(folder_ / "journal");
+    const std::error_code error = base::removeAll(folder_ / "journal");
+    if (error) throw fs::filesystem_error("cannot be removed", folder_ / "journal", error);
 }
 
 }  // namespace hagen::trials

@@ -1,7 +1,7 @@
 #include <fcntl.h>
+#include <hagen/base/Folder.h>
 #include <hagen/trials/Journal.h>
 #include <hagen/trials/MeasuredTable.h>
-#include <hagen/base/Folder.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 """hagen.open(). Oracle: rawlog-segment on the same recording."""
 import signal
+import struct
 
 import numpy as np
 import pytest
@@ -123,6 +124,27 @@ def test_large_programs_can_read():
     ballast = np.ones(200_000_000 // 8)
     assert len(list(hagen.open(POLES))) == 10
     assert ballast[-1] == 1
+
+
+def test_one_long_read_can_be_interrupted(tmp_path):
+    """A capture without a packet of a LiDAR is read to its end by the first call."""
+    frame = b"\0" * 12 + b"\x08\x06" + b"\0" * 28  # ARP
+    record = struct.pack("<IIII", 1700000000, 0, len(frame), len(frame)) + frame
+    capture = tmp_path / "other.pcap"
+    capture.write_bytes(struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1) + 1_000_000 * record)
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            recording = iter(hagen.open(capture))
+            signal.setitimer(signal.ITIMER_REAL, 0.001)
+            next(recording)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def test_an_interrupted_recording_raises():

@@ -15,10 +15,13 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <random>
 #include <sstream>
 #include <thread>
 
@@ -38,6 +41,19 @@ constexpr std::uint16_t kNothing_cm = 2001, kUnknown_cm = 65535;
 double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
+}
+
+/// A port of this machine that nobody listens on.
+std::uint16_t freePort() {
+    const int probe = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    bind(probe, reinterpret_cast<const sockaddr*>(&at), sizeof at);
+    socklen_t size = sizeof at;
+    getsockname(probe, reinterpret_cast<sockaddr*>(&at), &size);
+    close(probe);
+    return ntohs(at.sin_port);
 }
 
 /// Two poles on flat ground, from 2 m: one 20 degrees left of ahead, one on the right.
@@ -131,6 +147,16 @@ std::vector<Message> all(const std::vector<mavlink::Frame>& frames) {
     return messages;
 }
 
+/// Whether a replay of so many seconds took much longer: the program had to wait for a processor,
+/// and what it sends is unknown, rightly.
+bool isTooSlow(const std::vector<mavlink::Frame>& frames, double replay_s) {
+    const auto distances = all<mavlink::ObstacleDistance>(frames);
+    if (distances.empty()) return true;
+    const double took_s =
+        1e-6 * static_cast<double>(distances.back().time_usec - distances.front().time_usec);
+    return took_s > 1.3 * replay_s + 0.3;
+}
+
 class LiveSegmentMavlink : public test::ProgramTest {
  protected:
     test::Outcome run(const std::vector<std::string>& arguments) const override {
@@ -161,6 +187,7 @@ TEST_F(LiveSegmentMavlink, AnAutopilotIsToldWhatIsAround) {
     autopilot.stop();
     EXPECT_THAT(outcome.out, HasSubstr("MAVLink: "));
     const auto frames = autopilot.frames();
+    if (isTooSlow(frames, 1.2)) GTEST_SKIP() << "this machine is too slow at the moment";
     const auto distances = all<mavlink::ObstacleDistance>(frames);
     ASSERT_GT(distances.size(), 10u);
     const auto is_right = [](const mavlink::ObstacleDistance& message) {
@@ -217,6 +244,7 @@ TEST_F(LiveSegmentMavlink, AnotherParserReadsTheSame) {
     ASSERT_EQ(read.exit_code, 0) << read.err;
 
     const auto frames = autopilot.frames();
+    if (isTooSlow(frames, 1.2)) GTEST_SKIP() << "this machine is too slow at the moment";
     std::map<std::string, int> messages;
     std::optional<std::uint64_t> last_us;
     std::size_t line_number = 0;
@@ -286,6 +314,8 @@ TEST_F(LiveSegmentMavlink, DuringSilenceNothingIsFreeAndItIsTold) {
                               "--stats", path("stats.json")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     autopilot.stop();
+    if (isTooSlow(autopilot.frames(), 2.2))
+        GTEST_SKIP() << "this machine is too slow at the moment";
     EXPECT_THAT(outcome.err, HasSubstr("all directions are sent as unknown"));
     EXPECT_THAT(outcome.err, HasSubstr("directions are known again"));
     EXPECT_GE(stats()["stalls"], 1);
@@ -383,7 +413,7 @@ class FlyingSensor {
 
 TEST_F(LiveSegmentMavlink, AVehicleThatYawsAndRollsSeesThePolesWhereTheyAre) {
     Autopilot autopilot;
-    const std::uint16_t port = 23680;
+    const std::uint16_t port = freePort();
     std::atomic<bool> is_done = false;
     FlyingSensor sensor(port, autopilot);
     std::thread sender([&] {
@@ -431,6 +461,153 @@ TEST_F(LiveSegmentMavlink, AVehicleThatYawsAndRollsSeesThePolesWhereTheyAre) {
     RecordProperty("wrong", wrong);
     if (compared < 20) GTEST_SKIP() << "this machine is too slow at the moment: " << compared;
     EXPECT_LE(wrong, compared / 5) << "of " << compared;
+}
+
+/// Sends turns over a network that loses, repeats, delays and adds packets, and knows what came
+/// through.
+class FaultyNetwork {
+ public:
+    explicit FaultyNetwork(std::uint16_t port)
+        : socket_(socket(AF_INET, SOCK_DGRAM, 0)), start_s_(now_s()), random_(1) {
+        to_.sin_family = AF_INET;
+        to_.sin_port = htons(port);
+        to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const auto& model = observations::velodyneModel("VLP-16");
+        observations::Firings firings = test::fireAt(poles(), model, {0, 0, 2});
+        for (const auto& packet : encodePackets(model, firings)) {
+            packets_.push_back(test::bytesOf(packet));
+        }
+        packet_rad_ = radians(24 * firings.azimuth_step_deg);
+    }
+    ~FaultyNetwork() { close(socket_); }
+
+    /// The next packet of the sensor, when it is due.
+    void send() {
+        constexpr double kPeriod_s = 0.1 / 76;  // 76 packets per turn; the last one overlaps
+        const double time_s = kPeriod_s * static_cast<double>(sent_);
+        std::this_thread::sleep_for(std::chrono::duration<double>(start_s_ + time_s - now_s()));
+        const std::size_t k = sent_++ % packets_.size();
+        std::string bytes = packets_[k];
+        const auto us = static_cast<std::uint32_t>(1e6 * time_s);
+        std::memcpy(&bytes[1200], &us, sizeof us);
+        // For a second out of two, a direction of 60 degrees is lost.
+        const double second = std::fmod(time_s, 2.0);
+        const double deg = degrees(static_cast<double>(k) * packet_rad_);
+        const double blind_deg = std::fmod(time_s * 37, 360.0);
+        if (second > 1 && std::fmod(deg - blind_deg + 720, 360.0) < 60) return count();
+        switch (random_() % 20) {
+            case 0:
+            case 1:
+                return count();  // lost
+            case 2:
+                deliver(bytes, k);
+                deliver(bytes, k);
+                return count();
+            case 3:
+                if (late_.empty()) {
+                    late_ = bytes;
+                    late_k_ = k;
+                    return count();
+                }
+                break;
+            case 4:
+                deliver(std::string(random_() % 1300, static_cast<char>(random_())), {});
+                count();
+                break;
+            case 5: {
+                std::string other = bytes;
+                other.back() = '\x21';  // of an HDL-32E
+                deliver(other, {});
+                count();
+                break;
+            }
+            default:
+                break;
+        }
+        deliver(bytes, k);
+        if (!late_.empty() && random_() % 3 == 0) {
+            deliver(late_, late_k_);
+            late_.clear();
+        }
+    }
+
+    /// Whether a packet that came through between two times has measured this azimuth.
+    bool hasCome(double clockwise_deg, double from_s, double to_s) const {
+        for (auto come = come_.rbegin(); come != come_.rend(); ++come) {
+            if (come->time_s < from_s) return false;
+            if (come->time_s - 0.01 > to_s) continue;
+            const double into_deg =
+                clockwise_deg - degrees(static_cast<double>(come->k) * packet_rad_) + 0.6;
+            if (std::fmod(into_deg + 720, 360.0) < degrees(packet_rad_) + 1.2) return true;
+        }
+        return false;
+    }
+    std::size_t faults() const { return faults_; }
+
+ private:
+    struct Come {
+        double time_s;  ///< after it was sent
+        std::size_t k;
+    };
+    void count() { ++faults_; }
+    void deliver(const std::string& bytes, std::optional<std::size_t> k) {
+        sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
+               sizeof to_);
+        if (k) come_.push_back({now_s(), *k});
+    }
+
+    int socket_;
+    double start_s_, packet_rad_;
+    sockaddr_in to_{};
+    std::mt19937 random_;
+    std::vector<std::string> packets_;
+    std::vector<Come> come_;
+    std::string late_;
+    std::size_t late_k_ = 0, sent_ = 0, faults_ = 0;
+};
+
+TEST_F(LiveSegmentMavlink, WhateverTheNetworkLosesNothingStaleIsFree) {
+    const char* const longer = std::getenv("HAGEN_NETWORK_FAULT_SECONDS");
+    const std::string duration = longer != nullptr ? longer : "4";
+    Autopilot autopilot;
+    const std::uint16_t port = freePort();
+    std::atomic<bool> is_done = false;
+    FaultyNetwork network(port);
+    std::thread sender([&] {
+        while (!is_done) network.send();
+    });
+    const auto outcome = run({"-q", "--listen", "127.0.0.1:" + std::to_string(port), "--duration",
+                              duration, "--mavlink", autopilot.peer()});
+    is_done = true;
+    sender.join();
+    autopilot.stop();
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::size_t free = 0, unknown = 0, obstacles = 0, stale = 0;
+    for (const auto& message : all<mavlink::ObstacleDistance>(autopilot.frames())) {
+        const double time_s = 1e-6 * static_cast<double>(message.time_usec);
+        for (std::size_t k = 0; k < 72; ++k) {
+            unknown += message.distances[k] == kUnknown_cm ? 1 : 0;
+            obstacles += message.distances[k] < kNothing_cm ? 1 : 0;
+            if (message.distances[k] != kNothing_cm) continue;
+            ++free;
+            for (int part = 0; part < 5; ++part) {
+                const double deg = 5 * static_cast<double>(k) - 2 + part;
+                if (network.hasCome(deg, time_s - 0.3, time_s)) continue;
+                ++stale;
+                ADD_FAILURE() << "direction " << k << " is free at " << time_s << ", but " << deg
+                              << " degrees did not come";
+                break;
+            }
+        }
+    }
+    EXPECT_EQ(stale, 0u);
+    EXPECT_GT(network.faults(), 300u);
+    EXPECT_GT(unknown, 100u);
+    std::cout << network.faults() << " faults: " << free << " directions free, " << unknown
+              << " unknown, " << obstacles << " obstacles, " << stale << " stale and free\n";
+    if (free < 500 || obstacles < 50) {
+        GTEST_SKIP() << "this machine is too slow at the moment: little was known";
+    }
 }
 
 TEST_F(LiveSegmentMavlink, ASerialLineHasTheSameMessages) {

@@ -22,8 +22,7 @@ class FolderTest : public testing::Test {
 
     const fs::path folder_ =
         fs::path(testing::TempDir()) /
-        (std::string("folder_") +
-         testing::UnitTest::GetInstance()->current_test_info()->name());
+        (std::string("folder_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(FolderTest, ListsEntriesByNameOneLevelDeep) {

@@ -3,6 +3,7 @@
 #include <hagen/base/Json.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <stdexcept>
 
@@ -49,6 +50,47 @@ TEST(Json, ReadsWhatItWrote) {
     EXPECT_EQ(json.members().size(), 3u);
     EXPECT_EQ(json.find("none"), nullptr);
     EXPECT_EQ(json.at("name").find("none"), nullptr);
+}
+
+/// A random value of nlohmann's library, which has the definition of our text.
+nlohmann::ordered_json randomValue(std::mt19937& random, int depth) {
+    nlohmann::ordered_json value;
+    switch (random() % (depth > 0 ? 8 : 6)) {
+        case 0:
+            return nullptr;
+        case 1:
+            return random() % 2 == 0;
+        case 2:
+            return random();
+        case 3:
+            return -static_cast<std::int64_t>(random());
+        case 4:
+            return std::ldexp(static_cast<double>(random()), static_cast<int>(random() % 60) - 50);
+        case 5:
+            return std::string(random() % 3, "a\"\n\t/\x01"[random() % 6]) + "\xC3\xA4";
+        case 6:
+            value = nlohmann::ordered_json::array();
+            for (unsigned i = random() % 4; i > 0; --i)
+                value.push_back(randomValue(random, depth - 1));
+            return value;
+        default:
+            value = nlohmann::ordered_json::object();
+            for (unsigned i = random() % 4; i > 0; --i) {
+                value["key " + std::to_string(random() % 3)] = randomValue(random, depth - 1);
+            }
+            return value;
+    }
+}
+
+TEST(Json, ReadsAndWritesAsItsLibraryDoes) {
+    std::mt19937 random(3);
+    for (int i = 0; i < 300; ++i) {
+        const nlohmann::ordered_json value = randomValue(random, 4);
+        const Json json = Json::parse(value.dump());
+        for (const int indent : {-1, 0, 2}) EXPECT_EQ(json.dump(indent), value.dump(indent));
+    }
+    EXPECT_EQ(Json::parse(R"({"a": {"b": [1]}, "c": 1, "a": [2, {}]})").dump(),
+              R"({"a":[2,{}],"c":1})");
 }
 
 TEST(Json, SaysWhatIsExpected) {

@@ -57,6 +57,24 @@ SentDatagram sent(const ByteString& content) {
     return datagram;
 }
 
+TEST_F(CaptureFileTest, ACheckEndsTheReadingOfFramesThatAreNoDatagrams) {
+    CaptureWriter writer;
+    const ByteString arp = ethernet(ByteString(28, 'a'), 0, 0x0806);
+    for (int i = 0; i < 5000; ++i) writer.frame(arp);
+    CaptureFile capture(writer.write(folder_ / "arp.pcap"));
+    struct Stop {};
+    int checks = 0;
+    capture.checkWhileReading([&] {
+        if (++checks == 3) throw Stop();
+    });
+    Datagram datagram;
+    EXPECT_THROW(capture.next(datagram), Stop);
+    EXPECT_EQ(capture.counts().frames, 2 * CaptureFile::kFramesPerCheck);
+    // Goes on where it was.
+    EXPECT_FALSE(capture.next(datagram));
+    EXPECT_EQ(capture.counts().other_traffic, 5000u);
+}
+
 TEST_F(CaptureFileTest, GivesTheDatagramsInTheOrderOfTheFile) {
     SentDatagram second = sent("two");
     second.time_s = 1700000001.25;

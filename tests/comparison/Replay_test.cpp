@@ -1,12 +1,8 @@
 // What a replay shows: the recording, the true scene, the end.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/opengl/COctoMapVoxels.h>
-#include <mrpt/opengl/COpenGLScene.h>
-#include <mrpt/opengl/CPointCloud.h>
-#include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfTriangles.h>
 
+#include <hagen/mrpt_scene/MrptScene.h>
 #include <hagen/replays/Ending.h>
 #include <hagen/replays/Replay.h>
 #include "SampleRuns.h"
@@ -51,18 +47,18 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
 TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     const test::TemporaryFolder folder;
     replays::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
-    mrpt::opengl::COpenGLScene scene;
+    mrpt_scene::Scene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
-    const auto voxels = std::dynamic_pointer_cast<mrpt::opengl::COctoMapVoxels>(
+    const auto voxels = std::dynamic_pointer_cast<mrpt_scene::viz::COctoMapVoxels>(
         scene.getByName("obstacles of the model"));
     ASSERT_NE(voxels, nullptr);
     EXPECT_EQ(voxels->getVoxelCount(0), 1u);
-    const auto roi = std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(
+    const auto roi = std::dynamic_pointer_cast<mrpt_scene::viz::CPointCloud>(
         scene.getByName("last scan: regions of interest"));
     ASSERT_NE(roi, nullptr);
     EXPECT_EQ(roi->size(), 1u);
     ASSERT_NE(scene.getByName("vehicle"), nullptr);
-    EXPECT_EQ(scene.getByName("vehicle")->getPoseX(), 6);
+    EXPECT_EQ(scene.getByName("vehicle")->getPose().x, 6);
     replays::writeReplayScene(replays::Recording{}, folder / "empty.3Dscene", "empty");
     // Blamed is the file that was asked for, not its temporary name.
     EXPECT_EQ(test::messageOf(
@@ -107,15 +103,15 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     recording.scene = smallScene();
     recording.scene.ground = {{0, 0}, 2, 3, 2, {1.5, 2.5, 3.5, 1.5, 2.5, 3.5}};
     replays::writeReplayScene(recording, folder / "a.3Dscene", "a");
-    mrpt::opengl::COpenGLScene scene;
+    mrpt_scene::Scene scene;
     ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
     const auto truth =
-        std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(scene.getByName("true scene"));
+        std::dynamic_pointer_cast<mrpt_scene::viz::CSetOfTriangles>(scene.getByName("true scene"));
     ASSERT_NE(truth, nullptr);
     EXPECT_EQ(truth->getTrianglesCount(), 2u);
     // Six corners of a slope: seven lines along it.
     const auto ground =
-        std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(scene.getByName("ground"));
+        std::dynamic_pointer_cast<mrpt_scene::viz::CSetOfLines>(scene.getByName("ground"));
     ASSERT_NE(ground, nullptr);
     EXPECT_EQ(ground->size(), 7u);
     EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);

@@ -1,14 +1,25 @@
 // Every fuzz target on its seeds, on their beginnings, and on some mutations of each; what
-// libFuzzer does for hours.
+// libFuzzer does for hours. HAGEN_FUZZ_SECONDS: how long each target is given mutations (default: a
+// few hundred, whatever that takes); HAGEN_FUZZ_SEED: of their random numbers (default: 1).
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
 #include <random>
 
 #include "fuzz/Target.h"
 
 namespace hagen::fuzz {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+unsigned numberFrom(const char* variable, unsigned otherwise) {
+    const char* const text = std::getenv(variable);
+    return text == nullptr ? otherwise : static_cast<unsigned>(std::strtoul(text, nullptr, 10));
+}
 
 /// A seed with a few bytes changed, and perhaps a part removed or repeated.
 std::string mutated(std::string bytes, std::mt19937& random) {
@@ -56,12 +67,16 @@ TEST_P(Seeds, AndTheirBeginningsAreReadOrRefused) {
 
 TEST_P(Seeds, WithMutationsAreReadOrRefused) {
     if (!target().is_bounded) GTEST_SKIP() << "it may take all memory: " << target().name;
-    std::mt19937 random(1);
+    std::mt19937 random(numberFrom("HAGEN_FUZZ_SEED", 1));
     const auto seeds = target().seeds();
-    const std::size_t times = 1 + 200 / seeds.size();
-    for (const std::string& seed : seeds) {
-        for (std::size_t i = 0; i < times; ++i) run(mutated(seed, random));
+    const std::size_t least = seeds.size() * (1 + 200 / seeds.size());
+    const auto end = Clock::now() + std::chrono::seconds(numberFrom("HAGEN_FUZZ_SECONDS", 0));
+    std::size_t inputs = 0;
+    for (; inputs < least || Clock::now() < end; ++inputs) {
+        if (HasFailure()) break;
+        run(mutated(seeds[inputs % seeds.size()], random));
     }
+    std::cout << target().name << ": " << inputs << " mutated inputs\n";
 }
 
 std::vector<std::string> names() {

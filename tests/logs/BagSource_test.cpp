@@ -4,6 +4,9 @@
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/ScanSource.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "support/BagWriter.h"
 #include "support/Program.h"
 
@@ -115,6 +118,29 @@ TEST_F(BagSourceTest, ABreakIsReportedAfterTheScansBeforeIt) {
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(source->nextScan());
     EXPECT_THROW(source->nextScan(), bags::BrokenBag);
     EXPECT_EQ(open()->scanTimes().at("front").size(), 3u);
+}
+
+TEST_F(BagSourceTest, WhatOnlyReadingInAdvanceMissedIsTold) {
+    const auto whole = test::mcapOf(messages_, {"none", 1});
+    const fs::path cut = folder_ / "cut.mcap", bag = folder_ / "flight.mcap";
+    for (const std::size_t last : {0u, 5u, 100u}) {
+        test::writeBytes(bag, whole.substr(0, whole.size() / 2));
+        SourceOptions options;
+        options.last_entry = last;
+        options.keep_going = [&] {  // it reads the file that is replaced now
+            fs::remove(bag);
+            test::writeBytes(bag, whole);
+            return true;
+        };
+        const auto source = openRecording(bag, options);
+        for (std::size_t i = 0; i <= std::min<std::size_t>(last, 5); ++i) {
+            EXPECT_TRUE(source->nextScan());
+        }
+        const std::string message = test::messageOf([&] { source->nextScan(); });
+        const bool is_needed = last > 0;
+        EXPECT_THAT(message, HasSubstr(is_needed ? "(read in advance)" : ""));
+        EXPECT_EQ(message.empty(), !is_needed) << message;
+    }
 }
 
 TEST_F(BagSourceTest, StopsWhenToldTo) {

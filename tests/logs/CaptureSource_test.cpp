@@ -8,6 +8,9 @@
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/ObservationScan.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "support/CaptureWriter.h"
 #include "support/OusterPackets.h"
 #include "support/Program.h"
@@ -221,6 +224,27 @@ TEST_F(CaptureSourceTest, ABreakIsReportedAfterTheScansBeforeIt) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(source->nextScan());
     EXPECT_THROW(source->nextScan(), captures::BrokenCapture);
     EXPECT_EQ(open()->scanTimes().at("velodyne").size(), 3u);
+}
+
+TEST_F(CaptureSourceTest, WhatOnlyReadingInAdvanceMissedIsTold) {
+    const std::string bytes = test::readFile(capture_);
+    for (const std::size_t last : {0u, 2u, 100u}) {
+        SourceOptions options;
+        options.last_entry = last;
+        const auto source = open(options);  // of the file that is replaced now
+        fs::remove(capture_);
+        std::ofstream(capture_, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+        EXPECT_EQ(source->scanTimes().at("velodyne").size(), 2u);
+        for (std::size_t i = 0; i <= std::min<std::size_t>(last, 2); ++i) {
+            EXPECT_TRUE(source->nextScan());
+        }
+        const std::string message = test::messageOf([&] { source->nextScan(); });
+        const bool is_needed = last > 0;
+        EXPECT_THAT(message, HasSubstr(is_needed ? "(read in advance)" : ""));
+        EXPECT_EQ(message.empty(), !is_needed) << message;
+        fs::remove(capture_);
+        std::ofstream(capture_, std::ios::binary) << bytes;
+    }
 }
 
 TEST_F(CaptureSourceTest, StopsWhenToldTo) {

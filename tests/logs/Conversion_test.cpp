@@ -302,7 +302,7 @@ TEST(Conversion, CloudsGetTheSameBytesWithAnyNumberOfThreads) {
             points.getPoint(i, x, y, z);
             is_deleted.push_back(z > -0.18f * std::hypot(x, y));
         }
-        points.applyDeletionMask(is_deleted);
+        observations::deletePoints(is_deleted, points);
     }
     RawlogWriter writer(folder / "in.rawlog", true);
     for (const auto& entry : clouds) writer.write(*entry);

@@ -428,6 +428,53 @@ TEST_F(ScanSourceTest, ABrokenScanFileIsNamed) {
     EXPECT_THAT(test::messageOf([&] { source->nextScan(); }), HasSubstr("000001.bin: 10 bytes"));
 }
 
+TEST_F(ScanSourceTest, WhatOnlyReadingInAdvanceMissedOfARawlogIsTold) {
+    PackedInput stream(rawlogOf(mixed()));
+    std::string bytes(1 << 16, '\0');
+    bytes.resize(stream.Read(bytes.data(), bytes.size()));
+    const fs::path rawlog = folder_ / "plain.rawlog";
+    for (const std::size_t last : {2u, 4u, 100u}) {
+        std::ofstream(rawlog, std::ios::binary) << bytes;
+        SourceOptions options;
+        options.last_entry = last;
+        const auto source = openRecording(rawlog, options);  // of the file that is replaced now
+        fs::remove(rawlog);
+        std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 10);
+        source->scanTimes();
+        for (std::size_t i = 0; i <= std::min<std::size_t>(last, 4); ++i) {
+            EXPECT_TRUE(source->nextEntry());
+        }
+        const std::string message = test::messageOf([&] { source->nextEntry(); });
+        const bool is_needed = last > 2;
+        EXPECT_THAT(message, HasSubstr(is_needed ? "(read in advance)" : ""));
+        EXPECT_EQ(message.empty(), !is_needed) << message;
+        fs::remove(rawlog);
+    }
+}
+
+TEST_F(ScanSourceTest, WhatOnlyReadingInAdvanceMissedOfAFolderIsTold) {
+    const fs::path folder = scanFolderOf(3), file = folder / "velodyne/000001.bin";
+    for (const std::size_t first : {0u, 2u}) {
+        int asked = 0;
+        SourceOptions options;
+        options.first_entry = first;
+        options.keep_going = [&] {  // before each file; clouds of one return settle nothing
+            ++asked;
+            const int shown = asked - static_cast<int>(first) - 1;
+            if (shown == 2) fs::resize_file(file, 10);
+            if (shown == 3) writeScan(file, returnAt(1));
+            return true;
+        };
+        const auto source = openRecording(folder, options);
+        source->useSettings({});
+        for (std::size_t i = first; i < 3; ++i) EXPECT_TRUE(source->nextScan());
+        const std::string message = test::messageOf([&] { source->nextScan(); });
+        const bool is_needed = first == 0;  // otherwise, the user has left it out
+        EXPECT_THAT(message, HasSubstr(is_needed ? "000001.bin: 10 bytes" : ""));
+        EXPECT_EQ(message.empty(), !is_needed) << message;
+    }
+}
+
 TEST_F(ScanSourceTest, OfAFolderOfRecordingsOneIsToBeNamed) {
     const std::string capture("\xd4\xc3\xb2\xa1", 4);
     folder_.write("flights/notes.txt", "two flights");

@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 #include <hagen/mapping/MapFile.h>
 #include <hagen/mapping/ScanMap.h>
+#include <hagen/mrpt_scene/MrptScene.h>
 #include <hagen/simulation/Random.h>
-#include <mrpt/opengl/COctoMapVoxels.h>
-#include <mrpt/opengl/COpenGLScene.h>
 
 #include <fstream>
 #include <iterator>
@@ -89,9 +88,9 @@ TEST_F(MapFile, OctomapReadsProbabilities) {
 
 TEST_F(MapFile, MrptReadsTheScene) {
     mapping::saveMap(map_.tree(), folder_ / "map.3Dscene");
-    mrpt::opengl::COpenGLScene scene;
+    mrpt_scene::Scene scene;
     ASSERT_TRUE(scene.loadFromFile((folder_ / "map.3Dscene").string()));
-    const auto voxels = scene.getByClass<mrpt::opengl::COctoMapVoxels>();
+    const auto voxels = scene.getByClass<mrpt_scene::viz::COctoMapVoxels>();
     ASSERT_TRUE(voxels);
     EXPECT_EQ(occupied(), voxels->getVoxelCount(0));
 }

@@ -117,7 +117,7 @@ TEST(NewerClouds, AGenericCloudIsReadAndWrittenAsOneWithIntensities) {
     expectTwoPoints(*object);
     const auto cloud = std::dynamic_pointer_cast<IntensityCloud>(object);
     ASSERT_NE(cloud, nullptr);
-    EXPECT_THAT(cloud->getPointsBufferRef_intensity(), ElementsAre(0.25f, 0.75f));
+    EXPECT_THAT(*intensitiesOf(*cloud), ElementsAre(0.25f, 0.75f));
     EXPECT_THAT(fieldsNotKept(*cloud), ElementsAre("t", "gps_time", "ring", "color_r", "rgba"));
     const PointTable* const others = otherFieldsOf(*cloud);
     ASSERT_NE(others, nullptr);
@@ -132,7 +132,7 @@ TEST(NewerClouds, AGenericCloudIsReadAndWrittenAsOneWithIntensities) {
     const auto again = std::dynamic_pointer_cast<IntensityCloud>(read(written));
     ASSERT_NE(again, nullptr);
     expectTwoPoints(*again);
-    EXPECT_THAT(again->getPointsBufferRef_intensity(), ElementsAre(0.25f, 0.75f));
+    EXPECT_THAT(*intensitiesOf(*again), ElementsAre(0.25f, 0.75f));
     EXPECT_THAT(fieldsNotKept(*again), IsEmpty());
 }
 
@@ -241,7 +241,8 @@ TEST(NewerClouds, IntensitiesOfAnyTypeAreScaledWhenTheScanIsRead) {
     readObservation(observation, {}, observed);
     EXPECT_EQ(observed.remark,
               "the filter does not use these fields of its cloud; --cloud generic, --clouds and "
-              "--mcap keep them: t, gps_time, ring, color_r, rgba");
+              "--mcap keep them: gps_time, ring, color_r, rgba");
+    EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));
 }
 
 /// A simple cloud in the bytes of the installed MRPT, and in those of one since 2.15.3.

@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/mrpt_scene/MrptScene.h>
 #include <hagen/observations/Results.h>
 #include <hagen/observations/ScenePreview.h>
 #include <hagen/segmentation/RoiBoxes.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ TEST_F(ScenePreview, IsToldFromOtherScenesAfterARawlogToo) {
     EXPECT_EQ(scanLabelOf(*read), "front");
     mrpt::obs::CObservation3DScene other;
     EXPECT_FALSE(isResult(other));
-    other.scene = mrpt::opengl::COpenGLScene::Create();
+    other.scene = std::make_shared<mrpt_scene::Scene>();
     EXPECT_FALSE(isResult(other));
 }
 
@@ -74,7 +74,7 @@ TEST_F(ScenePreview, FramesTheLargeObstaclesThatAreNotInsideOthers) {
     }
     ASSERT_GT(expected, 0u);
     const auto object = preview_->scene->getByName("obstacles");
-    const auto lines = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(object);
+    const auto lines = std::dynamic_pointer_cast<mrpt_scene::viz::CSetOfLines>(object);
     ASSERT_TRUE(lines);
     EXPECT_EQ(lines->size(), 12 * expected);
     // Each edge is parallel to an axis.

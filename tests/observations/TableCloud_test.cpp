@@ -1,9 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/observations/CloudSensors.h>
+#include <hagen/observations/MrptCompat.h>
+#include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/TableCloud.h>
 #include <hagen/range_image/Angle.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
 #include <limits>
@@ -16,6 +21,7 @@
 namespace hagen::observations {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::FloatNear;
 using testing::HasSubstr;
@@ -65,7 +71,7 @@ TEST(TableCloud, CoordinatesTooLargeForAFloatAreNotFinite) {
 TEST(TableCloud, IntensitiesAreScaledByTheirGreatest) {
     const auto intensities = [](const char* name, NumberType type, const Numbers& numbers) {
         const TableCloud cloud = cloudWith(name, type, numbers);
-        const auto& all = cloud.getPointsBufferRef_intensity();
+        const auto& all = *intensitiesOf(cloud);
         return std::vector<float>(all.begin(), all.end());
     };
     EXPECT_THAT(intensities("intensity", NumberType::Float32, {0.5, 1}), ElementsAre(0.5f, 1.0f));
@@ -172,6 +178,25 @@ ObservedScan readBack(const PointTable& table, const Settings& settings = {}) {
     return observed;
 }
 
+/// The same from a log of a newer MRPT, which holds the table as a CGenericPointsMap.
+ObservedScan readFromLog(const PointTable& table) {
+    registerMrptClasses();
+    registerNewerClouds();
+    mrpt::io::CMemoryStream stream;
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    archive << *genericCloudOf(table);
+    stream.Seek(0);
+    mrpt::obs::CObservationPointCloud observation;
+    observation.sensorLabel = "a";
+    observation.pointcloud =
+        std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(archive.ReadObject());
+    CloudSensors sensors;
+    sensors.see(observation);
+    ObservedScan observed;
+    readObservation(observation, {}, observed, sensors.beamsOf("a"));
+    return observed;
+}
+
 TEST(TableCloud, RingsThatRiseOrFallWithTheElevationAreRows) {
     for (const bool is_rising : {true, false}) {
         const auto observed = readBack(sphereOf(
@@ -197,6 +222,26 @@ TEST(TableCloud, ARingCountsMoreThanTheElevationOfOneReturn) {
     Settings named;
     named.sensor.model = "VLP-16";  // whose beams are those of the settings
     EXPECT_EQ(readBack(moved, named).scan.row[5], 8);
+}
+
+TEST(TableCloud, ACloudOfNewerMrptHasTheRowsAndTimesOfItsTable) {
+    PointTable table = sphereOf(vlp16_deg(), [](int beam, int) { return 3 * beam; });
+    Numbers times(table.points);
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] = 0.1 / 3200 * static_cast<double>(i);
+    addColumn("t", NumberType::Float32, times, table);
+    const ObservedScan of_table = readBack(table), of_log = readFromLog(table);
+    EXPECT_THAT(textOf(of_log.recovered), HasSubstr("by its ring numbers"));
+    EXPECT_EQ(of_log.scan.row, of_table.scan.row);
+    EXPECT_EQ(of_log.scan.time_s, of_table.scan.time_s);
+    EXPECT_EQ(of_log.scan.time_s.size(), table.points);
+    EXPECT_EQ(of_log.remark, "");
+
+    times[7] = 100;  // no scan is that long
+    PointTable strange = sphereOf(vlp16_deg(), [](int, int column) { return column; });
+    addColumn("t", NumberType::Float64, times, strange);
+    const ObservedScan observed = readFromLog(strange);
+    EXPECT_THAT(observed.scan.time_s, IsEmpty());
+    EXPECT_THAT(observed.remark, AllOf(HasSubstr("keep them: t, ring"), HasSubstr("span more")));
 }
 
 TEST(TableCloud, BeamsCloserThanTheirNoiseAreRowsByTheirRings) {

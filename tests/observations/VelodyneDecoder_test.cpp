@@ -175,6 +175,35 @@ TEST(VelodyneDecoder, TimesGoOnFromLaserToLaserAndOverTheFullHour) {
     EXPECT_NEAR(scan.time_s.back(), 1e-6 * (239 * 55.296 + 15 * 2.304), 2e-6);
 }
 
+TEST(VelodyneDecoder, APacketThatWasRecordedLateIsBeforeTheFirstOne) {
+    const VelodyneModel& model = velodyneModel("VLP-16");
+    Firings firings = randomFirings(57, model, 240, 0.0);
+    for (const std::uint32_t first_us : {5000u, 3599999000u}) {
+        firings.first_time_us = first_us;
+        const auto packets = encodeScan(model, firings);
+        Scan in_order, late;
+        decodePackets(*packets, in_order);
+        std::swap(packets->scan_packets[0], packets->scan_packets[1]);
+        decodePackets(*packets, late);
+        ASSERT_EQ(late.size(), in_order.size());
+        std::sort(late.time_s.begin(), late.time_s.end());
+        const double packet_s = 1e-6 * 24 * 55.296;
+        for (std::size_t i = 0; i < late.size(); ++i) {
+            ASSERT_NEAR(late.time_s[i], static_cast<double>(in_order.time_s[i]) - packet_s, 3e-6);
+        }
+    }
+}
+
+TEST(VelodyneDecoder, MorePacketsThanAnyTurnHasAreRefused) {
+    const auto scan =
+        encodeScan(velodyneModel("VLP-16"), randomFirings(58, velodyneModel("VLP-16"), 24, 0.0));
+    Scan decoded;
+    scan->scan_packets.resize(43691, scan->scan_packets.front());  // 16777344 returns
+    EXPECT_THAT(test::messageOf([&] { decodePackets(*scan, decoded); }),
+                testing::HasSubstr("16777344 returns, more than the 16777216"));
+    EXPECT_EQ(decoded.size(), 0u);
+}
+
 TEST(VelodyneDecoder, BothReturnsOfAFiringHaveItsTime) {
     const VelodyneModel& model = velodyneModel("HDL-32E");
     Firings firings = randomFirings(61, model, 60, 0.0);

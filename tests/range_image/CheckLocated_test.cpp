@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/range_image/MostReturns.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/Scan.h>
 
@@ -34,6 +35,15 @@ std::string objection(const Scan& scan, const SensorModel& sensor) {
     } catch (const std::invalid_argument& error) {
         return error.what();
     }
+}
+
+TEST(CheckLocated, RefusesMoreReturnsThanAScanMayHave) {
+    Scan scan;
+    scan.x_m.resize(kMostReturns + 1);
+    EXPECT_EQ(objection(scan, sensorModel("VLP-16")),
+              "the scan has 16777217 returns, more than the 16777216 that it may have");
+    scan.x_m.resize(kMostReturns);
+    EXPECT_THAT(objection(scan, sensorModel("VLP-16")), HasSubstr("differ in number"));
 }
 
 TEST(CheckLocated, LetsScansPassThatWereLocatedWithTheSensor) {

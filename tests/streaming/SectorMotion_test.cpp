@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/streaming/SectorDistances.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
 #include <algorithm>
@@ -56,6 +57,24 @@ TEST(SectorPackets, TellWhatEachSweptSoThatALostOneIsAGap) {
     segmenter.flush();
     EXPECT_NEAR(swept_rad, kTurn_rad, 1e-6);
     EXPECT_NEAR(covered_rad, kTurn_rad * (kPackets - 1) / kPackets, 1e-6);
+}
+
+TEST(SectorPackets, WhatALostPacketWouldHaveSweptIsNotFree) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SectorDistances distances(sensor);
+    Scan none;
+    SegmentationResult result;
+    // A sector of 25 degrees in five packets, without the middle one; clockwise from ahead.
+    std::vector<Sweep> packets;
+    for (const int p : {0, 1, 3, 4}) packets.push_back({radians(5.0 * p), radians(5.0 * (p + 1))});
+    distances.take(
+        {none, {}, Sweep{0, radians(25.0)}, 1, 1.01, true, false, false, result, &packets});
+    const auto at = distances.at(1.02);
+    using State = SectorDistances::State;
+    EXPECT_EQ(at[1].state, State::SeenNothing);
+    EXPECT_EQ(at[2].state, State::Unknown);
+    EXPECT_EQ(at[3].state, State::SeenNothing);
+    EXPECT_EQ(at[5].state, State::Unknown);
 }
 
 /// The labels of a second turn with a known tilt, after a turn with this pose or without.

@@ -3,6 +3,7 @@
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/Journal.h>
+#include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/MergeCampaigns.h>
 
 #include <cmath>
@@ -104,6 +105,30 @@ TEST(CampaignFolder, ATornLastLineIsFlownAgainAndAnyOtherIsNamed) {
     const std::string message =
         messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); });
     EXPECT_EQ(message.find((place / "c/journal/1.csv").string() + ":1: "), 0u) << message;
+}
+
+TEST(CampaignFolder, OneThatWasStoppedWhileItWasMadeIsMadeWhole) {
+    const TemporaryFolder place;
+    { CampaignFolder folder(place / "c", constantProfile(1), false); }
+    fs::remove(place / "c/profile.json");
+    { CampaignFolder folder(place / "c", constantProfile(1), false); }
+    EXPECT_EQ(readLatencyProfile(place / "c/profile.json").machine, constantProfile(1).machine);
+    // Killed before its first file had a name.
+    const std::string killed = "campaign.json.tmp-999999999-0123456789abcdef";
+    place.write("d/" + killed, "{");
+    { CampaignFolder folder(place / "d", constantProfile(1), false); }
+    EXPECT_FALSE(fs::exists(place / "d" / killed));
+    EXPECT_TRUE(fs::exists(place / "d/campaign.json"));
+}
+
+TEST(CampaignFolder, OneThatCannotBeRemovedRemainsACampaign) {
+    const TemporaryFolder place;
+    { CampaignFolder folder(place / "c", constantProfile(1), false); }
+    fs::create_directories(place / "c/runs.csv/full");
+    EXPECT_THAT(messageOf([&] { CampaignFolder(place / "c", constantProfile(2), true); }),
+                HasSubstr("runs.csv"));
+    fs::remove_all(place / "c/runs.csv");
+    EXPECT_EQ(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }), "");
 }
 
 TEST(CampaignFolder, OtherSettingsAreRefusedUnlessItBeginsAnew) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace hagen::autopilot {
@@ -31,6 +32,8 @@ using Directions = std::array<Direction, 72>;
 /// not swept within 0.3 s is unknown, and so is a direction in which the sensor, as it was tilted
 /// then, has no beam at the horizon. An obstacle is forgotten when its direction was swept again,
 /// a turn later, or after 0.3 s. (streaming::SectorDistances is the same for a sensor that stays.)
+///
+/// A copy is cheap: it shares what sectors saw, which does not change.
 class Surroundings {
  public:
     struct Settings {
@@ -63,9 +66,8 @@ class Surroundings {
     bool covers(const Seen& seen, const Eigen::Vector3d& ahead) const;
 
     Settings settings_;
-    double lowest_, highest_;  ///< sines of the elevations of its beams
-    std::deque<Seen> seen_;    ///< in the order in which they came
-    std::vector<Seen> spare_;  ///< their memory
+    double lowest_, highest_;                       ///< sines of the elevations of its beams
+    std::deque<std::shared_ptr<const Seen>> seen_;  ///< in the order in which they came
     double latest_s_ = -std::numeric_limits<double>::infinity();
 };
 

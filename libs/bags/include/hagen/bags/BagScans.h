@@ -2,6 +2,7 @@
 #include <hagen/bags/BagPlan.h>
 #include <mrpt/obs/CObservation.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -26,6 +27,8 @@ class BagScans {
     mrpt::obs::CObservation::Ptr next();
 
     const BagPlan& plan() const;
+    /// Messages of the bag read so far, of all topics.
+    std::size_t messagesRead() const;
     /// Fraction of the bag read so far, 0 ... 1.
     double fractionRead() const;
     /// What was found on each topic, and what was left out. Complete at the end.

@@ -73,6 +73,7 @@ struct BagSurvey {
     std::map<std::string, Imu> imus;                     ///< by topic
     std::map<std::string, std::string> ouster_metadata;  ///< by topic
     std::map<std::string, LeftOut> left_out;             ///< by topic
+    std::size_t messages = 0;                            ///< read, of all topics
     bool is_whole = true;
     std::string broken_because;  ///< empty: it was read to its end, or ended by the caller
 };

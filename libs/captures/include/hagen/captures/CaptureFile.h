@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -52,6 +53,12 @@ class CaptureFile {
 
     /// Reads the next datagram; false at the end. Throws BrokenCapture.
     bool next(Datagram& datagram);
+
+    /// Calls `check` before each frame whose number is a multiple of kFramesPerCheck: what it
+    /// throws ends next(), which may read a whole file without a datagram that its caller waits
+    /// for.
+    void checkWhileReading(const std::function<void()>& check);
+    static constexpr std::size_t kFramesPerCheck = 1024;
 
     /// Complete once next() returned false or threw.
     const FrameCounts& counts() const;

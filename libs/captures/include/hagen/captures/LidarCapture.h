@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ class LidarCapture {
     /// The next scan; null at the end. Where the capture breaks off, the scans in progress come
     /// first. Throws BrokenCapture there, and at the end if there was no packet.
     virtual mrpt::obs::CObservation::Ptr nextScan() = 0;
+
+    /// Like CaptureFile::checkWhileReading(): what `check` throws ends nextScan().
+    virtual void checkWhileReading(const std::function<void()>& check) = 0;
 
     /// Fraction of the file read so far, 0 ... 1.
     virtual double fractionRead() const = 0;

@@ -23,6 +23,7 @@ class OusterCapture : public LidarCapture {
 
     mrpt::obs::CObservationPointCloud::Ptr next();
     mrpt::obs::CObservation::Ptr nextScan() override { return next(); }
+    void checkWhileReading(const std::function<void()>& check) override;
     double fractionRead() const override;
     std::vector<std::string> remarks() const override;
 

@@ -25,6 +25,7 @@ class VelodyneCapture : public LidarCapture {
 
     mrpt::obs::CObservationVelodyneScan::Ptr next();
     mrpt::obs::CObservation::Ptr nextScan() override { return next(); }
+    void checkWhileReading(const std::function<void()>& check) override;
     double fractionRead() const override;
     std::vector<std::string> remarks() const override;
 

@@ -3,6 +3,7 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -27,6 +28,7 @@ struct RawlogSurvey {
         mrpt::poses::CPose3D sensor_on_vehicle;
     };
     std::map<std::string, std::vector<ScanPlace>> scans;
+    std::size_t entries = 0;  ///< read
     bool is_whole = true;     ///< the log was read to its end
     std::string break_found;  ///< why the log could not be read to its end; empty: it could
 };

@@ -112,7 +112,7 @@ class ScanSource {
     /// The beams of a LiDAR's clouds, recovered from the first ones in the recording, also if these
     /// are not selected (CloudSensors): the same for all parts of a recording. Null if none of its
     /// clouds has enough returns. The recording is read in advance as far as this takes. Throws
-    /// Interrupted; ends silently where the recording breaks off.
+    /// Interrupted; where the recording breaks off, nextEntry() does.
     const observations::SharedBeams& beamsOf(const std::string& sensor_label);
 
     /// The settings, with those of the recording's own sensor merged in.
@@ -137,6 +137,13 @@ class ScanSource {
     /// after those before. Returns false at the end, and where the recording breaks off.
     virtual bool showClouds(observations::CloudSensors& sensors) = 0;
 
+    /// Notes that reading in advance, for poses, times or beams, broke off after `entries` entries
+    /// (or other parts of the recording), and why.
+    void brokeOffAhead(std::size_t entries, const std::string& why);
+    /// Call it at the end, after `entries` of them: why reading in advance did not get that far,
+    /// although this reading did, so that poses or beams are missing. Empty: it did.
+    std::string missedAhead(std::size_t entries) const;
+
     /// Call it before reading an entry. Throws Interrupted.
     void checkInterruption() const;
     /// True, and counts it, if an entry is before the first selected one.
@@ -154,6 +161,8 @@ class ScanSource {
     LogPoses poses_;
     bool is_levelled_by_file_ = false;  ///< a pose file overrides the recording's attitude
     observations::Horizon horizon_;
+    std::string break_ahead_;  ///< the first that reading in advance met; empty: none
+    std::size_t break_ahead_at_ = 0;
     std::size_t entries_skipped_ = 0;
     std::set<std::string> labels_, other_labels_;
     bool recovers_beams_ = false;

@@ -1,8 +1,8 @@
 #pragma once
+#include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/PointTable.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 
 #include <cstdint>
 #include <memory>
@@ -12,7 +12,7 @@ namespace hagen::observations {
 
 /// A cloud whose sensor, beams and times are known, as from the packets of an Ouster. It lives in
 /// memory only: MRPT writes it as the CPointsMapXYZI that it is, and the rest is lost.
-class LocatedCloud : public mrpt::maps::CPointsMapXYZI {
+class LocatedCloud : public IntensityCloud {
  public:
     /// Takes coordinates, intensities, rows and times of a scan, and what else the sensor tells of
     /// each point. Throws std::invalid_argument if that has fields of another number of points.

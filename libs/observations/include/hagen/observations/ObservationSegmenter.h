@@ -97,9 +97,10 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     CloudClass cloud_class = CloudClass::Simple;
 
     /// Times of each part of process(). Disabled by default; prints its report when destroyed.
-    mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
+    mrpt::system::CTimeLogger profiler = idleProfiler();
 
  private:
+    static mrpt::system::CTimeLogger idleProfiler();
     SharedBeams beamsOf(const mrpt::obs::CObservation& observation);
     HagenFilter& filterOf(const std::string& label);
 

@@ -1,8 +1,8 @@
 #pragma once
+#include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/PointTable.h>
 #include <hagen/range_image/Scan.h>
 #include <mrpt/core/Clock.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -23,16 +23,11 @@ namespace hagen::observations {
 ///   value, which is at most 1, 255, 65535, or else is the scale itself. Not finite: 0.
 /// - ring, channel, line: the number of the beam. It becomes the row only if it agrees with the
 ///   elevation (ringBeams() of RecoverBeams.h) and no sensor is named in the settings.
-/// - time, t, timestamp, time_stamp, offset_time, time_offset, gps_time, gpstime: when the point
-///   was measured. The unit is not in the files. Integers are nanoseconds, as of Ouster and Livox,
-///   or microseconds if the cloud otherwise takes less than a millisecond. Other numbers are
-///   seconds, or the greatest of ms, us, ns in which the cloud takes at most 2 s; those of a
-///   gps_time are seconds always. Times within 2 s of 0 are relative to the scan's time; others are
-///   absolute and count from the earliest. Times that are not finite, of any point, are not used.
+/// - time, t, timestamp and others: when the point was measured (timesOf() of PointFields.h).
 ///
 /// Points with a coordinate that is not finite are no returns: they stay in the table, but are not
 /// in the cloud.
-class TableCloud : public mrpt::maps::CPointsMapXYZI {
+class TableCloud : public IntensityCloud {
  public:
     /// Throws std::runtime_error that says why if the table is unsound (check()), has no x, y or z,
     /// or more points than 32 bits can number.
@@ -51,9 +46,6 @@ class TableCloud : public mrpt::maps::CPointsMapXYZI {
 
  private:
     void takeIntensities();
-    void takeRings();
-    void takeTimes();
-    std::vector<double> ofReturns(const PointField& field) const;
 
     std::shared_ptr<const PointTable> table_;
     std::vector<std::uint32_t> point_of_return_;

@@ -58,7 +58,10 @@ class CampaignFolder {
     };
     void open(bool overwrite);
     void begin();
-    void removeAll();
+    void writeProfile() const;
+    /// Removes temporary files of a command that was killed.
+    void removeUnfinished() const;
+    void removeAll() const;
     void readTables();
     void keep(const std::string& text, const std::string& measured, const std::string& from);
     void addPlan(const std::string& plan);

@@ -1,0 +1,26 @@
+# Finds MRPT from 2.5 to 3, whose packages have other names: mrpt_obs instead of mrpt-obs. Sets find_mrpt::PART, how
+# users of an installed Hagen find a part, and HAGEN_MRPT_SCENE, what
+# sources with 3D scenes link.
+set(HAGEN_MRPT_PARTS obs maps opengl)
+set(HAGEN_MRPT_PREFIX mrpt-)
+set(HAGEN_MRPT_OLDEST 2.5)
+find_package(mrpt-obs 2.5 QUIET)
+if(NOT mrpt-obs_FOUND)
+  find_package(mrpt_obs 3 QUIET)
+  if(mrpt_obs_FOUND)
+    set(HAGEN_MRPT_PARTS obs maps viz)
+    set(HAGEN_MRPT_PREFIX mrpt_)
+    set(HAGEN_MRPT_OLDEST 3)
+  endif()
+endif()
+foreach(part ${HAGEN_MRPT_PARTS})
+  find_package(${HAGEN_MRPT_PREFIX}${part} ${HAGEN_MRPT_OLDEST} REQUIRED)
+  # Version 3 calls its targets mrpt::mrpt_obs.
+  if(NOT TARGET mrpt::${part} AND TARGET mrpt::${HAGEN_MRPT_PREFIX}${part})
+    add_library(mrpt::${part} ALIAS mrpt::${HAGEN_MRPT_PREFIX}${part})
+  endif()
+  set(find_mrpt::${part} "find_dependency(${HAGEN_MRPT_PREFIX}${part} ${HAGEN_MRPT_OLDEST})")
+  set(pc_mrpt::${part} none)
+endforeach()
+list(GET HAGEN_MRPT_PARTS -1 scene)
+set(HAGEN_MRPT_SCENE mrpt::${scene} $<BUILD_INTERFACE:hagen_mrpt_scene>)

@@ -1,0 +1,80 @@
+// Writes recordings for the commands of the documents, from those of rawlogs/: make-recordings
+// RAWLOG FOLDER
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/observations/ObservationScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+
+#include "support/BagWriter.h"
+#include "support/Hdl64.h"
+
+namespace {
+
+using namespace hagen;
+
+namespace fs = std::filesystem;
+
+std::vector<float> xyziOf(const mrpt::obs::CObservationVelodyneScan& scan) {
+    observations::ObservedScan observed;
+    observations::readObservation(scan, {}, observed);
+    const Scan& s = observed.scan;
+    std::vector<float> xyzi;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        xyzi.insert(xyzi.end(), {s.x_m[i], s.y_m[i], s.z_m[i], s.intensity[i]});
+    }
+    return xyzi;
+}
+
+void writeVelodyne(const fs::path& rawlog, const fs::path& folder) {
+    test::CaptureWriter capture;
+    std::vector<test::SentMessage> messages;
+    logs::RawlogReader reader(rawlog);
+    while (const auto entry = reader.next()) {
+        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
+        if (!scan) continue;
+        const double time_s = mrpt::Clock::toDouble(scan->timestamp);
+        capture.packets(*scan, time_s, 1.3e-3);
+        messages.push_back(
+            test::cloudMessage("/velodyne_points", time_s, "velodyne", xyziOf(*scan)));
+    }
+    capture.write(folder / "flight.pcap");
+    test::writeBytes(folder / "flight.bag", test::ros1BagOf(messages));
+    test::writeBytes(folder / "flight.mcap", test::mcapOf(messages));
+}
+
+/// Flat ground 1.7 m below, and a wall all around, 15 m away.
+void writeHdl64(const fs::path& folder) {
+    const auto lasers = test::hdl64Lasers();
+    test::CaptureWriter capture;
+    double time_s = 1700000000;
+    for (const auto& packet : test::hdl64Packets(2 * 2000, [&](int laser, double azimuth_deg) {
+             const auto direction = lasers[static_cast<std::size_t>(laser)].direction(azimuth_deg);
+             const double wall_m = 15 / std::hypot(direction.x(), direction.y());
+             return direction.z() < 0 ? std::min(wall_m, -1.7 / direction.z()) : wall_m;
+         })) {
+        test::SentDatagram datagram;
+        datagram.content = packet;
+        datagram.time_s = time_s += 288e-6;
+        capture.datagram(datagram);
+    }
+    capture.write(folder / "hdl64.pcap");
+    test::writeBytes(folder / "db.xml", test::hdl64Xml(lasers));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc != 3) {
+        std::fprintf(stderr, "usage: make-recordings RAWLOG FOLDER\n");
+        return 2;
+    }
+    writeVelodyne(argv[1], argv[2]);
+    writeHdl64(argv[2]);
+    return 0;
+} catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+}

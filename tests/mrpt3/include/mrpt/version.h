@@ -1,0 +1,2 @@
+#pragma once
+#define MRPT_VERSION 0x030102

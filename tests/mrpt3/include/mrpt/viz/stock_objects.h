@@ -1,0 +1,2 @@
+#pragma once
+#include <mrpt/opengl/stock_objects.h>

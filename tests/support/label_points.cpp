@@ -1,0 +1,75 @@
+// Labels scans with the filter alone, so that processors can be compared: label-points MODEL REPEAT
+// FILE.bin... Files are float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum
+// of all labels and numbers of obstacles. Each scan is segmented REPEAT times, by one filter.
+#include <hagen/segmentation/HagenFilter.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+hagen::Scan readScan(const std::string& name) {
+    std::ifstream file(name, std::ios::binary);
+    if (!file) throw std::runtime_error(name + ": cannot be read");
+    hagen::Scan scan;
+    std::array<float, 4> point{};
+    while (file.read(reinterpret_cast<char*>(point.data()), sizeof point)) {
+        scan.x_m.push_back(point[0]);
+        scan.y_m.push_back(point[1]);
+        scan.z_m.push_back(point[2]);
+        scan.intensity.push_back(point[3]);
+    }
+    return scan;
+}
+
+/// FNV-1a.
+class Checksum {
+ public:
+    void add(std::uint32_t value) {
+        for (int byte = 0; byte < 4; ++byte) {
+            sum_ = (sum_ ^ (value >> (8 * byte) & 0xff)) * 0x100000001b3;
+        }
+    }
+    unsigned long long sum() const { return sum_; }
+
+ private:
+    std::uint64_t sum_ = 0xcbf29ce484222325;
+};
+
+void label(hagen::HagenFilter& filter, const hagen::SensorModel& sensor, const std::string& name,
+           int repeat) {
+    hagen::Scan scan = readScan(name);
+    hagen::locateBeams(sensor, scan);
+    for (int i = 1; i < repeat; ++i) filter.segment(scan);
+    const hagen::SegmentationResult& result = filter.segment(scan);
+    Checksum sum;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        sum.add(static_cast<std::uint32_t>(result.returns.label[i]));
+        sum.add(static_cast<std::uint32_t>(result.returns.component[i]));
+    }
+    std::printf("%zu returns, %zu RoI, %016llx\n", scan.size(), result.returns.roi.size(),
+                sum.sum());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 3) {
+        std::fprintf(stderr, "usage: label-points MODEL REPEAT FILE.bin...\n");
+        return 2;
+    }
+    try {
+        const hagen::SensorModel sensor = hagen::sensorModel(argv[1]);
+        hagen::HagenFilter filter(sensor);
+        for (int i = 3; i < argc; ++i) label(filter, sensor, argv[i], std::atoi(argv[2]));
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "label-points: %s\n", e.what());
+        return 1;
+    }
+}
