@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <hagen/captures/CaptureFile.h>
 #include <hagen/captures/OusterScan.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/streaming/OusterStream.h>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "support/OusterPackets.h"
+#include "support/Program.h"
 
 namespace hagen::streaming {
 namespace {
@@ -131,6 +133,45 @@ TEST_F(OusterStreamTest, OtherDatagramsAreRefused) {
     EXPECT_EQ(stream_.counts().other_sensor, 1u);
     EXPECT_EQ(stream_.counts().packets, 0u);
     EXPECT_EQ(stream_.segmenter().sectors(), 0u);
+}
+
+TEST(OusterStreams, LabelsOfARealCaptureAreThoseOfWholeTurns) {
+    const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
+    const OusterSensor sensor = captures::readOusterSensor(folder / "OS-1-128_v2.3.0_1024x10.json");
+    std::vector<Label> labels;
+    OusterStream stream(sensor, {}, [&](const LabelledSector& sector) {
+        labels.insert(labels.end(), sector.label.begin(), sector.label.end());
+    });
+    captures::CaptureFile capture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap");
+    captures::Datagram datagram;
+    while (capture.next(datagram)) {
+        stream.add(datagram.bytes, datagram.size, 1e-9 * static_cast<double>(datagram.time_ns),
+                   datagram.time_ns);
+    }
+    stream.flush();
+    stream.finish();
+    ASSERT_EQ(stream.complete().size(), 3u);
+    HagenFilter filter(*sensor.model);
+    std::size_t at = 0, same = 0, compared = 0, missed = 0, near = 0;
+    for (std::size_t turn = 0; turn < 3; ++turn) {
+        const Scan scan = captures::scanOf(stream.complete()[turn], sensor);
+        const std::vector<Label> whole = filter.segment(scan).returns.label;
+        ASSERT_LE(at + whole.size(), labels.size());
+        for (std::size_t i = 0; i < whole.size(); ++i, ++at) {
+            if (turn == 0) continue;  // before half a turn is known, all is RoI
+            ++compared;
+            same += labels[at] == whole[i];
+            const bool is_near = whole[i] == Label::Roi && scan.range_m[i] < 5;
+            near += is_near;
+            missed += is_near && labels[at] != Label::Roi;
+        }
+    }
+    EXPECT_EQ(at, labels.size());
+    RecordProperty("same", std::to_string(same) + " of " + std::to_string(compared));
+    RecordProperty("missed", std::to_string(missed) + " of " + std::to_string(near));
+    EXPECT_GT(static_cast<double>(same), 0.98 * static_cast<double>(compared));
+    EXPECT_LE(static_cast<double>(missed), 0.005 * static_cast<double>(near));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ struct ColumnMap {
     std::vector<std::int32_t> to_image;  ///< per column of the whole turn: that of the image
     std::vector<std::int32_t> to_turn;   ///< per column of the image: the turn's in its place
 
-    std::vector<std::int32_t> even;      ///< of the image, evenly over the turn: one per group
+    std::vector<std::int32_t> even;  ///< of the image, evenly over the turn: one per group
 
     int columns() const { return static_cast<int>(to_image.size()); }  ///< of the whole turn
 };
