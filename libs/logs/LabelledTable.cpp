@@ -3,6 +3,7 @@
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/observations/PointFields.h>
 #include <hagen/observations/Results.h>
 #include <hagen/observations/TableCloud.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -31,15 +32,19 @@ const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud) {
     return located != nullptr ? &located->otherFields() : observations::otherFieldsOf(cloud);
 }
 
-void addOtherFields(const mrpt::obs::CObservation& observation, PointTable& table) {
+/// The fields of a scan and the observation's others, whose times are those of the scan.
+PointTable withOtherFields(const Scan& scan, const mrpt::obs::CObservation& observation) {
     const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
-    if (cloud == nullptr || !cloud->pointcloud) return;
-    const PointTable* const others = otherFieldsOf(*cloud->pointcloud);
-    if (others == nullptr || others->points != table.points) return;
+    const PointTable* const others =
+        cloud != nullptr && cloud->pointcloud ? otherFieldsOf(*cloud->pointcloud) : nullptr;
+    if (others == nullptr || others->points != scan.size()) return observations::tableOf(scan);
+    const bool has_times = timeFieldOf(*others) != nullptr;
+    PointTable table = has_times ? observations::untimedTableOf(scan) : observations::tableOf(scan);
     for (const observations::PointField& field : others->fields) {
         if (findField(table, {field.name}) != nullptr) continue;
         addColumn(field.name, field.type, columnOf(*others, field), table);
     }
+    return table;
 }
 
 Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmented,
@@ -51,10 +56,9 @@ Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmente
         return points;
     }
     const Scan& scan = *segmented.scan;
-    points.table = observations::tableOf(scan);
+    points.table = withOtherFields(scan, observation);
     points.point_of_return.resize(scan.size());
     std::iota(points.point_of_return.begin(), points.point_of_return.end(), 0u);
-    addOtherFields(observation, points.table);
     if (!observations::isCloud(observation) && segmented.sensor->has_rings) {
         addColumn("ring", NumberType::UInt16, {scan.row.begin(), scan.row.end()}, points.table);
     }

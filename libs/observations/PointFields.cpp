@@ -59,11 +59,14 @@ PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
     return rings;
 }
 
+const PointField* timeFieldOf(const PointTable& table) {
+    return findField(table, {"time", "t", "timestamp", "time_stamp", "offset_time", "time_offset",
+                             "gps_time", "gpstime"});
+}
+
 PointFieldValues<float> timesOf(const PointTable& table, const std::vector<std::uint32_t>& points) {
     PointFieldValues<float> found;
-    const PointField* const field =
-        findField(table, {"time", "t", "timestamp", "time_stamp", "offset_time", "time_offset",
-                          "gps_time", "gpstime"});
+    const PointField* const field = timeFieldOf(table);
     if (field == nullptr || points.empty()) return found;
     const std::vector<double> times = ofPoints(table, *field, points);
     const auto [first, last] = std::minmax_element(times.begin(), times.end());

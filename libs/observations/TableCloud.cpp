@@ -99,7 +99,7 @@ const TableCloud* tableCloudOf(const mrpt::obs::CObservation& observation) {
     return cloud == nullptr ? nullptr : dynamic_cast<const TableCloud*>(cloud->pointcloud.get());
 }
 
-PointTable tableOf(const Scan& scan) {
+PointTable untimedTableOf(const Scan& scan) {
     PointTable table;
     table.points = scan.size();
     const auto add = [&](const char* name, const std::vector<float>& numbers) {
@@ -109,7 +109,13 @@ PointTable tableOf(const Scan& scan) {
     add("y", scan.y_m);
     add("z", scan.z_m);
     add("intensity", scan.intensity);
-    if (!scan.time_s.empty()) add("time", scan.time_s);
+    return table;
+}
+
+PointTable tableOf(const Scan& scan) {
+    PointTable table = untimedTableOf(scan);
+    if (scan.time_s.empty()) return table;
+    addColumn("time", NumberType::Float32, {scan.time_s.begin(), scan.time_s.end()}, table);
     return table;
 }
 

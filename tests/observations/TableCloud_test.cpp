@@ -238,10 +238,10 @@ TEST(TableCloud, ACloudOfNewerMrptHasTheRowsAndTimesOfItsTable) {
 
     times[7] = 100;  // no scan is that long
     PointTable strange = sphereOf(vlp16_deg(), [](int, int column) { return column; });
-    addColumn("t", NumberType::Float64, times, strange);
+    addColumn("gps_time", NumberType::Float64, times, strange);
     const ObservedScan observed = readFromLog(strange);
     EXPECT_THAT(observed.scan.time_s, IsEmpty());
-    EXPECT_THAT(observed.remark, AllOf(HasSubstr("keep them: t, ring"), HasSubstr("span more")));
+    EXPECT_THAT(observed.remark, AllOf(HasSubstr("keep them: gps_time, ring"), HasSubstr("span more")));
 }
 
 TEST(TableCloud, BeamsCloserThanTheirNoiseAreRowsByTheirRings) {

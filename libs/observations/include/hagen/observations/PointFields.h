@@ -21,8 +21,11 @@ struct PointFieldValues {
 PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
                                        const std::vector<std::uint32_t>& points);
 
-/// When these points were measured [s], from the first of the fields time, t, timestamp,
-/// time_stamp, offset_time, time_offset, gps_time, gpstime. The unit is not in the files. Integers
+/// The first of the fields time, t, timestamp, time_stamp, offset_time, time_offset, gps_time,
+/// gpstime; null if there is none.
+const PointField* timeFieldOf(const PointTable& table);
+
+/// When these points were measured [s], from timeFieldOf(). The unit is not in the files. Integers
 /// are nanoseconds, as of Ouster and Livox, or microseconds if the points otherwise take less than
 /// a millisecond. Other numbers are seconds, or the greatest of ms, us, ns in which they take at
 /// most 2 s; those of a gps_time are seconds always. Times within 2 s of 0 are relative to the

@@ -64,5 +64,7 @@ const TableCloud* tableCloudOf(const mrpt::obs::CObservation& observation);
 
 /// A table of a scan: x, y, z, intensity (0..1), and if they are known `time` [s]; all float32.
 PointTable tableOf(const Scan& scan);
+/// The same without times.
+PointTable untimedTableOf(const Scan& scan);
 
 }  // namespace hagen::observations
