@@ -241,7 +241,8 @@ TEST(TableCloud, ACloudOfNewerMrptHasTheRowsAndTimesOfItsTable) {
     addColumn("gps_time", NumberType::Float64, times, strange);
     const ObservedScan observed = readFromLog(strange);
     EXPECT_THAT(observed.scan.time_s, IsEmpty());
-    EXPECT_THAT(observed.remark, AllOf(HasSubstr("keep them: gps_time, ring"), HasSubstr("span more")));
+    EXPECT_THAT(observed.remark,
+                AllOf(HasSubstr("keep them: gps_time, ring"), HasSubstr("span more")));
 }
 
 TEST(TableCloud, BeamsCloserThanTheirNoiseAreRowsByTheirRings) {
