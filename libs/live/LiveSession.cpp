@@ -1,6 +1,7 @@
 #include <hagen/base/Json.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/ProcessCost.h>
+#include <hagen/captures/LivoxScans.h>
 #include <hagen/captures/OusterScan.h>
 #include <hagen/captures/VelodyneTurns.h>
 #include <hagen/live/LiveSession.h>
@@ -77,6 +78,8 @@ class Session {
     void takeVelodyne(const Packet& packet);
     void takeLivox(const Packet& packet);
     void takeOuster(const Packet& packet);
+    template <class Turns>
+    void record(Turns& turns);
     void recordOuster();
     void flush();
     bool isOfSensor(const Packet& packet);
@@ -94,6 +97,7 @@ class Session {
     std::unique_ptr<streaming::LivoxStream> livox_;
     std::unique_ptr<streaming::OusterStream> ouster_;
     std::optional<captures::VelodyneTurns> turns_;
+    std::optional<captures::LivoxScans> scans_;
     std::unique_ptr<TurnRecorder> recorder_;
     std::optional<SectorDistances> distances_;
 
@@ -127,6 +131,9 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
         livox_ = std::make_unique<streaming::LivoxStream>(options.settings, take);
         distances_.emplace(livox_->segmenter().sensor());
         listener_.begin(segmenter().sensor(), segmenter().options());
+        if (recording.file.empty()) return;
+        scans_.emplace("livox");
+        recorder_ = std::make_unique<TurnRecorder>(recording, options.settings);
         return;
     }
     std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration;
@@ -251,21 +258,31 @@ void Session::takeVelodyne(const Packet& packet) {
     std::copy(packet.bytes.begin(), packet.bytes.end(), reinterpret_cast<std::uint8_t*>(&raw.raw));
     raw.time_ns = packet.time_ns;
     turns_->add(raw);
-    for (const auto& turn : turns_->complete()) recorder_->add(turn);
-    turns_->complete().clear();
+    record(*turns_);
+}
+
+/// What is complete of the turns of a Velodyne, or of the scans of a Mid-360.
+template <class Turns>
+void Session::record(Turns& turns) {
+    for (const auto& turn : turns.complete()) recorder_->add(turn);
+    turns.complete().clear();
 }
 
 void Session::takeLivox(const Packet& packet) {
     captures::Datagram datagram;
     datagram.bytes = packet.bytes.data();
     datagram.size = packet.bytes.size();
-    if (captures::livoxPacketOf(datagram) && !isOfSensor(packet)) return;
+    const auto data = captures::livoxPacketOf(datagram);
+    if (data && !isOfSensor(packet)) return;
     if (livox_->add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s) ==
         streaming::LivoxStream::Taken::Yes) {
         last_packet_s_ = packet.arrival_s;
         is_flushed_ = false;
         tellChanges();
     }
+    if (!recorder_ || !data) return;
+    scans_->add(*data, packet.time_ns);
+    record(*scans_);
 }
 
 void Session::takeOuster(const Packet& packet) {
@@ -431,15 +448,17 @@ LiveReport Session::finish(double start_cpu_s) {
     if (ouster_) ouster_->finish();
     copyCounts();
     report_.filter_cpu_s = threadCpu_s() - start_cpu_s;
-    if (recorder_ && ouster_) {
-        recordOuster();
-        report_.recorded = recorder_->finish();
-    } else if (recorder_) {
+    if (!recorder_) return report_;
+    if (ouster_) recordOuster();
+    if (turns_) {
         turns_->finish();
-        for (const auto& turn : turns_->complete()) recorder_->add(turn);
-        turns_->complete().clear();
-        report_.recorded = recorder_->finish();
+        record(*turns_);
     }
+    if (scans_) {
+        scans_->finish();
+        record(*scans_);
+    }
+    report_.recorded = recorder_->finish();
     return report_;
 }
 
@@ -540,10 +559,6 @@ void checkLive(const LiveOptions& options) {
     if (!is_hdl64 && !options.calibration.empty()) {
         throw std::runtime_error(options.calibration.string() + ": only an HDL-64E has one");
     }
-    if (options.model == kLivox && !options.recording.file.empty()) {
-        throw std::runtime_error(
-            "a Mid-360 cannot be recorded; record a capture and segment it with rawlog-segment");
-    }
 }
 
 LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveListener& listener) {
@@ -593,7 +608,8 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
         throw;
     }
     stop();
-    session.report().dropped = dropped;
+    // Those that still wait are labelled by nobody.
+    session.report().dropped = dropped + (source.isLive() ? queue.size() : 0);
     LiveReport report = session.finish(cpu_s);
     report.process_cpu_s = processCpu_s() - process_s;
     if (stats) writeStats(report, options, listener, *stats);

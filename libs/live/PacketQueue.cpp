@@ -59,4 +59,9 @@ PacketQueue::Popped PacketQueue::pop(Packet& packet, std::chrono::microseconds l
     return Popped::Packet;
 }
 
+std::size_t PacketQueue::size() const {
+    const std::lock_guard lock(mutex_);
+    return size_;
+}
+
 }  // namespace hagen::live

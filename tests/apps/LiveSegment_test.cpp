@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "support/CaptureWriter.h"
+#include "support/LivoxPackets.h"
 #include "support/ProgramTest.h"
 
 namespace hagen {
@@ -83,6 +84,31 @@ TEST_F(LiveSegment, ARecordingIsWhatRawlogSegmentWrites) {
     EXPECT_EQ(json["nearest_m"].size(), 72u);
     EXPECT_GT(json["latency_ms"]["p50"], 0);
     EXPECT_GE(json["latency_ms"]["max"], json["latency_ms"]["p50"]);
+}
+
+TEST_F(LiveSegment, AMid360sRecordingIsWhatRawlogSegmentWrites) {
+    test::CaptureWriter writer;
+    for (int k = 0; k < 700; ++k) {
+        const std::int64_t time_ns = k * test::kLivoxPacket_ns;
+        test::SentDatagram datagram{test::livoxPacketOfWall(k, time_ns)};
+        datagram.time_s += 1e-9 * static_cast<double>(time_ns);
+        datagram.to_port = 56301;
+        writer.datagram(datagram);
+    }
+    const std::string file = writer.write(path("flight.pcap"));
+    const auto outcome = run({"--model", "Mid-360", "-c", "mid360", "--replay", file, "--record",
+                              path("live.rawlog"), "--stats", path("stats.json")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    ASSERT_EQ(test::run(HAGEN_RAWLOG_SEGMENT,
+                        {"-q", "-i", file, "-o", path("whole.rawlog"), "-c", "mid360"})
+                  .exit_code,
+              0);
+    EXPECT_TRUE(test::readFile(path("live.rawlog")) == test::readFile(path("whole.rawlog")));
+    EXPECT_EQ(stats()["packets"]["taken"], 700);
+    logs::RawlogReader reader(path("live.rawlog"));
+    std::size_t entries = 0;
+    while (reader.next()) ++entries;
+    EXPECT_EQ(entries, 3 * 4);  // 0.336 s: each scan with its RoI and its ROU
 }
 
 /// Labels and recordings of real captures of Ousters.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/CaptureWriter.h"
+#include "support/LivoxPackets.h"
 #include "support/Program.h"
 #include "support/Random.h"
 
@@ -21,37 +22,7 @@ using testing::ElementsAre;
 using testing::FloatNear;
 using testing::HasSubstr;
 
-struct Point {
-    int x, y, z;  ///< in the unit of the packet
-    int reflectivity;
-    int tag = 0;
-};
-
-void put(std::string& bytes, std::int64_t value, int size) {
-    for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
-}
-
-/// A packet as Livox SDK 2 defines it: points in millimetres (1) or centimetres (2).
-std::string packetOf(const std::vector<Point>& points, std::int64_t time_ns, int number,
-                     int data_type = 1) {
-    const int size = data_type == 1 ? 4 : 2;
-    std::string bytes;
-    put(bytes, 0, 1);
-    put(bytes, static_cast<std::int64_t>(36 + points.size() * (3 * size + 2)), 2);
-    put(bytes, 4800, 2);  // 480 us
-    put(bytes, static_cast<std::int64_t>(points.size()), 2);
-    put(bytes, number, 2);
-    put(bytes, 0, 1);
-    put(bytes, data_type, 1);
-    bytes += std::string(1 + 12 + 4, '\0');
-    put(bytes, time_ns, 8);
-    for (const Point& point : points) {
-        for (const int value : {point.x, point.y, point.z}) put(bytes, value, size);
-        put(bytes, point.reflectivity, 1);
-        put(bytes, point.tag, 1);
-    }
-    return bytes;
-}
+using Point = test::LivoxPoint;
 
 class LivoxCaptureTest : public testing::Test {
  protected:
@@ -73,7 +44,8 @@ class LivoxCaptureTest : public testing::Test {
     static std::vector<std::string> packets(int count, std::int64_t first_ns = 5000) {
         std::vector<std::string> all;
         for (int i = 0; i < count; ++i) {
-            all.push_back(packetOf({{1000 + i, 0, 500, 255}}, first_ns + 480000 * i, i & 0xffff));
+            all.push_back(
+                test::livoxPacket({{1000 + i, 0, 500, 255}}, first_ns + 480000 * i, i & 0xffff));
         }
         return all;
     }
@@ -99,7 +71,7 @@ class LivoxCaptureTest : public testing::Test {
 TEST_F(LivoxCaptureTest, PointsOfBothKindsOfData) {
     const std::vector<Point> points{{1500, -2500, 250, 51}, {0, 0, 0, 9}, {-3000, 4000, -20, 255}};
     for (const auto& [data_type, unit_m] : {std::pair{1, 0.001f}, {2, 0.01f}}) {
-        const Scans scans = read(captureOf({packetOf(points, 77, 3, data_type)}).bytes());
+        const Scans scans = read(captureOf({test::livoxPacket(points, 77, 3, data_type)}).bytes());
         ASSERT_EQ(scans.size(), 1u);
         const auto observed = observedOf(*scans[0]);
         EXPECT_EQ(observed.sensor.name, "Mid-360");
@@ -119,10 +91,10 @@ TEST_F(LivoxCaptureTest, PointsOfBothKindsOfData) {
 
 TEST_F(LivoxCaptureTest, TheTagOfEachPointStaysWithIt) {
     const std::vector<Point> first{{1000, 0, 0, 1, 16}, {0, 0, 0, 2, 99}, {2000, 0, 0, 3, 255}};
-    const auto scans =
-        read(captureOf({packetOf(first, 0, 0), packetOf({{3000, 0, 0, 4, 7}}, 480000, 1, 2),
-                        packetOf({{4000, 0, 0, 5, 8}}, 100000000, 2)})
-                 .bytes());
+    const auto scans = read(captureOf({test::livoxPacket(first, 0, 0),
+                                       test::livoxPacket({{3000, 0, 0, 4, 7}}, 480000, 1, 2),
+                                       test::livoxPacket({{4000, 0, 0, 5, 8}}, 100000000, 2)})
+                                .bytes());
     ASSERT_EQ(scans.size(), 2u);
     const auto tagsOf = [&](std::size_t scan) {
         const auto& observation =
@@ -136,11 +108,12 @@ TEST_F(LivoxCaptureTest, TheTagOfEachPointStaysWithIt) {
 }
 
 TEST_F(LivoxCaptureTest, PacketsOfTheImuAreCounted) {
-    std::string imu = packetOf({}, 0, 0, 0).substr(0, 36) + std::string(24, '\x3f');
+    std::string imu = test::livoxPacket({}, 0, 0, 0).substr(0, 36) + std::string(24, '\x3f');
     imu[1] = 60;
     std::string other = imu;
     other[10] = 9;
-    EXPECT_EQ(read(captureOf({imu, packetOf({{1000, 0, 0, 1}}, 0, 0), imu, other}).bytes()).size(),
+    EXPECT_EQ(read(captureOf({imu, test::livoxPacket({{1000, 0, 0, 1}}, 0, 0), imu, other}).bytes())
+                  .size(),
               1u);
     EXPECT_THAT(remarks_.back(),
                 HasSubstr("left out: 2 IMU packets (rates and accelerations, no attitude), 1 other "
@@ -197,7 +170,7 @@ TEST_F(LivoxCaptureTest, OtherDatagramsAreCounted) {
     std::string wrong_length = all[0];
     wrong_length.pop_back();
     all.push_back(wrong_length);
-    all.push_back(packetOf({{1, 2, 3, 4}}, 0, 0, 3));  // spherical
+    all.push_back(test::livoxPacket({{1, 2, 3, 4}}, 0, 0, 3));  // spherical
     EXPECT_EQ(read(captureOf(all).bytes()).size(), 1u);
     EXPECT_THAT(remarks_[1], HasSubstr("6 frames; left out: 3 other UDP datagrams"));
 }

@@ -1,55 +1,22 @@
 #include <gtest/gtest.h>
-#include <hagen/range_image/Angle.h>
 #include <hagen/streaming/LivoxStream.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
+
+#include "support/LivoxPackets.h"
 
 namespace hagen::streaming {
 namespace {
 
 using Taken = LivoxStream::Taken;
 
-constexpr int kPoints = 96;
-constexpr std::int64_t kPacket_ns = 480000;  // 200 000 points per second
-
-void put(std::string& bytes, std::int64_t value, int size) {
-    for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
-}
-
-/// A packet of points all around, 2 m above flat ground with a wall at x = 6.
-std::string packetOf(int number, std::int64_t time_ns) {
-    std::string bytes;
-    put(bytes, 0, 1);
-    put(bytes, 36 + kPoints * 14, 2);
-    put(bytes, 4800, 2);
-    put(bytes, kPoints, 2);
-    put(bytes, number, 2);
-    put(bytes, 0, 1);
-    put(bytes, 1, 1);
-    bytes += std::string(1 + 12 + 4, '\0');
-    put(bytes, time_ns, 8);
-    std::mt19937 random(static_cast<unsigned>(number));
-    for (int i = 0; i < kPoints; ++i) {
-        const double azimuth_rad = radians(static_cast<double>(random() % 3600) / 10 - 180);
-        const double elevation_rad = radians(static_cast<double>(random() % 590) / 10 - 7);
-        const double x = std::cos(azimuth_rad) * std::cos(elevation_rad);
-        const double y = std::sin(azimuth_rad) * std::cos(elevation_rad);
-        const double z = std::sin(elevation_rad);
-        double range_m = z < 0 ? 2 / -z : 0;
-        const double wall_m = x > 0.1 ? 6 / x : 1e9;
-        if (wall_m * z < 4 && (range_m == 0 || wall_m < range_m) && wall_m < 40) range_m = wall_m;
-        if (range_m > 60) range_m = 0;
-        for (const double c : {x, y, z}) put(bytes, std::lround(1000 * range_m * c), 4);
-        put(bytes, 100, 1);
-        put(bytes, 0, 1);
-    }
-    return bytes;
-}
+constexpr int kPoints = test::kLivoxPoints;
+constexpr std::int64_t kPacket_ns = test::kLivoxPacket_ns;
+const auto packetOf = test::livoxPacketOfWall;
 
 class LivoxStreamTest : public testing::Test {
  protected:

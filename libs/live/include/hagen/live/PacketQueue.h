@@ -37,11 +37,13 @@ class PacketQueue {
     enum class Popped { Packet, Nothing, Closed };
     /// Takes the oldest packet; waits at most this long for one.
     Popped pop(Packet& packet, std::chrono::microseconds longest);
+    /// How many packets wait.
+    std::size_t size() const;
 
  private:
     void put(Packet& packet);
 
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable has_packet_, has_place_;
     std::vector<Packet> ring_;
     std::size_t first_ = 0, size_ = 0;
