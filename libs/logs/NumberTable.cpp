@@ -1,12 +1,16 @@
+#include <hagen/base/NumberText.h>
 #include <hagen/logs/NumberTable.h>
 
 #include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace hagen::logs {
 namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin a file with it
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::size_t line,
                        const std::string& why) {
@@ -24,20 +28,21 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
     std::size_t line = 0;
     for (std::string text; std::getline(in, text);) {
         ++line;
+        if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
         std::istringstream words(text);
         NumberLine entry{line, {}};
         for (std::string word; words >> word;) {
             if (entry.numbers.empty() && word[0] == '#') break;
-            if (word.find('\0') != std::string::npos) {  // the rest of the word would be ignored
+            if (word.find('\0') != std::string::npos) {
                 fail(file, line, "there is a NUL byte, so this is no text file");
             }
-            char* end = nullptr;
-            const double number = std::strtod(word.c_str(), &end);
-            // Not the first NUL, which a broken file may have within a word.
-            if (end != word.c_str() + word.size() || !std::isfinite(number)) {
+            const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+            const auto number =
+                base::numberFrom<double>(std::string_view(word).substr(has_plus ? 1 : 0));
+            if (!number || !std::isfinite(*number)) {
                 fail(file, line, "'" + word + "' is not a finite number");
             }
-            entry.numbers.push_back(number);
+            entry.numbers.push_back(*number);
         }
         if (!entry.numbers.empty()) table.push_back(std::move(entry));
     }

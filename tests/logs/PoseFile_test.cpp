@@ -42,6 +42,15 @@ TEST_F(PoseFile, TumPosesAreReadAsTheyArePublished) {
     EXPECT_NEAR(poses[0].pose.yaw(), M_PI / 2, 1e-6);
 }
 
+TEST_F(PoseFile, FilesOfSpreadsheetsAndOtherSystemsAreRead) {
+    const auto file =
+        folder_.write("a.tum", "\xef\xbb\xbf# time x y z\r\n1 +2 -3e+0 .5 0 0 0 1\r\n");
+    const auto poses = readTumPoses(file);
+    ASSERT_EQ(poses.size(), 1u);
+    EXPECT_EQ((poses[0].pose - CPose3D(2, -3, 0.5, 0, 0, 0)).norm(), 0.0);
+    expectRefused("+-1 0 0 0 0 0 0 1\n", "'+-1' is not a finite number");
+}
+
 TEST_F(PoseFile, KittiPosesAreMatricesRowByRow) {
     const auto file = folder_.write("a.txt", "0 -1 0 5 1 0 0 6 0 0 1 7\n");
     EXPECT_EQ(kindOfPoseFile(file), PoseFileKind::Kitti);
