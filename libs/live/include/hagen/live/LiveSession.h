@@ -2,11 +2,10 @@
 #include <hagen/live/LatencyHistogram.h>
 #include <hagen/live/PacketSource.h>
 #include <hagen/live/TurnRecorder.h>
-#include <hagen/streaming/LivoxStream.h>
-#include <hagen/streaming/OusterStream.h>
+#include <hagen/observations/Settings.h>
 #include <hagen/streaming/SectorDistances.h>
 #include <hagen/streaming/SensorMotion.h>
-#include <hagen/streaming/VelodyneStream.h>
+#include <hagen/streaming/StreamingSegmenter.h>
 
 #include <array>
 #include <cstddef>
@@ -14,8 +13,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,0 +1,58 @@
+#pragma once
+#include <hagen/live/LiveSession.h>
+#include <hagen/live/PacketQueue.h>
+#include <hagen/streaming/SensorMotion.h>
+#include <hagen/streaming/StreamingSegmenter.h>
+#include <mrpt/obs/CObservation.h>
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+
+namespace hagen::live {
+
+inline constexpr const char* kLivox = "Mid-360";
+inline constexpr const char* kHdl64 = "HDL-64E";
+
+/// A sensor of any maker: its packets become labelled sectors, and turns to record.
+class LiveSensor {
+ public:
+    /// Of its packets, as in LiveReport.
+    struct Counts {
+        std::size_t packets = 0, lost = 0, late = 0, repeated = 0, wrong_size = 0, position = 0,
+                    foreign = 0, unsound = 0, interruptions = 0, mode_changes = 0, scans = 0;
+    };
+
+    virtual ~LiveSensor() = default;
+
+    virtual const streaming::StreamingSegmenter& segmenter() const = 0;
+    /// False for a sensor that does not turn.
+    virtual bool turns() const { return true; }
+    virtual Counts counts() const = 0;
+    /// Whether it sends two returns per firing now.
+    virtual bool isDual() const { return false; }
+
+    /// Whether only the packet's address tells that it is of another sensor: it is of this model,
+    /// and has no serial number.
+    virtual bool isToldByAddress(const Packet& packet) const = 0;
+    /// Whether the packet was taken.
+    virtual bool add(const Packet& packet) = 0;
+    virtual void move(const streaming::SensorMotion& motion) = 0;
+    /// Labels what has come.
+    virtual void flush() = 0;
+    /// Completes the turn in progress.
+    virtual void finish() = 0;
+
+    /// The turns that are complete, oldest first, if they are recorded. The caller takes them out.
+    std::deque<mrpt::obs::CObservation::Ptr>& complete() { return complete_; }
+
+ protected:
+    std::deque<mrpt::obs::CObservation::Ptr> complete_;
+};
+
+/// Throws std::runtime_error naming the file of metadata or calibration that cannot be used, and
+/// SettingsError.
+std::unique_ptr<LiveSensor> makeLiveSensor(const LiveOptions& options,
+                                           const streaming::StreamingSegmenter::Take& take);
+
+}  // namespace hagen::live

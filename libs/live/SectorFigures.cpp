@@ -1,0 +1,112 @@
+#include "SectorFigures.h"
+
+#include <hagen/range_image/Angle.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hagen::live {
+namespace {
+
+using streaming::SectorDistances;
+
+constexpr double kDirections_s = 0.05;
+constexpr double kLeastTime_s = 0.125;  // of a rate
+constexpr double kOtherRate = 0.2;      // is told
+
+}  // namespace
+
+SectorFigures::SectorFigures(const SensorModel& sensor, LiveReport& report)
+    : report_(report), distances_(sensor) {
+    report_.nearest_m.fill(std::numeric_limits<float>::infinity());
+}
+
+void SectorFigures::take(const streaming::LabelledSector& sector, double now_s) {
+    const double latency_s = now_s - sector.last_time_s;
+    if (sector.is_cut) {
+        ++report_.sectors_cut;
+    } else {
+        report_.latency.add(latency_s);
+        recent_.add(latency_s);
+    }
+    ++report_.sectors;
+    report_.returns += sector.returns.size();
+    report_.roi +=
+        static_cast<std::size_t>(std::count(sector.label.begin(), sector.label.end(), Label::Roi));
+    if (sector.sweep) {
+        if (recent_sweep_rad_ == 0) recent_first_s_ = sector.first_time_s;
+        recent_last_s_ = sector.last_time_s;
+        recent_sweep_rad_ += sector.sweep->to_rad - sector.sweep->from_rad;
+    }
+    distances_.take(sector);
+    report_.sectors_doubtful += sector.is_doubtful;
+    noteNearest(sector);
+}
+
+void SectorFigures::noteNearest(const streaming::LabelledSector& sector) {
+    if (sector.is_doubtful) return;
+    const Scan& scan = sector.returns;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (sector.label[i] != Label::Roi) continue;
+        const double clockwise_rad = -static_cast<double>(scan.azimuth_rad[i]);
+        const double share = clockwise_rad / (2 * kPi) + (clockwise_rad < 0 ? 1 : 0);
+        const int k = std::min(static_cast<int>(share * SectorDistances::kSectors),
+                               SectorDistances::kSectors - 1);
+        report_.nearest_m[k] = std::min(report_.nearest_m[k], std::hypot(scan.x_m[i], scan.y_m[i]));
+    }
+}
+
+void SectorFigures::countDirections(double now_s) {
+    if (now_s - counted_s_ < kDirections_s) return;
+    counted_s_ = now_s;
+    for (const auto& direction : distances_.at(now_s)) {
+        switch (direction.state) {
+            case SectorDistances::State::Unknown:
+                ++report_.times_unknown;
+                break;
+            case SectorDistances::State::SeenNothing:
+                ++report_.times_seen_nothing;
+                break;
+            case SectorDistances::State::Obstacle:
+                ++report_.times_obstacle;
+                break;
+        }
+    }
+}
+
+LiveStatus SectorFigures::status(double passed_s, bool turns) const {
+    LiveStatus status;
+    status.turns_per_s = turns ? recent_sweep_rad_ / (2 * kPi) / passed_s
+                               : static_cast<double>(recent_.count()) / passed_s;
+    status.p50_s = recent_.quantile_s(0.5);
+    status.p99_s = recent_.quantile_s(0.99);
+    status.max_s = recent_.count() > 0 ? recent_.max_s() : std::nan("");
+    for (const auto& sector : report_.latest) {
+        if (sector.state != SectorDistances::State::Obstacle) continue;
+        if (!(sector.distance_m >= status.nearest_m)) status.nearest_m = sector.distance_m;
+    }
+    return status;
+}
+
+std::optional<RateChange> SectorFigures::rateChange() {
+    const double arrived_s = recent_last_s_ - recent_first_s_;  // not all of the time, at first
+    if (arrived_s <= kLeastTime_s || recent_sweep_rad_ <= 0) return std::nullopt;
+    const double rate = recent_sweep_rad_ / (2 * kPi) / arrived_s;
+    const bool is_odd = rate_told_ > 0 && std::abs(rate / rate_told_ - 1) > kOtherRate;
+    odd_rates_ = is_odd ? odd_rates_ + 1 : 0;
+    if (rate_told_ > 0 && odd_rates_ < 2) return std::nullopt;
+    const RateChange change{rate_told_, rate};
+    rate_told_ = rate;
+    odd_rates_ = 0;
+    if (change.before == 0) return std::nullopt;
+    ++report_.rate_changes;
+    return change;
+}
+
+void SectorFigures::next() {
+    recent_ = {};
+    recent_sweep_rad_ = 0;
+}
+
+}  // namespace hagen::live
