@@ -1,0 +1,11 @@
+#pragma once
+#include <hagen/base/OutputPath.h>
+#include <hagen/live/LiveSession.h>
+
+namespace hagen::live {
+
+/// Writes what came, as JSON. Throws std::runtime_error, naming the file.
+void writeStats(const LiveReport& report, const LiveOptions& options, const LiveListener& listener,
+                base::OutputPath& file);
+
+}  // namespace hagen::live
