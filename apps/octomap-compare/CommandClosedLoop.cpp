@@ -23,7 +23,8 @@ namespace {
 struct Flags {
     trials::CampaignPlan plan;
     std::string seeds, shard = "1/1", unknown = "optimistic", profile, folder;
-    std::vector<std::string> pose_errors{"none"}, airs{"dusty"}, distances{"unbiased"};
+    std::vector<std::string> pose_errors{"none"}, airs{"dusty"}, distances{"unbiased"},
+        updates{"scans"};
     int jobs = 0;
     bool overwrites = false, is_quiet = false;
 };
@@ -54,6 +55,9 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     for (const std::string& name : flags.distances) {
         plan.distances.push_back(trials::distanceFrom(name));
     }
+    expandAll(flags.updates, {"scans", "sectors"});
+    plan.updates.clear();
+    for (const std::string& name : flags.updates) plan.updates.push_back(trials::updatesFrom(name));
     expandAll(plan.scenarios, trials::courseNames());
     expandAll(plan.models, avoidance::worldModelNames());
     expandAll(plan.guidances, avoidance::guidanceNames());
@@ -91,7 +95,8 @@ void printCells(const std::vector<trials::Run>& runs) {
              << setup.latency_scale << " " << std::setw(12)
              << (setup.brakes_in_known_space ? "brake-known" : "optimistic") << std::setw(6)
              << nameOf(setup.air) << std::setw(10) << nameOf(setup.distance) << std::setw(31)
-             << avoidance::displayName(setup.model);
+             << avoidance::displayName(setup.model) +
+                    (setup.updates == trials::Updates::Scans ? "" : ", " + nameOf(setup.updates));
         Cell& cell = cells[name.str()];
         ++cell.runs;
         ++cell.outcomes[static_cast<int>(run.result.outcome)];
@@ -170,6 +175,10 @@ void addFlags(Command& app, Flags& flags) {
     list("--distance", flags.distances,
          "distances of the world models: unbiased (less their measured bias), as-stored, or all")
         .oneOf({"unbiased", "as-stored", "all"});
+    list("--updates", flags.updates,
+         "what reaches the world model: scans (10 Hz), sectors (of 15 degrees, planner at 50 Hz), "
+         "or all")
+        .oneOf({"scans", "sectors", "all"});
     app.option("--profile", flags.profile,
                "latency profile made by `calibrate` (default: the one built into the program)");
     app.option("--shard", flags.shard,

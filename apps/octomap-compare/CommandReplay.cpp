@@ -83,6 +83,7 @@ void addReplay(Program& program) {
     sub.option("--air", wanted.air, "dusty or clear").oneOf({"dusty", "clear"});
     sub.option("--distance", wanted.distance, "unbiased or as-stored")
         .oneOf({"unbiased", "as-stored"});
+    sub.option("--updates", wanted.updates, "scans or sectors").oneOf({"scans", "sectors"});
     sub.option("-o,--output", flags->output, "output folder (default: DIR)");
     sub.flag("--overwrite", flags->overwrite, "replace the replay of this run");
     sub.does([flags] { return run(*flags); });

@@ -15,7 +15,8 @@ namespace {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
                                                  TreePoints, 3>;
 constexpr std::size_t kLeafSize = 32;
-constexpr std::size_t kScansPerTree = 3;
+constexpr double kTurnsPerTree = 3;
+constexpr double kRounding_turns = 1e-6;
 
 /// To build a grid of the points takes about as long as one search of the trees per so many points.
 /// Most searches for a path are over before that pays.
@@ -28,6 +29,7 @@ constexpr float kLeastNeighbourhood_m = 0.15f;
 struct PastView {
     std::shared_ptr<const View> view;
     std::size_t points;  ///< of the scan
+    double turns;        ///< of the sensor
 };
 
 }  // namespace
@@ -39,9 +41,11 @@ struct WindowModel::PastScans {
     std::vector<std::uint8_t> is_isolated;  ///< per point
     std::vector<std::uint8_t> is_hidden;    ///< per point: it does not count
     std::size_t in_window = 0;
+    double turns = 0;  ///< including dropped scans
     std::unique_ptr<Tree> tree;
 
     void add(const PastScans& older) {
+        turns += older.turns;
         views.insert(views.end(), older.views.begin(), older.views.end());
         points.at_m.insert(points.at_m.end(), older.points.at_m.begin(), older.points.at_m.end());
         track.insert(track.end(), older.track.begin(), older.track.end());
@@ -88,16 +92,38 @@ void WindowModel::update(const mapping::MappedScan& scan, std::shared_ptr<const 
         past->track.push_back(tracks[kept.index]);
         past->is_isolated.push_back(kept.of_points == 1);
     }
-    past->views.push_back({std::move(view), past->points.at_m.size()});
-    if (!past_.empty() && past_.front()->views.size() < kScansPerTree) {
-        past->add(*past_.front());
-        past_.pop_front();
+    past->views.push_back({std::move(view), past->points.at_m.size(), scan.turns});
+    past->turns = scan.turns;
+    gather(std::move(past));
+    turns_ += scan.turns;
+    // One update more than fits, so that sectors never hold less than whole scans do.
+    while (turns_ - past_.back()->views.back().turns >
+           static_cast<double>(size_.scans) - kRounding_turns) {
+        forgetOldest();
     }
-    past->build();
-    past_.push_front(std::move(past));
-    if (++scans_ > size_.scans) forgetOldest();
     confirmIsolated();
     hide({});
+}
+
+/// Puts what is new into a tree: a whole scan into one of three scans, sectors into one of a turn,
+/// which joins two others when it is full.
+void WindowModel::gather(std::unique_ptr<PastScans> newest) {
+    const auto fits = [](const PastScans& older, double turns, double most) {
+        return older.turns + turns <= most + kRounding_turns;
+    };
+    const bool is_sector = newest->turns < 1 - kRounding_turns;
+    if (!past_.empty() && fits(*past_.front(), newest->turns, is_sector ? 1 : kTurnsPerTree)) {
+        newest->add(*past_.front());
+        past_.pop_front();
+    } else if (is_sector && past_.size() > 1 &&
+               fits(*past_[1], past_.front()->turns, kTurnsPerTree)) {
+        const std::unique_ptr<PastScans> older = std::move(past_[1]);
+        past_.erase(past_.begin() + 1);
+        past_.front()->add(*older);
+        past_.front()->build();
+    }
+    newest->build();
+    past_.push_front(std::move(newest));
 }
 
 /// Isolated points of the newest scan are confirmed by any other point near them; older ones, which
@@ -141,9 +167,9 @@ void WindowModel::hide(const std::vector<std::uint32_t>& tracks) {
 void WindowModel::forgetOldest() {
     PastScans& oldest = *past_.back();
     oldest.in_window -= oldest.views.back().points;
+    turns_ -= oldest.views.back().turns;
     oldest.views.pop_back();
     if (oldest.views.empty()) past_.pop_back();
-    --scans_;
 }
 
 float WindowModel::clearance_m(const Eigen::Vector3f& point_m) const {

@@ -11,8 +11,9 @@
 namespace hagen::avoidance {
 
 /// No map: the points of the last scans, each thinned to one point per 10 cm cube. Three scans
-/// share a k-d tree, so that a new scan costs a small tree and a query visits few trees. Without
-/// thinning, a nearby wall would fill a scan with points much denser than the measurement noise.
+/// share a k-d tree, so that a new scan costs a small tree and a query visits few trees. Sectors of
+/// a turn gather in a tree of their own first. Without thinning, a nearby wall would fill a scan
+/// with points much denser than the measurement noise.
 ///
 /// A return that is isolated may be dust or rain, or the first of something thin. It counts as soon
 /// as another return is near it, within 5 % of its range (at least 15 cm): in its own scan, in an
@@ -41,12 +42,13 @@ class WindowModel : public WorldModel {
 
  private:
     struct PastScans;
+    void gather(std::unique_ptr<PastScans> newest);
     void confirmIsolated();
     void forgetOldest();
 
     bool roi_only_;
     WindowSize size_;
-    std::size_t scans_ = 0;
+    double turns_ = 0;                             ///< in the window
     std::deque<std::unique_ptr<PastScans>> past_;  ///< newest first
 };
 

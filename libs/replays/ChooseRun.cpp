@@ -25,6 +25,7 @@ bool matches(const trials::Run& run, const RunWanted& wanted) {
            is(wanted.planner, setup.planner) && is(wanted.pose_error, nameOf(setup.pose_error)) &&
            is(wanted.unknown, unknownOf(run)) && is(wanted.air, nameOf(setup.air)) &&
            is(wanted.distance, nameOf(setup.distance)) &&
+           is(wanted.updates, nameOf(setup.updates)) &&
            (wanted.speed_m_s == 0 || wanted.speed_m_s == setup.speed_m_s) &&
            (wanted.latency_scale == 0 || wanted.latency_scale == setup.latency_scale);
 }
@@ -101,6 +102,9 @@ std::string choiceOf(const trials::Run& run, const std::vector<trials::Run>& amo
     add(
         "--distance", [](const trials::Run& one) { return nameOf(one.setup.distance); },
         setup.distance == usual.distance);
+    add(
+        "--updates", [](const trials::Run& one) { return nameOf(one.setup.updates); },
+        setup.updates == usual.updates);
     return flags + "   # " + nameOf(run.result.outcome);
 }
 
@@ -116,6 +120,7 @@ std::string fileNameOf(const trials::Run& run) {
     if (setup.brakes_in_known_space) name += "-brake-known";
     if (setup.air != usual.air) name += "-" + nameOf(setup.air);
     if (setup.distance != usual.distance) name += "-" + nameOf(setup.distance);
+    if (setup.updates != usual.updates) name += "-" + nameOf(setup.updates);
     return name;
 }
 

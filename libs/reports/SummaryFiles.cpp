@@ -3,6 +3,7 @@
 #include <hagen/reports/Answer.h>
 #include <hagen/reports/Figures.h>
 #include <hagen/reports/Saturation.h>
+#include <algorithm>
 #include <cmath>
 #include "SummaryJson.h"
 
@@ -25,15 +26,22 @@ Json json(const Spread& spread) {
             {"median_interval", json(spread.median_interval)}};
 }
 
+/// Whole scans are not mentioned.
+bool hasUpdates(const trials::Condition& condition) {
+    return condition.updates != trials::Updates::Scans;
+}
+
 Json json(const trials::Condition& condition) {
-    return {{"name", nameOf(condition)},
-            {"speed_m_s", condition.speed_m_s},
-            {"planner", condition.planner},
-            {"pose_error", nameOf(condition.pose_error)},
-            {"latency_scale", condition.latency_scale},
-            {"unknown", condition.brakes_in_known_space ? "brake_known" : "optimistic"},
-            {"air", nameOf(condition.air)},
-            {"distance", nameOf(condition.distance)}};
+    Json all{{"name", nameOf(condition)},
+             {"speed_m_s", condition.speed_m_s},
+             {"planner", condition.planner},
+             {"pose_error", nameOf(condition.pose_error)},
+             {"latency_scale", condition.latency_scale},
+             {"unknown", condition.brakes_in_known_space ? "brake_known" : "optimistic"},
+             {"air", nameOf(condition.air)},
+             {"distance", nameOf(condition.distance)}};
+    if (hasUpdates(condition)) all["updates"] = nameOf(condition.updates);
+    return all;
 }
 
 Json json(const trials::Contender& contender) {
@@ -101,18 +109,20 @@ Json json(const Saturation& one) {
 
 Json json(const SpeedLimit& limit) {
     const trials::Condition& c = limit.lowest;
-    return {{"scenario", limit.scenario},
-            {"model", limit.contender.model},
-            {"guidance", limit.contender.guidance},
-            {"planner", c.planner},
-            {"pose_error", nameOf(c.pose_error)},
-            {"latency_scale", c.latency_scale},
-            {"unknown", c.brakes_in_known_space ? "brake_known" : "optimistic"},
-            {"air", nameOf(c.air)},
-            {"distance", nameOf(c.distance)},
-            {"flown_m_s", number(limit.flown_m_s)},
-            {"highest_m_s", number(limit.highest_m_s)},
-            {"surely_m_s", number(limit.sure_m_s)}};
+    Json all{{"scenario", limit.scenario},
+             {"model", limit.contender.model},
+             {"guidance", limit.contender.guidance},
+             {"planner", c.planner},
+             {"pose_error", nameOf(c.pose_error)},
+             {"latency_scale", c.latency_scale},
+             {"unknown", c.brakes_in_known_space ? "brake_known" : "optimistic"},
+             {"air", nameOf(c.air)},
+             {"distance", nameOf(c.distance)},
+             {"flown_m_s", number(limit.flown_m_s)},
+             {"highest_m_s", number(limit.highest_m_s)},
+             {"surely_m_s", number(limit.sure_m_s)}};
+    if (hasUpdates(c)) all["updates"] = nameOf(c.updates);
+    return all;
 }
 
 template <class Item>
@@ -180,8 +190,14 @@ std::string summaryCsv(const Summary& summary) {
             text += std::string(",") + measure + what;
         }
     }
-    text += ",latency_max_ms,dropped_scans_percent,emergency_stops_per_km,air,distance\n";
-    for (const Cell& cell : summary.cells) text += row(cell) + "\n";
+    text += ",latency_max_ms,dropped_scans_percent,emergency_stops_per_km,air,distance";
+    const bool has_updates =
+        std::any_of(summary.cells.begin(), summary.cells.end(),
+                    [](const Cell& cell) { return hasUpdates(cell.condition); });
+    text += has_updates ? ",updates\n" : "\n";
+    for (const Cell& cell : summary.cells) {
+        text += row(cell) + (has_updates ? "," + nameOf(cell.condition.updates) : "") + "\n";
+    }
     return text;
 }
 

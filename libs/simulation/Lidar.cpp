@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "BeamDirections.h"
 
@@ -83,18 +85,20 @@ struct Beam : BeamDirection {
     Vector3f axis;  ///< in the map
 };
 
-/// All beams of a revolution, and a ray at a random place in the footprint of each. Blocks of
-/// firings follow each other; within a block, lasers follow each other, so that eight neighbours
-/// are adjacent.
+/// All beams of a revolution or a part of it, and a ray at a random place in the footprint of each.
+/// Blocks of firings follow each other; within a block, lasers follow each other, so that eight
+/// neighbours are adjacent.
 struct Revolution {
     std::vector<Beam> beams;
     std::vector<Ray> rays;
-    int lasers, firings;
+    int lasers;
+    FiringRange firings;
 
     std::size_t index(int firing, int laser) const {
-        const int block = firing / kBlock * kBlock;
-        const int width = std::min(kBlock, firings - block);
-        return static_cast<std::size_t>(block * lasers + laser * width + firing - block);
+        const int at = firing - firings.first;
+        const int block = at / kBlock * kBlock;
+        const int width = std::min(kBlock, firings.end - firings.first - block);
+        return static_cast<std::size_t>(block * lasers + laser * width + at - block);
     }
 };
 
@@ -114,16 +118,17 @@ struct Footprint {
     }
 };
 
-Revolution makeRevolution(const FiringPattern& pattern, const DirectionsOfFiring& directions_of,
-                          const RevolutionPoses& poses, const Footprint& footprint,
-                          Random& random) {
+Revolution makeRevolution(const FiringPattern& pattern, const FiringRange& firings,
+                          const DirectionsOfFiring& directions_of, const RevolutionPoses& poses,
+                          const Footprint& footprint, Random& random) {
     Revolution turn;
     turn.lasers = pattern.lasers;
-    turn.firings = pattern.firings_per_revolution;
-    turn.beams.resize(static_cast<std::size_t>(turn.lasers) * turn.firings);
+    turn.firings = firings;
+    turn.beams.resize(static_cast<std::size_t>(turn.lasers) *
+                      static_cast<std::size_t>(firings.end - firings.first));
     turn.rays.resize(turn.beams.size());
     std::vector<BeamDirection> directions(static_cast<std::size_t>(turn.lasers));
-    for (int firing = 0; firing < turn.firings; ++firing) {
+    for (int firing = firings.first; firing < firings.end; ++firing) {
         const SensorPose pose = poses.at(1e-6 * firing * pattern.firing_period_us);
         const Eigen::Matrix3f attitude = pose.attitude.toRotationMatrix().cast<float>();
         const Vector3f origin = pose.position_m.cast<float>();
@@ -302,16 +307,31 @@ void append(const Echo& echo, const Beam& beam, int firing, int laser, float tim
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
                            double time_s, Random& random, const SensorErrorModel& faults,
                            const Eigen::Quaterniond& mount) {
+    return simulateFirings(scene, sensor, pose_at, time_s,
+                           {0, firingPattern(sensor).firings_per_revolution}, random, faults,
+                           mount);
+}
+
+SimulatedScan simulateFirings(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
+                              double time_s, const FiringRange& firings, Random& random,
+                              const SensorErrorModel& faults, const Eigen::Quaterniond& mount) {
     const FiringPattern pattern = firingPattern(sensor);
+    if (firings.first < 0 || firings.end <= firings.first ||
+        firings.end > pattern.firings_per_revolution) {
+        throw std::invalid_argument("a revolution of a " + sensor.name + " has firings 0 to " +
+                                    std::to_string(pattern.firings_per_revolution - 1) + ", not " +
+                                    std::to_string(firings.first) + " to " +
+                                    std::to_string(firings.end - 1));
+    }
     const Scene::Snapshot snapshot = scene.snapshotOver(time_s, pattern.revolutionPeriod_s());
     const PoseAt sensor_at = [&](double at_s) {
         const SensorPose vehicle = pose_at(at_s);
         return SensorPose{vehicle.position_m, vehicle.attitude * mount};
     };
-    const RevolutionPoses poses(sensor_at, time_s, pattern.revolutionPeriod_s());
+    const RevolutionPoses poses(sensor_at, time_s, 1e-6 * pattern.firing_period_us * firings.end);
     const Footprint footprint{faults.footprint_rad, isTilted(mount) || !sensor.has_rings};
-    const Revolution turn = makeRevolution(pattern, directionsOfScan(sensor, pattern, time_s),
-                                           poses, footprint, random);
+    const Revolution turn = makeRevolution(
+        pattern, firings, directionsOfScan(sensor, pattern, time_s), poses, footprint, random);
 
     std::vector<RayHit> hits;
     snapshot.cast(turn.rays, sensor.max_range_m, hits);
@@ -322,11 +342,11 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
     SimulatedScan out;
     reserve(turn.beams.size(), out);
     out.scan.beams = beamSpan(sensor);
-    out.pose = sensor_at(time_s);
+    out.pose = sensor_at(time_s + 1e-6 * pattern.firing_period_us * firings.first);
     out.altitude_m = out.pose.position_m.z() -
                      scene.terrain().height_m(out.pose.position_m.x(), out.pose.position_m.y());
     Receiver receiver(scene, faults, sensor, mount, random);
-    for (int firing = 0; firing < turn.firings; ++firing) {
+    for (int firing = firings.first; firing < firings.end; ++firing) {
         for (int laser = 0; laser < turn.lasers; ++laser) {
             const std::size_t i = turn.index(firing, laser);
             const Echo echo = receiver.measure(hits[i], turn.rays[i], turn.beams[i]);

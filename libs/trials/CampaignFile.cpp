@@ -44,6 +44,10 @@ CampaignPlan planFrom(const Json& noted) {
             plan.distances.push_back(distanceFrom(name));
         }
     }
+    if (const Json* updates = noted.find("updates")) {
+        plan.updates.clear();
+        for (const std::string& name : updates->texts()) plan.updates.push_back(updatesFrom(name));
+    }
     return plan;
 }
 
@@ -57,18 +61,22 @@ std::vector<std::string> namesOf(const std::vector<Value>& values) {
 }  // namespace
 
 std::string textOf(const CampaignPlan& plan) {
-    return Json{{"scenarios", plan.scenarios},
-                {"seeds", {plan.first_seed, plan.last_seed}},
-                {"speeds_m_s", plan.speeds_m_s},
-                {"models", plan.models},
-                {"guidances", plan.guidances},
-                {"planners", plan.planners},
-                {"pose_errors", namesOf(plan.pose_errors)},
-                {"latency_scales", plan.latency_scales},
-                {"unknown", plan.brakes_in_known_space ? "brake_known" : "optimistic"},
-                {"airs", namesOf(plan.airs)},
-                {"distances", namesOf(plan.distances)}}
-        .dump();
+    Json text{{"scenarios", plan.scenarios},
+              {"seeds", {plan.first_seed, plan.last_seed}},
+              {"speeds_m_s", plan.speeds_m_s},
+              {"models", plan.models},
+              {"guidances", plan.guidances},
+              {"planners", plan.planners},
+              {"pose_errors", namesOf(plan.pose_errors)},
+              {"latency_scales", plan.latency_scales},
+              {"unknown", plan.brakes_in_known_space ? "brake_known" : "optimistic"},
+              {"airs", namesOf(plan.airs)},
+              {"distances", namesOf(plan.distances)}};
+    // Plans of whole scans only are those of before.
+    if (plan.updates != std::vector<Updates>{Updates::Scans}) {
+        text["updates"] = namesOf(plan.updates);
+    }
+    return text.dump();
 }
 
 CampaignFile readCampaignFile(const fs::path& folder) {

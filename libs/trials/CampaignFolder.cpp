@@ -156,11 +156,15 @@ std::vector<Run> CampaignFolder::runs() const {
 }
 
 void CampaignFolder::finish() {
-    std::string table = runHeader() + "\n", measured = measuredHeader() + "\n";
-    for (const Run& run : runs()) {
+    const std::vector<Run> all = runs();
+    const bool is_full = std::any_of(all.begin(), all.end(), needsAllColumns);
+    std::string table = (is_full ? fullRunHeader() : runHeader()) + "\n";
+    std::string measured = (is_full ? fullMeasuredHeader() : measuredHeader()) + "\n";
+    for (const Run& run : all) {
         const Row& row = rows_.at(keyOf(run));
-        table += row.text + "\n";
-        if (!row.measured.empty()) measured += row.measured + "\n";
+        table += (is_full ? fullRowOf(run) : row.text) + "\n";
+        if (row.measured.empty()) continue;
+        measured += (is_full ? fullMeasuredRowOf(row.measured) : row.measured) + "\n";
     }
     writeWhole(folder_ / "measured.csv", measured);
     writeWhole(folder_ / "runs.csv", table);

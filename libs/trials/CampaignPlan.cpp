@@ -33,6 +33,18 @@ void checkPositive(const std::string& what, const std::vector<double>& values) {
     }
 }
 
+/// Sectors have no obstacle numbers.
+void checkUpdates(const CampaignPlan& plan) {
+    if (plan.updates.empty()) throw std::invalid_argument("no update is given");
+    if (std::count(plan.updates.begin(), plan.updates.end(), Updates::Sectors) == 0) return;
+    for (const std::string& model : plan.models) {
+        if (!avoidance::predictsMotion(model) || avoidance::needsTruth(model)) continue;
+        throw std::invalid_argument("the world model '" + model +
+                                    "' follows the obstacles of whole scans, and cannot be updated "
+                                    "with sectors; fly it with scans only");
+    }
+}
+
 /// The flights of all seeds are listed in memory.
 constexpr std::uint64_t kMostSeeds = 1'000'000;
 
@@ -48,6 +60,7 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     checkPositive("latency scale", plan.latency_scales);
     if (plan.airs.empty()) throw std::invalid_argument("no air is given");
     if (plan.distances.empty()) throw std::invalid_argument("no distance is given");
+    checkUpdates(plan);
     if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
     if (plan.last_seed < plan.first_seed) {
         throw std::invalid_argument("the last seed is before the first");
@@ -81,6 +94,7 @@ std::vector<TrialSetup> setupsOf(const CampaignPlan& plan) {
     setups = withEach(setups, plan.speeds_m_s, &TrialSetup::speed_m_s);
     setups = withEach(setups, plan.airs, &TrialSetup::air);
     setups = withEach(setups, plan.distances, &TrialSetup::distance);
+    setups = withEach(setups, plan.updates, &TrialSetup::updates);
     setups = withEach(setups, plan.latency_scales, &TrialSetup::latency_scale);
     setups = withEach(setups, plan.pose_errors, &TrialSetup::pose_error);
     setups = withEach(setups, plan.planners, &TrialSetup::planner);

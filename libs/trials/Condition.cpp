@@ -22,7 +22,8 @@ Condition conditionOf(const Run& run) {
             setup.latency_scale,
             setup.brakes_in_known_space,
             setup.air,
-            setup.distance};
+            setup.distance,
+            setup.updates};
 }
 
 Contender contenderOf(const Run& run) { return {run.setup.model, run.setup.guidance}; }
@@ -44,6 +45,7 @@ std::string deviationOf(const Condition& condition) {
     if (condition.brakes_in_known_space) name += ", brakes in known space";
     if (condition.air != Air::Dusty) name += ", " + nameOf(condition.air) + " air";
     if (condition.distance != ModelDistance::Unbiased) name += ", distances as stored";
+    if (condition.updates != Updates::Scans) name += ", " + nameOf(condition.updates);
     return name;
 }
 

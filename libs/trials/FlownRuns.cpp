@@ -22,7 +22,7 @@ void addJournal(const fs::path& journal, std::set<std::string>& keys, FlownRuns&
             const Run run = runOf(written.run);
             if (!keys.insert(keyOf(run)).second) continue;
             flown.runs.push_back(run);
-            addMeasured(measuredHeader(), written.measured, flown.measured);
+            addMeasured(fullMeasuredHeader(), fullMeasuredRowOf(written.measured), flown.measured);
         } catch (const std::runtime_error& e) {
             throw std::runtime_error(journal.string() + ":" + std::to_string(line) + ": " +
                                      e.what());

@@ -1,5 +1,6 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/trials/Measured.h>
+#include <hagen/trials/Updates.h>
 
 #include <fstream>
 #include <stdexcept>
@@ -35,6 +36,7 @@ void addMeasured(const std::string& header, const std::string& row, MeasuredByMo
     std::string model;
     for (std::size_t c = 0; c < names.size(); ++c) {
         if (names[c] == "model") model = fields[c];
+        if (names[c] == "updates" && fields[c] != nameOf(Updates::Scans)) return;
     }
     MeasuredRuns& runs = all[model];
     const std::string median = "_p50_ms";

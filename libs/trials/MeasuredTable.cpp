@@ -6,6 +6,11 @@
 #include "CsvNumbers.h"
 
 namespace hagen::trials {
+namespace {
+
+auto commasIn(const std::string& line) { return std::count(line.begin(), line.end(), ','); }
+
+}  // namespace
 
 std::string measuredHeader() {
     std::string header = keyHeader();
@@ -17,7 +22,12 @@ std::string measuredHeader() {
 
 std::string measuredRowOf(const Run& run, const TrialMeasurement& measurement) {
     const std::string prefix = run.setup.model + "/";
-    std::string row = keyOf(run);
+    Run usual;
+    usual.scenario = run.scenario;
+    usual.seed = run.seed;
+    usual.setup = run.setup;
+    usual.setup.updates = {};
+    std::string row = keyOf(usual);
     for (const std::string& stage :
          {std::string("filter"), prefix + "update", prefix + run.setup.guidance,
           prefix + run.setup.guidance + "+" + run.setup.planner}) {
@@ -29,17 +39,27 @@ std::string measuredRowOf(const Run& run, const TrialMeasurement& measurement) {
             }
         }
     }
-    return row + "," + measureText(measurement.peak_model_bytes, 0);
+    row += "," + measureText(measurement.peak_model_bytes, 0);
+    return run.setup.updates == usual.setup.updates ? row : row + "," + nameOf(run.setup.updates);
+}
+
+std::string fullMeasuredHeader() { return measuredHeader() + ",updates"; }
+
+std::string fullMeasuredRowOf(const std::string& row) {
+    return commasIn(row) == commasIn(measuredHeader()) ? row + "," + nameOf(Updates::Scans) : row;
 }
 
 std::string keyOfMeasuredRow(const std::string& row) {
-    static const std::string header = keyHeader();
     std::size_t end = 0;
-    for (auto left = std::count(header.begin(), header.end(), ',') + 1;
-         left > 0 && end != std::string::npos; --left) {
+    for (auto left = commasIn(keyHeader()) + 1; left > 0 && end != std::string::npos; --left) {
         end = row.find(',', end + 1);
     }
-    return row.substr(0, end);
+    std::string key = row.substr(0, end);
+    if (commasIn(row) > commasIn(measuredHeader())) {
+        const std::string updates = row.substr(row.rfind(',') + 1);
+        if (updates != nameOf(Updates::Scans)) key += "," + updates;
+    }
+    return key;
 }
 
 }  // namespace hagen::trials

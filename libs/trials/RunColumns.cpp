@@ -18,6 +18,11 @@ RunColumn key(RunColumn column, const std::string& before = "") {
     return column;
 }
 
+RunColumn optional(RunColumn column) {
+    column.is_optional = true;
+    return column;
+}
+
 /// A measure; NaN is an empty field.
 RunColumn measure(const char* name, double TrialResult::*field, int decimals) {
     return {name, [=](const Run& run) { return measureText(run.result.*field, decimals); },
@@ -95,7 +100,12 @@ const std::vector<RunColumn>& runColumns() {
              [](const std::string& text, Run& run) {
                  run.setup.distance = wordFrom<ModelDistance>(text, avoidance::kModelDistances);
              }},
-            avoidance::kModelDistances[1])};
+            avoidance::kModelDistances[1]),
+        optional(key({"updates", [](const Run& run) { return nameOf(run.setup.updates); },
+                      [](const std::string& text, Run& run) {
+                          run.setup.updates = wordFrom<Updates>(text, kUpdates);
+                      }},
+                     kUpdates[0]))};
     return all;
 }
 

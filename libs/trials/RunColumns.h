@@ -14,6 +14,8 @@ struct RunColumn {
     bool is_key = false;                                 ///< part of what identifies a run
     /// What holds for all runs of older tables, which lack the column; empty: no table lacks it.
     std::string before{};
+    /// Tables in which `before` holds for all runs have no such column.
+    bool is_optional = false;
 };
 
 /// All columns, in their order in the table. Those that older tables lack are last.

@@ -19,13 +19,25 @@ Columns columnsThat(bool (*fit)(const RunColumn&)) {
     return columns;
 }
 
-const Columns& rowColumns() {
+const Columns& allColumns() {
     static const Columns columns = columnsThat([](const RunColumn&) { return true; });
     return columns;
 }
 
-const Columns& keyColumns() {
+const Columns& rowColumns() {
+    static const Columns columns =
+        columnsThat([](const RunColumn& one) { return !one.is_optional; });
+    return columns;
+}
+
+const Columns& allKeyColumns() {
     static const Columns columns = columnsThat([](const RunColumn& one) { return one.is_key; });
+    return columns;
+}
+
+const Columns& keyColumns() {
+    static const Columns columns =
+        columnsThat([](const RunColumn& one) { return one.is_key && !one.is_optional; });
     return columns;
 }
 
@@ -75,9 +87,13 @@ Run runFrom(const std::string& line, const Columns& columns) {
     return run;
 }
 
+std::size_t fieldsIn(const std::string& line) {
+    return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+}
+
 /// The columns of a table by its header. Older tables lack the last ones. None: it is no table.
 Columns columnsOf(const std::string& header) {
-    Columns columns = rowColumns();
+    Columns columns = allColumns();
     while (headerOf(columns) != header) {
         if (columns.empty() || columns.back()->before.empty()) return {};
         columns.pop_back();
@@ -88,21 +104,40 @@ Columns columnsOf(const std::string& header) {
 /// The run of a row with some of the columns.
 Run runOfOlder(const std::string& row, const Columns& columns) {
     Run run = runFrom(row, columns);
-    for (std::size_t c = columns.size(); c < rowColumns().size(); ++c) {
-        rowColumns()[c]->read(rowColumns()[c]->before, run);
+    for (std::size_t c = columns.size(); c < allColumns().size(); ++c) {
+        allColumns()[c]->read(allColumns()[c]->before, run);
     }
     return run;
+}
+
+/// The run of a row or key, with or without the optional columns.
+Run runWithOrWithout(const std::string& row, const Columns& without, const Columns& with) {
+    return runFrom(row, fieldsIn(row) == with.size() ? with : without);
 }
 
 }  // namespace
 
 std::string runHeader() { return headerOf(rowColumns()); }
-std::string rowOf(const Run& run) { return fieldsOf(run, rowColumns()); }
-Run runOf(const std::string& row) { return runFrom(row, rowColumns()); }
+std::string rowOf(const Run& run) {
+    return fieldsOf(run, needsAllColumns(run) ? allColumns() : rowColumns());
+}
+Run runOf(const std::string& row) { return runWithOrWithout(row, rowColumns(), allColumns()); }
+
+bool needsAllColumns(const Run& run) {
+    return std::any_of(allColumns().begin(), allColumns().end(), [&](const RunColumn* one) {
+        return one->is_optional && one->write(run) != one->before;
+    });
+}
+std::string fullRunHeader() { return headerOf(allColumns()); }
+std::string fullRowOf(const Run& run) { return fieldsOf(run, allColumns()); }
 
 std::string keyHeader() { return headerOf(keyColumns()); }
-std::string keyOf(const Run& run) { return fieldsOf(run, keyColumns()); }
-Run runOfKey(const std::string& key) { return runFrom(key, keyColumns()); }
+std::string keyOf(const Run& run) {
+    return fieldsOf(run, needsAllColumns(run) ? allKeyColumns() : keyColumns());
+}
+Run runOfKey(const std::string& key) {
+    return runWithOrWithout(key, keyColumns(), allKeyColumns());
+}
 
 std::vector<Run> readRuns(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -137,7 +172,7 @@ void sortRuns(std::vector<Run>& runs) {
     const auto key = [](const Run& run) {
         const TrialSetup& s = run.setup;
         return std::tie(run.scenario, s.speed_m_s, s.planner, s.guidance, s.model, s.pose_error,
-                        s.latency_scale, s.brakes_in_known_space, s.air, s.distance,
+                        s.latency_scale, s.brakes_in_known_space, s.air, s.distance, s.updates,
                         run.settings_hash, run.version, run.seed);
     };
     std::stable_sort(runs.begin(), runs.end(),

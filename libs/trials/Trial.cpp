@@ -13,50 +13,13 @@
 #include <optional>
 #include <utility>
 
+#include "ScanFeed.h"
 #include "Stopwatch.h"
 #include "Streams.h"
+#include "TrialLatencies.h"
 
 namespace hagen::trials {
 namespace {
-
-constexpr int kStepsPerTurn = 5;
-static_assert(kStepsPerTurn * 20 == 100);  // of kControlStep_s in TrialSensor::kTurn_s
-
-/// Draws the latency of planning steps from the profile.
-class Latencies {
- public:
-    Latencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile)
-        : profile_(profile), scale_(setup.latency_scale) {
-        // Counted from the last stage, so that models with and without the filter share streams.
-        const std::vector<std::string> names = stagesOf(setup);
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            stages_.push_back(
-                {names[i], simulation::Random(course.seed, stream(names.size() - i))});
-        }
-    }
-    double draw_s() {
-        double sum_ms = 0;
-        for (Stage& stage : stages_) sum_ms += profile_.draw_ms(stage.name, stage.random);
-        return 1e-3 * scale_ * sum_ms;
-    }
-    /// What a planner expects.
-    double median_s() const {
-        double sum_ms = 0;
-        for (const Stage& stage : stages_) sum_ms += profile_.median_ms(stage.name);
-        return 1e-3 * scale_ * sum_ms;
-    }
-
- private:
-    struct Stage {
-        std::string name;
-        simulation::Random random;
-    };
-    static std::uint64_t stream(std::uint64_t stage) { return streams::kLatency + stage; }
-
-    const LatencyProfile& profile_;
-    double scale_;
-    std::vector<Stage> stages_;
-};
 
 double groundHeight_m(const Course& course, const Eigen::Vector3d& at) {
     return course.scene.terrain().height_m(at.x(), at.y());
@@ -71,7 +34,7 @@ class TrialFlight {
           setup_(setup),
           listener_(listener),
           stopwatch_(measurement),
-          sensor_(course, setup.air),
+          feed_(makeFeed(course, setup)),
           belief_(setup.pose_error, course.seed),
           latencies_(course, setup, profile),
           guidance_(avoidance::makeGuidance(setup.guidance)),
@@ -84,6 +47,7 @@ class TrialFlight {
             return course_.distance.at(believed_m - scan_offset_m_, scan_s_ + after_s);
         };
         world.distance = setup.distance;
+        // Sectors come more often, but a direction is looked at once per turn, too.
         world.pace = {setup.speed_m_s, TrialSensor::kTurn_s, setup.limits};
         stopwatch_.weigh("", 0, [&] {
             world_ = setup.make_world ? setup.make_world(world)
@@ -102,36 +66,23 @@ class TrialFlight {
             const auto outcome =
                 judge.judge(state_.position_m, clearance_m, setup_.limits.collision_m, time_s);
             if (outcome) return finish(*outcome, time_s);
-            if (step > 0 && step % kStepsPerTurn == 0) receive(step / kStepsPerTurn - 1);
-            if (waiting_ && free_s_ < time_s + avoidance::kControlStep_s) think(time_s);
+            if (step > 0) feed_->receive(step, trace_, belief_);
+            const bool is_free = free_s_ < time_s + avoidance::kControlStep_s;
+            if (feed_->isWaiting() && is_free) think(time_s);
             move(time_s);
         }
     }
 
  private:
-    /// A turn is complete. It replaces one that still waits.
-    void receive(int turn) {
-        ++result_.scans;
-        if (waiting_) ++result_.dropped_scans;
-        waiting_ = turn;
-    }
-
-    /// Plans on the waiting scan as soon as the planner is free, within the step from `time_s`.
+    /// Plans on what waits as soon as the planner is free, within the step from `time_s`.
     void think(double time_s) {
-        const int turn = *std::exchange(waiting_, std::nullopt);
         const double start_s = std::max(time_s, free_s_);
         const double taken_s = latencies_.draw_s();
         const double expected_s = latencies_.median_s();
         free_s_ = start_s + taken_s;
-        const double arrived_s = TrialSensor::kTurn_s * (turn + 1);
-        latency_ms_.push_back(1e3 * (free_s_ - arrived_s));
-
-        const simulation::SimulatedScan measured = sensor_.measure(turn, trace_);
-        const LabelledReturns& returns = stopwatch_.time("filter", [&]() -> const LabelledReturns& {
-            return sensor_.segment(turn, measured, trace_, belief_);
-        });
-        const mapping::MappedScan scan =
-            TrialSensor::place(turn, measured, returns, trace_, belief_);
+        const FedScan fed = feed_->take(trace_, belief_, stopwatch_);
+        const mapping::MappedScan& scan = fed.scan;
+        latency_ms_.push_back(1e3 * (free_s_ - fed.arrived_s));
         scan_s_ = scan.time_s;
         scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
         const std::string prefix = setup_.model + "/";
@@ -146,7 +97,7 @@ class TrialFlight {
         const double followed_s = start_s + expected_s + setup_.limits.actuation_delay_s;
         const avoidance::VehicleState then =
             commands_.advanced(believed, start_s, followed_s, setup_.limits);
-        const double ground_m = believed.position_m.z() - altimeter_m(turn, now.position_m);
+        const double ground_m = believed.position_m.z() - altimeter_m(fed.stream, now.position_m);
         const avoidance::Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
             return guidance_->carrot(*world_, guidanceTask(then, ground_m));
         });
@@ -176,10 +127,9 @@ class TrialFlight {
     }
 
     /// Measured height above the ground.
-    double altimeter_m(int turn, const Eigen::Vector3d& at) const {
+    double altimeter_m(std::uint64_t stream, const Eigen::Vector3d& at) const {
         constexpr double kNoise_m = 0.02;
-        simulation::Random random(course_.seed,
-                                  streams::kAltimeter + static_cast<std::uint64_t>(turn));
+        simulation::Random random(course_.seed, stream);
         return at.z() - groundHeight_m(course_, at) + kNoise_m * random.normal();
     }
 
@@ -206,7 +156,7 @@ class TrialFlight {
         task.ground_m = ground_m;
         task.altitude_m = course_.altitude_m;
         task.limits = setup_.limits;
-        task.period_s = std::max(TrialSensor::kTurn_s, latencies_.median_s());
+        task.period_s = std::max(feed_->period_s(), latencies_.median_s());
         task.brakes_in_known_space = setup_.brakes_in_known_space;
         task.keeps_candidates = listener_.keeps_candidates;
         return task;
@@ -229,6 +179,8 @@ class TrialFlight {
     TrialResult finish(Outcome outcome, double time_s) {
         result_.outcome = outcome;
         result_.time_s = time_s;
+        result_.scans = feed_->received();
+        result_.dropped_scans = feed_->dropped();
         result_.rms_jerk_m_s3 = trace_.rmsJerk_m_s3();
         result_.latency_p50_ms = base::quantile(latency_ms_, 0.5);
         result_.latency_p95_ms = base::quantile(latency_ms_, 0.95);
@@ -247,9 +199,9 @@ class TrialFlight {
     const TrialSetup& setup_;
     const TrialListener& listener_;
     Stopwatch stopwatch_;
-    TrialSensor sensor_;
+    std::unique_ptr<ScanFeed> feed_;
     PoseBelief belief_;
-    Latencies latencies_;
+    TrialLatencies latencies_;
     std::unique_ptr<avoidance::WorldModel> world_;
     std::unique_ptr<avoidance::Guidance> guidance_;
     std::unique_ptr<avoidance::Planner> planner_;
@@ -257,9 +209,8 @@ class TrialFlight {
     avoidance::VehicleState state_;  ///< true
     FlightTrace trace_;
     CommandQueue commands_;
-    std::optional<int> waiting_;  ///< newest complete turn that is not planned on yet
-    double free_s_ = 0;           ///< when the planner is free again
-    double scan_s_ = 0;           ///< time of the last scan that the model took in
+    double free_s_ = 0;  ///< when the planner is free again
+    double scan_s_ = 0;  ///< time of the last scan that the model took in
     Eigen::Vector3f scan_offset_m_{0, 0, 0};
     bool in_emergency_ = false;
     std::vector<double> latency_ms_;

@@ -1,53 +1,19 @@
 #include <hagen/observations/Settings.h>
 #include <hagen/trials/TrialSensor.h>
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "Streams.h"
+#include "TurnTransforms.h"
 
 namespace hagen::trials {
 namespace {
+
+constexpr std::uint64_t kFiringsPerStream = 4096;  // more than a turn has
 
 HagenFilter standardFilter() {
     const observations::Settings
         settings;  // those of config/vlp16.yaml hold where no file was read
     return observations::filterFor(settings.sensorModel(), settings.options);
 }
-
-/// The inverse of levelFromSensor(): roll and pitch of an attitude without its heading.
-Attitude tiltOf(const Eigen::Quaterniond& attitude) {
-    const Eigen::Vector3d up = attitude.conjugate() * Eigen::Vector3d::UnitZ();
-    return {static_cast<float>(std::atan2(up.y(), up.z())),
-            static_cast<float>(std::asin(std::clamp(-up.x(), -1.0, 1.0)))};
-}
-
-/// Believed poses during a turn, as matrices that are straight between.
-class TurnTransforms {
- public:
-    TurnTransforms(double start_s, const FlightTrace& trace, PoseBelief& belief) {
-        for (int step = 0; step <= kSteps + 1; ++step) {
-            const simulation::SensorPose pose = belief.at(trace, start_s + step * kStep_s);
-            Eigen::Matrix<float, 3, 4> matrix;
-            matrix << pose.attitude.toRotationMatrix().cast<float>(), pose.position_m.cast<float>();
-            poses_[step] = matrix;
-        }
-    }
-    Eigen::Vector3f place(const Eigen::Vector3f& point_m, float since_start_s) const {
-        const float at = std::clamp(since_start_s / static_cast<float>(kStep_s), 0.0f,
-                                    static_cast<float>(kSteps));
-        const auto before = static_cast<std::size_t>(at);
-        const float share = at - static_cast<float>(before);
-        const Eigen::Matrix<float, 3, 4> matrix =
-            poses_[before] + share * (poses_[before + 1] - poses_[before]);
-        return matrix * point_m.homogeneous();
-    }
-
- private:
-    static constexpr int kSteps = 20;
-    static constexpr double kStep_s = TrialSensor::kTurn_s / kSteps;
-    std::array<Eigen::Matrix<float, 3, 4>, kSteps + 2> poses_;
-};
 
 }  // namespace
 
@@ -62,6 +28,19 @@ simulation::SimulatedScan TrialSensor::measure(int number, const FlightTrace& tr
     const auto pose_at = [&](double time_s) { return trace.at(time_s); };
     simulation::SimulatedScan measured = simulation::simulateScan(
         course_.scene, filter_.sensor(), pose_at, kTurn_s * number, random, faults_);
+    maskAirframe(airframe_, measured.scan);
+    return measured;
+}
+
+simulation::SimulatedScan TrialSensor::measureFirings(int number,
+                                                      const simulation::FiringRange& firings,
+                                                      const FlightTrace& trace) const {
+    const auto firing = static_cast<std::uint64_t>(number) * kFiringsPerStream +
+                        static_cast<std::uint64_t>(firings.first);
+    simulation::Random random(course_.seed, streams::kFirings + firing);
+    const auto pose_at = [&](double time_s) { return trace.at(time_s); };
+    simulation::SimulatedScan measured = simulation::simulateFirings(
+        course_.scene, filter_.sensor(), pose_at, kTurn_s * number, firings, random, faults_);
     maskAirframe(airframe_, measured.scan);
     return measured;
 }

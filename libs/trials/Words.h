@@ -6,11 +6,12 @@
 
 namespace hagen::trials {
 
-// Words of runs.csv, in the order of Outcome, PoseError, brakes_in_known_space, and Air.
+// Words of runs.csv, in the order of Outcome, PoseError, brakes_in_known_space, Air and Updates.
 constexpr std::array<const char*, 3> kOutcomes{"success", "collision", "timeout"};
 constexpr std::array<const char*, 3> kPoseErrors{"none", "noise", "drift"};
 constexpr std::array<const char*, 2> kUnknowns{"optimistic", "brake_known"};
 constexpr std::array<const char*, 2> kAirs{"dusty", "clear"};
+constexpr std::array<const char*, 2> kUpdates{"scans", "sectors"};
 
 /// The value of a word; words stand in the order of the values. Throws std::runtime_error, naming
 /// the known words, for any other.

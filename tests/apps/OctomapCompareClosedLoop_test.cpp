@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "support/Program.h"
@@ -135,6 +136,43 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
     // Nothing is left to fly.
     ASSERT_EQ(octomapCompare(flying(folder, "merged")).exit_code, 0);
     EXPECT_EQ(readFile(folder / "merged/runs.csv"), runs);
+}
+
+TEST(ClosedLoopFlights, SectorsAreAConditionThatLeavesTheRowsOfScansAsTheyAre) {
+    const TemporaryFolder folder;
+    const auto fly = [&](const std::string& into, const std::string& updates,
+                         const std::string& jobs) {
+        const Outcome outcome = octomapCompare(
+            {"closedloop", "--scenario", "forest-0.02", "--speed", "10", "--seeds", "1000-1001",
+             "--profile", someProfile(folder).string(), "--models", "W-RoI", "--updates", updates,
+             "--jobs", jobs, "-o", (folder / into).string()});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out.find("RoI window, sectors") != std::string::npos, updates != "scans");
+        return readFile(folder / into / "runs.csv");
+    };
+    const std::string scans = fly("scans", "scans", "1");
+    const std::string both = fly("both", "all", "1");
+    EXPECT_EQ(fly("two", "scans,sectors", "2"), both);
+    std::istringstream rows(scans), all(both);
+    std::string header, row, full, sectors;
+    std::getline(rows, header);
+    std::getline(all, full);
+    EXPECT_EQ(full, header + ",updates");
+    std::vector<std::string> of_scans, of_sectors;
+    while (std::getline(all, full)) {
+        const bool is_scans = full.find(",scans") != std::string::npos;
+        (is_scans ? of_scans : of_sectors).push_back(full.substr(0, full.rfind(',')));
+    }
+    ASSERT_EQ(of_scans.size(), 2u);
+    ASSERT_EQ(of_sectors.size(), 2u);
+    for (const std::string& one : of_scans) {
+        std::getline(rows, row);
+        EXPECT_EQ(one, row);
+    }
+    EXPECT_NE(of_sectors, of_scans);
+    // One after the other into one folder is the same.
+    fly("scans", "sectors", "1");
+    EXPECT_EQ(readFile(folder / "scans/runs.csv"), both);
 }
 
 TEST(ClosedLoopFlights, MapsAndPathSearchesToo) {
@@ -269,6 +307,8 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     fails({"--shard", "0/2"}, "shard");
     fails({"--jobs", "0"}, "--jobs");
     fails({"--pose-error", "wild"}, "wild");
+    fails({"--updates", "turns"}, "turns");
+    fails({"--updates", "scans,sectors", "--models", "W-RoI+motion"}, "follows the obstacles");
     expectFailure(octomapCompare({"closedloop"}), 2, "required");
     expectFailure(octomapCompare({"hover"}), 2, "");
     expectFailure(octomapCompare({}), 2, "");

@@ -1,12 +1,9 @@
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/autopilot/AutopilotLink.h>
 #include <hagen/mavlink/Parser.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/HagenFilter.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -15,51 +12,33 @@
 #include <thread>
 
 #include "autopilot/Vehicle.h"
+#include "support/LocalUdp.h"
 
 namespace hagen::autopilot {
 namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-
-double now_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
+constexpr auto now_s = test::steadyNow_s;
 
 /// An autopilot: a UDP socket of this machine.
 class Autopilot {
  public:
-    Autopilot() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
-        sockaddr_in at{};
-        at.sin_family = AF_INET;
-        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at);
-        socklen_t size = sizeof at;
-        getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size);
-        port_ = ntohs(at.sin_port);
-        const timeval wait{5, 0};
-        setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
-    }
-    ~Autopilot() { close(socket_); }
-
     mavlink::PeerAddress address() const {
         mavlink::PeerAddress address;
         address.host = "127.0.0.1";
-        address.port = port_;
+        address.port = socket_.port();
         return address;
     }
     /// The next message; id 0xffffff: none came within 5 s.
     mavlink::Frame receive() {
         mavlink::Frame frame;
         frame.id = 0xffffff;
-        std::array<std::uint8_t, 2048> buffer{};
-        socklen_t size = sizeof from_;
-        const ssize_t got = recvfrom(socket_, buffer.data(), buffer.size(), 0,
-                                     reinterpret_cast<sockaddr*>(&from_), &size);
-        if (got <= 0) return frame;
-        parser_.add(buffer.data(), static_cast<std::size_t>(got),
-                    [&](const mavlink::Frame& each) { frame = each; });
+        const auto datagram = socket_.receive();
+        if (!datagram) return frame;
+        from_ = datagram->from;
+        parser_.add(reinterpret_cast<const std::uint8_t*>(datagram->bytes.data()),
+                    datagram->bytes.size(), [&](const mavlink::Frame& each) { frame = each; });
         EXPECT_EQ(parser_.counts().skipped_bytes, 0u);
         EXPECT_EQ(parser_.counts().lost, 0u);
         EXPECT_EQ(frame.system, 1);
@@ -82,14 +61,10 @@ class Autopilot {
         const auto bytes = mavlink::encode(frame, 28);
         sendRaw({bytes.begin(), bytes.end()});
     }
-    void sendRaw(const std::string& bytes) const {
-        sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&from_),
-               sizeof from_);
-    }
+    void sendRaw(const std::string& bytes) const { socket_.send(bytes, from_); }
 
  private:
-    int socket_;
-    std::uint16_t port_ = 0;
+    test::LocalUdp socket_{std::chrono::seconds(5)};
     std::uint8_t sequence_ = 0;
     sockaddr_in from_{};
     mavlink::Parser parser_;

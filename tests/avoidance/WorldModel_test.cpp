@@ -238,6 +238,53 @@ TEST(WorldModel, AWindowForgetsAfterElevenScansAtFourMetresPerSecond) {
     }
 }
 
+/// Five updates per turn; 11 turns are 55 of them.
+TEST(WorldModel, AWindowOfSectorsForgetsAfterElevenTurnsToo) {
+    for (const std::string name : {"W-RoI", "W-Full"}) {
+        const auto model = avoidance::makeWorldModel(name, setting());
+        const auto updateWith = [&](const std::vector<Eigen::Vector3f>& points) {
+            mapping::MappedScan sectors = scanOf(points);
+            sectors.turns = 0.2;
+            model->update(sectors);
+        };
+        updateWith(wall());
+        for (int i = 1; i < 55; ++i) updateWith({{-4, 0, 1}});
+        EXPECT_NEAR(1.1f, model->clearance_m({4, 0.1f, 1.1f}), 0.05f);
+        updateWith({{-4, 0, 1}});
+        EXPECT_EQ(avoidance::WorldModel::kReach_m, model->clearance_m({4, 0.1f, 1.1f}));
+        EXPECT_EQ(55u, model->obstacles().centre_m.size());
+    }
+}
+
+/// By brute force over all points of the last eleven turns; thinning may keep another of a 10 cm
+/// cube.
+TEST(WorldModel, AWindowOfSectorsKnowsAllPointsOfItsTurns) {
+    simulation::Random random(17);
+    const auto model = avoidance::makeWorldModel("W-Full", setting());
+    std::vector<std::pair<double, std::vector<Eigen::Vector3f>>> updates;
+    for (int i = 0; i < 150; ++i) {
+        // As a planner asks that is late now and then: a sector to more than a turn.
+        const double turns = i % 7 == 3 ? random.uniform(0.04, 1.3) : 0.2;
+        updates.emplace_back(turns, twice(sparsePoints(random, 6)));
+        mapping::MappedScan sectors = scanOf(updates.back().second);
+        sectors.turns = turns;
+        model->update(sectors);
+        if (i % 10 != 9) continue;
+        std::vector<Eigen::Vector3f> known;
+        double sum = 0;
+        for (auto at = updates.rbegin(); at != updates.rend() && sum < 11 - 1e-6; ++at) {
+            known.insert(known.end(), at->second.begin(), at->second.end());
+            sum += at->first;
+        }
+        const auto held = static_cast<double>(model->obstacles().centre_m.size());
+        EXPECT_NEAR(2 * held, static_cast<double>(known.size()), 20);
+        for (int query = 0; query < 40; ++query) {
+            const Eigen::Vector3f at = sparsePoints(random, 1)[0];
+            EXPECT_NEAR(model->clearance_m(at), nearestOf(known, at), 0.1732f);
+        }
+    }
+}
+
 /// A ray that ends beyond a map's range met nothing there.
 TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
     const Eigen::AlignedBox3f wide(Eigen::Vector3f(-30, -30, -3), Eigen::Vector3f(30, 30, 6));

@@ -98,6 +98,15 @@ TEST(ChooseRun, TellsAirsAndDistancesApart) {
     EXPECT_EQ(replays::choiceOf(runs[1], runs),
               "--scenario gap --model W-RoI --guidance astar --speed 4 --distance as-stored   "
               "# collision");
+    runs[1].setup = runs[0].setup;
+    runs[1].setup.updates = trials::Updates::Sectors;
+    wanted.distance = "";
+    wanted.updates = "sectors";
+    EXPECT_EQ(replays::chooseRun(runs, wanted).setup.updates, trials::Updates::Sectors);
+    EXPECT_EQ(replays::choiceOf(runs[1], runs),
+              "--scenario gap --model W-RoI --guidance astar --speed 4 --updates sectors   "
+              "# collision");
+    EXPECT_NE(replays::fileNameOf(runs[0]), replays::fileNameOf(runs[1]));
 }
 
 }  // namespace

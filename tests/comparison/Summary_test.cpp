@@ -5,6 +5,7 @@
 #include <hagen/reports/ReportSentences.h>
 #include <hagen/reports/SharedCourses.h>
 #include <hagen/reports/Summary.h>
+#include <hagen/reports/SummaryFiles.h>
 #include "SampleRuns.h"
 
 namespace hagen {
@@ -140,6 +141,23 @@ TEST(SharedCourses, WhoFlewFewerComesInWithATableOfItsOwn) {
     EXPECT_EQ(shared[0].arrived, 19);
     EXPECT_EQ(shared[1].contenders.size(), 3u);
     EXPECT_EQ(shared[1].arrived, 4);
+}
+
+TEST(Summary, SectorsAreAConditionOfTheirOwnAndNamedWhereTheyWereFlown) {
+    std::vector<Row> runs{runOf("gap", 1, "W-RoI", "astar", kWon)};
+    const reports::Summary scans = reports::summarize(runs);
+    EXPECT_EQ(reports::summaryCsv(scans).find("updates"), std::string::npos);
+    EXPECT_EQ(reports::summaryJson(scans, {}).find("updates"), std::string::npos);
+    runs.push_back(runOf("gap", 1, "W-RoI", "astar", kHit));
+    runs[1].setup.updates = trials::Updates::Sectors;
+    const reports::Summary both = reports::summarize(runs);
+    ASSERT_EQ(both.conditions.size(), 2u);
+    EXPECT_EQ(nameOf(both.conditions[1]), "4 m/s, sectors");
+    const std::string table = reports::summaryCsv(both);
+    EXPECT_THAT(table, HasSubstr(",air,distance,updates\n"));
+    EXPECT_THAT(table, HasSubstr(",dusty,unbiased,scans\n"));
+    EXPECT_THAT(table, HasSubstr(",dusty,unbiased,sectors\n"));
+    EXPECT_THAT(reports::summaryJson(both, {}), HasSubstr("\"updates\": \"sectors\""));
 }
 
 TEST(Summary, OfNothingIsEmpty) {

@@ -98,6 +98,46 @@ TEST(LidarTest, AFunctionOfPosesIsFlownAsTheFlightItTells) {
     EXPECT_LE(last_s, 7.3 + firingPattern(setup.sensor).revolutionPeriod_s() + kPosesBeyondTurn_s);
 }
 
+TEST_P(EachSensor, AllPartsOfATurnAreTheTurn) {
+    const Simulation setup(level(), flightAt(3, 8, 10), GetParam());
+    const SimulatedScan whole = setup.scan(7.3, noFaults());
+    const auto pose_at = [&](double time_s) { return setup.flight.at(time_s); };
+    Random random(2);
+    std::size_t at = 0;
+    const int all = firingPattern(setup.sensor).firings_per_revolution;
+    for (int first = 0; first < all; first += 101) {  // no multiple of what is cast together
+        const int end = std::min(first + 101, all);
+        const SimulatedScan part = simulateFirings(setup.scene, setup.sensor, pose_at, 7.3,
+                                                   {first, end}, random, noFaults());
+        for (std::size_t i = 0; i < part.size(); ++i, ++at) {
+            ASSERT_EQ(part.firing[i], whole.firing[at]);
+            ASSERT_EQ(part.laser[i], whole.laser[at]);
+            ASSERT_EQ(part.scan.time_s[i], whole.scan.time_s[at]);
+            ASSERT_EQ(part.scan.x_m[i], whole.scan.x_m[at]);
+            ASSERT_EQ(part.scan.y_m[i], whole.scan.y_m[at]);
+            ASSERT_EQ(part.scan.z_m[i], whole.scan.z_m[at]);
+        }
+    }
+    EXPECT_EQ(at, whole.size());
+}
+
+TEST(LidarTest, APartOfATurnAsksForNoPosesOfLater) {
+    const Simulation setup(level(), flightAt(3, 8, 10));
+    double last_s = 0;
+    const auto pose_at = [&](double time_s) {
+        last_s = std::max(last_s, time_s);
+        return setup.flight.at(time_s);
+    };
+    Random random(1);
+    simulateFirings(setup.scene, setup.sensor, pose_at, 7.3, {100, 360}, random);
+    EXPECT_LE(last_s, 7.3 + 360 * 55.296e-6 + kPosesBeyondTurn_s);
+    EXPECT_GE(last_s, 7.3 + 360 * 55.296e-6);
+    for (const FiringRange wrong : {FiringRange{-1, 5}, {5, 5}, {7, 5}, {1800, 1810}}) {
+        EXPECT_THROW(simulateFirings(setup.scene, setup.sensor, pose_at, 7.3, wrong, random),
+                     std::invalid_argument);
+    }
+}
+
 TEST_P(EachSensor, ReturnsComeInTheOrderOfFiringWithTheirBeams) {
     const Simulation setup(level(), flightAt(3, 4, 4), GetParam());
     const SimulatedScan scan = setup.scan(0, noFaults());

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/Calibration.h>
+#include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/Journal.h>
 #include <hagen/trials/LatencyProfile.h>
+#include <hagen/trials/Measured.h>
 #include <hagen/trials/MergeCampaigns.h>
 
 #include <cmath>
@@ -85,6 +87,53 @@ TEST(CampaignFolder, AFinishedOneIsAddedTo) {
     EXPECT_EQ(readRuns(place / "c/runs.csv").size(), 2u);
     const std::string measured = readFile(place / "c/measured.csv");
     EXPECT_EQ(std::count(measured.begin(), measured.end(), '\n'), 3);
+}
+
+TEST(CampaignFolder, RunsWithSectorsComeToOneOfWholeScans) {
+    const TemporaryFolder place;
+    CampaignPlan plan;
+    {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        folder.note(plan);
+        journal(folder, {1});
+        folder.readJournals();
+        folder.finish();
+    }
+    const std::string before = readFile(place / "c/runs.csv");
+    const std::string measured = readFile(place / "c/measured.csv");
+    EXPECT_EQ(readFile(place / "c/campaign.json").find("updates"), std::string::npos);
+    {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        plan.updates = {Updates::Sectors};
+        folder.note(plan);
+        Row run = runOfSeed(1, folder);
+        EXPECT_TRUE(folder.has(run));
+        run.setup.updates = Updates::Sectors;
+        EXPECT_FALSE(folder.has(run));
+        TrialMeasurement measurement;
+        measurement.stage_ms["W-RoI/update"] = {5};
+        Journal(folder.newJournal()).append(run, measurement);
+        folder.readJournals();
+        folder.finish();
+    }
+    const std::string scans = before.substr(before.find('\n') + 1);
+    const std::string row = scans.substr(0, scans.size() - 1);
+    EXPECT_EQ(readFile(place / "c/runs.csv"),
+              fullRunHeader() + "\n" + row + ",scans\n" + row + ",sectors\n");
+    const std::string all_measured = readFile(place / "c/measured.csv");
+    EXPECT_EQ(all_measured.substr(0, all_measured.find(',')), "scenario");
+    EXPECT_THAT(all_measured, HasSubstr(",peak_model_bytes,updates\n"));
+    EXPECT_THAT(all_measured, HasSubstr(",,,2.000,2.900,,,,,0,scans\n"));
+    EXPECT_THAT(all_measured, HasSubstr(",,,5.000,5.000,,,,,0,sectors\n"));
+    // Read and written again, it is the same, and each run has its costs.
+    const std::string all = readFile(place / "c/runs.csv");
+    CampaignFolder(place / "c", constantProfile(1), false).finish();
+    EXPECT_EQ(readFile(place / "c/runs.csv"), all);
+    EXPECT_EQ(readFile(place / "c/measured.csv"), all_measured);
+    EXPECT_EQ(readPlans(place / "c").size(), 2u);
+    // The report's costs are of whole scans.
+    EXPECT_EQ(readMeasured(place / "c/measured.csv").at("W-RoI").p50_ms.at("update").size(), 1u);
+    EXPECT_EQ(measured.find("updates"), std::string::npos);
 }
 
 TEST(CampaignFolder, ATornLastLineIsFlownAgainAndAnyOtherIsNamed) {

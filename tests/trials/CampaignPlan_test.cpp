@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/CampaignPlan.h>
 
@@ -64,8 +65,28 @@ TEST(CampaignPlan, WhatCannotBeFlownIsNamed) {
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.models = {"X"}; }), HasSubstr("W-RoI"));
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.first_seed = 3; }), HasSubstr("seed"));
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.speeds_m_s = {0}; }), HasSubstr("speed"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.updates.clear(); }), HasSubstr("update"));
     EXPECT_THAT(fails([](CampaignPlan&) {}, {5, 4}), HasSubstr("shard"));
     EXPECT_THAT(fails([](CampaignPlan&) {}, {0, 4}), HasSubstr("shard"));
+}
+
+TEST(CampaignPlan, ModelsThatFollowObstaclesFlyWithWholeScansOnly) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap"};
+    for (const std::string& model : avoidance::worldModelNames()) {
+        plan.models = {model};
+        const bool follows = model.find("+motion") != std::string::npos && model[0] != 'o';
+        plan.updates = {Updates::Scans};
+        EXPECT_EQ(flightsOf(plan)[0].setups.size(), 1u) << model;
+        plan.updates = {Updates::Scans, Updates::Sectors};
+        try {
+            EXPECT_EQ(flightsOf(plan)[0].setups.size(), 2u) << model;
+            EXPECT_FALSE(follows) << model;
+        } catch (const std::invalid_argument& e) {
+            EXPECT_TRUE(follows) << model;
+            EXPECT_THAT(e.what(), HasSubstr(model));
+        }
+    }
 }
 
 TEST(CampaignPlan, AProfileWithoutAStageIsToldBeforeAnythingIsFlown) {

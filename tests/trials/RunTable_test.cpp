@@ -62,6 +62,7 @@ Row anyRun(simulation::Random& random) {
     run.setup.brakes_in_known_space = random.chance(0.5);
     run.setup.air = random.chance(0.5) ? Air::Clear : Air::Dusty;
     run.setup.distance = random.chance(0.5) ? ModelDistance::AsStored : ModelDistance::Unbiased;
+    run.setup.updates = random.chance(0.5) ? Updates::Sectors : Updates::Scans;
     run.result.outcome = static_cast<Outcome>(random.uniformInt(3));
     for (double TrialResult::*field :
          {&TrialResult::min_clearance_m, &TrialResult::path_m, &TrialResult::time_s,
@@ -75,12 +76,12 @@ Row anyRun(simulation::Random& random) {
 TEST(RunTable, WhatIsWrittenIsReadAndWrittenTheSameAgain) {
     const test::TemporaryFolder folder;
     simulation::Random random(1);
-    std::string text = runHeader() + "\n";
-    for (int r = 0; r < 300; ++r) text += rowOf(anyRun(random)) + "\n";
+    std::string text = fullRunHeader() + "\n";
+    for (int r = 0; r < 300; ++r) text += fullRowOf(anyRun(random)) + "\n";
     const std::vector<Row> runs = readRuns(folder.write("runs.csv", text));
     ASSERT_EQ(runs.size(), 300u);
-    std::string again = runHeader() + "\n";
-    for (const Row& run : runs) again += rowOf(run) + "\n";
+    std::string again = fullRunHeader() + "\n";
+    for (const Row& run : runs) again += fullRowOf(run) + "\n";
     EXPECT_EQ(again, text);
     EXPECT_TRUE(std::isnan(runs[0].result.first_reaction_m));
 }
@@ -178,6 +179,33 @@ TEST(RunTable, OlderTablesAreOfClearAirAndDistancesAsStored) {
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: not the header"));
 }
 
+TEST(RunTable, RunsWithSectorsHaveAColumnMoreAndTablesWithOneInAllRows) {
+    const Row scans = someRun();
+    Row sectors = scans;
+    sectors.setup.updates = Updates::Sectors;
+    EXPECT_EQ(rowOf(sectors), rowOf(scans) + ",sectors");
+    EXPECT_EQ(keyOf(sectors), keyOf(scans) + ",sectors");
+    EXPECT_EQ(fullRowOf(scans), rowOf(scans) + ",scans");
+    EXPECT_EQ(fullRunHeader(), runHeader() + ",updates");
+    EXPECT_FALSE(needsAllColumns(scans));
+    EXPECT_TRUE(needsAllColumns(sectors));
+    EXPECT_EQ(runOf(rowOf(sectors)).setup.updates, Updates::Sectors);
+    EXPECT_EQ(runOfKey(keyOf(sectors)).setup.updates, Updates::Sectors);
+    EXPECT_EQ(runOfKey(keyOf(scans)).setup.updates, Updates::Scans);
+    const test::TemporaryFolder folder;
+    const auto file = folder.write(
+        "runs.csv", fullRunHeader() + "\n" + fullRowOf(scans) + "\n" + fullRowOf(sectors) + "\n");
+    const std::vector<Row> runs = readRuns(file);
+    ASSERT_EQ(runs.size(), 2u);
+    EXPECT_EQ(rowOf(runs[0]), rowOf(scans));
+    EXPECT_EQ(rowOf(runs[1]), rowOf(sectors));
+    folder.write("runs.csv", fullRunHeader() + "\n" + rowOf(scans) + "\n");
+    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":2: 26 fields, not 27"));
+    folder.write("runs.csv", fullRunHeader() + "\n" + rowOf(scans) + ",turns\n");
+    EXPECT_THAT(test::messageOf([&] { readRuns(file); }),
+                HasSubstr("column updates: \"turns\" is not one of scans, sectors"));
+}
+
 TEST(RunTable, SaysWhichFileIsNoTable) {
     const test::TemporaryFolder folder;
     const auto said = [](const std::filesystem::path& file) {
@@ -198,6 +226,12 @@ TEST(RunTable, NamesOfAirsAreReadBack) {
     EXPECT_EQ(airFrom("clear"), Air::Clear);
     EXPECT_EQ(nameOf(Air::Dusty), "dusty");
     EXPECT_THROW(airFrom("fog"), std::invalid_argument);
+}
+
+TEST(RunTable, NamesOfUpdatesAreReadBack) {
+    EXPECT_EQ(updatesFrom("sectors"), Updates::Sectors);
+    EXPECT_EQ(nameOf(Updates::Scans), "scans");
+    EXPECT_THROW(updatesFrom("turns"), std::invalid_argument);
 }
 
 TEST(RunTable, NamesOfDistancesAreReadBack) {

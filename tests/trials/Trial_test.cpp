@@ -143,6 +143,70 @@ TEST(Trial, TheSameSeedFliesTheSame) {
     }
 }
 
+TEST(Trial, WithSectorsAPlanIsMadeFiftyTimesPerSecondOnAllThatCame) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -4, 4);
+    const Course course = simpleCourse(std::move(content));
+    TrialSetup setup;
+    setup.updates = Updates::Sectors;
+    double turns = 0, last_s = 0;
+    TrialListener listener;
+    listener.step = [&](const TrialStep& step) {
+        const double expected_s = turns == 0 ? 0.104 : last_s + 0.02;  // four stages of 1 ms
+        EXPECT_NEAR(step.time_s, expected_s, 1e-9);
+        last_s = step.time_s;
+        turns += step.scan.turns;
+        EXPECT_NEAR(turns, 10 * step.scan.time_s, 1e-3);
+        EXPECT_LE(step.scan.time_s, step.time_s - 0.004 + 1e-9);
+        // A packet or two are not full, and up to two wait for a third.
+        EXPECT_GE(step.scan.time_s, step.time_s - 0.004 - 0.0054);
+        EXPECT_NEAR(step.latency_ms, 1e3 * (step.time_s - step.scan.time_s), 1e-6);
+    };
+    const TrialResult result = runTrial(course, setup, constantProfile(1), nullptr, listener);
+    EXPECT_EQ(result.outcome, Outcome::Success);
+    EXPECT_EQ(result.dropped_scans, 0);
+    EXPECT_NEAR(result.scans, 25 * result.time_s / 0.1, 0.5 * result.time_s / 0.1);
+    EXPECT_EQ(textOf(result), textOf(runTrial(course, setup, constantProfile(1))));
+}
+
+TEST(Trial, WithSectorsABusyPlannerTakesAllThatCameMeanwhile) {
+    const Course course = simpleCourse(emptyContent());
+    for (const char* model : {"W-Full", "R-Full-0.2", "oracle"}) {
+        TrialSetup setup;
+        setup.model = model;
+        setup.updates = Updates::Sectors;
+        double turns = 0, last_s = 0;
+        TrialListener listener;
+        listener.step = [&](const TrialStep& step) {
+            if (turns > 0) {
+                EXPECT_NEAR(step.time_s - last_s, 0.24, 1e-6) << model;
+            }
+            last_s = step.time_s;
+            turns += step.scan.turns;
+            EXPECT_NEAR(turns, 10 * step.scan.time_s, 1e-3) << model;
+        };
+        const TrialResult result = runTrial(course, setup, constantProfile(80), nullptr, listener);
+        EXPECT_EQ(result.outcome, Outcome::Success) << model;
+        EXPECT_EQ(result.dropped_scans, 0) << model;
+    }
+}
+
+TEST(Trial, AWallWithoutAGapStopsEveryModelWithSectors) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -40, 40);
+    const Course course = simpleCourse(std::move(content));
+    for (const char* model : {"W-RoI", "R-Full-0.2"}) {
+        TrialSetup setup;
+        setup.model = model;
+        setup.guidance = "straight";
+        setup.updates = Updates::Sectors;
+        setup.speed_m_s = 8;
+        const TrialResult result = runTrial(course, setup, constantProfile(10));
+        EXPECT_NE(result.outcome, Outcome::Collision) << model;
+        EXPECT_GT(result.min_clearance_m, 0.5) << model;
+    }
+}
+
 TEST(Trial, MeasuringAndListeningChangeNothing) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -4, 4);

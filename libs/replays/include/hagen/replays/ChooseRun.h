@@ -11,7 +11,7 @@ struct RunWanted {
     std::uint64_t seed = 0;
     std::string scenario, model, guidance, planner, pose_error;
     std::string unknown;  ///< "optimistic", or "brake-known"
-    std::string air, distance;
+    std::string air, distance, updates;
     double speed_m_s = 0, latency_scale = 0;
 };
 

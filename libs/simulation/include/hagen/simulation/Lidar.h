@@ -88,4 +88,19 @@ SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const 
                            double time_s, Random& random, const SensorErrorModel& faults = {},
                            const Eigen::Quaterniond& mount = Eigen::Quaterniond::Identity());
 
+/// Firings of a revolution, in their order: from `first` to before `end`.
+struct FiringRange {
+    int first, end;
+};
+
+/// Simulates a part of the revolution that begins at `time_s`, as simulateScan() does the whole.
+/// Poses count until kPosesBeyondTurn_s after the part, so that a vehicle may choose its way while
+/// the sensor turns. Parts draw random numbers of their own: only without random errors are all
+/// parts of a revolution the same as the whole. Throws std::invalid_argument if the pattern does
+/// not have these firings.
+SimulatedScan simulateFirings(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
+                              double time_s, const FiringRange& firings, Random& random,
+                              const SensorErrorModel& faults = {},
+                              const Eigen::Quaterniond& mount = Eigen::Quaterniond::Identity());
+
 }  // namespace hagen::simulation

@@ -18,6 +18,7 @@ struct CampaignPlan {
     bool brakes_in_known_space = false;
     std::vector<Air> airs{Air::Dusty};
     std::vector<ModelDistance> distances{ModelDistance::Unbiased};
+    std::vector<Updates> updates{Updates::Scans};
 };
 
 /// Part `number` of `of`, counted from 1: every of-th course.
@@ -34,8 +35,8 @@ struct CourseFlights {
 
 /// The flights of a plan, courses seed by seed, so that a campaign that is stopped early has some
 /// of every scenario. Throws std::invalid_argument for unknown names (and lists the known ones), an
-/// empty list, a last seed before the first, a speed or latency scale outside (0, 100], and an
-/// invalid shard.
+/// empty list, a last seed before the first, a speed or latency scale outside (0, 100], an invalid
+/// shard, and a model with motion that is to fly with sectors: it follows obstacles of whole scans.
 std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard = {});
 
 /// Throws std::runtime_error, naming the stage, if the profile lacks one that these flights need.

@@ -14,10 +14,11 @@ struct Condition {
     bool brakes_in_known_space;
     Air air = Air::Dusty;
     ModelDistance distance = ModelDistance::Unbiased;
+    Updates updates = Updates::Scans;
 
     auto key() const {
         return std::tie(speed_m_s, planner, pose_error, latency_scale, brakes_in_known_space, air,
-                        distance);
+                        distance, updates);
     }
     bool operator<(const Condition& other) const { return key() < other.key(); }
     bool operator==(const Condition& other) const { return key() == other.key(); }

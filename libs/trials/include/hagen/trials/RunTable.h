@@ -24,8 +24,15 @@ struct Run {
 /// outcome: success, collision, timeout; pose_error: none, noise, drift; unknown: optimistic,
 /// brake_known; air: dusty, clear; distance: unbiased,
 /// as-stored; NaN is an empty field. Fixed decimals, '.' in every locale, \n.
+/// The row of a run with sectors has one more: `updates` (scans, sectors).
 std::string runHeader();
 std::string rowOf(const Run& run);
+
+/// Whether a table with this run needs the column `updates`; then all of its rows have it.
+bool needsAllColumns(const Run& run);
+/// What the header and a row are with it.
+std::string fullRunHeader();
+std::string fullRowOf(const Run& run);
 
 /// The run of a row. Throws std::runtime_error, naming the column.
 Run runOf(const std::string& row);
@@ -33,14 +40,15 @@ Run runOf(const std::string& row);
 /// A run's key identifies it: the fields of its course and setup, as in its row. The header's
 /// columns:
 /// scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown,air,distance
+/// and, of a run with sectors, updates.
 std::string keyHeader();
 std::string keyOf(const Run& run);
 
 /// A run of this course and setup that was not flown yet. Throws as runOf().
 Run runOfKey(const std::string& key);
 
-/// Tables of older versions have neither column `air` nor `distance`: clear air, as-stored. Throws
-/// std::runtime_error, naming file, line and column.
+/// Tables of older versions have neither column `air` nor `distance`: clear air, as-stored. Without
+/// `updates`, all are of whole scans. Throws std::runtime_error, naming file, line and column.
 std::vector<Run> readRuns(const std::filesystem::path& file);
 
 /// Orders runs by scenario, speed, planner, guidance, model, ..., seed.

@@ -17,10 +17,18 @@ class TrialSensor {
 
     TrialSensor(const Course& course, Air air);
 
+    const SensorModel& sensor() const { return filter_.sensor(); }
+    const Options& options() const { return filter_.options(); }
+
     /// The turn that starts at `number` * kTurn_s, measured from the true poses. Masked returns
     /// have no range. Depends on air, the course's seed and the number only, not on which other
     /// turns were measured.
     simulation::SimulatedScan measure(int number, const FlightTrace& trace) const;
+
+    /// Some firings of that turn, as far as the trace has got when the last of them ends. Depends
+    /// on air, seed, number and the first firing only.
+    simulation::SimulatedScan measureFirings(int number, const simulation::FiringRange& firings,
+                                             const FlightTrace& trace) const;
 
     /// Segments a turn, with the horizon of the believed attitude. Valid until the next call.
     const LabelledReturns& segment(int number, const simulation::SimulatedScan& measured,

@@ -4,6 +4,7 @@
 #include <hagen/trials/Air.h>
 #include <hagen/trials/Distance.h>
 #include <hagen/trials/PoseError.h>
+#include <hagen/trials/Updates.h>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,6 +23,7 @@ struct TrialSetup {
     bool brakes_in_known_space = false;  ///< stay able to brake within space that was seen
     Air air = Air::Dusty;
     ModelDistance distance = ModelDistance::Unbiased;
+    Updates updates = Updates::Scans;
     avoidance::VehicleLimits limits;
     /// If set, makes the world model instead of `model`, whose latencies then apply. For
     /// experiments; campaigns fly named models.

@@ -1,0 +1,32 @@
+#pragma once
+#include <hagen/simulation/Random.h>
+#include <hagen/trials/Course.h>
+#include <hagen/trials/LatencyProfile.h>
+#include <hagen/trials/TrialSetup.h>
+#include <string>
+#include <vector>
+
+namespace hagen::trials {
+
+/// Draws the latency of planning steps from the profile. With sectors, a step costs as much as with
+/// a whole scan, which is more than the filter's and the model's share really is.
+class TrialLatencies {
+ public:
+    TrialLatencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile);
+
+    double draw_s();
+    /// What a planner expects.
+    double median_s() const;
+
+ private:
+    struct Stage {
+        std::string name;
+        simulation::Random random;
+    };
+
+    const LatencyProfile& profile_;
+    double scale_;
+    std::vector<Stage> stages_;
+};
+
+}  // namespace hagen::trials
