@@ -135,3 +135,15 @@ file(WRITE ${package_dir}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]
 file(WRITE ${package_dir}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-hagen\n")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${package_dir}/postinst ${package_dir}/prerm)
 include(CPack)
+
+# What is in the packages, and no tests: scripts/package builds it.
+add_custom_target(packaged)
+get_property(libraries GLOBAL PROPERTY HAGEN_LIBRARIES)
+get_property(programs GLOBAL PROPERTY HAGEN_PROGRAMS)
+list(TRANSFORM libraries PREPEND hagen_)
+foreach(target ${libraries} ${programs})
+  add_dependencies(packaged ${target})
+  if(TARGET ${target}-manual)
+    add_dependencies(packaged ${target}-manual)
+  endif()
+endforeach()
