@@ -59,8 +59,8 @@ of several kinds, simulation, evaluation and obstacle avoidance.")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "obstacle detection in sparse LiDAR scans: development files
 ${about}
 This package has headers, CMake packages and pkg-config files. The filter
-needs Eigen only; other components of find_package(hagen) need the
-recommended packages.")
+needs Eigen only; other components of find_package(hagen) need libhagen-mrpt
+and the other recommended packages.")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "obstacle detection in sparse LiDAR scans: programs
 ${about}
 This package has programs that segment recordings (rawlogs of MRPT, network
@@ -73,9 +73,10 @@ NumPy, recordings, simulation and scores.")
 
 set(same "(= ${HAGEN_PACKAGE_VERSION})")
 set(CPACK_DEBIAN_MRPT_PACKAGE_DEPENDS "libhagen ${same}")
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhagen ${same}, libhagen-mrpt ${same}, libeigen3-dev")
+# Not libhagen-mrpt: who uses the filter alone needs no MRPT.
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhagen ${same}, libeigen3-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
-    "libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
+    "libhagen-mrpt ${same}, libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
@@ -135,3 +136,15 @@ file(WRITE ${package_dir}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]
 file(WRITE ${package_dir}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-hagen\n")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${package_dir}/postinst ${package_dir}/prerm)
 include(CPack)
+
+# What is in the packages, and no tests: scripts/package builds it.
+add_custom_target(packaged)
+get_property(libraries GLOBAL PROPERTY HAGEN_LIBRARIES)
+get_property(programs GLOBAL PROPERTY HAGEN_PROGRAMS)
+list(TRANSFORM libraries PREPEND hagen_)
+foreach(target ${libraries} ${programs})
+  add_dependencies(packaged ${target})
+  if(TARGET ${target}-manual)
+    add_dependencies(packaged ${target}-manual)
+  endif()
+endforeach()

@@ -31,6 +31,8 @@ def draw(recording, folder=None):
         title=f"{np.count_nonzero(sizes >= 30)} obstacles of 30 returns or more within 20 m",
     )  # fmt: skip
     if folder is None:
+        if plt.get_backend().lower() == "agg":
+            raise RuntimeError("there is no display for a window: name a FOLDER for the picture")
         plt.show()
     else:
         figure.savefig(pathlib.Path(folder) / "obstacles.png", dpi=120)

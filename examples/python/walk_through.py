@@ -15,6 +15,8 @@ import hagen
 
 if not 2 <= len(sys.argv) <= 3:
     sys.exit(__doc__)
+if len(sys.argv) == 2 and plt.get_backend().lower() == "agg":
+    sys.exit("there is no display for windows: name a FOLDER for the pictures")
 try:
     scan = next(hagen.open(sys.argv[1]))
 except (OSError, RuntimeError) as error:

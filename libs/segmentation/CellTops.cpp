@@ -10,7 +10,8 @@ namespace {
 constexpr float kOverhead_m = 1.5f;  // what is higher need not stand in its cell
 
 /// The highest of each cell, and its second highest, or the highest if it is the only one.
-void separate(const float* two_m, float* highest_m, float* top_m) {
+/// HWY_ATTR: GCC for ARM refuses Highway's functions without it.
+HWY_ATTR void separate(const float* two_m, float* highest_m, float* top_m) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<float, 4> d;  // has no better instruction set than the rest of this file
     const auto none_m = hn::Set(d, CellTops::kNone_m);

@@ -73,6 +73,20 @@ def test_examples_draw(example, tmp_path):
 
 
 @pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
+def test_examples_without_a_display_ask_for_a_folder(example):
+    pytest.importorskip("matplotlib")
+    recording = SOURCES / "rawlogs" / "poles_and_wall.rawlog"
+    run = subprocess.run(
+        [sys.executable, SOURCES / "examples" / "python" / example, recording],
+        env={**os.environ, "MPLBACKEND": "Agg"},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 1
+    assert "FOLDER" in run.stderr and "Traceback" not in run.stderr
+
+
+@pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
 def test_examples_name_what_they_cannot_read(example, tmp_path):
     pytest.importorskip("matplotlib")
     run = subprocess.run(
