@@ -8,8 +8,8 @@
 
 namespace hagen::trials {
 
-/// Draws the latency of planning steps from the profile. With sectors, a step costs as much as with
-/// a whole scan, which is more than the filter's and the model's share really is.
+/// Draws the latency of planning steps from the profile. With sectors, a step is charged as much as
+/// with a whole scan: updates with a few sectors take less, their labels about as much.
 class TrialLatencies {
  public:
     TrialLatencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile);
