@@ -244,8 +244,7 @@ int run(int argc, char** argv) {
     if (files.empty()) {
         std::fprintf(stderr,
                      "Usage: streaming-benchmark [-c SETTINGS] [--skip-deg ANGLE] [--attitude | "
-                     "--pose] [--context-s "
-                     "S] [--try SECTOR_DEG "
+                     "--pose] [--try SECTOR_DEG "
                      "WINDOW_DEG EVERY]... RECORDING...\nGround truth: RECORDING.truth beside "
                      "RECORDING.rawlog (rawlog-simulate --kitti)\n");
         return 2;

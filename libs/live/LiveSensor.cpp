@@ -28,6 +28,16 @@ class StreamSensor : public LiveSensor {
     void flush() override { stream_->flush(); }
 
  protected:
+    Counts commonCounts() const {
+        const auto& of_stream = stream_->counts();
+        Counts counts;
+        counts.packets = of_stream.packets;
+        counts.lost = of_stream.lost;
+        counts.late = of_stream.late;
+        counts.repeated = of_stream.repeated;
+        counts.interruptions = of_stream.interruptions;
+        return counts;
+    }
     template <class Turns>
     void record(Turns& turns) {
         complete_.insert(complete_.end(), turns.complete().begin(), turns.complete().end());
@@ -52,9 +62,15 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
     }
 
     Counts counts() const override {
-        const auto& c = stream_->counts();
-        return {c.packets,     c.lost,    c.late,          c.repeated,     c.wrong_size, position_,
-                c.other_model, c.unsound, c.interruptions, c.mode_changes, c.turns};
+        Counts counts = commonCounts();
+        const auto& of_stream = stream_->counts();
+        counts.wrong_size = of_stream.wrong_size;
+        counts.position = position_;
+        counts.foreign = of_stream.other_model;
+        counts.unsound = of_stream.unsound;
+        counts.mode_changes = of_stream.mode_changes;
+        counts.scans = of_stream.turns;
+        return counts;
     }
     bool isDual() const override { return stream_->isDual(); }
 
@@ -104,9 +120,14 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
     }
 
     Counts counts() const override {
-        const auto& c = stream_->counts();
-        return {c.packets,      c.lost,    c.late,          c.repeated, c.wrong_size, c.imu,
-                c.other_sensor, c.unsound, c.interruptions, 0,          c.turns};
+        Counts counts = commonCounts();
+        const auto& of_stream = stream_->counts();
+        counts.wrong_size = of_stream.wrong_size;
+        counts.position = of_stream.imu;
+        counts.foreign = of_stream.other_sensor;
+        counts.unsound = of_stream.unsound;
+        counts.scans = of_stream.turns;
+        return counts;
     }
 
     bool isToldByAddress(const Packet& packet) const override {
@@ -148,10 +169,11 @@ class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
 
     bool turns() const override { return false; }
     Counts counts() const override {
-        const auto& c = stream_->counts();
-        const std::size_t tenths = segmenter().sectors() / 5;
-        return {c.packets, c.lost, c.late,          c.repeated, c.foreign, c.imu,
-                0,         0,      c.interruptions, 0,          tenths};
+        Counts counts = commonCounts();
+        counts.wrong_size = stream_->counts().foreign;
+        counts.position = stream_->counts().imu;
+        counts.scans = segmenter().sectors() / 5;  // frames of 20 ms
+        return counts;
     }
 
     bool isToldByAddress(const Packet& packet) const override {

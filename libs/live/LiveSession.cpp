@@ -1,3 +1,4 @@
+#include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/ProcessCost.h>
 #include <hagen/captures/CaptureFile.h>
@@ -6,7 +7,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 #include <exception>
 #include <optional>
@@ -36,12 +36,6 @@ double processCpu_s() {
 }
 
 double threadCpu_s() { return std::chrono::duration<double>(base::threadCpuTime()).count(); }
-
-std::string fixed(double value, int decimals) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
-}
 
 /// What becomes of the packets of a sensor.
 class Session {
@@ -164,8 +158,9 @@ void Session::showStatus(double now_s) {
     status.is_silent = is_silent_;
     if (sensor_->turns() && !is_silent_) {
         if (const auto change = figures_->rateChange()) {
-            listener_.remark("the sensor turns " + fixed(change->now, 1) +
-                             " times per second now, " + fixed(change->before, 1) + " before");
+            listener_.remark("the sensor turns " + base::fixedText(change->now, 1) +
+                             " times per second now, " + base::fixedText(change->before, 1) +
+                             " before");
         }
     }
     figures_->next();
@@ -180,7 +175,7 @@ void Session::tellSilence(double now_s) {
     ++report_.silences;
     copyCounts();
     listener_.remark(report_.packets > 0
-                         ? "no packets of the sensor for " + fixed(kSilence_s, 0) + " s"
+                         ? "no packets of the sensor for " + base::fixedText(kSilence_s, 0) + " s"
                          : "no packet of " + nameOf(options_) + " has come yet");
 }
 

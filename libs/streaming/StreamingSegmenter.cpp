@@ -1,4 +1,5 @@
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/AppendReturn.h>
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
@@ -33,16 +34,6 @@ void append(const Scan& from, Scan& to) {
     append(from.range_m, to.range_m);
     append(from.azimuth_rad, to.azimuth_rad);
     append(from.row, to.row);
-}
-
-void append(const Scan& from, std::size_t i, Scan& to) {
-    to.x_m.push_back(from.x_m[i]);
-    to.y_m.push_back(from.y_m[i]);
-    to.z_m.push_back(from.z_m[i]);
-    to.intensity.push_back(from.intensity[i]);
-    to.range_m.push_back(from.range_m[i]);
-    to.azimuth_rad.push_back(from.azimuth_rad[i]);
-    to.row.push_back(from.row[i]);
 }
 
 bool isStill(const Eigen::Isometry3d& motion) {
@@ -120,7 +111,7 @@ void StreamingSegmenter::thin(Packet& packet) const {
     const Scan& all = packet.returns;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const int column = nearestColumn(all.azimuth_rad[i], filter_.options().columns);
-        if (column % streaming_.keep_every == 0) append(all, i, packet.thinned);
+        if (column % streaming_.keep_every == 0) appendReturn(all, i, packet.thinned);
     }
 }
 
@@ -181,7 +172,7 @@ void StreamingSegmenter::forget(double now_s) {
 void StreamingSegmenter::addAhead(const Scan& scan, double head_rad) {
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const double clockwise_rad = -static_cast<double>(scan.azimuth_rad[i]);
-        if (std::remainder(clockwise_rad - head_rad, kTurn_rad) > 0) append(scan, i, window_);
+        if (std::remainder(clockwise_rad - head_rad, kTurn_rad) > 0) appendReturn(scan, i, window_);
     }
 }
 

@@ -1,4 +1,5 @@
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/AppendReturn.h>
 #include <hagen/trials/SectorSensor.h>
 
 #include <algorithm>
@@ -19,16 +20,6 @@ Eigen::Isometry3d isometryOf(const simulation::SensorPose& pose) {
     isometry.linear() = pose.attitude.toRotationMatrix();
     isometry.translation() = pose.position_m;
     return isometry;
-}
-
-void append(const Scan& from, std::size_t i, Scan& to) {
-    to.x_m.push_back(from.x_m[i]);
-    to.y_m.push_back(from.y_m[i]);
-    to.z_m.push_back(from.z_m[i]);
-    to.intensity.push_back(from.intensity[i]);
-    to.range_m.push_back(from.range_m[i]);
-    to.azimuth_rad.push_back(from.azimuth_rad[i]);
-    to.row.push_back(from.row[i]);
 }
 
 }  // namespace
@@ -86,7 +77,7 @@ void SectorSensor::addPackets(int turn, int first, int end, const FlightTrace& t
         returns.clear();
         returns.beams = all.scan.beams;
         for (; i < all.size() && all.firing[i] < firings.end; ++i) {
-            append(all.scan, i, returns);
+            appendReturn(all.scan, i, returns);
             measured_.push_back({turn, all.scan.time_s[i]});
         }
         const double middle_s = turn_s + 0.5 * firing_s * (firings.first + firings.end);

@@ -15,8 +15,7 @@ struct MeasuredRuns {
 using MeasuredByModel = std::map<std::string, MeasuredRuns>;
 
 /// Adds a row, unless it is of a run with sectors. Columns are found by the header's names; fields
-/// may be empty. Throws
-/// std::runtime_error for a row without all columns, or no number.
+/// may be empty. Throws std::runtime_error for a row without all columns, or no number.
 void addMeasured(const std::string& header, const std::string& row, MeasuredByModel& all);
 
 /// measured.csv of a campaign. Throws as addMeasured, naming file and line.
