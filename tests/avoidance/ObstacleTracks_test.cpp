@@ -99,6 +99,17 @@ TEST(ObstacleTracks, FollowThroughChangingNumbers) {
     EXPECT_EQ(tracks.trackOfObstacle(), (std::vector<std::uint32_t>{0, 2, 1}));
 }
 
+TEST(ObstacleTracks, NothingIsKnownOfTheVelocityAfterOneScan) {
+    ObstacleTracks tracks;
+    tracks.update(walkerAndPost(1).front());
+    ASSERT_EQ(tracks.tracks().size(), 2u);
+    for (const ObstacleTrack& track : tracks.tracks()) {
+        EXPECT_EQ(track.velocity_m_s, Eigen::Vector2d::Zero());
+        EXPECT_EQ(track.seen_scans, 1);
+        EXPECT_FALSE(track.is_moving);
+    }
+}
+
 TEST(ObstacleTracks, TellVelocityAndWhatStands) {
     ObstacleTracks tracks;
     for (const auto& scan : walkerAndPost(12)) tracks.update(scan);

@@ -219,6 +219,8 @@ TEST(RotatingScan, WhatIsUnsoundIsNotRead) {
                 HasSubstr("intensity image has 3 x 5"));
     EXPECT_THAT(errorWith([](auto& scan) { scan.rangeOtherLayers["LAST"].setZero(2, 4); }),
                 HasSubstr("'LAST' has 2 x 4"));
+    EXPECT_THAT(errorWith([](auto& scan) { scan.rangeImage.setZero(4200, 4200); }),
+                HasSubstr("17640000 returns"));
 }
 
 TEST(RotatingScan, APlanarScanIsNone) {

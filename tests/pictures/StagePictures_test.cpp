@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <sstream>
 #include <stdexcept>
 
 #include "support/Program.h"
@@ -328,6 +330,57 @@ TEST(StagePictures, WhatGnuplotComplainsOfIsPassedOn) {
     const std::string error =
         errorWithGnuplot("printf '\\nset x\\n    ^\\nline 1: unknown terminal\\n' >&2; exit 1\n");
     EXPECT_THAT(error, HasSubstr("unknown terminal"));
+}
+
+/// What gnuplot is told to draw, but for the numbers of the images.
+std::string commandsOf(const std::function<void()>& draw) {
+    const TemporaryFolder programs;
+    const std::string taken = (programs / "taken").string();
+    const auto program = programs.write("gnuplot", "#!/bin/sh\ncat \"$2\" >'" + taken + "'\n");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const Environment path("PATH", programs.path().string() + ":/usr/bin:/bin");
+    errorOf(draw);  // there is no picture
+    std::istringstream lines(test::readFile(taken));
+    std::string text, end;
+    for (std::string line; std::getline(lines, line);) {
+        if (end.empty() || line == end) text += line + "\n";
+        const std::size_t block = line.find(" << ");
+        if (line == end) {
+            end.clear();
+        } else if (line[0] == '$' && block != std::string::npos) {
+            end = line.substr(block + 4);
+        }
+    }
+    return text;
+}
+
+/// The tests above see what a picture shows; this one each size, place, colour and text of it. Look
+/// at the pictures before you record anew.
+void compareWithRecorded(const std::string& name, const std::function<void()>& draw) {
+    const std::filesystem::path file =
+        std::filesystem::path(HAGEN_SOURCE_DIR) / "tests/pictures/recorded" / (name + ".gp");
+    const std::string commands = commandsOf(draw);
+    ASSERT_GT(commands.size(), 500u);
+    if (std::getenv("HAGEN_RECORD_PICTURES") != nullptr) std::ofstream(file) << commands;
+    EXPECT_EQ(commands, test::readFile(file))
+        << "if it is meant to be so: HAGEN_RECORD_PICTURES=1 scripts/test -R AsRecorded";
+}
+
+TEST(StagePictures, AreDrawnAsRecorded) {
+    const TemporaryFolder folder;
+    const Scan scan = scanOf(poleAt(9, 4));
+    HagenFilter filter(sensorModel("VLP-16"));
+    const SegmentationResult& result = filter.segment(scan);
+    compareWithRecorded("stages", [&] {
+        drawStages({scan, filter.sensor(), filter.options(), result, "a pole"}, folder.path());
+    });
+}
+
+TEST(AirframePicture, IsDrawnAsRecorded) {
+    const TemporaryFolder folder;
+    const Image<float> bins = Image<float>::Constant(90, 180, 1.2f);
+    compareWithRecorded("airframe",
+                        [&] { drawAirframe(bins, "a drone", folder.path(), "airframe.png"); });
 }
 
 TEST(AirframePicture, ShowsMaskedDirectionsWhereTheyAre) {

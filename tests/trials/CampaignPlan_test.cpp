@@ -31,6 +31,57 @@ TEST(CampaignPlan, FliesEveryCombinationOnce) {
     EXPECT_EQ(flights[1].scenario, "street");
 }
 
+TEST(CampaignPlan, EachOfItsListsVariesTheFlights) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap"};
+    plan.last_seed = plan.first_seed;
+    const std::vector<std::function<void(CampaignPlan&)>> doubled{
+        [](CampaignPlan& p) {
+            p.models = {"W-RoI", "oracle"};
+        },
+        [](CampaignPlan& p) {
+            p.guidances = {"straight", "astar"};
+        },
+        [](CampaignPlan& p) {
+            p.planners = {"primitives", p.planners.front()};
+        },
+        [](CampaignPlan& p) {
+            p.speeds_m_s = {4, 8};
+        },
+        [](CampaignPlan& p) {
+            p.pose_errors = {PoseError::None, PoseError::None};
+        },
+        [](CampaignPlan& p) {
+            p.latency_scales = {1, 2};
+        },
+        [](CampaignPlan& p) {
+            p.airs = {Air::Dusty, Air::Clear};
+        },
+        [](CampaignPlan& p) {
+            p.distances = {ModelDistance::Unbiased, ModelDistance::AsStored};
+        },
+        [](CampaignPlan& p) {
+            p.updates = {Updates::Scans, Updates::Sectors};
+        },
+    };
+    std::size_t setups = 1;
+    for (const auto& change : doubled) {
+        change(plan);
+        setups *= 2;
+        EXPECT_EQ(flightsOf(plan).at(0).setups.size(), setups);
+    }
+    plan.brakes_in_known_space = true;
+    const TrialSetup last = flightsOf(plan).at(0).setups.back();
+    EXPECT_EQ(last.model, "oracle");
+    EXPECT_EQ(last.guidance, "astar");
+    EXPECT_EQ(last.speed_m_s, 8);
+    EXPECT_EQ(last.latency_scale, 2);
+    EXPECT_EQ(last.air, Air::Clear);
+    EXPECT_EQ(last.distance, ModelDistance::AsStored);
+    EXPECT_EQ(last.updates, Updates::Sectors);
+    EXPECT_TRUE(last.brakes_in_known_space);
+}
+
 TEST(CampaignPlan, ShardsShareEverythingAndNothingTwice) {
     CampaignPlan plan;
     plan.scenarios = {"gap", "street", "wires"};

@@ -1,0 +1,76 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/command_line/CommandLine.h>
+
+#include <string>
+#include <vector>
+
+namespace hagen::command_line {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct Ran {
+    int exit_code;
+    std::string out, err;
+};
+
+/// Runs a program with -i, which may be repeated, a flag without a value and --many, which takes
+/// several.
+Ran runWith(std::vector<std::string> words) {
+    words.insert(words.begin(), "program");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    std::string input;
+    std::vector<std::string> configs;
+    bool is_quiet = false;
+    Program program("program", "Does nothing.");
+    program.option("-i,--input", input, "what to read");
+    program.option("-c,--config", configs, "a file").once();
+    program.flag("-q,--quiet", is_quiet, "print nothing");
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int exit_code =
+        program.run(static_cast<int>(words.size()), argv.data(), [] { return kDone; });
+    return {exit_code, testing::internal::GetCapturedStdout(),
+            testing::internal::GetCapturedStderr()};
+}
+
+TEST(CommandLine, AValueWithoutAFlagGetsAHintIfOneIsKnown) {
+    EXPECT_EQ(runWith({"-i", "log", "-q"}).exit_code, kDone);
+
+    const Ran forgotten = runWith({"log", "-q"});
+    EXPECT_EQ(forgotten.exit_code, kWrongUsage);
+    EXPECT_THAT(forgotten.err, HasSubstr("use -i log"));
+    EXPECT_THAT(runWith({"-q", "log"}).err, HasSubstr("use -i log"));
+
+    // It may well be the value of the flag that is not known.
+    const Ran unknown = runWith({"--colour", "red"});
+    EXPECT_EQ(unknown.exit_code, kWrongUsage);
+    EXPECT_THAT(unknown.err, HasSubstr("--colour"));
+    EXPECT_THAT(unknown.err, Not(HasSubstr("use -i")));
+
+    EXPECT_THAT(runWith({"-i", "log", "other"}).err, Not(HasSubstr("use -i")));
+    EXPECT_THAT(runWith({"-c", "one", "two"}).err,
+                HasSubstr("to name several, repeat the flag: -c one -c two"));
+}
+
+TEST(CommandLine, WritesItsManualAndCompletions) {
+    const Ran page = runWith({"--hagen-manual", "man", "2026-01-31"});
+    EXPECT_EQ(page.exit_code, kDone);
+    EXPECT_THAT(page.out, HasSubstr(".TH PROGRAM 1"));
+    EXPECT_THAT(page.out, HasSubstr("2026-01-31"));
+    EXPECT_THAT(runWith({"--hagen-manual", "bash"}).out, HasSubstr("complete -"));
+    EXPECT_THAT(runWith({"--hagen-manual", "zsh"}).out, HasSubstr("#compdef program"));
+    EXPECT_EQ(runWith({"--hagen-manual"}).exit_code, kWrongUsage);
+}
+
+TEST(CommandLine, LimitsOfMemoryAreChecked) {
+    EXPECT_EQ(runWith({"--memory-limit", "0.01"}).exit_code, kWrongUsage);
+    EXPECT_EQ(runWith({"--memory-limit", "many"}).exit_code, kWrongUsage);
+}
+
+}  // namespace
+}  // namespace hagen::command_line

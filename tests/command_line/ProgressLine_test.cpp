@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+#include <hagen/command_line/ProgressLine.h>
+#include <hagen/command_line/Terminal.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace hagen::command_line {
+namespace {
+
+/// What is written to standard error meanwhile, if it is a terminal.
+std::string onTerminal(const std::function<void()>& write) {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {
+        throw std::runtime_error("no pseudoterminal");
+    }
+    const int program_side = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    const int before = dup(STDERR_FILENO);
+    dup2(program_side, STDERR_FILENO);
+    write();
+    dup2(before, STDERR_FILENO);
+    close(before);
+    fcntl(terminal, F_SETFL, O_NONBLOCK);
+    std::string text(10000, 0);
+    const ssize_t size = read(terminal, text.data(), text.size());
+    close(program_side);
+    close(terminal);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    return text;
+}
+
+std::string clearing() {
+    std::ostringstream text;
+    text << clearLine;
+    return text.str();
+}
+
+TEST(ProgressLine, OnATerminalIsOneLineThatIsGoneAtTheEnd) {
+    const std::string clear = clearing();
+    EXPECT_EQ(onTerminal([] {
+                  ProgressLine line("scan");
+                  line.show(0, 2);
+                  line.show(0, 2);  // nothing new
+                  line.show(1, 2);
+                  line.show(2, 2);
+              }),
+              clear + "scan 0 of 2" + clear + "scan 1 of 2, about 0 s left" + clear + clear);
+}
+
+TEST(ProgressLine, ClearsWhatHasNotComeToItsEnd) {
+    const std::string clear = clearing();
+    EXPECT_EQ(onTerminal([] { ProgressLine("scan").show(0, 2); }), clear + "scan 0 of 2" + clear);
+    EXPECT_EQ(onTerminal([] { ProgressLine("scan").show(0, 0); }), "");
+}
+
+TEST(ProgressLine, ElsewhereHasALinePerTenth) {
+    testing::internal::CaptureStderr();
+    {
+        ProgressLine line("flight");
+        for (std::size_t done = 0; done <= 30; ++done) line.show(done, 30);
+    }
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 11);
+    EXPECT_EQ(text.find("flight 0 of 30\nflight 3 of 30, about 0 s left\n"), 0u) << text;
+    EXPECT_NE(text.find("flight 30 of 30\n"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace hagen::command_line
