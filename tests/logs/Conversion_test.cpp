@@ -18,6 +18,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 
@@ -676,16 +677,25 @@ TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) 
     scan.x_m = {5, 6};
     scan.y_m = scan.z_m = {0, 1};
     scan.intensity = {0, 1};
-    writeLog({pose(), observations::observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)),
-              scanFrom(0), pose(), pose(), pose()});
+    std::vector<mrpt::serialization::CSerializable::Ptr> entries_of_log{
+        pose(), observations::observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)),
+        scanFrom(0)};
+    entries_of_log.insert(entries_of_log.end(), 2000, pose());
+    writeLog(entries_of_log);
     Conversion unfit = conversion();
     unfit.settings.sensor.model = "HDL-64E";
     unfit.settings.options.window_size = 20;
     std::size_t entries = 0;
+    std::atomic<std::size_t> read{0};
     ConversionListener listener;
+    listener.keep_going = [&] {
+        ++read;
+        return true;
+    };
     listener.progress = [&](const ConversionReport& report) { entries = report.entries; };
     EXPECT_THROW(convert(unfit, listener), observations::SettingsError);
     EXPECT_EQ(entries, 2u);
+    EXPECT_LT(read, 1000u);  // the rest is not read
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
     EXPECT_FALSE(fs::exists(folder_ / "out.partial.rawlog"));
 }
