@@ -245,8 +245,8 @@ TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
     from_folder.folder = folder_ / "labels";
     from_folder.settings.sensor.model = "HDL-64E";
     convert(from_folder);
-    observations::Settings written;
-    observations::mergeSettings(folder_ / "labels/sensor.yaml", written);
+    Settings written;
+    mergeSettings(folder_ / "labels/sensor.yaml", written);
     EXPECT_EQ(written.sensorModel().rows(), 32);
 }
 
@@ -268,7 +268,7 @@ TEST_P(ConversionTest, CloudsGetTheLabelsOfTheirPackets) {
     writeLog({scans.begin(), scans.end()});
     Conversion of_packets = conversion();
     of_packets.folder = folder_ / "of_packets";
-    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", of_packets.settings);
+    mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", of_packets.settings);
     convert(of_packets);
     writeLog(cloudsOf(scans));
     Conversion of_clouds = conversion();
@@ -684,7 +684,7 @@ TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) 
     std::size_t entries = 0;
     ConversionListener listener;
     listener.progress = [&](const ConversionReport& report) { entries = report.entries; };
-    EXPECT_THROW(convert(unfit, listener), observations::SettingsError);
+    EXPECT_THROW(convert(unfit, listener), SettingsError);
     EXPECT_EQ(entries, 2u);
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
     EXPECT_FALSE(fs::exists(folder_ / "out.partial.rawlog"));
@@ -696,7 +696,7 @@ TEST_P(ConversionTest, ABreakAfterAFailureIsNotWhatIsTold) {
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() - 10));
     Conversion unfit = conversion();
     unfit.settings.options.window_size = 20;
-    EXPECT_THROW(convert(unfit), observations::SettingsError);
+    EXPECT_THROW(convert(unfit), SettingsError);
 }
 
 TEST_P(ConversionTest, ALogOfSmallEntriesTakesLittleMoreThanTheyDo) {
