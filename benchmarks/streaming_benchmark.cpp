@@ -39,7 +39,7 @@ struct Turn {
 
 struct Recording {
     std::vector<Turn> turns;
-    observations::Settings settings;
+    Settings settings;
     double whole_us = 0;  ///< median CPU time of the filter on a whole scan
 };
 
@@ -64,7 +64,7 @@ Eigen::Isometry3d isometryOf(const mrpt::poses::CPose3D& pose) {
 
 Recording read(const std::string& file, const std::string& preset, bool levels) {
     Recording recording;
-    if (!preset.empty()) observations::mergeSettings(preset, recording.settings);
+    if (!preset.empty()) mergeSettings(preset, recording.settings);
     const auto source = logs::openRecording(file);
     source->usePoses({});
     observations::ObservedScan observed;
@@ -165,7 +165,7 @@ void stream(const Recording& recording, const streaming::StreamingOptions& optio
         is_doubtful.resize(labels.size(), sector.is_doubtful);
     };
     const auto& model =
-        observations::velodyneModel(observations::sensorOf(*recording.turns.front().packets).name);
+        packets::velodyneModel(observations::sensorOf(*recording.turns.front().packets).name);
     streaming::VelodyneStream packets(model, recording.settings, take, options);
     double time_s = 0;
     std::size_t count = 0;

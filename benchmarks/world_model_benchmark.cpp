@@ -1,7 +1,7 @@
 // Measures each world model on a simulated flight: time of an update and of a query, memory.
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 #include <malloc.h>
@@ -31,8 +31,8 @@ std::vector<mapping::MappedScan> flyThrough(const std::string& scenario, int sca
     const SensorModel sensor = sensorModel("VLP-16");
     const simulation::Scene scene = simulation::makeScene(scenario, 1);
     const simulation::Flight flight(scene.terrain(), scene.path(), {}, 1);
-    observations::Settings settings;
-    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", settings);
+    Settings settings;
+    mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", settings);
     HagenFilter filter(sensor, settings.options);
     simulation::Random random(1, 3);
     std::vector<mapping::MappedScan> mapped;

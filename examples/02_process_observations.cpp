@@ -30,8 +30,8 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "usage: 02_process_observations LOG.rawlog [SETTINGS.yaml]\n");
         return 2;
     }
-    hagen::observations::Settings settings;
-    if (argc > 2) hagen::observations::mergeSettings(argv[2], settings);
+    hagen::Settings settings;
+    if (argc > 2) hagen::mergeSettings(argv[2], settings);
     hagen::observations::ObservationSegmenter segmenter;
     segmenter.initialize(settings);
 

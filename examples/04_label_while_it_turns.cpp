@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
         // What is done with each sector, a few milliseconds after its last packet.
         streaming::SectorDistances distances(sensorModel("VLP-16"));
         streaming::VelodyneStream stream(
-            observations::velodyneModel("VLP-16"), {},
+            packets::velodyneModel("VLP-16"), {},
             [&](const streaming::LabelledSector& sector) { distances.take(sector); });
         // With an IMU: stream.setAttitude() before each packet.
 

@@ -59,7 +59,7 @@ void checkAutopilot(const AutopilotFlags& flags) {
 }
 
 std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
-                                                        const observations::Settings& settings,
+                                                        const Settings& settings,
                                                         live::LiveListener& listener) {
     if (flags.peer.empty()) return nullptr;
     autopilot::AutopilotLink::Settings link;

@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/autopilot/AutopilotLink.h>
 #include <hagen/live/LiveSession.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 
 #include <memory>
 #include <optional>
@@ -27,7 +27,7 @@ void checkAutopilot(const AutopilotFlags& flags);
 /// Opens the link and has the listener of a session feed it; null without --mavlink. It tells by
 /// `listener.remark`, from a thread of its own. Throws std::runtime_error naming the peer.
 std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
-                                                        const observations::Settings& settings,
+                                                        const Settings& settings,
                                                         live::LiveListener& listener);
 void printLink(const autopilot::AutopilotLink& link);
 

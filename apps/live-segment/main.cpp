@@ -1,6 +1,6 @@
 // Labels the packets of a LiDAR while they come: near obstacles (RoI) and everything else (ROU).
 #include <hagen/live/LiveSession.h>
-#include <hagen/observations/Presets.h>
+#include <hagen/settings/Presets.h>
 
 #include <unistd.h>
 #include <cmath>
@@ -152,13 +152,19 @@ void printSummary(const live::LiveReport& r) {
     if (r.recorded.left_out > 0) {
         std::cout << r.recorded.left_out << " turns are not recorded: the disk was too slow\n";
     }
+    if (r.recorded.packets_left_out > 0) {
+        std::cout << r.recorded.packets_left_out
+                  << " packets are not recorded: the recorder did not take them\n";
+    }
 }
 
 int run(const Program& program, Flags& flags) {
     check(flags);
     try {
         for (const std::string& config : flags.configs) {
-            observations::mergeSettings(observations::presetFile(config), flags.live.settings);
+            const std::filesystem::path file = presetFile(config);
+            mergeSettings(file, flags.live.settings);
+            flags.live.recording.settings_files.push_back(file);
         }
         std::unique_ptr<live::PacketSource> source;
         if (!flags.replay.empty()) {
@@ -191,12 +197,15 @@ int run(const Program& program, Flags& flags) {
         line.clear();
         if (!flags.is_quiet) printSummary(report);
         if (!flags.is_quiet && link) printLink(*link);
+        if (!report.recorded.failure.empty()) {
+            return program.fail(kFailed, report.recorded.failure);
+        }
         if (report.packets > 0) return kDone;
         return program.fail(kFailed, flags.live.model.empty()
                                          ? "no packet of the Ouster of " +
                                                flags.live.sensor_json.string() + " has come"
                                          : "no packet of a " + flags.live.model + " has come");
-    } catch (const observations::SettingsError& e) {
+    } catch (const SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }
 }

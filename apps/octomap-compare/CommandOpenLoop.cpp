@@ -1,6 +1,6 @@
 // octomap-compare openloop: compares world models on a recorded log.
-#include <hagen/observations/Presets.h>
 #include <hagen/openloop/OpenLoop.h>
+#include <hagen/settings/Presets.h>
 
 #include <algorithm>
 #include <iostream>
@@ -60,7 +60,7 @@ int run(Flags flags) {
     if (open_loop.models.empty()) open_loop.models = standardModels(open_loop.scene.has_value());
     openloop::checkOpenLoop(open_loop);
     for (const std::string& config : flags.configs) {
-        observations::mergeSettings(observations::presetFile(config), open_loop.source.settings);
+        mergeSettings(presetFile(config), open_loop.source.settings);
     }
     openloop::OpenLoopFiles files(flags.folder, flags.overwrites);
     ProgressLine progress("scan");
@@ -95,7 +95,7 @@ int run(Flags flags) {
 int runChecked(const Flags& flags) {
     try {
         return run(flags);
-    } catch (const observations::SettingsError& e) {
+    } catch (const SettingsError& e) {
         throw UsageError("--config", e.what());
     } catch (const std::invalid_argument& e) {
         throw UsageError("openloop", e.what());

@@ -170,7 +170,7 @@ void printAirframe(const hagen::logs::AirframeLearning& learning,
 void printSettingsKeys() {
     using Row = std::array<std::string, 6>;
     std::vector<Row> rows{{"key", "unit", "default", "range", "meaning", "in the paper"}};
-    for (const hagen::observations::SettingsKey& key : hagen::observations::settingsKeys()) {
+    for (const hagen::SettingsKey& key : hagen::settingsKeys()) {
         rows.push_back({key.name, key.unit, key.standard, key.range, key.what, key.symbol});
     }
     std::array<std::size_t, 6> widths{};

@@ -2,7 +2,7 @@
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/LearnAirframe.h>
 #include <hagen/logs/ScanSource.h>
-#include <hagen/observations/Presets.h>
+#include <hagen/settings/Presets.h>
 
 #include <cstdio>
 #include <iostream>
@@ -44,11 +44,11 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
 
 /// Prints the current settings, including those of a scan folder.
 void printSettings(const logs::Conversion& conversion) {
-    observations::Settings settings = conversion.settings;
+    Settings settings = conversion.settings;
     if (std::filesystem::is_directory(conversion.input)) {
         settings = logs::openRecording(conversion.input)->settingsFor(settings);
     }
-    std::cout << observations::dumpSettings(settings);
+    std::cout << dumpSettings(settings);
 }
 
 struct Flags {
@@ -281,8 +281,7 @@ int run(const Program& program, Flags& flags) {
     check(flags);
     try {
         for (const std::string& config : flags.configs) {
-            observations::mergeSettings(observations::presetFile(config),
-                                        flags.conversion.settings);
+            mergeSettings(presetFile(config), flags.conversion.settings);
         }
         if (flags.dumps_settings) {
             printSettings(flags.conversion);
@@ -297,7 +296,7 @@ int run(const Program& program, Flags& flags) {
         if (!flags.is_quiet) printSummary(flags.conversion, report);
         if (report.scans > 0 || report.unreadable_scans == 0) return kDone;
         return program.fail(kFailed, "none of the LiDAR scans could be read");
-    } catch (const observations::SettingsError& e) {
+    } catch (const SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }
 }

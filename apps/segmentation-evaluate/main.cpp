@@ -1,7 +1,7 @@
 // Scores the filter on labelled scan folders, with one set of settings or a sweep.
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>
-#include <hagen/observations/Presets.h>
+#include <hagen/settings/Presets.h>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -84,9 +84,9 @@ auto fromFlag(const std::string& name, Read read) -> std::optional<decltype(read
         }
     };
     try {
-        return read(observations::presetFile(name, is_usable).string());
+        return read(presetFile(name, is_usable).string());
     } catch (const std::runtime_error& e) {
-        throw observations::SettingsError(e.what());
+        throw SettingsError(e.what());
     }
 }
 
@@ -116,7 +116,7 @@ struct Outputs {
 
 int run(const Flags& flags, labelled_scans::Summary summary) {
     for (const std::string& config : flags.configs)
-        observations::mergeSettings(observations::presetFile(config), summary.settings);
+        mergeSettings(presetFile(config), summary.settings);
     labelled_scans::MethodSet rows;
     rows.filter = labelled_scans::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
@@ -185,7 +185,7 @@ int command(int argc, char** argv) {
         summary.command_line.assign(argv, argv + argc);
         try {
             return run(flags, summary);
-        } catch (const observations::SettingsError& e) {
+        } catch (const SettingsError& e) {
             return program.fail(kWrongUsage, e.what());
         } catch (const fs::filesystem_error& e) {
             return program.fail(kFailed, e.what());

@@ -17,9 +17,9 @@ std::vector<Change> sweep(const std::string& symbol, const std::string& key,
     return changes;
 }
 
-observations::Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
-    observations::Settings settings;
-    observations::mergeSettings(file, settings);
+Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
+    Settings settings;
+    mergeSettings(file, settings);
     settings.options.zone_m = set.zone_m;
     return settings;
 }
@@ -37,7 +37,7 @@ void checkPaper(const Options& paper, const std::filesystem::path& file) {
         "zone");
 }
 
-void addChanges(const std::string& filter, const observations::Settings& settings,
+void addChanges(const std::string& filter, const Settings& settings,
                 const std::vector<Change>& changes, std::vector<labelled_scans::SweepPoint>& rows) {
     for (const Change& change : changes) {
         labelled_scans::SweepPoint row{nameOf(filter, change), settings, "", ""};
@@ -46,7 +46,7 @@ void addChanges(const std::string& filter, const observations::Settings& setting
             const std::string value = text == "zone" ? std::to_string(settings.options.zone_m)
                                       : text == "W"  ? std::to_string(settings.options.window_size)
                                                      : text;
-            observations::setOption(key, value, row.settings);
+            setOption(key, value, row.settings);
         };
         set(change.key, change.value);
         for (const auto& [key, value] : change.also) set(key, value);
@@ -110,8 +110,8 @@ const std::vector<Change>& paperStagesUnderSurface() {
 }
 
 labelled_scans::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
-    const observations::Settings ours = settingsOf(set, config / set.preset);
-    const observations::Settings paper = settingsOf(set, config / "paper.yaml");
+    const Settings ours = settingsOf(set, config / set.preset);
+    const Settings paper = settingsOf(set, config / "paper.yaml");
     checkPaper(paper.options, config / "paper.yaml");
     return {{{kDefault, ours, "", ""}, {kPaper, paper, "", ""}}, ours};
 }
@@ -119,7 +119,7 @@ labelled_scans::MethodSet headlineRowsFor(const DataSet& set, const std::filesys
 labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config) {
     labelled_scans::MethodSet all = headlineRowsFor(set, config);
     if (!set.has_all_rows) return all;
-    const observations::Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
+    const Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
     for (const auto& changes : {betaSweep(), componentSweep(), {literalSeeds()}}) {
         addChanges(kPaper, paper, changes, all.filter);
     }
@@ -127,8 +127,8 @@ labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::pat
          {ownStagesOfSurface(), ownStages(), paperStages(), paperStagesUnderSurface()}) {
         addChanges(kDefault, ours, changes, all.filter);
     }
-    observations::Settings without_surface = ours;
-    observations::setOption(kNoSurface.key, kNoSurface.value, without_surface);
+    Settings without_surface = ours;
+    setOption(kNoSurface.key, kNoSurface.value, without_surface);
     for (const auto& changes : {ownStages(), paperStages()}) {
         addChanges(kWithoutSurface, without_surface, changes, all.filter);
     }

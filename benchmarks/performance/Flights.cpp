@@ -46,7 +46,7 @@ class FlyingLidar {
 };
 
 std::vector<evaluation::Method> methods() {
-    observations::Settings ours, papers;
+    Settings ours, papers;
     papers.options = paperOptions();
     std::vector<evaluation::Method> all;
     for (const evaluation::Method& method : labelled_scans::methodsFor(

@@ -1,7 +1,6 @@
 #include "StageRows.h"
 
 #include <hagen/evaluation/BaselineZermas.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/CanopyLayer.h>
@@ -9,6 +8,7 @@
 #include <hagen/segmentation/RangeAngle.h>
 #include <hagen/segmentation/RoiBoxes.h>
 #include <hagen/segmentation/Sharpening.h>
+#include <hagen/settings/Settings.h>
 
 #include <algorithm>
 #include <cstring>
@@ -169,8 +169,8 @@ const std::vector<StageRow>& ownStages() {
 }  // namespace
 
 Options paperOptions() {
-    observations::Settings settings;
-    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/paper.yaml", settings);
+    Settings settings;
+    mergeSettings(HAGEN_SOURCE_DIR "/config/paper.yaml", settings);
     return settings.options;
 }
 

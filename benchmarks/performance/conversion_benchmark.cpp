@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
     app.option("--name", settings, "name of the settings, for that line").showDefault();
     return app.run(argc, argv, [&] {
         for (const std::string& config : configs) {
-            observations::mergeSettings(config, conversion.settings);
+            mergeSettings(config, conversion.settings);
         }
         measure(conversion, copies_through, repetitions, settings, json_lines);
         return kDone;

@@ -23,9 +23,9 @@ std::string contentOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-observations::Settings settingsOf(const fs::path& preset, float zone_m) {
-    observations::Settings settings;
-    observations::mergeSettings(preset, settings);
+Settings settingsOf(const fs::path& preset, float zone_m) {
+    Settings settings;
+    mergeSettings(preset, settings);
     settings.options.zone_m = zone_m;
     return settings;
 }
@@ -98,7 +98,7 @@ void LoadedScans::add(const ScanInputs& inputs) {
 
 evaluation::Method LoadedScans::methodFor(const Kind& kind, const std::vector<Setting>& settings,
                                           const Choice& choice) {
-    observations::Settings chosen = settingsOf(kind.preset, kind.zone_m);
+    Settings chosen = settingsOf(kind.preset, kind.zone_m);
     apply(settings, choice, chosen);
     labelled_scans::MethodSet rows{{{"", chosen, "", ""}}, std::nullopt};
     rows.is_upside_down = kind.is_upside_down;

@@ -2,7 +2,7 @@
 #pragma once
 #include <hagen/evaluation/DroneScores.h>
 #include <hagen/evaluation/Evaluation.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <filesystem>
 #include <memory>
 #include <optional>

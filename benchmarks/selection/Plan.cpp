@@ -56,8 +56,8 @@ const OptionKey& optionKey(const std::string& name) {
 
 /// The value as the filter prints it, so that 0.10 and 0.1 are one.
 std::string checkedValue(const std::string& key, const std::string& value) {
-    observations::Settings settings;
-    observations::setOption(key, value, settings);  // throws
+    Settings settings;
+    setOption(key, value, settings);  // throws
     return textOf(optionKey(key), settings.options);
 }
 
@@ -66,7 +66,7 @@ Setting settingOf(const fs::path& file, const std::string& key, const YAML::Node
     for (const std::string& value : textsOf(file, key, list)) {
         try {
             setting.values.push_back(checkedValue(key, value));
-        } catch (const observations::SettingsError& e) {
+        } catch (const SettingsError& e) {
             fail(file, list, e.what());
         }
     }
@@ -94,7 +94,7 @@ std::string plainValue(const fs::path& file, const Plan& plan, const std::string
         try {
             const std::string value = checkedValue(key, node.Scalar());
             if (contains(setting.values, value)) return value;
-        } catch (const observations::SettingsError& e) {
+        } catch (const SettingsError& e) {
             fail(file, node, e.what());
         }
     }
@@ -145,8 +145,8 @@ Choice presentChoice(const std::vector<fs::path>& presets, Plan& plan) {
     for (Setting& setting : plan.settings) {
         std::string present;
         for (const fs::path& preset : presets) {
-            observations::Settings settings;
-            observations::mergeSettings(preset, settings);
+            Settings settings;
+            mergeSettings(preset, settings);
             const std::string value = textOf(optionKey(setting.key), settings.options);
             if (!present.empty() && value != present) {
                 throw std::runtime_error(setting.key + " is " + present + " in " +
@@ -174,10 +174,9 @@ Choice plainChoice(const Plan& plan, Choice present) {
     return present;
 }
 
-void apply(const std::vector<Setting>& settings, const Choice& choice,
-           observations::Settings& target) {
+void apply(const std::vector<Setting>& settings, const Choice& choice, Settings& target) {
     for (std::size_t s = 0; s < settings.size(); ++s)
-        observations::setOption(settings[s].key, settings[s].values[choice[s]], target);
+        setOption(settings[s].key, settings[s].values[choice[s]], target);
 }
 
 }  // namespace hagen::selection

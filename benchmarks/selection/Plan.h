@@ -1,6 +1,6 @@
 // What is tried, and on what: config/selection.yaml.
 #pragma once
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -40,7 +40,6 @@ Choice presentChoice(const std::vector<std::filesystem::path>& presets, Plan& pl
 Choice plainChoice(const Plan& plan, Choice present);
 
 /// Sets the chosen values.
-void apply(const std::vector<Setting>& settings, const Choice& choice,
-           observations::Settings& target);
+void apply(const std::vector<Setting>& settings, const Choice& choice, Settings& target);
 
 }  // namespace hagen::selection

@@ -94,7 +94,7 @@ int soak(const Flags& flags) {
     if (scans.empty()) throw std::runtime_error(flags.input + ": has no LiDAR scans");
     observations::ObservationSegmenter segmenter;
     segmenter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
-    segmenter.initialize(observations::Settings());
+    segmenter.initialize(Settings());
     std::vector<std::uint64_t> first(scans.size(), 0);
     std::vector<double> resident;
     LatencyCounts latencies;

@@ -1,6 +1,6 @@
 #include <hagen/bags/BagPlan.h>
 #include <hagen/captures/Remarks.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneModel.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -155,7 +155,7 @@ class Planner {
     std::string whyNot(const Topic& topic, const std::vector<const Topic*>& lidars) const {
         if (topic.kind == LidarKind::Velodyne && !isReadable(topic)) {
             return "its packets are not of a known Velodyne (" +
-                   observations::knownVelodynes().substr(1) + ")";
+                   packets::knownVelodynes().substr(1) + ")";
         }
         if (topic.kind != LidarKind::Cloud) return "";
         for (const Topic* other : lidars) {
@@ -174,7 +174,7 @@ class Planner {
         if (topic.kind == LidarKind::Ouster) return findOuster(topic) != nullptr;
         return topic.kind != LidarKind::Velodyne ||
                (topic.velodyne_id >= 0 &&
-                observations::findVelodyneModel(static_cast<std::uint8_t>(topic.velodyne_id)));
+                packets::findVelodyneModel(static_cast<std::uint8_t>(topic.velodyne_id)));
     }
 
     static bool isSameSensor(const Topic& cloud, const Topic& packets) {
@@ -205,7 +205,7 @@ class Planner {
 
     // Metadata of Ousters.
 
-    std::shared_ptr<const captures::OusterSensor> findOuster(const Topic& topic) const {
+    std::shared_ptr<const packets::OusterSensor> findOuster(const Topic& topic) const {
         std::string text_of = options_.sensor_json.string();
         if (text_of.empty()) {
             for (const auto& [name, text] : survey_.ouster_metadata) {
@@ -217,11 +217,11 @@ class Planner {
         if (text_of.empty()) return nullptr;
         auto& sensor = ousters_[text_of];
         if (!sensor) {
-            sensor = std::make_shared<const captures::OusterSensor>(
+            sensor = std::make_shared<const packets::OusterSensor>(
                 options_.sensor_json.empty()
-                    ? captures::ousterSensorOf(survey_.ouster_metadata.at(text_of),
-                                               file_.string() + ": topic " + text_of)
-                    : captures::readOusterSensor(options_.sensor_json));
+                    ? packets::ousterSensorOf(survey_.ouster_metadata.at(text_of),
+                                              file_.string() + ": topic " + text_of)
+                    : packets::readOusterSensor(options_.sensor_json));
         }
         return sensor;
     }
@@ -395,7 +395,7 @@ class Planner {
     BagPlan plan_;
     std::set<std::string> labels_;
     std::map<std::string, std::string> frame_of_;  ///< by topic
-    mutable std::map<std::string, std::shared_ptr<const captures::OusterSensor>> ousters_;
+    mutable std::map<std::string, std::shared_ptr<const packets::OusterSensor>> ousters_;
 };
 
 }  // namespace

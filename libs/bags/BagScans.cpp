@@ -1,11 +1,12 @@
 #include <hagen/bags/BagScans.h>
-#include <hagen/captures/OusterFrames.h>
-#include <hagen/captures/OusterScan.h>
+#include <hagen/captures/OusterObservation.h>
 #include <hagen/captures/Remarks.h>
 #include <hagen/captures/VelodyneTurns.h>
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/TableCloud.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/OusterFrames.h>
+#include <hagen/packets/OusterScan.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -45,9 +46,9 @@ struct TopicState {
     std::size_t points_not_finite = 0;
     std::map<std::string, std::size_t> clouds_with;  ///< by remark
     // Of packets:
-    const observations::VelodyneModel* model = nullptr;
+    const packets::VelodyneModel* model = nullptr;
     std::optional<captures::VelodyneTurns> turns;
-    std::unique_ptr<captures::OusterFrames> frames;
+    std::unique_ptr<packets::OusterFrames> frames;
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
 };
@@ -124,7 +125,7 @@ struct BagScans::Reader {
             state.name = topic;
             state.sensor = &sensor;
             if (sensor.ouster) {
-                state.frames = std::make_unique<captures::OusterFrames>(*sensor.ouster);
+                state.frames = std::make_unique<packets::OusterFrames>(*sensor.ouster);
             }
         }
     }
@@ -253,11 +254,11 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
                                     TopicState& state) {
     const VelodyneScanMessage message = readVelodyneScan(fields);
     for (const VelodyneScanMessage::Packet& sent : message.packets) {
-        const std::uint8_t id = sent.bytes[captures::kVelodyneModelAt];
-        const auto* const model = observations::findVelodyneModel(id);
-        if (!captures::isVelodyneData(sent.bytes, sizeof(captures::VelodynePacket::Raw))) {
+        const std::uint8_t id = sent.bytes[packets::kVelodyneModelAt];
+        const auto* const model = packets::findVelodyneModel(id);
+        if (!packets::isVelodyneData(sent.bytes, packets::kVelodynePacketBytes)) {
             ++state.other_packets;
-        } else if (captures::isOfHdl64(sent.bytes)) {
+        } else if (packets::isOfHdl64(sent.bytes)) {
             ++state.hdl64_packets;
         } else if (model == nullptr || (state.model != nullptr && state.model != model)) {
             ++state.unknown_ids[id];
@@ -266,8 +267,8 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
                 state.model = model;
                 state.turns.emplace(*model, state.sensor->label);
             }
-            captures::VelodynePacket packet;
-            std::memcpy(static_cast<void*>(&packet.raw), sent.bytes, sizeof packet.raw);
+            packets::VelodynePacket packet;
+            std::copy_n(sent.bytes, packet.bytes.size(), packet.bytes.begin());
             packet.time_ns = sent.time_ns != 0             ? sent.time_ns
                              : message.header.time_ns != 0 ? message.header.time_ns
                                                            : recorded_ns;
@@ -279,7 +280,7 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
 
 void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
     constexpr std::size_t kImuBytes = 48;
-    const captures::OusterSensor& sensor = *state.sensor->ouster;
+    const packets::OusterSensor& sensor = *state.sensor->ouster;
     ByteView packet = readPacket(fields);
     // The driver of ROS 1 sends a byte more than the packet has.
     if (packet.size == sensor.packetBytes() + 1) --packet.size;
@@ -293,12 +294,12 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
                                  std::to_string(sensor.packetBytes()) + " (profile " +
                                  sensor.profile.name + "). Is it another sensor's metadata?");
     }
-    if (!captures::isOfLidar(packet.data, sensor)) {
+    if (!packets::isOfLidar(packet.data, sensor)) {
         ++state.other_packets;
         return;
     }
     if (!sensor.profile.is_legacy && !sensor.serial.empty()) {
-        const std::string serial = std::to_string(captures::serialOf(packet.data, sensor));
+        const std::string serial = std::to_string(packets::serialOf(packet.data, sensor));
         if (serial != sensor.serial) {
             throw std::runtime_error("its packet is of the sensor with serial number " + serial +
                                      ", the metadata are of " + sensor.serial);
@@ -318,7 +319,7 @@ void BagScans::Reader::addComplete(TopicState& state) {
         state.turns->complete().clear();
     }
     if (state.frames) {
-        for (const captures::OusterFrame& frame : state.frames->complete()) {
+        for (const packets::OusterFrame& frame : state.frames->complete()) {
             const auto scan = captures::observationOf(frame, *state.sensor->ouster);
             scan->sensorPose = state.sensor->on_vehicle + scan->sensorPose;
             add(scan, state);

@@ -102,8 +102,8 @@ class Surveyor {
         topic.frame = scan.header.frame;
         if (scan.packets.empty() || topic.velodyne_id >= 0) return;
         const std::uint8_t* const packet = scan.packets.front().bytes;
-        if (!captures::isOfHdl64(packet)) {
-            topic.velodyne_id = packet[captures::kVelodyneModelAt];
+        if (!packets::isOfHdl64(packet)) {
+            topic.velodyne_id = packet[packets::kVelodyneModelAt];
         }
     }
 

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include <hagen/captures/LivoxPacket.h>
+#include <hagen/packets/LivoxPacket.h>
 
 namespace hagen::captures {
 namespace {
@@ -13,13 +13,13 @@ namespace {
 /// Whether the first datagrams have points of a Livox. What cannot be read is reported later.
 bool isOfLivox(const std::filesystem::path& file) {
     constexpr int kDatagrams = 1000;
-    CaptureFile capture(file);
-    Datagram datagram;
+    packets::CaptureFile capture(file);
+    packets::Datagram datagram;
     try {
         for (int i = 0; i < kDatagrams && capture.next(datagram); ++i) {
-            if (livoxPacketOf(datagram)) return true;
+            if (packets::livoxPacketOf(datagram)) return true;
         }
-    } catch (const BrokenCapture&) {
+    } catch (const packets::BrokenCapture&) {
     }
     return false;
 }

@@ -1,7 +1,7 @@
 #include <hagen/captures/LivoxCapture.h>
-#include <hagen/captures/LivoxPacket.h>
 #include <hagen/captures/LivoxScans.h>
 #include <hagen/captures/Remarks.h>
+#include <hagen/packets/LivoxPacket.h>
 
 #include <deque>
 #include <map>
@@ -16,7 +16,7 @@ constexpr std::size_t kMostSensors = 16;
 }  // namespace
 
 struct LivoxCapture::Reader {
-    CaptureFile capture;
+    packets::CaptureFile capture;
     std::map<std::uint32_t, LivoxScans> sensors;  ///< by address
     std::vector<std::uint32_t> order;             ///< of appearance
     std::deque<CObservationPointCloud::Ptr> complete;
@@ -28,7 +28,7 @@ struct LivoxCapture::Reader {
     explicit Reader(const std::filesystem::path& name) : capture(name) {}
 
     LivoxScans* sensorAt(std::uint32_t ip);
-    void take(const Datagram& datagram);
+    void take(const packets::Datagram& datagram);
     void collect(LivoxScans& sensor);
 };
 
@@ -42,9 +42,9 @@ LivoxScans* LivoxCapture::Reader::sensorAt(std::uint32_t ip) {
     return &sensors.emplace(ip, label).first->second;
 }
 
-void LivoxCapture::Reader::take(const Datagram& datagram) {
-    const auto packet = livoxPacketOf(datagram);
-    if (isLivoxImu(datagram)) {
+void LivoxCapture::Reader::take(const packets::Datagram& datagram) {
+    const auto packet = packets::livoxPacketOf(datagram);
+    if (packets::isLivoxImu(datagram)) {
         ++imu_packets;
     } else if (!packet) {
         others.add(datagram);
@@ -69,12 +69,12 @@ LivoxCapture::~LivoxCapture() = default;
 
 CObservationPointCloud::Ptr LivoxCapture::next() {
     Reader& r = *reader_;
-    Datagram datagram;
+    packets::Datagram datagram;
     while (r.complete.empty() && !r.is_at_end) {
         try {
             r.is_at_end = !r.capture.next(datagram);
             if (!r.is_at_end) r.take(datagram);
-        } catch (const BrokenCapture& e) {
+        } catch (const packets::BrokenCapture& e) {
             r.broken_because = e.what();
             r.is_at_end = true;
         }
@@ -89,7 +89,7 @@ CObservationPointCloud::Ptr LivoxCapture::next() {
         r.complete.pop_front();
         return observation;
     }
-    if (!r.broken_because.empty()) throw BrokenCapture(r.broken_because);
+    if (!r.broken_because.empty()) throw packets::BrokenCapture(r.broken_because);
     return nullptr;
 }
 
@@ -105,7 +105,7 @@ std::vector<std::string> LivoxCapture::remarks() const {
     for (const std::uint32_t ip : r.order) {
         const LivoxScans& scans = r.sensors.at(ip);
         const LivoxScans::Counts& sensor = scans.counts();
-        std::string text = scans.label() + " (Livox, read as a Mid-360, at " + ipText(ip) +
+        std::string text = scans.label() + " (Livox, read as a Mid-360, at " + packets::ipText(ip) +
                            "): " + counted(sensor.packets, "packet") + " in " +
                            counted(sensor.scans, "scan");
         addCount(sensor.lost, "packet", "lost", text);

@@ -17,7 +17,7 @@ LivoxScans::LivoxScans(std::string label)
     : label_(std::move(label)),
       model_(std::make_shared<const SensorModel>(sensorModel("Mid-360"))) {}
 
-void LivoxScans::add(const LivoxPacket& packet, std::int64_t time_ns) {
+void LivoxScans::add(const packets::LivoxPacket& packet, std::int64_t time_ns) {
     if (is_begun_) {
         const auto step =
             static_cast<std::int16_t>(static_cast<std::uint16_t>(packet.number - last_number_));
@@ -53,7 +53,7 @@ void LivoxScans::add(const LivoxPacket& packet, std::int64_t time_ns) {
         last_number_ = packet.number;
     }
     ++scan_packets_;
-    appendPoints(packet, start_ns_, scan_, tags_);
+    packets::appendPoints(packet, start_ns_, scan_, tags_);
 }
 
 void LivoxScans::finish() {

@@ -1,10 +1,10 @@
 #include <hagen/captures/OusterCapture.h>
-#include <hagen/captures/OusterFrames.h>
+#include <hagen/packets/OusterFrames.h>
 
 #include <map>
 #include <optional>
 
-#include <hagen/captures/OusterScan.h>
+#include <hagen/captures/OusterObservation.h>
 #include <hagen/captures/Remarks.h>
 
 namespace hagen::captures {
@@ -18,9 +18,9 @@ constexpr std::size_t kImuBytes = 48;
 
 struct OusterCapture::Reader {
     std::filesystem::path file, json;
-    OusterSensor sensor;
-    CaptureFile capture;
-    OusterFrames frames;
+    packets::OusterSensor sensor;
+    packets::CaptureFile capture;
+    packets::OusterFrames frames;
     std::optional<std::uint32_t> from_ip;  ///< of the sensor, once known
     std::size_t imu_packets = 0, other_sources = 0;
     std::map<std::uint64_t, std::size_t> other_serials;
@@ -31,23 +31,23 @@ struct OusterCapture::Reader {
     Reader(const std::filesystem::path& name, const std::filesystem::path& metadata)
         : file(name),
           json(metadata),
-          sensor(readOusterSensor(metadata)),
+          sensor(packets::readOusterSensor(metadata)),
           capture(name),
           frames(sensor) {}
 
-    void take(const Datagram& datagram);
-    bool isOfSensor(const Datagram& datagram);
+    void take(const packets::Datagram& datagram);
+    bool isOfSensor(const packets::Datagram& datagram);
     std::string textOfOthers() const;
     std::string whyEmpty() const;
 };
 
 /// Counts what is not of the sensor.
-bool OusterCapture::Reader::isOfSensor(const Datagram& datagram) {
-    if (!isOfLidar(datagram.bytes, sensor)) {
+bool OusterCapture::Reader::isOfSensor(const packets::Datagram& datagram) {
+    if (!packets::isOfLidar(datagram.bytes, sensor)) {
         others.add(datagram);
         return false;
     }
-    const std::uint64_t serial = serialOf(datagram.bytes, sensor);
+    const std::uint64_t serial = packets::serialOf(datagram.bytes, sensor);
     const bool has_serial = !sensor.profile.is_legacy && !sensor.serial.empty();
     if (has_serial && std::to_string(serial) != sensor.serial) {
         constexpr std::size_t kMostSerials = 16;
@@ -63,7 +63,7 @@ bool OusterCapture::Reader::isOfSensor(const Datagram& datagram) {
     return true;
 }
 
-void OusterCapture::Reader::take(const Datagram& datagram) {
+void OusterCapture::Reader::take(const packets::Datagram& datagram) {
     if (datagram.size == sensor.packetBytes()) {
         if (isOfSensor(datagram)) frames.add(datagram.bytes, datagram.time_ns);
     } else if (datagram.size == kImuBytes) {
@@ -106,12 +106,12 @@ OusterCapture::~OusterCapture() = default;
 
 CObservationPointCloud::Ptr OusterCapture::next() {
     Reader& r = *reader_;
-    Datagram datagram;
+    packets::Datagram datagram;
     while (r.frames.complete().empty() && !r.is_at_end) {
         try {
             r.is_at_end = !r.capture.next(datagram);
             if (!r.is_at_end) r.take(datagram);
-        } catch (const BrokenCapture& e) {
+        } catch (const packets::BrokenCapture& e) {
             r.broken_because = e.what();
             r.is_at_end = true;
         }
@@ -122,8 +122,8 @@ CObservationPointCloud::Ptr OusterCapture::next() {
         r.frames.complete().pop_front();
         return observation;
     }
-    if (!r.broken_because.empty()) throw BrokenCapture(r.broken_because);
-    if (r.frames.counts().packets == 0) throw BrokenCapture(r.whyEmpty());
+    if (!r.broken_because.empty()) throw packets::BrokenCapture(r.broken_because);
+    if (r.frames.counts().packets == 0) throw packets::BrokenCapture(r.whyEmpty());
     return nullptr;
 }
 

@@ -15,7 +15,7 @@ void addCount(std::size_t number, const std::string& one, const std::string& mor
     text += (text.empty() ? "" : ", ") + counted(number, one) + (more.empty() ? "" : " ") + more;
 }
 
-void OtherDatagrams::add(const Datagram& datagram) {
+void OtherDatagrams::add(const packets::Datagram& datagram) {
     constexpr std::size_t kMostKinds = 64;
     ++all_;
     const std::pair kind{datagram.to_port, datagram.size};
@@ -34,7 +34,7 @@ void OtherDatagrams::describe(std::string& text) const {
              text);
 }
 
-std::string textOfLosses(const FrameCounts& counts) {
+std::string textOfLosses(const packets::FrameCounts& counts) {
     std::string text;
     addCount(counts.other_traffic, "frame", "of other traffic", text);
     addCount(counts.cut_frames, "frame", "cut short by the capture", text);
@@ -42,7 +42,7 @@ std::string textOfLosses(const FrameCounts& counts) {
     return text;
 }
 
-std::string textOfFrames(const FrameCounts& counts, const std::string& left_out) {
+std::string textOfFrames(const packets::FrameCounts& counts, const std::string& left_out) {
     std::string text = counted(counts.frames, "frame");
     addCount(counts.tagged, "frame", "with a VLAN tag", text);
     addCount(counts.fragments, "frame", "that are IP fragments", text);

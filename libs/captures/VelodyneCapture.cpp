@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <deque>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include <hagen/captures/Remarks.h>
 #include <hagen/captures/VelodyneTurns.h>
-#include <hagen/observations/VelodyneCalibrationFile.h>
+#include <hagen/packets/VelodyneCalibrationFile.h>
 
 namespace hagen::captures {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
-using observations::VelodyneModel;
+using packets::VelodyneModel;
 
-constexpr std::size_t kPacketBytes = CObservationVelodyneScan::PACKET_SIZE;
 constexpr std::size_t kPositionBytes = 512;
 constexpr std::uint16_t kPositionPort = 8308;
 constexpr std::size_t kMostSensors = 16;  // more are other traffic that looks like packets
@@ -34,8 +33,8 @@ struct VelodyneCapture::Reader {
     };
 
     std::filesystem::path file, calibration_file;
-    std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration;  ///< of an HDL-64E
-    CaptureFile capture;
+    std::optional<packets::VelodyneCalibration> calibration;  ///< of an HDL-64E
+    packets::CaptureFile capture;
     std::map<SensorKey, Sensor> sensors;
     std::vector<SensorKey> order;  ///< of appearance
     std::deque<VelodyneTurns::Turn> complete;
@@ -48,34 +47,34 @@ struct VelodyneCapture::Reader {
     Reader(const std::filesystem::path& name, const std::filesystem::path& name_of_calibration)
         : file(name), calibration_file(name_of_calibration), capture(name) {
         if (calibration_file.empty()) return;
-        calibration = std::make_shared<const mrpt::obs::VelodyneCalibration>(
-            observations::readVelodyneCalibration(calibration_file));
+        calibration = packets::readVelodyneCalibration(calibration_file);
     }
 
-    void take(const Datagram& datagram);
-    void takePacket(const Datagram& datagram, const VelodyneModel& model);
+    void take(const packets::Datagram& datagram);
+    void takePacket(const packets::Datagram& datagram, const packets::VelodyneModel& model);
     void finish();
     std::string whyEmpty() const;
     std::string textOfOthers() const;
 };
 
-void VelodyneCapture::Reader::take(const Datagram& datagram) {
+void VelodyneCapture::Reader::take(const packets::Datagram& datagram) {
     if (datagram.size == kPositionBytes && datagram.to_port == kPositionPort) {
         ++position_packets;
-    } else if (!isVelodyneData(datagram.bytes, datagram.size)) {
+    } else if (!packets::isVelodyneData(datagram.bytes, datagram.size)) {
         others.add(datagram);
-    } else if (isOfHdl64(datagram.bytes)) {
+    } else if (packets::isOfHdl64(datagram.bytes)) {
         ++hdl64_packets;
-        if (calibration) takePacket(datagram, observations::hdl64Model());
+        if (calibration) takePacket(datagram, packets::hdl64Model());
     } else if (const auto* model =
-                   observations::findVelodyneModel(datagram.bytes[kVelodyneModelAt])) {
+                   packets::findVelodyneModel(datagram.bytes[packets::kVelodyneModelAt])) {
         takePacket(datagram, *model);
     } else {
-        ++unknown_ids[datagram.bytes[kVelodyneModelAt]];
+        ++unknown_ids[datagram.bytes[packets::kVelodyneModelAt]];
     }
 }
 
-void VelodyneCapture::Reader::takePacket(const Datagram& datagram, const VelodyneModel& model) {
+void VelodyneCapture::Reader::takePacket(const packets::Datagram& datagram,
+                                         const packets::VelodyneModel& model) {
     const SensorKey key{datagram.from_ip, datagram.to_port, model.id};
     auto sensor = sensors.find(key);
     if (sensor == sensors.end()) {
@@ -86,14 +85,14 @@ void VelodyneCapture::Reader::takePacket(const Datagram& datagram, const Velodyn
         order.push_back(key);
         const std::string label =
             order.size() == 1 ? "velodyne" : "velodyne_" + std::to_string(order.size());
-        const std::string name = model.name + " at " + ipText(datagram.from_ip) + ", port " +
-                                 std::to_string(datagram.to_port);
-        const bool is_hdl64 = &model == &observations::hdl64Model();
-        VelodyneTurns turns(model, label, is_hdl64 ? calibration : nullptr);
+        const std::string name = model.name + " at " + packets::ipText(datagram.from_ip) +
+                                 ", port " + std::to_string(datagram.to_port);
+        const bool is_hdl64 = &model == &packets::hdl64Model();
+        VelodyneTurns turns(model, label, is_hdl64 ? &*calibration : nullptr);
         sensor = sensors.emplace(key, Sensor{label, name, std::move(turns)}).first;
     }
-    VelodynePacket packet;
-    std::memcpy(static_cast<void*>(&packet.raw), datagram.bytes, kPacketBytes);
+    packets::VelodynePacket packet;
+    std::copy_n(datagram.bytes, packet.bytes.size(), packet.bytes.begin());
     packet.time_ns = datagram.time_ns;
     ++packets;
     VelodyneTurns& turns = sensor->second.turns;
@@ -136,7 +135,7 @@ std::string VelodyneCapture::Reader::whyEmpty() const {
     if (!losses.empty()) found += (found.empty() ? "" : ", ") + losses;
     addCount(position_packets, "position packet", "", found);
     return file.string() + ": has no data packets of a known Velodyne (" +
-           observations::knownVelodynes().substr(1) + "); it has " +
+           packets::knownVelodynes().substr(1) + "); it has " +
            (found.empty() ? "no frames" : found) +
            ". Packets of an Ouster need its metadata: --sensor-json FILE";
 }
@@ -149,7 +148,7 @@ VelodyneCapture::~VelodyneCapture() = default;
 
 CObservationVelodyneScan::Ptr VelodyneCapture::next() {
     Reader& r = *reader_;
-    Datagram datagram;
+    packets::Datagram datagram;
     while (r.complete.empty() && !r.is_at_end) {
         try {
             if (r.capture.next(datagram)) {
@@ -157,7 +156,7 @@ CObservationVelodyneScan::Ptr VelodyneCapture::next() {
             } else {
                 r.finish();
             }
-        } catch (const BrokenCapture& e) {
+        } catch (const packets::BrokenCapture& e) {
             r.broken_because = e.what();
             r.finish();
         }
@@ -167,8 +166,8 @@ CObservationVelodyneScan::Ptr VelodyneCapture::next() {
         r.complete.pop_front();
         return turn;
     }
-    if (!r.broken_because.empty()) throw BrokenCapture(r.broken_because);
-    if (r.packets == 0) throw BrokenCapture(r.whyEmpty());
+    if (!r.broken_because.empty()) throw packets::BrokenCapture(r.broken_because);
+    if (r.packets == 0) throw packets::BrokenCapture(r.whyEmpty());
     return nullptr;
 }
 

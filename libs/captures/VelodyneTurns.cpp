@@ -1,19 +1,18 @@
+#include <hagen/captures/Remarks.h>
 #include <hagen/captures/VelodyneTurns.h>
-
+#include <hagen/observations/VelodyneCalibrations.h>
 #include <hagen/range_image/SensorModel.h>
 
-#include <algorithm>
 #include <cmath>
-
-#include <hagen/captures/Remarks.h>
+#include <cstring>
+#include <iterator>
+#include <utility>
 
 namespace hagen::captures {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
 
-constexpr int kBlockBytes = CObservationVelodyneScan::SIZE_BLOCK;
-constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr std::size_t kMostWaiting = 16;
 constexpr double kHourUs = 3600e6, kSecondUs = 1e6;
 constexpr double kEndOfTurnUs = 50e3;       // without packets
@@ -21,46 +20,19 @@ constexpr double kLongestTurnUs = 250e3;    // the slowest sensors turn five tim
 constexpr std::size_t kMostPackets = 2000;  // more than any sensor sends in that time
 constexpr int kLeastWrap = 100;             // 0.01 degrees; less is jitter of a sensor that stands
 
-const std::uint8_t* bytesOf(const VelodynePacket& packet) {
-    return reinterpret_cast<const std::uint8_t*>(&packet.raw);
-}
-
 /// From one time of the sensor's clock to another: within half an hour, since it wraps every hour.
 double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
 
-bool isSame(const VelodynePacket& a, const VelodynePacket& b) {
-    return std::equal(bytesOf(a), bytesOf(a) + sizeof a.raw, bytesOf(b));
-}
-
 }  // namespace
 
-double VelodynePacket::sensorTimeUs() const {
-    const std::uint8_t* const at = bytesOf(*this) + kBlocks * kBlockBytes;
-    return static_cast<double>(at[0] | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 |
-                               std::uint32_t{at[3]} << 24);
-}
+VelodyneTurns::VelodyneTurns(const packets::VelodyneModel& model, std::string label,
+                             const packets::VelodyneCalibration* calibration)
+    : model_(model),
+      label_(std::move(label)),
+      calibration_(observations::mrptCalibration(
+          calibration != nullptr ? *calibration : packets::defaultCalibration(model))) {}
 
-bool VelodynePacket::isDual() const {
-    const std::uint8_t* const bytes = bytesOf(*this);
-    return !isOfHdl64(bytes) &&
-           bytes[kBlocks * kBlockBytes + 4] == CObservationVelodyneScan::RETMODE_DUAL;
-}
-
-int VelodynePacket::azimuth() const {
-    for (int block = 0; block < kBlocks; ++block) {
-        const std::uint8_t* const at = bytesOf(*this) + block * kBlockBytes;
-        const int azimuth = at[2] | at[3] << 8;
-        const bool is_block = (at[0] | at[1] << 8) == CObservationVelodyneScan::UPPER_BANK;
-        if (is_block && azimuth < CObservationVelodyneScan::ROTATION_MAX_UNITS) return azimuth;
-    }
-    return -1;
-}
-
-VelodyneTurns::VelodyneTurns(const observations::VelodyneModel& model, std::string label,
-                             std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration)
-    : model_(model), label_(std::move(label)), calibration_(std::move(calibration)) {}
-
-void VelodyneTurns::add(const VelodynePacket& packet) {
+void VelodyneTurns::add(const packets::VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
     const double latest_us = waiting_.empty() ? time_us : waiting_.back().sensorTimeUs();
     const double ahead_us = elapsedUs(latest_us, time_us);
@@ -75,7 +47,7 @@ void VelodyneTurns::add(const VelodynePacket& packet) {
     while (place != waiting_.begin() && elapsedUs(std::prev(place)->sensorTimeUs(), time_us) < 0) {
         --place;
     }
-    if (place != waiting_.begin() && isSame(*std::prev(place), packet)) {
+    if (place != waiting_.begin() && std::prev(place)->bytes == packet.bytes) {
         ++counts_.repeated;
         return;
     }
@@ -89,7 +61,7 @@ void VelodyneTurns::add(const VelodynePacket& packet) {
 }
 
 void VelodyneTurns::flush() {
-    for (const VelodynePacket& packet : waiting_) append(packet);
+    for (const packets::VelodynePacket& packet : waiting_) append(packet);
     waiting_.clear();
 }
 
@@ -99,7 +71,7 @@ void VelodyneTurns::finish() {
 }
 
 /// Counts what is missing before a packet, and ends the turn if that is much.
-void VelodyneTurns::checkGap(const VelodynePacket& packet) {
+void VelodyneTurns::checkGap(const packets::VelodynePacket& packet) {
     if (!has_last_) return;
     const double gap_us = elapsedUs(last_us_, packet.sensorTimeUs());
     const double period_us = model_.packetPeriodUs(packet.isDual());
@@ -111,7 +83,7 @@ void VelodyneTurns::checkGap(const VelodynePacket& packet) {
     }
 }
 
-void VelodyneTurns::append(const VelodynePacket& packet) {
+void VelodyneTurns::append(const packets::VelodynePacket& packet) {
     checkGap(packet);
     const double time_us = packet.sensorTimeUs();
     const int azimuth = packet.azimuth();
@@ -124,14 +96,15 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
         turn_->timestamp = timeOf(packet.time_ns);
         turn_->originalReceivedTimestamp = turn_->timestamp;
         turn_->sensorLabel = label_;
-        turn_->calibration =
-            calibration_ ? *calibration_ : observations::defaultCalibration(model_);
+        turn_->calibration = calibration_;
         const SensorModel sensor = sensorModel(model_.name);
         turn_->minRange = static_cast<double>(sensor.min_range_m);
         turn_->maxRange = static_cast<double>(sensor.max_range_m);
         turn_start_us_ = time_us;
     }
-    turn_->scan_packets.push_back(packet.raw);
+    auto& raw = turn_->scan_packets.emplace_back();
+    static_assert(sizeof raw == sizeof packet.bytes);
+    std::memcpy(static_cast<void*>(&raw), packet.bytes.data(), sizeof raw);
     has_last_ = true;
     last_us_ = time_us;
     if (azimuth >= 0) last_azimuth_ = azimuth;
@@ -153,27 +126,6 @@ std::string textOf(const VelodyneTurns::Counts& counts) {
     addCount(counts.repeated, "packet", "repeated, left out", text);
     addCount(counts.interruptions, "interruption", "or jump of the sensor's clock", text);
     return text;
-}
-
-bool isVelodyneData(const std::uint8_t* bytes, std::size_t size) {
-    if (size != CObservationVelodyneScan::PACKET_SIZE) return false;
-    for (int block = 0; block < kBlocks; ++block) {
-        const std::uint8_t* const at = bytes + block * kBlockBytes;
-        const int header = at[0] | at[1] << 8;
-        if (header == CObservationVelodyneScan::UPPER_BANK ||
-            header == CObservationVelodyneScan::LOWER_BANK) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool isOfHdl64(const std::uint8_t* packet) {
-    for (int block = 0; block < kBlocks; ++block) {
-        const std::uint8_t* const at = packet + block * kBlockBytes;
-        if ((at[0] | at[1] << 8) == CObservationVelodyneScan::LOWER_BANK) return true;
-    }
-    return false;
 }
 
 }  // namespace hagen::captures

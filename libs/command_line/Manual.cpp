@@ -259,7 +259,7 @@ std::string functionName(const std::string& program) { return "_" + replaced(pro
 std::string quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
 /// Lists the names of presets in the folders where the programs look
-/// (hagen/observations/Presets.h).
+/// (hagen/settings/Presets.h).
 std::string presetsFunction(const std::string& function, const std::string& folders) {
     return function + "_presets() {\n    local folder file\n    for folder in " + folders +
            "; do\n        for file in \"$folder\"/*.yaml; do\n"

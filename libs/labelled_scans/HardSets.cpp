@@ -45,7 +45,7 @@ std::vector<evaluation::Degradation> degradationsOf(const std::vector<std::strin
                 degradation.checkSensor(source->sensor());
         }
     } catch (const std::invalid_argument& e) {
-        throw observations::SettingsError("--degrade: " + folder + e.what());
+        throw SettingsError("--degrade: " + folder + e.what());
     }
     return all;
 }

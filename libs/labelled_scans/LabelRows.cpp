@@ -1,7 +1,7 @@
 #include <hagen/labelled_scans/LabelRows.h>
 
 #include <hagen/base/Folder.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <algorithm>
 #include <stdexcept>
 
@@ -42,15 +42,15 @@ std::vector<Label> readFoundLabels(const fs::path& file, std::size_t returns) {
 LabelRow labelRowFrom(const std::string& text, const std::vector<std::string>& taken) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-        throw observations::SettingsError("--labels: expected NAME=DIR, not '" + text + "'");
+        throw SettingsError("--labels: expected NAME=DIR, not '" + text + "'");
     }
     const LabelRow row{text.substr(0, equals), text.substr(equals + 1)};
     if (std::find(taken.begin(), taken.end(), row.name) != taken.end()) {
-        throw observations::SettingsError("--labels: there is already a row '" + row.name +
-                                          "'; choose another name");
+        throw SettingsError("--labels: there is already a row '" + row.name +
+                            "'; choose another name");
     }
     if (!fs::is_directory(row.folder)) {
-        throw observations::SettingsError("--labels: " + row.folder.string() + ": no such folder");
+        throw SettingsError("--labels: " + row.folder.string() + ": no such folder");
     }
     return row;
 }

@@ -65,7 +65,7 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     std::unique_ptr<logs::ScanSource> scans_;
     MethodSet methods_;
     std::vector<fs::path> label_folders_;  ///< of methods_.labels
-    observations::Settings settings_;
+    Settings settings_;
     observations::SharedBeams beams_;  ///< recovered; null if the settings name the sensor
     evaluation::LabelMap kinds_;       ///< from --label-map or the folder; empty: unknown
     bool has_label_map_;               ///< ground-truth labels are derived with `kinds_`
@@ -171,7 +171,7 @@ std::vector<std::string> namesOf(const std::vector<std::string>& folders) {
         fs::path path = fs::weakly_canonical(folder);
         if (!path.has_filename()) path = path.parent_path();
         if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
-            throw observations::SettingsError("--input: " + folder + " is given twice");
+            throw SettingsError("--input: " + folder + " is given twice");
         }
         paths.push_back(path);
     }

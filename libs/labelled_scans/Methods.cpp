@@ -24,9 +24,8 @@ std::optional<Attitude> attitudeOf(const evaluation::ScanInput& input) {
 }
 
 evaluation::Method filterMethod(const std::string& name, const SensorModel& sensor,
-                                const observations::Settings& settings) {
-    const auto filter =
-        std::make_shared<HagenFilter>(observations::filterFor(sensor, settings.options));
+                                const Settings& settings) {
+    const auto filter = std::make_shared<HagenFilter>(filterFor(sensor, settings.options));
     // Poses of scan folders are those of the sensor, with its mount.
     const Attitude mount = settings.mount;
     const bool is_mounted_level = mount.roll_rad == 0 && mount.pitch_rad == 0;
@@ -63,30 +62,27 @@ std::vector<std::string> valuesOf(const std::string& text) {
 }
 
 /// Returns the settings with those of a recording merged in, if it has any.
-observations::Settings settingsFor(observations::Settings settings,
-                                   const std::filesystem::path& sensor_file) {
+Settings settingsFor(Settings settings, const std::filesystem::path& sensor_file) {
     if (std::filesystem::exists(sensor_file)) {
-        observations::mergeSettings(sensor_file, settings, observations::SettingsOrigin::Recording);
+        mergeSettings(sensor_file, settings, SettingsOrigin::Recording);
     }
     return settings;
 }
 
 }  // namespace
 
-std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
-                               const std::vector<std::string>& sweeps) {
+std::vector<SweepPoint> rowsOf(const Settings& settings, const std::vector<std::string>& sweeps) {
     std::vector<SweepPoint> rows;
     if (sweeps.empty()) rows.push_back({"hagen", settings, "", ""});
     for (const std::string& sweep : sweeps) {
         const std::size_t equals = sweep.find('=');
         if (equals == std::string::npos || equals + 1 == sweep.size()) {
-            throw observations::SettingsError("--sweep: expected KEY=VALUE,VALUE,..., not '" +
-                                              sweep + "'");
+            throw SettingsError("--sweep: expected KEY=VALUE,VALUE,..., not '" + sweep + "'");
         }
         const std::string key = sweep.substr(0, equals);
         for (const std::string& value : valuesOf(sweep.substr(equals + 1))) {
             SweepPoint row{key + "=" + value, settings, key, value};
-            observations::setOption(key, value, row.settings);
+            setOption(key, value, row.settings);
             rows.push_back(row);
         }
     }
@@ -110,18 +106,18 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
 std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
                                            const std::filesystem::path& sensor_file,
                                            const observations::SharedBeams& beams) {
-    const auto sensorOf = [&](const observations::Settings& settings) {
+    const auto sensorOf = [&](const Settings& settings) {
         const SensorModel sensor = settings.sensorModel(beams.get());
         return rows.is_upside_down ? evaluation::mirrored(sensor) : sensor;
     };
     std::vector<evaluation::Method> methods;
     for (const SweepPoint& row : rows.filter) {
-        observations::Settings settings = settingsFor(row.settings, sensor_file);
+        Settings settings = settingsFor(row.settings, sensor_file);
         settings.options = settings.optionsFor(beams.get());
         methods.push_back(filterMethod(row.name, sensorOf(settings), settings));
     }
     if (!rows.baselines) return methods;
-    const observations::Settings settings = settingsFor(*rows.baselines, sensor_file);
+    const Settings settings = settingsFor(*rows.baselines, sensor_file);
     const SensorModel sensor = sensorOf(settings);
     for (const evaluation::Baseline& baseline : allBaselines(settings.options.zone_m)) {
         methods.push_back({baseline.name, [baseline, sensor](const evaluation::ScanInput& input) {

@@ -107,7 +107,7 @@ Json json(const HardSetScores& method, const MethodTotals& recorded) {
             {"drone", json(method.drone)}};
 }
 
-Json json(const observations::Settings& settings) {
+Json json(const Settings& settings) {
     Json keys;
     for (const OptionKey& key : optionKeys()) {
         const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);

@@ -1,15 +1,13 @@
 #include "LiveSensor.h"
 
-#include <hagen/captures/LivoxScans.h>
-#include <hagen/captures/OusterScan.h>
-#include <hagen/captures/VelodyneTurns.h>
-#include <hagen/observations/VelodyneCalibrationFile.h>
+#include <hagen/packets/VelodyneCalibrationFile.h>
 #include <hagen/streaming/LivoxStream.h>
 #include <hagen/streaming/OusterStream.h>
 #include <hagen/streaming/VelodyneStream.h>
 
-#include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <string>
 
 namespace hagen::live {
 namespace {
@@ -38,27 +36,21 @@ class StreamSensor : public LiveSensor {
         counts.interruptions = of_stream.interruptions;
         return counts;
     }
-    template <class Turns>
-    void record(Turns& turns) {
-        complete_.insert(complete_.end(), turns.complete().begin(), turns.complete().end());
-        turns.complete().clear();
-    }
     std::unique_ptr<Stream> stream_;
 };
 
 class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
  public:
     VelodyneSensor(const LiveOptions& options, const streaming::StreamingSegmenter::Take& take)
-        : model_(options.model == kHdl64 ? observations::hdl64Model()
-                                         : observations::velodyneModel(options.model)) {
-        std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration;
+        : model_(options.model == kHdl64 ? packets::hdl64Model()
+                                         : packets::velodyneModel(options.model)) {
+        std::optional<packets::VelodyneCalibration> calibration;
         if (!options.calibration.empty()) {
-            calibration = std::make_shared<const mrpt::obs::VelodyneCalibration>(
-                observations::readVelodyneCalibration(options.calibration));
+            calibration = packets::readVelodyneCalibration(options.calibration);
         }
-        stream_ = std::make_unique<streaming::VelodyneStream>(model_, options.settings, take,
-                                                              options.streaming, calibration);
-        if (!options.recording.file.empty()) turns_.emplace(model_, "velodyne", calibration);
+        stream_ = std::make_unique<streaming::VelodyneStream>(
+            model_, options.settings, take, options.streaming,
+            calibration ? &*calibration : nullptr);
     }
 
     Counts counts() const override {
@@ -74,13 +66,14 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
     }
     bool isDual() const override { return stream_->isDual(); }
 
-    bool isToldByAddress(const Packet& packet) const override {
+    bool isData(const Packet& packet) const override {
         const std::uint8_t* const bytes = packet.bytes.data();
-        if (!captures::isVelodyneData(bytes, packet.bytes.size())) return false;
-        const bool is_hdl64 = &model_ == &observations::hdl64Model();
-        if (captures::isOfHdl64(bytes)) return is_hdl64;
-        return !is_hdl64 && model_.id == bytes[captures::kVelodyneModelAt];
+        if (!packets::isVelodyneData(bytes, packet.bytes.size())) return false;
+        const bool is_hdl64 = &model_ == &packets::hdl64Model();
+        if (packets::isOfHdl64(bytes)) return is_hdl64;
+        return !is_hdl64 && model_.id == bytes[packets::kVelodyneModelAt];
     }
+    bool isToldByAddress(const Packet& packet) const override { return isData(packet); }
 
     bool add(const Packet& packet) override {
         if (packet.bytes.size() == kPositionBytes) {
@@ -88,34 +81,19 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
             return false;
         }
         const auto taken = stream_->add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s);
-        if (turns_ && isToldByAddress(packet)) {
-            captures::VelodynePacket raw;
-            std::copy(packet.bytes.begin(), packet.bytes.end(),
-                      reinterpret_cast<std::uint8_t*>(&raw.raw));
-            raw.time_ns = packet.time_ns;
-            turns_->add(raw);
-            record(*turns_);
-        }
         return taken == streaming::VelodyneStream::Taken::Yes;
-    }
-    void finish() override {
-        if (!turns_) return;
-        turns_->finish();
-        record(*turns_);
     }
 
  private:
-    const observations::VelodyneModel& model_;
-    std::optional<captures::VelodyneTurns> turns_;
+    const packets::VelodyneModel& model_;
     std::size_t position_ = 0;
 };
 
 class OusterSensor : public StreamSensor<streaming::OusterStream> {
  public:
-    OusterSensor(const LiveOptions& options, const streaming::StreamingSegmenter::Take& take)
-        : is_recorded_(!options.recording.file.empty()) {
+    OusterSensor(const LiveOptions& options, const streaming::StreamingSegmenter::Take& take) {
         stream_ = std::make_unique<streaming::OusterStream>(
-            captures::readOusterSensor(options.sensor_json), options.settings, take,
+            packets::readOusterSensor(options.sensor_json), options.settings, take,
             options.streaming);
     }
 
@@ -130,41 +108,34 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
         return counts;
     }
 
+    bool isData(const Packet& packet) const override {
+        const packets::OusterSensor& sensor = stream_->sensor();
+        const std::uint8_t* const bytes = packet.bytes.data();
+        if (packet.bytes.size() != sensor.packetBytes() || !isOfLidar(bytes, sensor)) return false;
+        return !hasSerial() || std::to_string(serialOf(bytes, sensor)) == sensor.serial;
+    }
     bool isToldByAddress(const Packet& packet) const override {
-        const captures::OusterSensor& sensor = stream_->sensor();
-        const bool has_serial = !sensor.profile.is_legacy && !sensor.serial.empty();
-        return !has_serial && packet.bytes.size() == sensor.packetBytes() &&
-               captures::isOfLidar(packet.bytes.data(), sensor);
+        return !hasSerial() && isData(packet);
     }
 
     bool add(const Packet& packet) override {
         const auto taken = stream_->add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s,
                                         packet.time_ns);
-        recordFrames();
+        stream_->complete().clear();  // the recorder puts its own turns together
         return taken == streaming::OusterStream::Taken::Yes;
     }
-    void finish() override {
-        stream_->finish();
-        recordFrames();
-    }
+    void finish() override { stream_->finish(); }
 
  private:
-    void recordFrames() {
-        for (const captures::OusterFrame& frame : stream_->complete()) {
-            if (is_recorded_) {
-                complete_.push_back(captures::observationOf(frame, stream_->sensor()));
-            }
-        }
-        stream_->complete().clear();
+    bool hasSerial() const {
+        return !stream_->sensor().profile.is_legacy && !stream_->sensor().serial.empty();
     }
-    const bool is_recorded_;
 };
 
 class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
  public:
     LivoxSensor(const LiveOptions& options, const streaming::StreamingSegmenter::Take& take) {
         stream_ = std::make_unique<streaming::LivoxStream>(options.settings, take);
-        if (!options.recording.file.empty()) scans_.emplace("livox");
     }
 
     bool turns() const override { return false; }
@@ -176,33 +147,18 @@ class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
         return counts;
     }
 
-    bool isToldByAddress(const Packet& packet) const override {
-        return livoxPacketOf(datagramOf(packet)).has_value();
+    bool isData(const Packet& packet) const override {
+        packets::Datagram datagram;
+        datagram.bytes = packet.bytes.data();
+        datagram.size = packet.bytes.size();
+        return livoxPacketOf(datagram).has_value();
     }
+    bool isToldByAddress(const Packet& packet) const override { return isData(packet); }
 
     bool add(const Packet& packet) override {
         const auto taken = stream_->add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s);
-        const auto data = livoxPacketOf(datagramOf(packet));
-        if (scans_ && data) {
-            scans_->add(*data, packet.time_ns);
-            record(*scans_);
-        }
         return taken == streaming::LivoxStream::Taken::Yes;
     }
-    void finish() override {
-        if (!scans_) return;
-        scans_->finish();
-        record(*scans_);
-    }
-
- private:
-    static captures::Datagram datagramOf(const Packet& packet) {
-        captures::Datagram datagram;
-        datagram.bytes = packet.bytes.data();
-        datagram.size = packet.bytes.size();
-        return datagram;
-    }
-    std::optional<captures::LivoxScans> scans_;
 };
 
 }  // namespace

@@ -3,18 +3,13 @@
 #include <hagen/live/PacketQueue.h>
 #include <hagen/streaming/SensorMotion.h>
 #include <hagen/streaming/StreamingSegmenter.h>
-#include <mrpt/obs/CObservation.h>
 
 #include <cstddef>
-#include <deque>
 #include <memory>
 
 namespace hagen::live {
 
-inline constexpr const char* kLivox = "Mid-360";
-inline constexpr const char* kHdl64 = "HDL-64E";
-
-/// A sensor of any maker: its packets become labelled sectors, and turns to record.
+/// A sensor of any maker: its packets become labelled sectors.
 class LiveSensor {
  public:
     /// Of its packets, as in LiveReport.
@@ -32,6 +27,8 @@ class LiveSensor {
     /// Whether it sends two returns per firing now.
     virtual bool isDual() const { return false; }
 
+    /// Whether a packet holds data of such a sensor: these are recorded.
+    virtual bool isData(const Packet& packet) const = 0;
     /// Whether only the packet's address tells that it is of another sensor: it is of this model,
     /// and has no serial number.
     virtual bool isToldByAddress(const Packet& packet) const = 0;
@@ -40,14 +37,8 @@ class LiveSensor {
     virtual void move(const streaming::SensorMotion& motion) = 0;
     /// Labels what has come.
     virtual void flush() = 0;
-    /// Completes the turn in progress.
-    virtual void finish() = 0;
-
-    /// The turns that are complete, oldest first, if they are recorded. The caller takes them out.
-    std::deque<mrpt::obs::CObservation::Ptr>& complete() { return complete_; }
-
- protected:
-    std::deque<mrpt::obs::CObservation::Ptr> complete_;
+    /// Completes the turn in progress, which counts.
+    virtual void finish() {}
 };
 
 /// Throws std::runtime_error naming the file of metadata or calibration that cannot be used, and

@@ -1,9 +1,9 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/ProcessCost.h>
-#include <hagen/captures/CaptureFile.h>
 #include <hagen/live/LiveSession.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/CaptureFile.h>
+#include <hagen/packets/VelodyneModel.h>
 
 #include <atomic>
 #include <chrono>
@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "LiveSensor.h"
+#include "RecorderProcess.h"
 #include "SectorFigures.h"
 #include "StatsFile.h"
 
@@ -53,7 +54,6 @@ class Session {
     void tell(const streaming::LabelledSector& sector);
     void tellChanges();
     void tellSilence(double now_s);
-    void record();
     void copyCounts();
     void showStatus(double now_s);
 
@@ -62,7 +62,7 @@ class Session {
     LiveReport report_;
     std::unique_ptr<LiveSensor> sensor_;
     std::optional<SectorFigures> figures_;
-    std::unique_ptr<TurnRecorder> recorder_;
+    std::unique_ptr<RecorderProcess> recorder_;
 
     double start_s_, status_s_, last_packet_s_ = 0;
     std::optional<std::uint32_t> sensor_ip_;
@@ -78,9 +78,7 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     figures_.emplace(segmenter.sensor(), report_);
     listener_.begin(segmenter.sensor(), segmenter.options());
     if (options.recording.file.empty()) return;
-    TurnRecorder::Options recording = options.recording;
-    recording.waits = !is_live;
-    recorder_ = std::make_unique<TurnRecorder>(recording, options.settings);
+    recorder_ = std::make_unique<RecorderProcess>(options, !is_live);
 }
 
 void Session::tell(const streaming::LabelledSector& sector) {
@@ -98,8 +96,8 @@ bool Session::isOfSensor(const Packet& packet) {
             ++foreign_ip_;
             return false;
         }
-        listener_.remark("the sensor is now at " + captures::ipText(packet.from_ip) +
-                         ", no longer at " + captures::ipText(*sensor_ip_));
+        listener_.remark("the sensor is now at " + packets::ipText(packet.from_ip) +
+                         ", no longer at " + packets::ipText(*sensor_ip_));
         sensor_ip_ = packet.from_ip;
     }
     return true;
@@ -114,12 +112,7 @@ void Session::take(const Packet& packet) {
         is_flushed_ = false;
         tellChanges();
     }
-    record();
-}
-
-void Session::record() {
-    for (const auto& turn : sensor_->complete()) recorder_->add(turn);
-    sensor_->complete().clear();
+    if (recorder_ && sensor_->isData(packet)) recorder_->add(packet);
 }
 
 /// After a packet was taken.
@@ -202,7 +195,6 @@ LiveReport Session::finish(double start_cpu_s) {
     sensor_->finish();
     copyCounts();
     report_.filter_cpu_s = threadCpu_s() - start_cpu_s;
-    record();
     if (recorder_) report_.recorded = recorder_->finish();
     return report_;
 }
@@ -230,7 +222,7 @@ void checkLive(const LiveOptions& options) {
     const bool is_hdl64 = options.model == kHdl64;
     if (options.model != kLivox && !is_hdl64) {
         try {
-            observations::velodyneModel(options.model);
+            packets::velodyneModel(options.model);
         } catch (const std::invalid_argument&) {
             throw std::runtime_error("'" + options.model +
                                      "' cannot be labelled live; supported are" + liveModels() +

@@ -12,8 +12,12 @@ double steadyNow_s() {
 PacketQueue::PacketQueue(std::size_t most) : ring_(most) {}
 
 void PacketQueue::put(Packet& packet) {
-    std::swap(ring_[(first_ + size_) % ring_.size()], packet);
+    ring_[(first_ + size_) % ring_.size()] = std::move(packet);
     ++size_;
+    packet.bytes.clear();
+    if (spare_.empty()) return;
+    packet.bytes = std::move(spare_.back());
+    spare_.pop_back();
 }
 
 bool PacketQueue::push(Packet& packet) {
@@ -51,7 +55,8 @@ PacketQueue::Popped PacketQueue::pop(Packet& packet, std::chrono::microseconds l
         std::unique_lock lock(mutex_);
         has_packet_.wait_for(lock, longest, [&] { return size_ > 0 || is_closed_; });
         if (size_ == 0) return is_closed_ ? Popped::Closed : Popped::Nothing;
-        std::swap(ring_[first_], packet);
+        spare_.push_back(std::move(packet.bytes));
+        packet = std::move(ring_[first_]);
         first_ = (first_ + 1) % ring_.size();
         --size_;
     }

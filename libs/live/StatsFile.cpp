@@ -59,8 +59,10 @@ void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListe
         for (const auto& name : r.recorded.files) files.push_back(name.string());
         json["recorded"] = base::Json{{"turns", r.recorded.turns},
                                       {"left_out", r.recorded.left_out},
+                                      {"packets_left_out", r.recorded.packets_left_out},
                                       {"unreadable", r.recorded.unreadable},
-                                      {"files", files}};
+                                      {"files", files},
+                                      {"failure", r.recorded.failure}};
     }
     for (const auto& [name, counts] : listener.counts) {
         for (const auto& [what, number] : counts()) json[name][what] = number;

@@ -20,7 +20,7 @@ std::optional<RecordedEntry> CaptureSource::nextEntry() {
         is_read_to_end_ = turn == nullptr;
         if (!turn) {
             const std::string missed = missedAhead(turns_ + 1);
-            if (!missed.empty()) throw captures::BrokenCapture(missed);
+            if (!missed.empty()) throw packets::BrokenCapture(missed);
             return std::nullopt;
         }
         RecordedEntry entry;
@@ -32,7 +32,7 @@ std::optional<RecordedEntry> CaptureSource::nextEntry() {
         return entry;
     }
     const std::string missed = missedAhead(turns_);
-    if (!missed.empty()) throw captures::BrokenCapture(missed);
+    if (!missed.empty()) throw packets::BrokenCapture(missed);
     return std::nullopt;
 }
 
@@ -48,7 +48,7 @@ RawlogSurvey CaptureSource::survey() {
             survey.scans[turn->sensorLabel].push_back(
                 {turn->timestamp, mrpt::poses::CPose3D(turn->sensorPose())});
         }
-    } catch (const captures::BrokenCapture& e) {
+    } catch (const packets::BrokenCapture& e) {
         survey.is_whole = false;
         brokeOffAhead(turns, e.what());
     }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The sensor's tilt on the level vehicle: as in the log, otherwise as in the settings.
-Attitude mountOf(const mrpt::obs::CObservation& scan, const observations::Settings& settings) {
+Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) {
     const mrpt::math::TPose3D on_vehicle = scan.sensorPose();
     if (on_vehicle.roll == 0 && on_vehicle.pitch == 0) return settings.mount;
     return {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)};
@@ -138,7 +138,7 @@ void ConversionOutputs::insertIntoMap(const mapping::MappedScan& scan) {
 
 void ConversionOutputs::writeToFolder(const observations::ObservationSegmenter::Output& segmented,
                                       const RecordedScan& recorded, const std::string& name,
-                                      const observations::Settings& settings) {
+                                      const Settings& settings) {
     const std::string& sensor_label = recorded.observation->sensorLabel;
     auto writer = folder_writers_.find(sensor_label);
     if (writer == folder_writers_.end()) {
@@ -158,7 +158,7 @@ void ConversionOutputs::writeToFolder(const observations::ObservationSegmenter::
 
 std::string ConversionOutputs::writeScan(
     const observations::ObservationSegmenter::Output& segmented, const RecordedScan& recorded,
-    const observations::Settings& settings) {
+    const Settings& settings) {
     const std::size_t number = scans_[recorded.observation->sensorLabel]++;
     const std::string own_name = recorded.name.empty() ? scanName(number) : recorded.name;
     if (folders_) {

@@ -40,7 +40,7 @@ class ConversionOutputs {
     /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
     /// empty name stands for the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
-                          const RecordedScan& recorded, const observations::Settings& settings);
+                          const RecordedScan& recorded, const Settings& settings);
 
     /// The labelled clouds written so far; null if there are none to write.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
@@ -75,7 +75,7 @@ class ConversionOutputs {
 
     void writeToFolder(const observations::ObservationSegmenter::Output& segmented,
                        const RecordedScan& recorded, const std::string& name,
-                       const observations::Settings& settings);
+                       const Settings& settings);
     void drawPictures(const observations::ObservationSegmenter::Output& segmented,
                       const RecordedScan& recorded);
     void finishFolders();

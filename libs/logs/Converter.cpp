@@ -2,7 +2,6 @@
 
 #include <hagen/bags/BagFile.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/captures/CaptureFile.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/ScanFolder.h>
@@ -10,6 +9,7 @@
 #include <hagen/observations/Results.h>
 #include <hagen/observations/ScenePreview.h>
 #include <hagen/observations/TimeStamp.h>
+#include <hagen/packets/CaptureFile.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ void takeOutResults(EntryInConversion& entry) {
 bool isWrongUsage(const std::exception_ptr& end) {
     try {
         std::rethrow_exception(end);
-    } catch (const observations::SettingsError&) {
+    } catch (const SettingsError&) {
         return true;
     } catch (...) {
         return false;
@@ -171,7 +171,7 @@ void Converter::segment(ScanInConversion& scan) {
     try {
         scan.is_segmented = scan.segmenter->process(observation, scan.segmented, scan.recorded.pose,
                                                     scan.recorded.beams);
-    } catch (const observations::SettingsError&) {
+    } catch (const SettingsError&) {
         throw;
     } catch (const std::bad_alloc&) {
         throw;
@@ -389,7 +389,7 @@ ConversionReport Converter::finish() {
                            conversion_.input.string() +
                            "; are its times from another clock? No map is written");
     }
-    const observations::Settings::AirframeMask& airframe = settings_.airframe;
+    const Settings::AirframeMask& airframe = settings_.airframe;
     if (!airframe.parts.isEmpty() && report_.scans > 0 && report_.returns_masked == 0) {
         listener_.remark("the log",
                          "the airframe of the settings masks none of its returns; is it that of "
@@ -416,8 +416,7 @@ void Converter::remarkOnPartialOutputs() {
 }
 
 void Converter::finishSensorCheck() {
-    const observations::Settings::Sensor &wanted = conversion_.settings.sensor,
-                                         &used = settings_.sensor;
+    const Settings::Sensor &wanted = conversion_.settings.sensor, &used = settings_.sensor;
     if (wanted.model &&
         (wanted.model != used.model || wanted.elevations_deg != used.elevations_deg)) {
         listener_.remark(
@@ -473,8 +472,8 @@ void Converter::keepWhatThereIs() {
         throw BrokenRawlog(e.what() + kept);
     } catch (const BrokenScan& e) {
         throw BrokenScan(e.what() + kept);
-    } catch (const captures::BrokenCapture& e) {
-        throw captures::BrokenCapture(e.what() + kept);
+    } catch (const packets::BrokenCapture& e) {
+        throw packets::BrokenCapture(e.what() + kept);
     } catch (const bags::BrokenBag& e) {
         throw bags::BrokenBag(e.what() + kept);
     } catch (const Interrupted& e) {

@@ -74,7 +74,7 @@ class Converter {
     const ConversionListener& listener_;
     std::mutex listener_mutex_;  ///< the listener is also called by reading, on another thread
     std::unique_ptr<ScanSource> source_;
-    const observations::Settings settings_;  ///< with those of the recording's own sensor
+    const Settings settings_;  ///< with those of the recording's own sensor
     ConversionOutputs outputs_;
     SegmenterPool segmenters_;
     /// Time of the last scan that was segmented, by sensor label.

@@ -5,11 +5,11 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/logs/ScanSource.h>
-#include <hagen/observations/AirframeFile.h>
 #include <hagen/observations/MrptMessage.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/pictures/AirframePicture.h>
 #include <hagen/range_image/AirframeLearner.h>
+#include <hagen/settings/AirframeFile.h>
 
 #include <new>
 #include <optional>
@@ -32,7 +32,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
     options.last_entry = learning.to;
     options.keep_going = listener.keep_going;
     const auto source = openRecording(learning.input, options);
-    const observations::Settings settings = source->useSettings(learning.settings);
+    const Settings settings = source->useSettings(learning.settings);
     observations::ObservedScan observed;
     std::optional<double> first_s;
     while (const auto scan = source->nextScan()) {
@@ -48,7 +48,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
         }
         try {
             observations::readObservation(*scan->observation, settings, observed, scan->beams);
-        } catch (const observations::SettingsError&) {
+        } catch (const SettingsError&) {
             throw;
         } catch (const std::bad_alloc&) {
             throw;
@@ -86,8 +86,7 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
     report.share_of_sphere = learned.share_of_sphere;
     report.share_of_seen = learned.share_of_seen;
 
-    base::writeText(observations::airframeBinsText(learned.bin_range_m, origin), file.temporary(),
-                    file.path());
+    base::writeText(airframeBinsText(learned.bin_range_m, origin), file.temporary(), file.path());
     const fs::path folder = fs::absolute(picture.temporary()).parent_path();
     pictures::drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
                            picture.temporary().filename().string());

@@ -68,11 +68,10 @@ std::vector<std::string> ScanFolderSource::remarks() const {
             (folder_.path() / "velodyne").string() + ", they are"};
 }
 
-observations::Settings ScanFolderSource::settingsFor(const observations::Settings& settings) const {
-    observations::Settings merged = settings;
+Settings ScanFolderSource::settingsFor(const Settings& settings) const {
+    Settings merged = settings;
     if (std::filesystem::exists(folder_.sensorFile())) {
-        observations::mergeSettings(folder_.sensorFile(), merged,
-                                    observations::SettingsOrigin::Recording);
+        mergeSettings(folder_.sensorFile(), merged, SettingsOrigin::Recording);
     }
     return merged;
 }

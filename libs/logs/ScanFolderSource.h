@@ -14,7 +14,7 @@ class ScanFolderSource : public ScanSource {
     std::size_t entriesKnown() const override { return folder_.size(); }
     std::vector<std::string> remarks() const override;
     /// Merges the folder's sensor.yaml.
-    observations::Settings settingsFor(const observations::Settings& settings) const override;
+    Settings settingsFor(const Settings& settings) const override;
 
  protected:
     LogPoses readPoses(const std::filesystem::path& file) override;

@@ -1,7 +1,7 @@
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/settings/Settings.h>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
@@ -43,8 +43,8 @@ void writeSensor(const fs::path& file, const SensorModel& sensor,
         if (unnamed->max_range_m) out << "  max_range_m: " << *unnamed->max_range_m << "\n";
     }
     if (is_tilted) {
-        out << "  mount_roll_deg: " << observations::degreesText(mount.roll_rad) << "\n"
-            << "  mount_pitch_deg: " << observations::degreesText(mount.pitch_rad) << "\n";
+        out << "  mount_roll_deg: " << degreesText(mount.roll_rad) << "\n"
+            << "  mount_pitch_deg: " << degreesText(mount.pitch_rad) << "\n";
     }
     base::closeWritten(out, file);
 }

@@ -2,8 +2,8 @@
 
 #include <hagen/bags/BagFile.h>
 #include <hagen/base/Folder.h>
-#include <hagen/captures/CaptureFile.h>
 #include <hagen/clouds/CloudFile.h>
+#include <hagen/packets/CaptureFile.h>
 #include <algorithm>
 
 #include "BagSource.h"
@@ -32,8 +32,8 @@ void ScanSource::usePoses(const std::filesystem::path& file) {
     is_levelled_by_file_ = !file.empty() && poses_.vehicle.has_horizon;
 }
 
-observations::Settings ScanSource::useSettings(const observations::Settings& settings) {
-    observations::Settings merged = settingsFor(settings);
+Settings ScanSource::useSettings(const Settings& settings) {
+    Settings merged = settingsFor(settings);
     recovers_beams_ = !merged.sensor.model;
     return merged;
 }
@@ -48,9 +48,7 @@ const observations::SharedBeams& ScanSource::beamsOf(const std::string& sensor_l
     return beams_[sensor_label] = sensors_.beamsOf(sensor_label);
 }
 
-observations::Settings ScanSource::settingsFor(const observations::Settings& settings) const {
-    return settings;
-}
+Settings ScanSource::settingsFor(const Settings& settings) const { return settings; }
 
 void ScanSource::brokeOffAhead(std::size_t entries, const std::string& why) {
     if (!break_ahead_.empty() && break_ahead_at_ <= entries) return;
@@ -111,9 +109,9 @@ std::vector<fs::path> recordingsIn(const fs::path& folder) {
     std::vector<fs::path> found;
     for (const fs::path& path : base::entriesOf(folder)) {
         const bool is_file = fs::is_regular_file(path);
-        const bool is_recording = is_file ? bags::isBag(path) || captures::isCapture(path) ||
-                                                path.extension() == ".rawlog"
-                                          : fs::is_directory(path) && bags::isBag(path);
+        const bool is_recording =
+            is_file ? bags::isBag(path) || packets::isCapture(path) || path.extension() == ".rawlog"
+                    : fs::is_directory(path) && bags::isBag(path);
         if (is_recording) found.push_back(path);
     }
     return found;
@@ -171,7 +169,7 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
     if (is_folder && !is_bag && !is_scan_folder && !CloudFileSource::hasClouds(recording)) {
         throw std::runtime_error(recording.string() + ": " + whyNoFolder(recording));
     }
-    const bool is_capture = !is_bag && !is_folder && captures::isCapture(recording);
+    const bool is_capture = !is_bag && !is_folder && packets::isCapture(recording);
     if (!options.calibration.empty() && !is_capture) {
         throw std::runtime_error(recording.string() + ": is no capture (.pcap, .pcapng), so " +
                                  options.calibration.string() +
@@ -188,7 +186,7 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
         return std::make_unique<CaptureSource>(recording, options);
     }
     if (!options.sensor_json.empty()) {
-        const bool are_exchanged = captures::isCapture(options.sensor_json);
+        const bool are_exchanged = packets::isCapture(options.sensor_json);
         throw std::runtime_error(
             recording.string() +
             ": is no capture (.pcap, .pcapng) and no ROS recording, so there " +

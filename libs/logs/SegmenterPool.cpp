@@ -7,8 +7,7 @@ namespace hagen::logs {
 
 using observations::ObservationSegmenter;
 
-SegmenterPool::SegmenterPool(const observations::Settings& settings,
-                             observations::CloudClass cloud_class)
+SegmenterPool::SegmenterPool(const Settings& settings, observations::CloudClass cloud_class)
     : settings_(settings), cloud_class_(cloud_class) {
     lease();  // reports inconsistent settings before anything is read
 }

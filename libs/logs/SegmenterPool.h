@@ -12,7 +12,7 @@ namespace hagen::logs {
 class SegmenterPool {
  public:
     /// Throws SettingsError if settings and sensor are inconsistent.
-    SegmenterPool(const observations::Settings& settings, observations::CloudClass cloud_class);
+    SegmenterPool(const Settings& settings, observations::CloudClass cloud_class);
 
     /// Returns the segmenter to the pool at its end, and with it the segmenter's output.
     using Lease = std::unique_ptr<observations::ObservationSegmenter,
@@ -20,7 +20,7 @@ class SegmenterPool {
     Lease lease();  ///< on any thread
 
  private:
-    const observations::Settings settings_;
+    const Settings settings_;
     const observations::CloudClass cloud_class_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<observations::ObservationSegmenter>> idle_;

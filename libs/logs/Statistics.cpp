@@ -15,7 +15,7 @@ namespace {
 
 using base::Json;
 
-Json settingsOf(const observations::Settings& settings) {
+Json settingsOf(const Settings& settings) {
     Json json;
     for (const OptionKey& key : optionKeys()) {
         const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
@@ -23,10 +23,9 @@ Json settingsOf(const observations::Settings& settings) {
         json[key.name] = is_word ? Json(text) : Json::parse(text);
     }
     json["sensor.model"] = settings.sensor.model ? Json(*settings.sensor.model) : Json();
-    json["sensor.mount_roll_deg"] = Json::parse(observations::degreesText(settings.mount.roll_rad));
-    json["sensor.mount_pitch_deg"] =
-        Json::parse(observations::degreesText(settings.mount.pitch_rad));
-    const observations::Settings::AirframeMask& airframe = settings.airframe;
+    json["sensor.mount_roll_deg"] = Json::parse(degreesText(settings.mount.roll_rad));
+    json["sensor.mount_pitch_deg"] = Json::parse(degreesText(settings.mount.pitch_rad));
+    const Settings::AirframeMask& airframe = settings.airframe;
     json["airframe"] = {
         {"boxes", airframe.parts.boxes.size()},
         {"spheres", airframe.parts.spheres.size()},

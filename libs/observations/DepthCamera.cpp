@@ -1,13 +1,12 @@
 #include <hagen/observations/DepthCamera.h>
 #include <hagen/observations/MrptMessage.h>
+#include <hagen/range_image/MostReturns.h>
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <stdexcept>
 #include <string>
-
-#include "ReturnLimit.h"
 
 namespace hagen::observations {
 namespace {

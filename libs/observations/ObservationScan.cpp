@@ -7,6 +7,7 @@
 #include <hagen/observations/RotatingScan.h>
 #include <hagen/observations/TableCloud.h>
 #include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/range_image/MostReturns.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
@@ -14,8 +15,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <utility>
-
-#include "ReturnLimit.h"
 
 namespace hagen::observations {
 namespace {
@@ -198,7 +197,7 @@ void readRotating(const mrpt::obs::CObservationRotatingScan& observation, const 
 
 void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,
                  ObservedScan& observed) {
-    sensorOf(observation, observed.sensor);
+    sensorOf(observation, observed.sensor, observed.work.decoder);
     takeOwnSensor(settings, observed);
     const std::size_t unsound_blocks =
         decodePackets(observation, observed.scan, observed.work.decoder);

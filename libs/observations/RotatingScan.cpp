@@ -1,6 +1,8 @@
 #include <hagen/observations/RotatingScan.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneCalibration.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/MostReturns.h>
 #include <mrpt/serialization/stl_serialization.h>
 #include <mrpt/version.h>
 
@@ -15,7 +17,6 @@
 #include <utility>
 
 #include "ArchiveParts.h"
-#include "ReturnLimit.h"
 
 namespace hagen::observations {
 namespace {
@@ -273,10 +274,11 @@ std::optional<int> columnsFromVelodyne(const CObservationRotatingScan& scan) {
 }
 
 /// The model whose packets fromVelodyne() read: it names two of them.
-const VelodyneModel* velodyneOf(const CObservationRotatingScan& scan, const Settings& settings) {
+const packets::VelodyneModel* velodyneOf(const CObservationRotatingScan& scan,
+                                         const Settings& settings) {
     for (const std::string& name : {scan.lidarModel, settings.sensor.model.value_or("")}) {
         try {
-            const VelodyneModel& model = velodyneModel(name);
+            const packets::VelodyneModel& model = packets::velodyneModel(name);
             if (model.lasers == rowsOf(scan)) return &model;
         } catch (const std::invalid_argument&) {
         }
@@ -284,23 +286,23 @@ const VelodyneModel* velodyneOf(const CObservationRotatingScan& scan, const Sett
     return nullptr;
 }
 
-Geometry geometryOfVelodyne(const CObservationRotatingScan& scan, const VelodyneModel& model,
-                            int columns) {
+Geometry geometryOfVelodyne(const CObservationRotatingScan& scan,
+                            const packets::VelodyneModel& model, int columns) {
     const bool is_dual = !scan.rangeOtherLayers.empty();
     Geometry geometry;
     geometry.columns = columns;
     geometry.is_dual_by_blocks = is_dual && model.firings_per_block == 2;
     geometry.columns_of_turn = is_dual ? 0.5 * columns : columns;
-    geometry.first_rad = radians(-azimuthOfReadingDeg(100.0 * degrees(scan.startAzimuth)));
+    geometry.first_rad = radians(-packets::azimuthOfReadingDeg(100.0 * degrees(scan.startAzimuth)));
     geometry.step_rad = -scan.azimuthSpan / geometry.columns_of_turn;
     geometry.resolution_m = static_cast<double>(model.distance_unit_m);  // MRPT writes 2 mm always
-    const auto& calibration = defaultCalibration(model);
+    const auto& calibration = packets::defaultCalibration(model);
     for (int laser = 0; laser < model.lasers; ++laser) {
-        const auto& correction = calibration.laser_corrections[laser];
-        Row row{correction.sinVertCorrection, correction.cosVertCorrection,
-                rowOfLaser(calibration, laser)};
+        const auto& correction = calibration.lasers[laser];
+        Row row{correction.elevation_sine, correction.elevation_cosine,
+                packets::rowOfLaser(calibration, laser)};
         row.delay = model.delayUs(laser) / model.firing_period_us;
-        row.azimuth_rad = radians(correction.azimuthCorrection);  // clockwise, is subtracted
+        row.azimuth_rad = radians(correction.azimuth_deg);  // clockwise, is subtracted
         geometry.rows.push_back(row);
     }
     return geometry;
@@ -419,10 +421,10 @@ void readRangeImage(const CObservationRotatingScan& observation, const Settings&
     returns.remark.clear();
     Geometry geometry;
     const std::optional<int> used = columnsFromVelodyne(observation);
-    const VelodyneModel* const model = used ? velodyneOf(observation, settings) : nullptr;
+    const packets::VelodyneModel* const model = used ? velodyneOf(observation, settings) : nullptr;
     if (model != nullptr) {
         geometry = geometryOfVelodyne(observation, *model, *used);
-        sensor = sensorOf(defaultCalibration(*model), model->name);
+        sensor = sensorOf(packets::defaultCalibration(*model), model->name);
         if (settings.sensor.model && *settings.sensor.model != model->name) {
             addRemark("the scan is of the sensor " + model->name +
                           ": its beams are used instead of the settings' sensor.model " +

@@ -1,379 +1,39 @@
+#include <hagen/observations/VelodyneCalibrations.h>
 #include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/observations/VelodyneModel.h>
-#include <hagen/range_image/Angle.h>
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <iterator>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include "ReturnLimit.h"
-#include "VelodyneReturns.h"
 
 namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
-using mrpt::obs::VelodyneCalibration;
 
-constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
-constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
-static_assert(kTurn == kReadingsOfTurn);
-static_assert(CObservationVelodyneScan::SCANS_PER_BLOCK == kReturnsOfBlock);
-constexpr double kHourUs = 3600e6;
-
-/// A raw packet, read byte by byte (little-endian): MRPT's struct is packed, and its accessors bind
-/// references to unaligned numbers.
-class Packet {
- public:
-    explicit Packet(const CObservationVelodyneScan::TVelodyneRawPacket& raw)
-        : bytes_(reinterpret_cast<const std::uint8_t*>(&raw)) {}
-
-    bool isValid(int block) const {
-        return number(block * kBlockBytes, 2) == CObservationVelodyneScan::UPPER_BANK &&
-               azimuth(block) < kTurn;
-    }
-    bool isLower(int block) const {
-        return number(block * kBlockBytes, 2) == CObservationVelodyneScan::LOWER_BANK &&
-               azimuth(block) < kTurn;
-    }
-    int azimuth(int block) const { return static_cast<int>(number(block * kBlockBytes + 2, 2)); }
-    const std::uint8_t* returns(int block) const { return bytes_ + block * kBlockBytes + 4; }
-    unsigned time_us() const { return number(kBlocks * kBlockBytes, 4); }
-    int blocksPerFiring() const {
-        return bytes_[kBlocks * kBlockBytes + 4] == CObservationVelodyneScan::RETMODE_DUAL ? 2 : 1;
-    }
-    std::uint8_t modelId() const { return bytes_[kBlocks * kBlockBytes + 5]; }
-
- private:
-    static constexpr int kBlockBytes = CObservationVelodyneScan::SIZE_BLOCK;
-    unsigned number(int at, int bytes) const {
-        unsigned value = 0;
-        for (int i = 0; i < bytes; ++i) value |= unsigned{bytes_[at + i]} << (8 * i);
-        return value;
-    }
-
-    const std::uint8_t* bytes_;
-};
-
-/// From one time of a packet to another: within half an hour, since they wrap around every hour. A
-/// packet that was recorded out of order is before the first, not an hour after it.
-double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
-
-/// The sine and cosine of an angle.
-struct SineCosine {
-    double sine, cosine;
-
-    explicit SineCosine(double angle_rad)
-        : sine(std::sin(angle_rad)), cosine(std::cos(angle_rad)) {}
-};
-
-/// Directions of all azimuth readings, from tables of whole degrees and of hundredths, which fit in
-/// the first-level cache.
-class ReadingDirections {
- public:
-    ReadingDirections() {
-        for (int i = 0; i < 360; ++i) degrees_.emplace_back(100 * i * kRadiansPerReading - kPi);
-        for (int i = 0; i < 100; ++i) hundredths_.emplace_back(i * kRadiansPerReading);
-    }
-
-    /// Sets a block's direction from its reading.
-    void setDirection(int reading, VelodyneBlock& block) const {
-        const int from_behind = reading < kTurn / 2 ? reading + kTurn / 2 : reading - kTurn / 2;
-        const SineCosine& a = degrees_[from_behind / 100];
-        const SineCosine& b = hundredths_[from_behind % 100];
-        block.sine = static_cast<float>(a.sine * b.cosine + a.cosine * b.sine);
-        block.cosine = static_cast<float>(a.cosine * b.cosine - a.sine * b.sine);
-        block.azimuth_rad = static_cast<float>(kPi - from_behind * kRadiansPerReading);
-        block.reading_from_behind = static_cast<float>(from_behind);
-    }
-
- private:
-    std::vector<SineCosine> degrees_, hundredths_;
-};
-
-std::string hex(unsigned value) {
-    char text[8];
-    std::snprintf(text, sizeof text, "0x%02x", value);
-    return text;
-}
-
-/// Only an HDL-64E sends blocks of lower lasers.
-bool isOfHdl64(const CObservationVelodyneScan& observation) {
-    const Packet first(observation.scan_packets.front());
-    for (int block = 0; block < kBlocks; ++block) {
-        if (first.isLower(block)) return true;
-    }
-    return false;
-}
-
-/// Returns a scan's own calibration. Throws std::runtime_error if it is none: a laser that points
-/// nowhere would place returns nowhere.
-const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
-    const auto& lasers = calibration.laser_corrections;
-    for (std::size_t i = 0; i < lasers.size(); ++i) {
-        const auto& laser = lasers[i];
-        const double length = std::hypot(laser.sinVertCorrection, laser.cosVertCorrection);
-        const double others = laser.azimuthCorrection + laser.distanceCorrection +
-                              laser.verticalOffsetCorrection + laser.horizontalOffsetCorrection +
-                              laser.sinVertOffsetCorrection + laser.cosVertOffsetCorrection;
-        if (std::abs(length - 1) < 0.01 && std::isfinite(others)) continue;
-        throw std::runtime_error("the scan's own calibration is corrupt: laser " +
-                                 std::to_string(i) + " has no direction or no finite offsets");
-    }
-    return calibration;
-}
-
-const VelodyneCalibration& hdl64CalibrationOf(const CObservationVelodyneScan& observation) {
-    const VelodyneCalibration& calibration = observation.calibration;
-    const auto lasers = static_cast<std::size_t>(hdl64Model().lasers);
-    if (calibration.laser_corrections.size() == lasers) return checked(calibration);
-    throw std::runtime_error(
-        "packets of an HDL-64E need its calibration, with 64 lasers, which the "
-        "scan does not have");
-}
-
-const VelodyneModel& modelOf(const CObservationVelodyneScan& observation, std::size_t packet) {
-    const std::uint8_t id = Packet(observation.scan_packets[packet]).modelId();
-    const VelodyneModel* model = findVelodyneModel(id);
-    if (model == nullptr) {
-        throw std::runtime_error("packet " + std::to_string(packet) + ": unknown model id " +
-                                 hex(id) + "; known are" + knownVelodynes());
-    }
-    if (id != Packet(observation.scan_packets.front()).modelId()) {
-        throw std::runtime_error("packet " + std::to_string(packet) + ": model id " + hex(id) +
-                                 " differs from the first packet's");
-    }
-    return *model;
-}
-
-const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observation,
-                                         const VelodyneModel& model) {
-    const bool has_own =
-        observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
-    return has_own ? checked(observation.calibration) : defaultCalibration(model);
-}
-
-/// Returns the rotation of the sensor from one firing's block to the next, in 0.01 degrees: the
-/// median over the scan, so that neither rounded azimuths nor a broken block shift returns.
-int turnOfBlocks(const CObservationVelodyneScan& observation, std::vector<int>& turns) {
-    turns.clear();
-    for (const auto& raw : observation.scan_packets) {
-        const Packet packet(raw);
-        const int step = packet.blocksPerFiring();
-        for (int b = 0; b + step < kBlocks; ++b) {
-            if (!packet.isValid(b) || !packet.isValid(b + step)) continue;
-            const int turn = packet.azimuth(b + step) - packet.azimuth(b);
-            turns.push_back(turn < 0 ? turn + kTurn : turn);
-        }
-    }
-    if (turns.empty()) return 0;
-    const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
-    std::nth_element(turns.begin(), middle, turns.end());
-    return *middle;
-}
-
-BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
-                            int turn_of_blocks) {
-    BlockOffsets places;
-    places.distance_unit_m = model.distance_unit_m;
-    for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
-        const int laser = i % model.lasers;
-        const auto& correction = calibration.laser_corrections[laser];
-        const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
-        const double turn_reading = std::remainder(
-            turn_of_blocks * turn_in_block - 100.0 * correction.azimuthCorrection, kTurn);
-        const SineCosine turn(turn_reading * kRadiansPerReading);
-        places.turn_sine[i] = static_cast<float>(turn.sine);
-        places.turn_cosine[i] = static_cast<float>(turn.cosine);
-        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
-        places.turn_reading[i] = static_cast<float>(turn_reading);
-        places.time_s[i] = static_cast<float>(1e-6 * turn_in_block * model.blockPeriodUs());
-        places.elevation_sine[i] = static_cast<float>(correction.sinVertCorrection);
-        places.elevation_cosine[i] = static_cast<float>(correction.cosVertCorrection);
-        places.distance_m[i] = static_cast<float>(correction.distanceCorrection);
-        places.up_m[i] = static_cast<float>(correction.verticalOffsetCorrection);
-        places.forward_m[i] = places.up_m[i] * places.elevation_sine[i];
-        places.sideways_m[i] = static_cast<float>(correction.horizontalOffsetCorrection);
-        places.row[i] = rowOfLaser(calibration, laser);
-    }
-    const auto [least, most] =
-        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
-    places.least_turn_reading = *least;
-    places.most_turn_reading = *most;
-    return places;
-}
-
-/// The lasers of an upper or lower block of an HDL-64E, which count as fired at once.
-BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower) {
-    BlockOffsets places{};
-    places.distance_unit_m = hdl64Model().distance_unit_m;
-    for (std::size_t i = 0; i < kReturnsOfBlock; ++i) {
-        const std::size_t laser = i + (is_lower ? kReturnsOfBlock : 0);
-        const auto& correction = calibration.laser_corrections[laser];
-        const double turn_reading = std::remainder(-100.0 * correction.azimuthCorrection, kTurn);
-        const SineCosine turn(turn_reading * kRadiansPerReading);
-        places.turn_sine[i] = static_cast<float>(turn.sine);
-        places.turn_cosine[i] = static_cast<float>(turn.cosine);
-        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
-        places.turn_reading[i] = static_cast<float>(turn_reading);
-        const double sine = correction.sinVertCorrection, cosine = correction.cosVertCorrection;
-        const double offset_m = correction.verticalOffsetCorrection;
-        places.elevation_sine[i] = static_cast<float>(sine);
-        places.elevation_cosine[i] = static_cast<float>(cosine);
-        places.distance_m[i] = static_cast<float>(correction.distanceCorrection);
-        places.up_m[i] = static_cast<float>(offset_m * cosine);
-        places.forward_m[i] = static_cast<float>(-offset_m * sine);
-        places.sideways_m[i] = static_cast<float>(correction.horizontalOffsetCorrection);
-        places.row[i] = rowOfLaser(calibration, laser);
-    }
-    const auto [least, most] =
-        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
-    places.least_turn_reading = *least;
-    places.most_turn_reading = *most;
-    return places;
-}
-
-/// Collects the valid blocks of a scan; returns the number of invalid ones.
-std::size_t collectBlocks(const CObservationVelodyneScan& observation, const VelodyneModel& model,
-                          std::vector<VelodyneBlock>& blocks) {
-    static const ReadingDirections directions;
-    const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
-    blocks.resize(observation.scan_packets.size() * kBlocks);
-    VelodyneBlock* next = blocks.data();
-    for (const auto& raw : observation.scan_packets) {
-        const Packet packet(raw);
-        const double packet_us = elapsedUs(first_us, packet.time_us());
-        for (int b = 0; b < kBlocks; ++b) {
-            if (!packet.isValid(b)) continue;
-            const int firing = b / packet.blocksPerFiring();
-            const double block_us = packet_us + firing * model.blockPeriodUs();
-            VelodyneBlock& block = *next++;
-            block.returns = packet.returns(b);
-            block.time_s = static_cast<float>(1e-6 * block_us);
-            directions.setDirection(packet.azimuth(b), block);
-        }
-    }
-    blocks.resize(next - blocks.data());
-    return observation.scan_packets.size() * kBlocks - blocks.size();
-}
-
-/// Equals beamSpan() of the sensor that sensorOf() returns, without its memory.
-BeamSpan beamSpan(const VelodyneCalibration& calibration) {
-    const auto isLower = [](const auto& a, const auto& b) {
-        return a.sinVertCorrection < b.sinVertCorrection;
-    };
-    const auto& lasers = calibration.laser_corrections;
-    const auto [lowest, highest] = std::minmax_element(lasers.begin(), lasers.end(), isLower);
-    const auto elevation = [](const auto& laser) {
-        return static_cast<float>(std::atan2(laser.sinVertCorrection, laser.cosVertCorrection));
-    };
-    return {static_cast<int>(lasers.size()), elevation(*lowest), elevation(*highest)};
-}
-
-void resize(std::size_t returns, Scan& scan) {
-    for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity, &scan.range_m,
-                         &scan.azimuth_rad, &scan.time_s}) {
-        values->resize(returns);
-    }
-    scan.row.resize(returns);
-}
-
-ReturnArrays arraysFrom(std::size_t first, Scan& scan) {
-    return {scan.x_m.data() + first,     scan.y_m.data() + first,
-            scan.z_m.data() + first,     scan.intensity.data() + first,
-            scan.range_m.data() + first, scan.azimuth_rad.data() + first,
-            scan.time_s.data() + first,  scan.row.data() + first};
-}
-
-/// Decodes packets of an HDL-64E, a block after the other.
-std::size_t decodeHdl64(const CObservationVelodyneScan& observation, Scan& scan,
-                        DecoderWorkspace& work) {
-    static const ReadingDirections directions;
-    const VelodyneCalibration& calibration = hdl64CalibrationOf(observation);
-    const BlockOffsets upper = hdl64Offsets(calibration, false);
-    const BlockOffsets lower = hdl64Offsets(calibration, true);
-    const double firing_us = 2 * hdl64Model().blockPeriodUs();
-    const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
-    std::size_t returns = 0, unsound_blocks = 0;
-    resize(observation.scan_packets.size() * kBlocks * kReturnsOfBlock + kPaddingReturns, scan);
-    work.blocks.resize(1);
-    VelodyneBlock& block = work.blocks.front();
-    for (const auto& raw : observation.scan_packets) {
-        const Packet packet(raw);
-        const double packet_us = elapsedUs(first_us, packet.time_us());
-        for (int b = 0; b < kBlocks; ++b) {
-            if (!packet.isValid(b) && !packet.isLower(b)) {
-                ++unsound_blocks;
-                continue;
-            }
-            block.returns = packet.returns(b);
-            const int firing = b / 2;  // of two blocks, upper and lower
-            block.time_s = static_cast<float>(1e-6 * (packet_us + firing * firing_us));
-            directions.setDirection(packet.azimuth(b), block);
-            locateReturns(work.blocks, packet.isLower(b) ? lower : upper,
-                          arraysFrom(returns, scan));
-            returns += countReturns(work.blocks);
-        }
-    }
-    resize(returns, scan);
-    scan.beams = beamSpan(calibration);
-    return unsound_blocks;
+packets::VelodynePackets packetsOf(const CObservationVelodyneScan& observation) {
+    const auto& raw = observation.scan_packets;
+    static_assert(sizeof(CObservationVelodyneScan::TVelodyneRawPacket) ==
+                  packets::kVelodynePacketBytes);
+    return {reinterpret_cast<const std::uint8_t*>(raw.data()), raw.size()};
 }
 
 }  // namespace
 
-void sensorOf(const CObservationVelodyneScan& observation, SensorModel& sensor) {
-    if (observation.scan_packets.empty()) throw std::runtime_error("the scan has no packets");
-    if (isOfHdl64(observation)) {
-        sensor.name = hdl64Model().name;
-        beamsOf(hdl64CalibrationOf(observation), sensor.elevations_rad);
-    } else {
-        const VelodyneModel& model = modelOf(observation, 0);
-        sensor.name = model.name;
-        beamsOf(calibrationOf(observation, model), sensor.elevations_rad);
-    }
+void sensorOf(const CObservationVelodyneScan& observation, SensorModel& sensor,
+              DecoderWorkspace& work) {
+    readCalibration(observation.calibration, work.calibration);
+    beamsOf(packetsOf(observation), work.calibration, sensor);
     sensor.min_range_m = static_cast<float>(observation.minRange);
     sensor.max_range_m = static_cast<float>(observation.maxRange);
 }
 
 SensorModel sensorOf(const CObservationVelodyneScan& observation) {
     SensorModel sensor;
-    sensorOf(observation, sensor);
+    DecoderWorkspace work;
+    sensorOf(observation, sensor, work);
     return sensor;
 }
 
-// Fast because the lasers of all blocks fire in the same pattern: blocks differ only in their first
-// direction. It is looked up in a table, and the pattern is rotated by it, one SIMD vector of
-// returns at a time (locateReturns).
 std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan,
                           DecoderWorkspace& work) {
-    if (observation.scan_packets.empty()) {
-        scan.clear();
-        return 0;
-    }
-    checkReturns(observation.scan_packets.size() * kBlocks * kReturnsOfBlock);
-    if (isOfHdl64(observation)) return decodeHdl64(observation, scan, work);
-    const VelodyneModel& model = modelOf(observation, 0);
-    for (std::size_t p = 1; p < observation.scan_packets.size(); ++p) {
-        modelOf(observation, p);  // throws for a packet of another model
-    }
-    const VelodyneCalibration& calibration = calibrationOf(observation, model);
-    std::vector<VelodyneBlock>& blocks = work.blocks;
-    const std::size_t unsound_blocks = collectBlocks(observation, model, blocks);
-    const BlockOffsets places =
-        blockOffsetsOf(calibration, model, turnOfBlocks(observation, work.turns));
-
-    // Count first: growing arrays would be filled with zeros, which takes time.
-    const std::size_t returns = countReturns(blocks);
-    resize(returns + kPaddingReturns, scan);
-    locateReturns(blocks, places, arraysFrom(0, scan));
-    resize(returns, scan);
-    scan.beams = beamSpan(calibration);
-    return unsound_blocks;
+    readCalibration(observation.calibration, work.calibration);
+    return decodePackets(packetsOf(observation), work.calibration, scan, work.packets);
 }
 
 std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan) {

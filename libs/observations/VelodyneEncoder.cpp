@@ -1,4 +1,6 @@
+#include <hagen/observations/VelodyneCalibrations.h>
 #include <hagen/observations/VelodyneEncoder.h>
+#include <hagen/packets/VelodyneCalibration.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -34,7 +36,7 @@ class PacketWriter {
     std::vector<std::uint8_t> bytes_;
 };
 
-unsigned distanceUnits(float range_m, const VelodyneModel& model) {
+unsigned distanceUnits(float range_m, const packets::VelodyneModel& model) {
     const float units = std::round(range_m / model.distance_unit_m);
     return units >= 1.0f && units <= 65535.0f ? static_cast<unsigned>(units) : 0u;  // NaN: 0
 }
@@ -50,7 +52,7 @@ unsigned azimuthUnits(double reading) {
                                            : units);
 }
 
-void checkSizes(const VelodyneModel& model, const Firings& firings) {
+void checkSizes(const packets::VelodyneModel& model, const Firings& firings) {
     const auto fits = [&](const Image<float>& image) {
         return image.rows() == model.lasers && image.cols() == firings.range_m.cols();
     };
@@ -63,20 +65,22 @@ void checkSizes(const VelodyneModel& model, const Firings& firings) {
 }
 
 /// Returns the azimuth reading of a laser of a firing, not rounded and not wrapped to a revolution.
-double readingOf(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
+double readingOf(const packets::VelodyneModel& model, const Firings& firings, int laser,
+                 int firing) {
     const double turn = firing + model.delayUs(laser) / model.firing_period_us;
     return 100.0 * (firings.first_azimuth_deg + turn * firings.azimuth_step_deg);
 }
 
 }  // namespace
 
-double firingAzimuthDeg(const VelodyneModel& model, const Firings& firings, int laser, int firing) {
-    const auto& corrections = defaultCalibration(model).laser_corrections[laser];
-    return azimuthOfReadingDeg(readingOf(model, firings, laser, firing) -
-                               100.0 * corrections.azimuthCorrection);
+double firingAzimuthDeg(const packets::VelodyneModel& model, const Firings& firings, int laser,
+                        int firing) {
+    const auto& corrections = packets::defaultCalibration(model).lasers[laser];
+    return packets::azimuthOfReadingDeg(readingOf(model, firings, laser, firing) -
+                                        100.0 * corrections.azimuth_deg);
 }
 
-std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& firings) {
+std::vector<Packet> encodePackets(const packets::VelodyneModel& model, const Firings& firings) {
     checkSizes(model, firings);
     const bool dual = firings.last_range_m.size() != 0;
     const int blocks_per_firing = dual ? 2 : 1;
@@ -111,10 +115,11 @@ std::vector<Packet> encodePackets(const VelodyneModel& model, const Firings& fir
     return packets;
 }
 
-CObservationVelodyneScan::Ptr encodeScan(const VelodyneModel& model, const Firings& firings) {
+CObservationVelodyneScan::Ptr encodeScan(const packets::VelodyneModel& model,
+                                         const Firings& firings) {
     auto scan = CObservationVelodyneScan::Create();
     scan->scan_packets = encodePackets(model, firings);
-    scan->calibration = defaultCalibration(model);
+    scan->calibration = mrptCalibration(packets::defaultCalibration(model));
     scan->minRange = 0.5;
     scan->maxRange = 130.0;
     return scan;

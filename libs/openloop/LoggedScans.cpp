@@ -106,7 +106,7 @@ bool LoggedScans::next(LoggedScan& scan) {
         observations::ObservationSegmenter::Output out;
         try {
             segmenter_.process(*recorded->observation, out, recorded->pose, recorded->beams);
-        } catch (const observations::SettingsError&) {
+        } catch (const SettingsError&) {
             throw;
         } catch (const std::bad_alloc&) {
             throw;

@@ -13,7 +13,7 @@ mrpt::poses::CPose3D mrptPose(const simulation::SensorPose& pose) {
 mrpt::obs::CObservationVelodyneScan::Ptr encodeSimulatedScan(const simulation::SimulatedScan& scan,
                                                              const SensorModel& sensor,
                                                              double hour_s) {
-    const observations::VelodyneModel& model = observations::velodyneModel(sensor.name);
+    const packets::VelodyneModel& model = packets::velodyneModel(sensor.name);
     const simulation::FiringPattern pattern = simulation::firingPattern(sensor);
     observations::Firings firings;
     firings.first_azimuth_deg = simulation::kFirstAzimuth_deg;

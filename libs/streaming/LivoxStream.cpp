@@ -1,4 +1,3 @@
-#include <hagen/observations/Mount.h>
 #include <hagen/range_image/Airframe.h>
 #include <hagen/streaming/LivoxStream.h>
 
@@ -12,13 +11,13 @@ constexpr std::size_t kMostPackets = 1000;  // of a frame, whatever the clock sa
 
 }  // namespace
 
-LivoxStream::LivoxStream(const observations::Settings& settings, StreamingSegmenter::Take take,
-                         double frame_s, double window_s)
+LivoxStream::LivoxStream(const Settings& settings, StreamingSegmenter::Take take, double frame_s,
+                         double window_s)
     : settings_(settings), frame_s_(frame_s) {
     SensorModel sensor = sensorModel("Mid-360");
     sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
-    observations::filterFor(sensor, settings.options);  // throws SettingsError
+    filterFor(sensor, settings.options);  // throws SettingsError
     StreamingOptions streaming;
     // A frame counts as old as its last packet.
     streaming.context_s = window_s - frame_s / 2;
@@ -28,8 +27,7 @@ LivoxStream::LivoxStream(const observations::Settings& settings, StreamingSegmen
 }
 
 void LivoxStream::setAttitude(const std::optional<Attitude>& attitude) {
-    if (attitude) return segmenter_->setAttitude(attitude);
-    segmenter_->setAttitude(observations::sensorTilt({}, mrpt::poses::CPose3D(), settings_.mount));
+    segmenter_->setAttitude(attitude ? attitude : settings_.tiltOnLevelVehicle());
 }
 
 void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
@@ -37,14 +35,14 @@ void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_senso
 }
 
 LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size, double arrival_s) {
-    captures::Datagram datagram;
+    packets::Datagram datagram;
     datagram.bytes = bytes;
     datagram.size = size;
-    if (captures::isLivoxImu(datagram)) {
+    if (packets::isLivoxImu(datagram)) {
         ++counts_.imu;
         return Taken::Imu;
     }
-    const auto packet = captures::livoxPacketOf(datagram);
+    const auto packet = packets::livoxPacketOf(datagram);
     if (!packet) {
         ++counts_.foreign;
         return Taken::Foreign;

@@ -1,5 +1,4 @@
-#include <hagen/captures/OusterScan.h>
-#include <hagen/observations/Mount.h>
+#include <hagen/packets/OusterScan.h>
 #include <hagen/range_image/Airframe.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/streaming/OusterStream.h>
@@ -23,14 +22,13 @@ int stepOf(std::uint16_t from, std::uint16_t to) {
 
 }  // namespace
 
-OusterStream::OusterStream(const captures::OusterSensor& sensor,
-                           const observations::Settings& settings, StreamingSegmenter::Take take,
-                           const StreamingOptions& streaming)
+OusterStream::OusterStream(const packets::OusterSensor& sensor, const Settings& settings,
+                           StreamingSegmenter::Take take, const StreamingOptions& streaming)
     : sensor_(sensor), settings_(settings), frames_(sensor_) {
     SensorModel model = *sensor_.model;
     model.min_range_m = settings.sensor.min_range_m.value_or(model.min_range_m);
     model.max_range_m = settings.sensor.max_range_m.value_or(model.max_range_m);
-    observations::filterFor(model, settings.options);  // throws SettingsError
+    filterFor(model, settings.options);  // throws SettingsError
     segmenter_ = std::make_unique<StreamingSegmenter>(std::move(model), settings.options,
                                                       std::move(take), streaming);
     const Eigen::Matrix3d turned = sensor_.lidar_to_sensor.linear();
@@ -39,8 +37,7 @@ OusterStream::OusterStream(const captures::OusterSensor& sensor,
 }
 
 void OusterStream::setAttitude(const std::optional<Attitude>& attitude) {
-    if (attitude) return segmenter_->setAttitude(attitude);
-    segmenter_->setAttitude(observations::sensorTilt({}, mrpt::poses::CPose3D(), settings_.mount));
+    segmenter_->setAttitude(attitude ? attitude : settings_.tiltOnLevelVehicle());
 }
 
 void OusterStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
@@ -64,16 +61,16 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         ++counts_.imu;
         return Taken::Imu;
     }
-    if (size != sensor_.packetBytes() || !captures::isOfLidar(bytes, sensor_)) {
+    if (size != sensor_.packetBytes() || !packets::isOfLidar(bytes, sensor_)) {
         ++counts_.wrong_size;
         return Taken::WrongSize;
     }
     const bool has_serial = !sensor_.profile.is_legacy && !sensor_.serial.empty();
-    if (has_serial && std::to_string(captures::serialOf(bytes, sensor_)) != sensor_.serial) {
+    if (has_serial && std::to_string(packets::serialOf(bytes, sensor_)) != sensor_.serial) {
         ++counts_.other_sensor;
         return Taken::OtherSensor;
     }
-    const std::uint16_t id = captures::frameIdOf(bytes, sensor_);
+    const std::uint16_t id = packets::frameIdOf(bytes, sensor_);
     const int step = has_last_ ? stepOf(last_id_, id) : 0;
     if (std::abs(step) > kMostTurns) {
         ++counts_.interruptions;
@@ -81,7 +78,7 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         has_last_ = false;
     }
     const std::size_t repeated = frames_.counts().repeated_columns;
-    const captures::OusterFrame* const frame = frames_.add(bytes, time_ns, &columns_);
+    const packets::OusterFrame* const frame = frames_.add(bytes, time_ns, &columns_);
     countLosses();
     if (frame == nullptr) {
         ++counts_.late;
@@ -110,7 +107,7 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         turn_ = turn;
         last_at_ = at;
     }
-    captures::scanColumns(*frame, sensor_, columns_, returns_);
+    packets::scanColumns(*frame, sensor_, columns_, returns_);
     counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
     const double column_rad = 2 * kPi / static_cast<double>(columns);
     const double from_rad = ahead_rad_ + column_rad * static_cast<double>(at);

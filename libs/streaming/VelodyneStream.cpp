@@ -1,67 +1,51 @@
-#include <hagen/observations/Mount.h>
 #include <hagen/range_image/Airframe.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/streaming/VelodyneStream.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
 
 namespace hagen::streaming {
 namespace {
 
-using captures::VelodynePacket;
-using mrpt::obs::CObservationVelodyneScan;
+using packets::VelodynePacket;
 
 constexpr std::size_t kMostLate = 16;
 constexpr double kHourUs = 3600e6, kInterruptionUs = 50e3;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kOverlap_rad = 0.2;  // of packets that are not full
-constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
-constexpr int kReadings = CObservationVelodyneScan::ROTATION_MAX_UNITS;
+constexpr int kBlocks = packets::kVelodyneBlocks;
+constexpr int kReadings = packets::kReadingsOfTurn;
 
 /// From one time of the sensor's clock to another: within half an hour, since it wraps every hour.
 double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
 
-/// The azimuth reading of a block, 0.01 degrees; -1: it has none.
-int readingOf(const VelodynePacket& packet, int block) {
-    const auto* const at = reinterpret_cast<const std::uint8_t*>(&packet.raw) +
-                           block * CObservationVelodyneScan::SIZE_BLOCK;
-    const int header = at[0] | at[1] << 8;
-    const int reading = at[2] | at[3] << 8;
-    const bool is_block = header == CObservationVelodyneScan::UPPER_BANK ||
-                          header == CObservationVelodyneScan::LOWER_BANK;
-    return is_block && reading < kReadings ? reading : -1;
-}
-
 }  // namespace
 
-VelodyneStream::VelodyneStream(
-    const observations::VelodyneModel& model, const observations::Settings& settings,
-    StreamingSegmenter::Take take, const StreamingOptions& streaming,
-    const std::shared_ptr<const mrpt::obs::VelodyneCalibration>& calibration)
-    : model_(model), settings_(settings) {
-    const bool is_hdl64 = &model == &observations::hdl64Model();
-    if (is_hdl64 && !calibration) {
+VelodyneStream::VelodyneStream(const packets::VelodyneModel& model, const Settings& settings,
+                               StreamingSegmenter::Take take, const StreamingOptions& streaming,
+                               const packets::VelodyneCalibration* calibration)
+    : model_(model),
+      settings_(settings),
+      calibration_(calibration != nullptr ? *calibration : packets::defaultCalibration(model)) {
+    const bool is_hdl64 = &model == &packets::hdl64Model();
+    if (is_hdl64 && calibration == nullptr) {
         throw std::invalid_argument("packets of an HDL-64E need its calibration");
     }
-    one_packet_.calibration = calibration ? *calibration : observations::defaultCalibration(model);
-    one_packet_.scan_packets.resize(1);
-    SensorModel sensor = observations::sensorOf(one_packet_.calibration, model.name);
+    SensorModel sensor = packets::sensorOf(calibration_, model.name);
     const SensorModel limits = sensorModel(model.name);
     sensor.min_range_m = settings.sensor.min_range_m.value_or(limits.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(limits.max_range_m);
-    observations::filterFor(sensor, settings.options);  // throws SettingsError
+    filterFor(sensor, settings.options);  // throws SettingsError
     segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
                                                       std::move(take), streaming);
     setAttitude({});
 }
 
 void VelodyneStream::setAttitude(const std::optional<Attitude>& attitude) {
-    if (attitude) return segmenter_->setAttitude(attitude);
-    segmenter_->setAttitude(observations::sensorTilt({}, mrpt::poses::CPose3D(), settings_.mount));
+    segmenter_->setAttitude(attitude ? attitude : settings_.tiltOnLevelVehicle());
 }
 
 void VelodyneStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
@@ -69,11 +53,8 @@ void VelodyneStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_se
 }
 
 bool VelodyneStream::isRepeated(const VelodynePacket& packet, double time_us) const {
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&packet.raw);
     return std::any_of(recent_.begin(), recent_.end(), [&](const VelodynePacket& other) {
-        return other.sensorTimeUs() == time_us &&
-               std::equal(bytes, bytes + sizeof packet.raw,
-                          reinterpret_cast<const std::uint8_t*>(&other.raw));
+        return other.sensorTimeUs() == time_us && other.bytes == packet.bytes;
     });
 }
 
@@ -81,24 +62,24 @@ bool VelodyneStream::isRepeated(const VelodynePacket& packet, double time_us) co
 /// sound block.
 bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
                                Sweep& sweep) const {
-    const bool is_hdl64 = &model_ == &observations::hdl64Model();
+    const bool is_hdl64 = &model_ == &packets::hdl64Model();
     const int blocks_per_firing = packet.isDual() || is_hdl64 ? 2 : 1;
     int first = -1, last = -1;
     for (int b = 0; b < kBlocks; ++b) {
-        if (readingOf(packet, b) < 0) continue;
+        if (packet.azimuthOf(b) < 0) continue;
         if (first < 0) first = b;
         last = b;
     }
     if (first < 0) return false;
     const int firings = last / blocks_per_firing - first / blocks_per_firing;
-    int turned = readingOf(packet, last) - readingOf(packet, first);
+    int turned = packet.azimuthOf(last) - packet.azimuthOf(first);
     if (turned < 0) turned += kReadings;
     // A packet sweeps a few degrees; more is a broken reading.
     const double per_firing =
         firings > 0 && turned < kReadings / 8 ? static_cast<double>(turned) / firings : 0.0;
     const int all_firings = kBlocks / blocks_per_firing;
     const int before = first / blocks_per_firing;
-    const double from = readingOf(packet, first) - per_firing * before;
+    const double from = packet.azimuthOf(first) - per_firing * before;
     const double swept_rad = radians(0.01 * per_firing * all_firings);
     sweep.from_rad = radians(0.01 * from);
     if (has_last_) {
@@ -115,18 +96,18 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
 
 VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t size,
                                           double arrival_s) {
-    if (!captures::isVelodyneData(bytes, size)) {
+    if (!packets::isVelodyneData(bytes, size)) {
         ++counts_.wrong_size;
         return Taken::WrongSize;
     }
-    const bool is_hdl64 = &model_ == &observations::hdl64Model();
-    if (captures::isOfHdl64(bytes) != is_hdl64 ||
-        (!is_hdl64 && bytes[captures::kVelodyneModelAt] != model_.id)) {
+    const bool is_hdl64 = &model_ == &packets::hdl64Model();
+    if (packets::isOfHdl64(bytes) != is_hdl64 ||
+        (!is_hdl64 && bytes[packets::kVelodyneModelAt] != model_.id)) {
         ++counts_.other_model;
         return Taken::OtherModel;
     }
     VelodynePacket packet;
-    std::memcpy(static_cast<void*>(&packet.raw), bytes, sizeof packet.raw);
+    std::copy_n(bytes, size, packet.bytes.begin());
     const double time_us = packet.sensorTimeUs();
     if (isRepeated(packet, time_us)) {
         ++counts_.repeated;
@@ -175,8 +156,8 @@ VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t
         last_sweep_ = sweep;
         has_last_ = true;
     }
-    one_packet_.scan_packets.front() = packet.raw;
-    counts_.unsound_blocks += decodePackets(one_packet_, returns_, decoder_);
+    counts_.unsound_blocks +=
+        decodePackets({packet.bytes.data(), 1}, calibration_, returns_, decoder_);
     counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
     ++counts_.packets;
     segmenter_->add(returns_, sweep, arrival_s);

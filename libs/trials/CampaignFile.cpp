@@ -1,5 +1,5 @@
 #include <hagen/base/Json.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/SettingsHash.h>
 
@@ -103,7 +103,7 @@ void writeCampaignFile(const CampaignFile& campaign, const LatencyProfile& profi
         {"machine", profile.machine}, {"made_by", profile.made_by}, {"date", profile.date}};
     root["vehicle"] = Json::parse(vehicleText());
     root["sensor"] = Json::parse(sensorText());
-    root["filter"] = observations::dumpSettings(observations::Settings{});
+    root["filter"] = dumpSettings(Settings{});
     root["flown"] = Json::array();
     for (const std::string& plan : campaign.plans) {
         root["flown"].push_back(Json::parse(plan));

@@ -1,4 +1,4 @@
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/trials/TrialSensor.h>
 
 #include "Streams.h"
@@ -10,9 +10,8 @@ namespace {
 constexpr std::uint64_t kFiringsPerStream = 4096;  // more than a turn has
 
 HagenFilter standardFilter() {
-    const observations::Settings
-        settings;  // those of config/vlp16.yaml hold where no file was read
-    return observations::filterFor(settings.sensorModel(), settings.options);
+    const Settings settings;  // those of config/vlp16.yaml hold where no file was read
+    return filterFor(settings.sensorModel(), settings.options);
 }
 
 }  // namespace

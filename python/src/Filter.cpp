@@ -39,9 +39,9 @@ std::vector<float> heightsOf(const Segmented& segmented) {
     return height_m;
 }
 
-Filter::Filter(const observations::Settings& settings) : settings_(settings) {
+Filter::Filter(const Settings& settings) : settings_(settings) {
     if (settings.sensor.model) {
-        idle_.push_back(observations::filterFor(settings.sensorModel(), settings.options));
+        idle_.push_back(filterFor(settings.sensorModel(), settings.options));
     }
 }
 
@@ -90,8 +90,7 @@ HagenFilter Filter::leaseFilter(const Scan& scan, int& generation) {
         idle_.pop_back();
         return filter;
     }
-    return observations::filterFor(settings_.sensorModel(beams_.get()),
-                                   settings_.optionsFor(beams_.get()));
+    return filterFor(settings_.sensorModel(beams_.get()), settings_.optionsFor(beams_.get()));
 }
 
 void Filter::giveBack(HagenFilter&& filter, int generation) {

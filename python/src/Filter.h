@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/ObservationSegmenter.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/settings/Settings.h>
 
 #include <memory>
 #include <mutex>
@@ -32,7 +32,7 @@ std::vector<float> heightsOf(const Segmented& segmented);
 class Filter {
  public:
     /// Throws SettingsError if the options do not fit the sensor.
-    explicit Filter(const observations::Settings& settings);
+    explicit Filter(const Settings& settings);
 
     /// Segments the returns of one scan, of the sensor of the settings, or of one with the beams
     /// that the first scans show. Needs no GIL.
@@ -43,7 +43,7 @@ class Filter {
     std::shared_ptr<Segmented> segment(const PythonScan& scan,
                                        const std::optional<Attitude>& attitude);
 
-    const observations::Settings& settings() const { return settings_; }
+    const Settings& settings() const { return settings_; }
     SensorModel sensor() const;
 
  private:
@@ -56,7 +56,7 @@ class Filter {
     HagenFilter leaseFilter(const Scan& scan, int& generation);
     void giveBack(HagenFilter&& filter, int generation);
 
-    const observations::Settings settings_;
+    const Settings settings_;
     std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
 
     mutable std::mutex mutex_;  ///< of what follows

@@ -1,7 +1,7 @@
 // The Python module hagen._hagen; python/hagen/__init__.py is what users import.
 #include <hagen/evaluation/ScanScores.h>
-#include <hagen/observations/Presets.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Presets.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/simulation/Scenarios.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -29,17 +29,16 @@ namespace {
 std::string textOf(const py::object& value) { return py::str(value).cast<std::string>(); }
 
 /// Settings as of the flags -c, and single options.
-observations::Settings settingsFrom(const py::args& names, const py::kwargs& options) {
-    observations::Settings settings;
+Settings settingsFrom(const py::args& names, const py::kwargs& options) {
+    Settings settings;
     const py::object fspath = py::module_::import("os").attr("fspath");
     for (const auto& name : names) {
-        observations::mergeSettings(observations::presetFile(fspath(name).cast<std::string>()),
-                                    settings);
+        mergeSettings(presetFile(fspath(name).cast<std::string>()), settings);
     }
     for (const auto& [key, value] : options) {
         std::string text = textOf(py::reinterpret_borrow<py::object>(value));
         if (py::isinstance<py::bool_>(value)) text = value.cast<bool>() ? "true" : "false";
-        observations::setOption(key.cast<std::string>(), text, settings);
+        setOption(key.cast<std::string>(), text, settings);
     }
     return settings;
 }
@@ -76,7 +75,7 @@ std::shared_ptr<Segmented> segment(Filter& filter, const py::object& scan,
 std::vector<double> timesWithoutPython(const Filter& filter, const py::object& xyz, int runs) {
     Scan scan;
     copyPoints(viewOf(pointsFrom(xyz)), scan);
-    HagenFilter alone = observations::filterFor(filter.sensor(), filter.settings().options);
+    HagenFilter alone = filterFor(filter.sensor(), filter.settings().options);
     std::vector<double> seconds;
     for (int run = 0; run < runs; ++run) {
         const auto start = std::chrono::steady_clock::now();
@@ -419,16 +418,16 @@ PYBIND11_MODULE(_hagen, m) {
     m.attr("UNCLASSIFIED") = static_cast<int>(Label::Unclassified);
     m.attr("ROU") = static_cast<int>(Label::Rou);
     m.attr("ROI") = static_cast<int>(Label::Roi);
-    py::register_exception<observations::SettingsError>(m, "SettingsError", PyExc_ValueError);
+    py::register_exception<SettingsError>(m, "SettingsError", PyExc_ValueError);
     defineScan(m);
     defineResult(m);
     defineFilter(m);
     defineSources(m);
     defineScores(m);
     m.def(
-        "presets", [] { return observations::presetNames(observations::isSettingsFile); },
+        "presets", [] { return presetNames(isSettingsFile); },
         "The names of the presets that Filter() knows.");
     m.def("_times_without_python", &timesWithoutPython, py::arg("filter"), py::arg("xyz"),
           py::arg("runs"));
-    m.def("_add_presets", &observations::addPresetFolder, py::arg("folder"));
+    m.def("_add_presets", &addPresetFolder, py::arg("folder"));
 }

@@ -16,7 +16,7 @@ void readArrays(PythonScan& scan) {
     observations::ObservedScan observed;
     {
         const py::gil_scoped_release others_run;
-        const observations::Settings nothing_named;
+        const Settings nothing_named;
         try {
             readObservation(*scan.recorded.observation,
                             scan.source ? scan.source->settingsFor(nothing_named) : nothing_named,

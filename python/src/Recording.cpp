@@ -1,6 +1,6 @@
 #include "Recording.h"
 
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <pybind11/pybind11.h>
 
 #include <system_error>
@@ -44,7 +44,7 @@ Recording::Recording(const std::filesystem::path& file, logs::SourceOptions opti
     options.keep_going = hasNoSignal;
     source_ = withoutGil([&] {
         std::shared_ptr<logs::ScanSource> source = logs::openRecording(file, options);
-        source->useSettings(observations::Settings());  // beams of clouds whose sensor nobody names
+        source->useSettings(Settings());  // beams of clouds whose sensor nobody names
         source->usePoses(poses);
         return source;
     });

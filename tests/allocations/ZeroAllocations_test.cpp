@@ -2,7 +2,7 @@
 // program of its own, for it replaces malloc().
 #include <gtest/gtest.h>
 #include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <hagen/segmentation/HagenFilter.h>
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ test::SimpleScene street() {
 
 /// Scans of the same sensor, as it goes on.
 std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& model_name) {
-    const observations::VelodyneModel& model = observations::velodyneModel(model_name);
+    const packets::VelodyneModel& model = packets::velodyneModel(model_name);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans;
     for (int i = 0; i < 4; ++i) {
         scans.push_back(

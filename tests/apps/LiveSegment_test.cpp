@@ -1,11 +1,17 @@
 // live-segment, as a user would run it.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/base/OutputPath.h>
 #include <hagen/logs/RawlogReader.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -179,6 +185,150 @@ TEST_F(LiveSegment, ReceivesFromTheNetwork) {
     EXPECT_GT(json["packets"]["foreign"], 0);
     EXPECT_GT(json["sectors"], 5);
     EXPECT_TRUE(fs::exists(path("a.rawlog")));
+}
+
+TEST_F(LiveSegment, LoadsNothingOfMrpt) {
+    const auto libraries = test::run("ldd", {HAGEN_LIVE_SEGMENT});
+    ASSERT_EQ(libraries.exit_code, 0) << libraries.err;
+    EXPECT_THAT(libraries.out, HasSubstr("libyaml-cpp"));
+    for (const char* not_needed : {"mrpt", "opencv", "octomap", "libgdal", "libGL"}) {
+        EXPECT_THAT(libraries.out, testing::Not(HasSubstr(not_needed)));
+    }
+}
+
+TEST_F(LiveSegment, AFullDiskEndsTheRecordingOnly) {
+    const auto outcome =
+        test::run("bash", {"-c", "ulimit -f 200; exec \"$0\" \"$@\"", HAGEN_LIVE_SEGMENT, "--model",
+                           "VLP-16", "--replay", capture(), "--speed", "20", "--record",
+                           path("a.rawlog"), "--stats", path("stats.json")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("what was written is in " + path("a.partial.rawlog")));
+    EXPECT_FALSE(fs::exists(path("a.rawlog")));
+    EXPECT_TRUE(fs::exists(path("a.partial.rawlog")));
+    const auto json = stats();
+    EXPECT_EQ(json["packets"]["taken"], json["packets"]["datagrams"]);
+    EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.rawlog")));
+}
+
+/// live-segment in the background, with packets that come to it until this ends.
+class LiveSegmentKilled : public LiveSegment {
+ protected:
+    LiveSegmentKilled() {
+        const std::uint16_t port = freePort();
+        std::vector<std::string> words{
+            HAGEN_LIVE_SEGMENT, "--listen", "127.0.0.1:" + std::to_string(port),
+            "--model",          "VLP-16",   "--record",
+            path("a.rawlog"),   "--stats",  path("stats.json")};
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        process_ = fork();
+        if (process_ == 0) {
+            dup2(open(path("out").c_str(), O_WRONLY | O_CREAT, 0666), STDOUT_FILENO);
+            dup2(open(path("err").c_str(), O_WRONLY | O_CREAT, 0666), STDERR_FILENO);
+            execv(arguments[0], arguments.data());
+            _exit(127);
+        }
+        sender_ = std::thread([this, port, all = scans()] {
+            const test::LocalUdp out;
+            std::vector<std::string> packets;
+            for (const auto& scan : all) {
+                for (const auto& packet : scan->scan_packets) {
+                    packets.push_back(test::bytesOf(packet));
+                }
+            }
+            for (std::size_t i = 0; !is_done_; ++i) {
+                out.send(packets[i % packets.size()], test::localAddress(port));
+                std::this_thread::sleep_for(std::chrono::microseconds(1300));
+            }
+        });
+    }
+    ~LiveSegmentKilled() override {
+        is_done_ = true;
+        sender_.join();
+        if (process_ > 0) {
+            kill(process_, SIGKILL);
+            waitpid(process_, nullptr, 0);
+        }
+    }
+    /// Ends live-segment by a signal; its exit code, -1: the signal ended it.
+    int end(int signal) {
+        int status = 0;
+        kill(process_, signal);
+        waitpid(process_, &status, 0);
+        process_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    /// The process that records; 0: there is none.
+    pid_t recorder() const {
+        for (const auto& entry : fs::directory_iterator("/proc")) {
+            const std::string words = test::readFile(entry.path() / "cmdline");
+            const bool records = words.find("live-record") != std::string::npos &&
+                                 words.find(path("a.rawlog")) != std::string::npos;
+            if (records) return std::stoi(entry.path().filename().string());
+        }
+        return 0;
+    }
+    static bool waitUntil(const std::function<bool()>& isSo) {
+        for (int i = 0; i < 3000; ++i) {
+            if (isSo()) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    }
+    /// Whether whole members of the recording are on the disk.
+    bool hasWritten() const {
+        for (const auto& file : files()) {
+            const bool is_recording = file.filename().string().find(".tmp-") != std::string::npos;
+            if (is_recording && fs::file_size(file) > 50000) return true;
+        }
+        return false;
+    }
+
+    pid_t process_ = -1;
+    std::thread sender_;
+    std::atomic<bool> is_done_ = false;
+};
+
+TEST_F(LiveSegmentKilled, LabelsGoOnWithoutTheRecorder) {
+    ASSERT_TRUE(waitUntil([&] { return hasWritten(); })) << test::readFile(path("err"));
+    const pid_t recording = recorder();
+    ASSERT_GT(recording, 0);
+    kill(recording, SIGKILL);
+    ASSERT_TRUE(waitUntil([&] {
+        return test::readFile(path("err")).find("recording has ended") != std::string::npos;
+    }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_EQ(end(SIGINT), 1);
+    EXPECT_THAT(test::readFile(path("err")), HasSubstr("was killed by signal 9"));
+    const auto json = stats();
+    EXPECT_GT(json["sectors"], 20);
+    EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr("signal 9"));
+    EXPECT_EQ(base::partialOutputs(path("a.rawlog")).size(), 1u);
+}
+
+TEST_F(LiveSegmentKilled, TheRecorderCompletesItsFile) {
+    ASSERT_TRUE(waitUntil([&] { return hasWritten(); })) << test::readFile(path("err"));
+    const pid_t recording = recorder();
+    ASSERT_GT(recording, 0);
+    EXPECT_EQ(getpgid(recording), recording);  // Ctrl-C in a terminal does not reach it
+    EXPECT_EQ(end(SIGKILL), -1);
+    ASSERT_TRUE(waitUntil([&] { return recorder() == 0; }));
+    logs::RawlogReader reader(path("a.rawlog"));
+    std::size_t entries = 0;
+    while (reader.next()) ++entries;
+    EXPECT_GE(entries, 6u);
+    EXPECT_EQ(entries % 3, 0u);
+}
+
+TEST_F(LiveSegmentKilled, SignalsForAllEndTheRecordingInOrder) {
+    ASSERT_TRUE(waitUntil([&] { return hasWritten(); })) << test::readFile(path("err"));
+    const pid_t recording = recorder();
+    ASSERT_GT(recording, 0);
+    kill(recording, SIGTERM);  // whoever ends a session's processes ends both
+    EXPECT_EQ(end(SIGTERM), 0) << test::readFile(path("err"));
+    EXPECT_TRUE(fs::exists(path("a.rawlog")));
+    EXPECT_THAT(test::readFile(path("out")), HasSubstr("recorded: " + path("a.rawlog")));
 }
 
 TEST_F(LiveSegment, SilenceIsAnError) {

@@ -1,8 +1,8 @@
 // rawlog-segment on network captures, as a user would run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/captures/OusterSensor.h>
 #include <hagen/logs/RawlogReader.h>
+#include <hagen/packets/OusterSensor.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <nlohmann/json.hpp>
@@ -98,7 +98,7 @@ TEST_F(RawlogSegmentCapture, NoCutCrashesIt) {
 
 TEST_F(RawlogSegmentCapture, AnOusterNeedsItsMetadata) {
     const std::string json = folder_.write("ouster.json", test::ousterJson());
-    const auto sensor = captures::readOusterSensor(json);
+    const auto sensor = packets::readOusterSensor(json);
     test::CaptureWriter writer;
     for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 1))) {
         test::SentDatagram datagram;

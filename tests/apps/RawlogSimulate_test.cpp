@@ -5,10 +5,10 @@
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/observations/Trajectory.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/simulation/Scenarios.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -177,8 +177,8 @@ TEST_F(RawlogSimulate, AMountIsInTheLogAndTheFolderButNotInTheVehiclesPoses) {
         expectSame(log.scans[n]->sensorPose, mount);
         expectSame(sensor_poses[n].pose, *vehicle.at(log.scans[n]->timestamp) + mount);
     }
-    observations::Settings settings;
-    observations::mergeSettings(logs::ScanFolder(path("a")).sensorFile(), settings);
+    Settings settings;
+    mergeSettings(logs::ScanFolder(path("a")).sensorFile(), settings);
     EXPECT_FLOAT_EQ(settings.mount.roll_rad, static_cast<float>(kPi));
     EXPECT_FLOAT_EQ(settings.mount.pitch_rad, static_cast<float>(radians(-20)));
     EXPECT_EQ(settings.sensorModel().rows(), 16);
@@ -203,8 +203,8 @@ TEST_F(RawlogSimulate, AMid360GoesIntoARawlogAsCloudsThatAreSegmentedLikeItsFold
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const logs::ScanFolder folder(path("a"));
     ASSERT_EQ(folder.size(), 3u);
-    observations::Settings settings;
-    observations::mergeSettings(folder.sensorFile(), settings);
+    Settings settings;
+    mergeSettings(folder.sensorFile(), settings);
     EXPECT_FALSE(settings.sensorModel().has_rings);
 
     logs::RawlogReader reader(path("a.rawlog"));

@@ -254,7 +254,7 @@ TEST_F(BagScansTest, SerialisationsThatAreNotKnownAreNamed) {
 }
 
 TEST_F(BagScansTest, AnOustersMetadataMayBeInTheBag) {
-    const auto sensor = captures::ousterSensorOf(test::ousterJson(), "here");
+    const auto sensor = packets::ousterSensorOf(test::ousterJson(), "here");
     std::vector<SentMessage> messages{cloud("/ouster/points", 0, "os_sensor"),
                                       transform("/tf_static", "base_link", "os_sensor", 3)};
     for (std::uint16_t id = 1; id <= 3; ++id) {

@@ -218,9 +218,9 @@ TEST(Plan, OfTheProjectHasValuesThatTheFilterKnows) {
     const Choice present = presentChoice({kConfig / "vlp16.yaml", kConfig / "hdl64e.yaml"}, plan);
     ASSERT_EQ(present.size(), plan.settings.size());
     EXPECT_LE(plan.settings.front().values.size(), tolerances + 1);
-    observations::Settings chosen, preset;
+    Settings chosen, preset;
     apply(plan.settings, present, chosen);
-    observations::mergeSettings(kConfig / "vlp16.yaml", preset);
+    mergeSettings(kConfig / "vlp16.yaml", preset);
     EXPECT_EQ(chosen.options.ground_tolerance_m, preset.options.ground_tolerance_m);
 }
 

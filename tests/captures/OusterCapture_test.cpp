@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/captures/OusterCapture.h>
-#include <hagen/captures/OusterFrames.h>
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/packets/OusterFrames.h>
 #include <hagen/range_image/Angle.h>
 
 #include <Eigen/Geometry>
@@ -29,9 +29,9 @@ using Scans = std::vector<mrpt::obs::CObservationPointCloud::Ptr>;
 
 class OusterCaptureTest : public testing::Test {
  protected:
-    OusterSensor sensorOf(const std::string& profile) {
+    packets::OusterSensor sensorOf(const std::string& profile) {
         json_ = folder_.write("sensor.json", test::ousterJson(profile));
-        return readOusterSensor(json_);
+        return packets::readOusterSensor(json_);
     }
     static CaptureWriter captureOf(const std::vector<std::string>& packets) {
         CaptureWriter writer;
@@ -45,7 +45,7 @@ class OusterCaptureTest : public testing::Test {
         }
         return writer;
     }
-    std::vector<std::string> packetsOfFrames(const OusterSensor& sensor, int count,
+    std::vector<std::string> packetsOfFrames(const packets::OusterSensor& sensor, int count,
                                              std::uint16_t first_id = 100) const {
         std::vector<std::string> packets;
         for (int i = 0; i < count; ++i) {
@@ -90,17 +90,17 @@ const char* const kProfiles[] = {"LEGACY",
 TEST_F(OusterCaptureTest, FramesComeBackAsTheyWereSentInEveryProfile) {
     for (const std::string profile : kProfiles) {
         SCOPED_TRACE(profile);
-        const OusterSensor sensor = sensorOf(profile);
-        OusterFrames frames(sensor);
-        OusterFrame sent = test::randomFrame(sensor, 65535);
-        sent.state[5] = OusterFrame::Column::Invalid;
+        const packets::OusterSensor sensor = sensorOf(profile);
+        packets::OusterFrames frames(sensor);
+        packets::OusterFrame sent = test::randomFrame(sensor, 65535);
+        sent.state[5] = packets::OusterFrame::Column::Invalid;
         for (const std::string& packet : test::packetsOf(sensor, sent)) {
             ASSERT_EQ(packet.size(), sensor.packetBytes());
             frames.add(reinterpret_cast<const std::uint8_t*>(packet.data()), 12);
         }
         frames.finish();
         ASSERT_EQ(frames.complete().size(), 1u);
-        const OusterFrame& got = frames.complete().front();
+        const packets::OusterFrame& got = frames.complete().front();
         EXPECT_EQ(got.id, 65535);
         EXPECT_EQ(got.time_ns, 12);
         EXPECT_EQ(got.range, sent.range);
@@ -115,8 +115,8 @@ TEST_F(OusterCaptureTest, FramesComeBackAsTheyWereSentInEveryProfile) {
 
 /// Where a pixel's return is, by rotations of the sensor's parts instead of the manual's formula:
 /// the beam leaves a head that has turned clockwise, at a distance from the axis.
-Eigen::Vector3d expectedPoint(const OusterSensor& sensor, std::size_t pixel, std::size_t column,
-                              double range_m) {
+Eigen::Vector3d expectedPoint(const packets::OusterSensor& sensor, std::size_t pixel,
+                              std::size_t column, double range_m) {
     const double turned_rad =
         -2 * kPi * static_cast<double>(column) / static_cast<double>(sensor.columns_per_frame);
     const Eigen::AngleAxisd head(turned_rad, Eigen::Vector3d::UnitZ());
@@ -131,8 +131,8 @@ Eigen::Vector3d expectedPoint(const OusterSensor& sensor, std::size_t pixel, std
 TEST_F(OusterCaptureTest, ReturnsAreWhereTheSensorsGeometryPutsThem) {
     for (const std::string profile : kProfiles) {
         SCOPED_TRACE(profile);
-        const OusterSensor sensor = sensorOf(profile);
-        const OusterFrame frame = test::randomFrame(sensor, 7);
+        const packets::OusterSensor sensor = sensorOf(profile);
+        const packets::OusterFrame frame = test::randomFrame(sensor, 7);
         const Scans scans = read(captureOf(test::packetsOf(sensor, frame)).bytes());
         ASSERT_EQ(scans.size(), 1u);
         EXPECT_EQ(broken_, "");
@@ -171,7 +171,7 @@ TEST_F(OusterCaptureTest, ReturnsAreWhereTheSensorsGeometryPutsThem) {
 }
 
 TEST_F(OusterCaptureTest, PacketsOfFunctionalSafetyOfAnotherSensorAreNamed) {
-    const OusterSensor sensor = sensorOf("FUSA_RNG15_RFL8_NIR8_DUAL");
+    const packets::OusterSensor sensor = sensorOf("FUSA_RNG15_RFL8_NIR8_DUAL");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL", "123"));
     EXPECT_TRUE(read(bytes).empty());
@@ -180,8 +180,8 @@ TEST_F(OusterCaptureTest, PacketsOfFunctionalSafetyOfAnotherSensorAreNamed) {
 
 TEST_F(OusterCaptureTest, TheFirstColumnLooksForward) {
     // Column 0 looks along the lidar's x axis, which is the sensor's back.
-    const OusterSensor sensor = sensorOf("LEGACY");
-    OusterFrame frame = test::randomFrame(sensor, 1);
+    const packets::OusterSensor sensor = sensorOf("LEGACY");
+    packets::OusterFrame frame = test::randomFrame(sensor, 1);
     std::fill(frame.range.begin(), frame.range.end(), 0);
     frame.range[frame.at(1, 32)] = 10000;
     const Scan scan = scanOf(*read(captureOf(test::packetsOf(sensor, frame)).bytes()).at(0));
@@ -192,7 +192,7 @@ TEST_F(OusterCaptureTest, TheFirstColumnLooksForward) {
 }
 
 TEST_F(OusterCaptureTest, FramesOverTheEndOfTheirNumbers) {
-    const OusterSensor sensor = sensorOf("RNG15_RFL8_NIR8");
+    const packets::OusterSensor sensor = sensorOf("RNG15_RFL8_NIR8");
     const auto packets = packetsOfFrames(sensor, 5, 65533);
     const Scans scans = read(captureOf(packets).bytes());
     ASSERT_EQ(scans.size(), 5u);
@@ -207,7 +207,7 @@ TEST_F(OusterCaptureTest, FramesOverTheEndOfTheirNumbers) {
 }
 
 TEST_F(OusterCaptureTest, LostRepeatedAndLatePacketsAreCounted) {
-    const OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
+    const packets::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 6);
     const Scans whole = read(captureOf(packets).bytes());
     // Two of a frame in the other order, one late by half a turn, one repeated.
@@ -234,7 +234,7 @@ TEST_F(OusterCaptureTest, LostRepeatedAndLatePacketsAreCounted) {
 }
 
 TEST_F(OusterCaptureTest, ASensorThatStartsAgainLosesNothing) {
-    const OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
+    const packets::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 3, 5000);
     const auto again = packetsOfFrames(sensor, 3, 0);
     packets.insert(packets.end(), again.begin(), again.end());
@@ -244,7 +244,7 @@ TEST_F(OusterCaptureTest, ASensorThatStartsAgainLosesNothing) {
 }
 
 TEST_F(OusterCaptureTest, EverythingElseIsCounted) {
-    const OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
+    const packets::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 1);
     packets.push_back(std::string(48, '\0'));
     packets.push_back("hello");
@@ -262,7 +262,7 @@ TEST_F(OusterCaptureTest, EverythingElseIsCounted) {
 }
 
 TEST_F(OusterCaptureTest, MetadataOfAnotherSensorAreNamed) {
-    const OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
+    const packets::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("RNG19_RFL8_SIG16_NIR16", "123"));
     EXPECT_TRUE(read(bytes).empty());
@@ -277,7 +277,7 @@ TEST_F(OusterCaptureTest, MetadataOfAnotherSensorAreNamed) {
 }
 
 TEST_F(OusterCaptureTest, ACutCaptureGivesWhatIsBeforeTheCut) {
-    const OusterSensor sensor = sensorOf("RNG15_RFL8_NIR8");
+    const packets::OusterSensor sensor = sensorOf("RNG15_RFL8_NIR8");
     const auto packets = packetsOfFrames(sensor, 4);
     const std::string whole = captureOf(packets).bytes();
     std::size_t most = 0;
@@ -294,7 +294,7 @@ TEST_F(OusterCaptureTest, ACutCaptureGivesWhatIsBeforeTheCut) {
 TEST_F(OusterCaptureTest, NoDamageCrashesIt) {
     test::Random random(5);
     for (const std::string profile : kProfiles) {
-        const OusterSensor sensor = sensorOf(profile);
+        const packets::OusterSensor sensor = sensorOf(profile);
         const auto packets = packetsOfFrames(sensor, 3);
         for (int round = 0; round < 20; ++round) {
             auto damaged = packets;
@@ -321,16 +321,17 @@ std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolde
 TEST_F(OusterCaptureTest, TheMakersDigestsOfARealCapture) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
-    const OusterSensor sensor = readOusterSensor(folder / "OS-0-32-U1_v2.2.0_1024x10.json");
-    CaptureFile capture(folder / "OS-0-32-U1_v2.2.0_1024x10.pcap");
-    OusterFrames frames(sensor);
-    Datagram datagram;
+    const packets::OusterSensor sensor =
+        packets::readOusterSensor(folder / "OS-0-32-U1_v2.2.0_1024x10.json");
+    packets::CaptureFile capture(folder / "OS-0-32-U1_v2.2.0_1024x10.pcap");
+    packets::OusterFrames frames(sensor);
+    packets::Datagram datagram;
     while (capture.next(datagram)) {
         if (datagram.size == sensor.packetBytes()) frames.add(datagram.bytes, datagram.time_ns);
     }
     frames.finish();
     ASSERT_EQ(frames.complete().size(), 1u);
-    const OusterFrame& frame = frames.complete().front();
+    const packets::OusterFrame& frame = frames.complete().front();
     EXPECT_EQ(frame.id, 1453);
     const std::string digests = test::readFile(folder / "OS-0-32-U1_v2.2.0_1024x10_digest.json");
     const std::string of_scan = digests.substr(digests.find("\"scans\""));

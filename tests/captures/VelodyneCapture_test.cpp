@@ -20,7 +20,7 @@ namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
 using observations::decodePackets;
-using observations::velodyneModel;
+using packets::velodyneModel;
 using test::ByteString;
 using test::CaptureWriter;
 using test::SentDatagram;
@@ -34,7 +34,7 @@ using Turns = std::vector<CObservationVelodyneScan::Ptr>;
 /// Packets of a sensor that turns ten times per second, from this azimuth on.
 Packets packetsOf(const std::string& model_name, int firings, double first_azimuth_deg = 0,
                   std::uint32_t first_time_us = 1000000, bool is_dual = false) {
-    const observations::VelodyneModel& model = velodyneModel(model_name);
+    const packets::VelodyneModel& model = packets::velodyneModel(model_name);
     test::Random random(static_cast<unsigned>(firings));
     observations::Firings all;
     all.range_m = random.image(model.lasers, firings, 1.0f, 50.0f, 0.1);
@@ -98,7 +98,7 @@ class VelodyneCaptureTest : public testing::Test {
 TEST_F(VelodyneCaptureTest, ATurnEndsWhereTheAzimuthWraps) {
     for (const std::string model : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
         SCOPED_TRACE(model);
-        const double period_us = velodyneModel(model).firing_period_us;
+        const double period_us = packets::velodyneModel(model).firing_period_us;
         const Packets packets = packetsOf(model, static_cast<int>(310e3 / period_us), 200.0);
         const Turns turns = read(captureOf(packets).bytes());
         ASSERT_EQ(turns.size(), 4u);  // 160 degrees, two whole turns, the rest
@@ -193,7 +193,7 @@ TEST_F(VelodyneCaptureTest, AClockThatIsSetEndsATurnAndLosesNothing) {
 }
 
 TEST_F(VelodyneCaptureTest, ASensorThatStandsStillStillGivesScansOfBoundedSize) {
-    const observations::VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     observations::Firings firings;
     firings.range_m.setConstant(16, 24 * 1000, 5.0f);
     firings.intensity.setZero(16, 24 * 1000);
@@ -399,7 +399,7 @@ TEST_F(VelodyneCaptureTest, AnHdl64NeedsItsCalibration) {
     const auto errorOf = [](VelodyneCapture&& of) {
         try {
             of.next();
-        } catch (const BrokenCapture& e) {
+        } catch (const packets::BrokenCapture& e) {
             return std::string(e.what());
         }
         return std::string();

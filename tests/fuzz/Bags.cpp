@@ -59,7 +59,7 @@ std::vector<test::SentMessage> everyMessage() {
             for (int i = 0; i < 36; ++i) to.number(0.0);
         });
     };
-    const auto sensor = captures::ousterSensorOf(test::ousterJson(), "metadata");
+    const auto sensor = packets::ousterSensorOf(test::ousterJson(), "metadata");
     const std::string packet = test::packetsOf(sensor, test::randomFrame(sensor, 3))[0];
     return {test::cloudMessage("/points", kTime_s, "lidar", {1, 2, 3, 0.5f, 4, 5, 6, 0.25f}),
             test::velodyneMessage("/velodyne", kTime_s, "velodyne", *scan, 1e-3),

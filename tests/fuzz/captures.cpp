@@ -27,7 +27,7 @@ void readCapture(std::string_view input) {
     Parts parts(input);
     const std::size_t kind = parts.below(3);
     const InputFile file(parts.rest(), "input.pcap");
-    captures::isCapture(file.path());
+    packets::isCapture(file.path());
     mayRefuse([&] {
         if (kind == 0) {
             captures::VelodyneCapture capture(file.path());
@@ -57,7 +57,7 @@ Seeds captureSeeds() {
     cooked.frame(std::string(14, '\0') + std::string("\x08\x00", 2) + test::ipOf(velodyne));
     test::CaptureWriter raw(101);
     raw.frame(test::ipOf(velodyne));
-    const auto sensor = captures::ousterSensorOf(test::ousterJson(), "metadata");
+    const auto sensor = packets::ousterSensorOf(test::ousterJson(), "metadata");
     test::CaptureWriter ouster;
     for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 3))) {
         test::SentDatagram sent;

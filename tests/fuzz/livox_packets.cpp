@@ -1,18 +1,18 @@
 // Datagrams of a Livox with any content.
 #include <hagen/range_image/SensorModel.h>
 
-#include <hagen/captures/LivoxPacket.h>
+#include <hagen/packets/LivoxPacket.h>
 #include "fuzz/Target.h"
 
 namespace hagen::fuzz {
 namespace {
 
 void decode(std::string_view input) {
-    captures::Datagram datagram;
+    packets::Datagram datagram;
     datagram.bytes = reinterpret_cast<const std::uint8_t*>(input.data());
     datagram.size = input.size();
-    captures::isLivoxImu(datagram);
-    const auto packet = captures::livoxPacketOf(datagram);
+    packets::isLivoxImu(datagram);
+    const auto packet = packets::livoxPacketOf(datagram);
     if (!packet) return;
     require(packet->count * packet->point_bytes <= input.size(), "more points than bytes");
     Scan scan;

@@ -1,7 +1,7 @@
 // Packets of an Ouster with any content. The first byte of the input names the profile.
-#include <hagen/captures/OusterFrames.h>
-#include <hagen/captures/OusterScan.h>
+#include <hagen/captures/OusterObservation.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/packets/OusterFrames.h>
 
 #include "fuzz/Target.h"
 #include "support/OusterPackets.h"
@@ -17,9 +17,9 @@ const char* const kProfiles[] = {
 void decode(std::string_view input) {
     Parts parts(input);
     const std::string profile = kProfiles[parts.below(std::size(kProfiles))];
-    const captures::OusterSensor sensor =
-        captures::ousterSensorOf(test::ousterJson(profile), "metadata");
-    captures::OusterFrames frames(sensor);
+    const packets::OusterSensor sensor =
+        packets::ousterSensorOf(test::ousterJson(profile), "metadata");
+    packets::OusterFrames frames(sensor);
     std::size_t complete = 0;
     const auto takeOut = [&] {
         for (; !frames.complete().empty(); frames.complete().pop_front()) {
@@ -51,7 +51,7 @@ Seeds packetSeeds() {
     Seeds seeds;
     char number = 0;
     for (const char* const profile : kProfiles) {
-        const auto sensor = captures::ousterSensorOf(test::ousterJson(profile), "metadata");
+        const auto sensor = packets::ousterSensorOf(test::ousterJson(profile), "metadata");
         const auto packets = test::packetsOf(sensor, test::randomFrame(sensor, 3));
         seeds.push_back(number++ + packets[0] + packets[1]);
     }

@@ -1,6 +1,6 @@
 // Settings files (YAML), and files of learned airframe bins.
-#include <hagen/observations/AirframeFile.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/AirframeFile.h>
+#include <hagen/settings/Settings.h>
 
 #include "fuzz/Target.h"
 
@@ -9,11 +9,11 @@ namespace {
 
 void readSettings(std::string_view input) {
     const InputFile file(input, "input.yaml");
-    mayRefuse([&] { observations::readAirframeBins(file.path()); });
-    observations::Settings settings;
+    mayRefuse([&] { readAirframeBins(file.path()); });
+    Settings settings;
     // An include may name any file, so it is read as a recording's own.
-    const bool is_read = mayRefuse(
-        [&] { mergeSettings(file.path(), settings, observations::SettingsOrigin::Recording); });
+    const bool is_read =
+        mayRefuse([&] { mergeSettings(file.path(), settings, SettingsOrigin::Recording); });
     if (!is_read) return;
     mayRefuse([&] {
         const SensorModel sensor = settings.sensorModel();
@@ -23,16 +23,16 @@ void readSettings(std::string_view input) {
     const std::string text = dumpSettings(settings);
     if (!settings.airframe.learned.empty()) return;  // a file of another folder, perhaps
     const InputFile copy(text, "copy.yaml");
-    observations::Settings again;
+    Settings again;
     const bool is_again =
-        mayRefuse([&] { mergeSettings(copy.path(), again, observations::SettingsOrigin::User); });
+        mayRefuse([&] { mergeSettings(copy.path(), again, SettingsOrigin::User); });
     require(is_again, "settings are refused that were written");
     require(dumpSettings(again) == text, "settings change by writing them");
 }
 
 Seeds settingsSeeds() {
     Seeds seeds;
-    observations::Settings settings;
+    Settings settings;
     seeds.push_back(
         "zone_m: 20\ncolumns: 870\nseeds: lowest\ngrow_feet: true\n"
         "sensor:\n  model: HDL-32E\n  min_range_m: 0.5\n  mount_roll_deg: 180\n");
@@ -42,7 +42,7 @@ Seeds settingsSeeds() {
     seeds.push_back("include: other.yaml\n");
     seeds.push_back("a: &a [1, 2]\nb: *a\n<<: *a\n");
     std::string keys;
-    for (const auto& key : observations::settingsKeys()) {
+    for (const auto& key : settingsKeys()) {
         if (!key.standard.empty()) keys += key.name + ": " + key.standard + "\n";
     }
     seeds.push_back(keys.substr(0, 2000));
@@ -53,7 +53,7 @@ std::vector<std::string> words() {
     std::vector<std::string> words{
         "\n  ", "- ",  ": ", "[",    "]",    "{",    "}",    "&a ",  "*a", "!!int ",
         "|\n",  ">\n", "? ", "<<: ", ".nan", ".inf", "1e39", "0x7f", "~"};
-    for (const auto& key : observations::settingsKeys()) words.push_back(key.name + ": ");
+    for (const auto& key : settingsKeys()) words.push_back(key.name + ": ");
     return words;
 }
 

@@ -16,7 +16,7 @@ namespace {
 class Turns : public PacketSource {
  public:
     Turns() {
-        const auto& model = observations::velodyneModel("VLP-16");
+        const auto& model = packets::velodyneModel("VLP-16");
         test::SimpleScene scene;
         scene.poles.push_back({8, 3, 0.2, 6});
         observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});

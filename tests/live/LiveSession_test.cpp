@@ -15,7 +15,7 @@
 namespace hagen::live {
 namespace {
 
-using observations::velodyneModel;
+using packets::velodyneModel;
 using streaming::SectorDistances;
 using testing::Contains;
 using testing::HasSubstr;
@@ -207,6 +207,85 @@ TEST_F(LiveSessionTest, WhatIsNotSupportedIsNamed) {
                     o.calibration = "db.xml";
                 }),
                 HasSubstr("db.xml"));
+}
+
+/// Recorders that are shell scripts: their standard input is the socket.
+class LiveRecordingTest : public LiveSessionTest {
+ protected:
+    void recordBy(const std::string& script) {
+        const auto program = folder_.write("recorder", "#!/bin/sh\n" + script);
+        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+        options_.recording.program = program;
+        options_.recording.file = folder_ / "a.rawlog";
+    }
+    static constexpr const char* kReady = "echo '{\"failure\": \"\"}' >&0\n";
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(LiveRecordingTest, ARecorderIsToldTheSensorAndItsFile) {
+    recordBy("printf '%s\\n' \"$@\" >'" + (folder_ / "arguments").string() + "'\n" + kReady);
+    options_.recording.rotate_bytes = 1500000;
+    options_.recording.settings_files = {"a.yaml", "b.yaml"};
+    options_.recording.overwrite = true;
+    GivenPackets source;
+    run(source);
+    EXPECT_EQ(test::readFile(folder_ / "arguments"),
+              "--model=VLP-16\n--config=a.yaml\n--config=b.yaml\n--record=" +
+                  (folder_ / "a.rawlog").string() +
+                  "\n--rotate-bytes=1500000\n--overwrite\n--wait\n");
+}
+
+TEST_F(LiveRecordingTest, WithoutARecorderNothingBegins) {
+    GivenPackets source;
+    options_.recording.file = folder_ / "a.rawlog";
+    options_.recording.program = "/no/such/program";
+    EXPECT_THAT(test::messageOf([&] { run(source); }),
+                HasSubstr("/no/such/program cannot be started: No such file"));
+    recordBy("echo '{\"failure\": \"a.rawlog: exists\"}' >&0");
+    EXPECT_EQ(test::messageOf([&] { run(source); }), "a.rawlog: exists");
+    recordBy("exit 3");
+    EXPECT_THAT(test::messageOf([&] { run(source); }),
+                testing::AllOf(HasSubstr("a.rawlog: its recorder"), HasSubstr("exit status 3")));
+    recordBy("echo hello >&0");
+    EXPECT_THAT(test::messageOf([&] { run(source); }), HasSubstr("answers 'hello'"));
+}
+
+TEST_F(LiveRecordingTest, LabelsGoOnWithoutTheRecorder) {
+    recordBy(kReady + std::string("kill -SEGV $$"));
+    GivenPackets source;
+    source.addAll(turnsOf(1)).pause(0.3).addAll(turnsOf(2, 1100000));
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets, 228u);
+    EXPECT_GT(report.sectors, 60u);
+    EXPECT_THAT(report.recorded.failure, HasSubstr("was killed by signal 11"));
+    EXPECT_THAT(remarks_,
+                Contains(HasSubstr("recording has ended: " + (folder_ / "a.rawlog").string())));
+}
+
+TEST_F(LiveRecordingTest, WhatTheRecorderSaysIsReported) {
+    recordBy(kReady + std::string("cat <&0 >'") + (folder_ / "packets").string() +
+             "'\necho '{\"turns\": 2, \"left_out\": 1, \"unreadable\": 0, \"files\": [\"x\"], "
+             "\"failure\": \"\"}' >&0");
+    GivenPackets source;
+    source.addAll(turnsOf(1));
+    source.add("hello").add(turnsOf(1, 0, "HDL-32E")[0]);  // no data of the sensor
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.recorded.turns, 2u);
+    EXPECT_EQ(report.recorded.left_out, 1u);
+    EXPECT_THAT(report.recorded.files, testing::ElementsAre("x"));
+    EXPECT_EQ(report.recorded.failure, "");
+    EXPECT_EQ(report.recorded.packets_left_out, 0u);
+    EXPECT_EQ(std::filesystem::file_size(folder_ / "packets"), 76u * (16 + 1206));
+}
+
+TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {
+    recordBy(kReady + std::string("exec sleep 1000"));
+    options_.recording.patience_s = 0.2;
+    GivenPackets source;
+    source.addAll(turnsOf(20)).asSensor();  // more than a socket holds
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets + report.dropped, 20u * 76);
+    EXPECT_THAT(report.recorded.failure, HasSubstr("took no packets for 0.2 s and was ended"));
 }
 
 TEST_F(LiveSessionTest, AFailingSourceIsReported) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <hagen/live/PacketQueue.h>
 
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -31,6 +32,21 @@ TEST(PacketQueue, KeepsTheOrderAndRefusesWhatDoesNotFit) {
         EXPECT_EQ(packet.to_port, i);
     }
     EXPECT_EQ(queue.pop(packet, kSoon), Popped::Nothing);
+}
+
+TEST(PacketQueue, HasMemoryForThePacketsThatWaitOnly) {
+    PacketQueue queue(100);
+    Packet sent, taken;
+    std::set<const std::uint8_t*> memory;
+    for (int k = 0; k < 300; ++k) {
+        for (int i = 0; i < 3; ++i) {
+            sent.bytes.resize(1206);
+            memory.insert(sent.bytes.data());
+            ASSERT_TRUE(queue.push(sent));
+        }
+        for (int i = 0; i < 3; ++i) ASSERT_EQ(queue.pop(taken, kSoon), Popped::Packet);
+    }
+    EXPECT_LE(memory.size(), 5u);  // three that wait, and one on either side
 }
 
 TEST(PacketQueue, WhatIsInItComesOutAfterItsEnd) {

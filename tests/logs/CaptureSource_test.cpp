@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/captures/CaptureFile.h>
-#include <hagen/captures/OusterSensor.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/ObservationScan.h>
+#include <hagen/packets/CaptureFile.h>
+#include <hagen/packets/OusterSensor.h>
 
 #include <algorithm>
 #include <fstream>
@@ -32,7 +32,7 @@ class CaptureSourceTest : public testing::Test {
     CaptureSourceTest() {
         test::SimpleScene scene;
         scene.poles.push_back({12, 2, 0.15, 8});
-        const observations::VelodyneModel& model = observations::velodyneModel("VLP-16");
+        const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
         test::CaptureWriter writer;
         for (int i = 0; i < 3; ++i) {
             observations::Firings firings = test::fireAt(scene, model, {1.0 * i, 0, 2});
@@ -125,7 +125,7 @@ class OusterSourceTest : public testing::Test {
  protected:
     OusterSourceTest() {
         options_.sensor_json = folder_.write("sensor.json", test::ousterJson());
-        const auto sensor = captures::readOusterSensor(options_.sensor_json);
+        const auto sensor = packets::readOusterSensor(options_.sensor_json);
         test::CaptureWriter writer;
         for (std::uint16_t id = 1; id <= 3; ++id) {
             for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, id))) {
@@ -182,7 +182,7 @@ TEST_F(OusterSourceTest, ScansBringTheirSensorAndAreWrittenAsClouds) {
 
 TEST_F(OusterSourceTest, RangeLimitsOfTheSettingsHoldAndAnotherModelIsRemarkedOn) {
     const auto scan = openRecording(capture_, options_)->nextScan();
-    observations::Settings settings;
+    Settings settings;
     settings.sensor.model = "OS0-128";
     settings.sensor.max_range_m = 50.0f;
     observations::ObservedScan observed;
@@ -222,7 +222,7 @@ TEST_F(CaptureSourceTest, ABreakIsReportedAfterTheScansBeforeIt) {
     fs::resize_file(capture_, fs::file_size(capture_) - 1000);
     const auto source = open();
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(source->nextScan());
-    EXPECT_THROW(source->nextScan(), captures::BrokenCapture);
+    EXPECT_THROW(source->nextScan(), packets::BrokenCapture);
     EXPECT_EQ(open()->scanTimes().at("velodyne").size(), 3u);
 }
 

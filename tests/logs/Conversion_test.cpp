@@ -246,8 +246,8 @@ TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
     from_folder.folder = folder_ / "labels";
     from_folder.settings.sensor.model = "HDL-64E";
     convert(from_folder);
-    observations::Settings written;
-    observations::mergeSettings(folder_ / "labels/sensor.yaml", written);
+    Settings written;
+    mergeSettings(folder_ / "labels/sensor.yaml", written);
     EXPECT_EQ(written.sensorModel().rows(), 32);
 }
 
@@ -269,7 +269,7 @@ TEST_P(ConversionTest, CloudsGetTheLabelsOfTheirPackets) {
     writeLog({scans.begin(), scans.end()});
     Conversion of_packets = conversion();
     of_packets.folder = folder_ / "of_packets";
-    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", of_packets.settings);
+    mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", of_packets.settings);
     convert(of_packets);
     writeLog(cloudsOf(scans));
     Conversion of_clouds = conversion();
@@ -693,7 +693,7 @@ TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) 
         return true;
     };
     listener.progress = [&](const ConversionReport& report) { entries = report.entries; };
-    EXPECT_THROW(convert(unfit, listener), observations::SettingsError);
+    EXPECT_THROW(convert(unfit, listener), SettingsError);
     EXPECT_EQ(entries, 2u);
     EXPECT_LT(read, 1000u);  // the rest is not read
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
@@ -706,7 +706,7 @@ TEST_P(ConversionTest, ABreakAfterAFailureIsNotWhatIsTold) {
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() - 10));
     Conversion unfit = conversion();
     unfit.settings.options.window_size = 20;
-    EXPECT_THROW(convert(unfit), observations::SettingsError);
+    EXPECT_THROW(convert(unfit), SettingsError);
 }
 
 TEST_P(ConversionTest, ALogOfSmallEntriesTakesLittleMoreThanTheyDo) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 
 #include <stdexcept>
 
@@ -52,8 +52,8 @@ TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
     EXPECT_EQ(scan.z_m, threePoints().z_m);
     EXPECT_EQ(scan.intensity, threePoints().intensity);
 
-    observations::Settings settings;
-    observations::mergeSettings(read.sensorFile(), settings);
+    Settings settings;
+    mergeSettings(read.sensorFile(), settings);
     EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
     EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
 }
@@ -63,8 +63,8 @@ TEST(ScanFolderWriter, KeepsTheMountOfTheSensor) {
     ScanFolderWriter writer(folder.path(), {2.5f, -0.4f});
     writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
     writer.finish();
-    observations::Settings settings;
-    observations::mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
+    Settings settings;
+    mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
     EXPECT_EQ(settings.mount.roll_rad, 2.5f);
     EXPECT_EQ(settings.mount.pitch_rad, -0.4f);
     EXPECT_EQ(settings.sensorModel().rows(), 32);
@@ -77,8 +77,8 @@ TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
     writer.write("000000", threePoints(), labels(), sensor, 50.0);
     writer.finish();
     const fs::path file = ScanFolder(folder.path()).sensorFile();
-    observations::Settings settings;
-    observations::mergeSettings(file, settings);
+    Settings settings;
+    mergeSettings(file, settings);
     EXPECT_FALSE(settings.sensorModel().has_rings);
     EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
     EXPECT_EQ(settings.sensorModel().min_range_m, 0.1f);
@@ -91,8 +91,8 @@ TEST(ScanFolderWriter, ASensorThatIsNotKnownIsLeftOut) {
         ScanFolderWriter writer(folder.path(), mount, GivenLimits{});
         writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
         writer.finish();
-        observations::Settings settings;
-        observations::mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
+        Settings settings;
+        mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
         EXPECT_FALSE(settings.sensor.model);
         EXPECT_FALSE(settings.sensor.min_range_m);
         EXPECT_FALSE(settings.sensor.max_range_m);
@@ -106,8 +106,8 @@ TEST(ScanFolderWriter, GivenLimitsOfASensorThatIsNotKnownAreKept) {
     ScanFolderWriter writer(folder.path(), {}, GivenLimits{0.7f, std::nullopt});
     writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
     writer.finish();
-    observations::Settings settings;
-    observations::mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
+    Settings settings;
+    mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
     EXPECT_FALSE(settings.sensor.model);
     EXPECT_EQ(settings.sensor.min_range_m, 0.7f);
     EXPECT_FALSE(settings.sensor.max_range_m);

@@ -158,7 +158,7 @@ TEST_F(ScanSourceTest, BeamsAreTheSameForEveryPartOfARecording) {
 
 TEST_F(ScanSourceTest, NothingIsRecoveredIfTheSettingsNameTheSensor) {
     const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16")});
-    observations::Settings settings;
+    Settings settings;
     settings.sensor.model = "VLP-16";
     const auto named = openRecording(rawlog), unused = openRecording(rawlog);
     EXPECT_EQ(named->useSettings(settings).sensor.model, "VLP-16");

@@ -27,7 +27,7 @@ Trajectory flight(double vx_m_s, double vz_m_s) {
 Scan scanOnTheWay(double vx_m_s, double vz_m_s) {
     test::SimpleScene scene;
     scene.boxes.push_back({{10, -30, 0}, {11, 30, 10}});
-    const VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     Scan scan;
     decodePackets(*encodeScan(model, test::fireAt(scene, model, {0, 0, 2}, {vx_m_s, 0, vz_m_s})),
                   scan);

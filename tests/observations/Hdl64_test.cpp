@@ -2,9 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/VelodyneCalibrationFile.h>
+#include <hagen/observations/VelodyneCalibrations.h>
 #include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneCalibrationFile.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cmath>
@@ -33,7 +34,7 @@ std::filesystem::path fileOf(const std::string& content) {
 
 std::string errorOf(const std::string& xml) {
     try {
-        readVelodyneCalibration(fileOf(xml));
+        packets::readVelodyneCalibration(fileOf(xml));
     } catch (const std::runtime_error& e) {
         return e.what();
     }
@@ -63,7 +64,7 @@ double rangeInRoom(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direc
 CObservationVelodyneScan scanInRoom(int firings) {
     const auto lasers = test::hdl64Lasers();
     CObservationVelodyneScan scan;
-    scan.calibration = readVelodyneCalibration(fileOf(test::hdl64Xml()));
+    scan.calibration = mrptCalibration(packets::readVelodyneCalibration(fileOf(test::hdl64Xml())));
     for (const auto& bytes : test::hdl64Packets(firings, [&](int laser, double azimuth_deg) {
              return rangeInRoom(lasers[laser].origin_m(azimuth_deg),
                                 lasers[laser].direction(azimuth_deg));
@@ -80,6 +81,7 @@ TEST(Hdl64, EveryReturnIsWhereTheLaserMetTheRoom) {
     Scan scan;
     EXPECT_EQ(decodePackets(observation, scan), 0u);
     const auto lasers = test::hdl64Lasers();
+    const auto calibration = packets::readVelodyneCalibration(fileOf(test::hdl64Xml()));
     ASSERT_EQ(scan.size(), std::size_t{64 * kFirings});
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const int firing = static_cast<int>(i / 64), laser = static_cast<int>(i % 64);
@@ -94,7 +96,7 @@ TEST(Hdl64, EveryReturnIsWhereTheLaserMetTheRoom) {
         ASSERT_LT((there_m - hit_m).norm(), 0.002 + 2e-4 * range_m) << firing << " " << laser;
         ASSERT_NEAR(scan.range_m[i], range_m, 0.0011);
         ASSERT_NEAR(scan.time_s[i], 48e-6 * firing, 1e-7);
-        ASSERT_EQ(scan.row[i], rowOfLaser(observation.calibration, laser));
+        ASSERT_EQ(scan.row[i], packets::rowOfLaser(calibration, laser));
         ASSERT_FLOAT_EQ(scan.intensity[i], 0.2f);
     }
     EXPECT_EQ(scan.beams.rows, 64);
@@ -128,7 +130,8 @@ TEST(Hdl64, BlocksWithoutHeaderAreSkipped) {
 }
 
 TEST(Hdl64, TheCalibrationIsWhatMrptReads) {
-    const VelodyneCalibration read = readVelodyneCalibration(fileOf(test::hdl64Xml()));
+    const VelodyneCalibration read =
+        mrptCalibration(packets::readVelodyneCalibration(fileOf(test::hdl64Xml())));
     VelodyneCalibration expected;
     ASSERT_TRUE(expected.loadFromXMLText(test::hdl64Xml()));
     ASSERT_EQ(read.laser_corrections.size(), 64u);
@@ -174,8 +177,8 @@ TEST(Hdl64, AWrongCalibrationIsNamedWithTheReason) {
     lasers[5].vert_deg = lasers[9].vert_deg;
     EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), saysOf("lasers 5 and 9 have the same elevation"));
     EXPECT_THAT(errorOf(std::string(5 << 20, ' ')), saysOf("too large"));
-    EXPECT_THROW(readVelodyneCalibration("/no/such/file.xml"), std::runtime_error);
-    EXPECT_THROW(readVelodyneCalibration(std::filesystem::temp_directory_path()),
+    EXPECT_THROW(packets::readVelodyneCalibration("/no/such/file.xml"), std::runtime_error);
+    EXPECT_THROW(packets::readVelodyneCalibration(std::filesystem::temp_directory_path()),
                  std::runtime_error);
 }
 

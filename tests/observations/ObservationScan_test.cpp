@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using mrpt::obs::CObservationPointCloud;
 
 mrpt::obs::CObservationVelodyneScan::Ptr velodyneScan() {
-    const VelodyneModel& model = velodyneModel("HDL-32E");
+    const packets::VelodyneModel& model = packets::velodyneModel("HDL-32E");
     return encodeScan(model, test::fireAt({}, model, {0, 0, 2}));
 }
 

@@ -171,7 +171,7 @@ TEST(ObservationSegmenter, AnotherSensorUnderTheSameLabelGetsAnotherFilter) {
     ObservationSegmenter::Output out;
     segmenter.process(*scanFrom(0), out);
     EXPECT_EQ(out.sensor->rows(), 16);
-    const VelodyneModel& model = velodyneModel("HDL-32E");
+    const packets::VelodyneModel& model = packets::velodyneModel("HDL-32E");
     auto other = encodeScan(model, test::fireAt({}, model, {0, 0, 2}));
     other->sensorLabel = "front";
     segmenter.process(*other, out);

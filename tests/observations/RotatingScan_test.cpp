@@ -340,7 +340,7 @@ std::vector<std::size_t> byTime(const Scan& scan) {
 TEST(RotatingScan, WhatMrptMadeOfPacketsIsThereWhereThePacketsAre) {
     auto packets = test::poleScanFrom(3, "lidar");
     packets->scan_packets.resize(70);  // fromVelodyne() refuses a turn that passes 0 degrees
-    packets->calibration = defaultCalibration(velodyneModel("VLP-16"));
+    packets->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");
     CObservationRotatingScan rotating;
     rotating.fromVelodyne(*packets);
     EXPECT_EQ(rotating.columnCount, 70 * 384);

@@ -1,6 +1,6 @@
 // What docs/mrpt-half-scan.md says of MRPT, with plain MRPT.
 #include <gtest/gtest.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -43,7 +43,7 @@ TEST(UpstreamHalfScan, MrptGivesTheFirstHalfOfEachBlockOfAVlp16) {
 }
 
 TEST(UpstreamHalfScan, MrptGivesSixteenOf32LasersOfAnHdl32) {
-    const VelodyneModel& model = velodyneModel("HDL-32E");
+    const packets::VelodyneModel& model = packets::velodyneModel("HDL-32E");
     // From 2 m up, lasers on both sides of the horizon see the ground or a wall.
     test::SimpleScene scene;
     scene.boxes.push_back({{12, -10, 0}, {13, 10, 20}});

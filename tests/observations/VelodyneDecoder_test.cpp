@@ -91,7 +91,8 @@ TEST(VelodyneDecoder, MrptAgreesOnACalibrationWithCorrections) {
 }
 
 /// Firings with random ranges, some missing.
-Firings randomFirings(unsigned seed, const VelodyneModel& model, int count, double missing) {
+Firings randomFirings(unsigned seed, const packets::VelodyneModel& model, int count,
+                      double missing) {
     test::Random random(seed);
     Firings firings;
     firings.range_m = random.image(model.lasers, count, 0.6f, 120.0f, missing);
@@ -100,8 +101,8 @@ Firings randomFirings(unsigned seed, const VelodyneModel& model, int count, doub
     return firings;
 }
 
-void expectReturns(const VelodyneModel& model, const Firings& firings, const Scan& scan) {
-    const auto rows = rowsOfLasers(defaultCalibration(model));
+void expectReturns(const packets::VelodyneModel& model, const Firings& firings, const Scan& scan) {
+    const auto rows = packets::rowsOfLasers(packets::defaultCalibration(model));
     std::size_t i = 0;
     for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
         for (int laser = 0; laser < model.lasers; ++laser) {
@@ -128,7 +129,7 @@ void expectReturns(const VelodyneModel& model, const Firings& firings, const Sca
 
 TEST(VelodyneDecoder, GivesBackWhatWasEncoded) {
     for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
-        const VelodyneModel& model = velodyneModel(name);
+        const packets::VelodyneModel& model = packets::velodyneModel(name);
         for (unsigned seed = 51; seed < 55; ++seed) {
             const Firings firings = randomFirings(seed, model, 24 * 40, 0.3);
             Scan scan;
@@ -140,7 +141,7 @@ TEST(VelodyneDecoder, GivesBackWhatWasEncoded) {
 
 TEST(VelodyneDecoder, DualModeGivesTheLastAndTheStrongestReturnOfEveryFiring) {
     for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
-        const VelodyneModel& model = velodyneModel(name);
+        const packets::VelodyneModel& model = packets::velodyneModel(name);
         Firings firings = randomFirings(55, model, 240, 0.0);
         firings.last_range_m = firings.range_m + 1.0f;
         Scan scan;
@@ -165,7 +166,7 @@ TEST(VelodyneDecoder, DualModeGivesTheLastAndTheStrongestReturnOfEveryFiring) {
 }
 
 TEST(VelodyneDecoder, TimesGoOnFromLaserToLaserAndOverTheFullHour) {
-    const VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     Firings firings = randomFirings(56, model, 240, 0.0);
     firings.first_time_us = 3599995000u;
     Scan scan;
@@ -176,7 +177,7 @@ TEST(VelodyneDecoder, TimesGoOnFromLaserToLaserAndOverTheFullHour) {
 }
 
 TEST(VelodyneDecoder, APacketThatWasRecordedLateIsBeforeTheFirstOne) {
-    const VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     Firings firings = randomFirings(57, model, 240, 0.0);
     for (const std::uint32_t first_us : {5000u, 3599999000u}) {
         firings.first_time_us = first_us;
@@ -195,8 +196,8 @@ TEST(VelodyneDecoder, APacketThatWasRecordedLateIsBeforeTheFirstOne) {
 }
 
 TEST(VelodyneDecoder, MorePacketsThanAnyTurnHasAreRefused) {
-    const auto scan =
-        encodeScan(velodyneModel("VLP-16"), randomFirings(58, velodyneModel("VLP-16"), 24, 0.0));
+    const auto scan = encodeScan(packets::velodyneModel("VLP-16"),
+                                 randomFirings(58, packets::velodyneModel("VLP-16"), 24, 0.0));
     Scan decoded;
     scan->scan_packets.resize(43691, scan->scan_packets.front());  // 16777344 returns
     EXPECT_THAT(test::messageOf([&] { decodePackets(*scan, decoded); }),
@@ -205,7 +206,7 @@ TEST(VelodyneDecoder, MorePacketsThanAnyTurnHasAreRefused) {
 }
 
 TEST(VelodyneDecoder, BothReturnsOfAFiringHaveItsTime) {
-    const VelodyneModel& model = velodyneModel("HDL-32E");
+    const packets::VelodyneModel& model = packets::velodyneModel("HDL-32E");
     Firings firings = randomFirings(61, model, 60, 0.0);
     firings.last_range_m = firings.range_m;
     Scan scan;
@@ -217,7 +218,7 @@ TEST(VelodyneDecoder, BothReturnsOfAFiringHaveItsTime) {
 }
 
 TEST(VelodyneDecoder, AzimuthCorrectionsAreTakenFromTheReading) {
-    const VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(62, model, 24, 0.0));
     Scan plain, corrected;
     decodePackets(*observation, plain);
@@ -275,7 +276,7 @@ TEST(VelodyneDecoder, RecordingsAreDecodedAsReturnByReturn) {
 /// returns, half with a calibration with all corrections.
 CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
     const char* const names[] = {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"};
-    const VelodyneModel& model = velodyneModel(names[random.whole(0, 3)]);
+    const packets::VelodyneModel& model = packets::velodyneModel(names[random.whole(0, 3)]);
     const double missing = random.chance(0.2) ? 1.0 : static_cast<double>(random.real(0.0f, 0.9f));
     Firings firings = randomFirings(static_cast<unsigned>(random.whole(0, 1000000)), model,
                                     random.whole(1, 600), missing);
@@ -328,7 +329,7 @@ TEST(VelodyneDecoder, DecodesTheSameOnEveryInstructionSet) {
 }
 
 TEST(VelodyneDecoder, IntensitiesAreBytesOver255) {
-    const VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     Firings firings = randomFirings(65, model, 16, 0.0);
     for (int i = 0; i < 256; ++i) firings.intensity.data()[i] = static_cast<float>(i) / 255.0f;
     Scan scan;
@@ -339,7 +340,7 @@ TEST(VelodyneDecoder, IntensitiesAreBytesOver255) {
 }
 
 TEST(VelodyneDecoder, BlocksWithoutAValidHeaderOrAzimuthAreLeftOutAndCounted) {
-    const VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(57, model, 240, 0.0));
     setByte(*observation, 0, 0, 0x00);        // header of block 0
     setByte(*observation, 3, 500 + 3, 0xff);  // azimuth of block 5
@@ -349,7 +350,7 @@ TEST(VelodyneDecoder, BlocksWithoutAValidHeaderOrAzimuthAreLeftOutAndCounted) {
 }
 
 TEST(VelodyneDecoder, APacketOfAnotherOrUnknownModelIsRefusedByItsNumber) {
-    const VelodyneModel& model = velodyneModel("VLP-16");
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     for (const auto& [id, words] : {std::pair{0x21, "differs"}, {0x99, "unknown model id 0x99"}}) {
         const auto observation = encodeScan(model, randomFirings(58, model, 240, 0.0));
         setByte(*observation, 4, 1205, static_cast<std::uint8_t>(id));
@@ -373,7 +374,7 @@ TEST(VelodyneDecoder, NoPacketsGiveNoReturns) {
 }
 
 TEST(VelodyneDecoder, WithoutACalibrationTheModelsDefaultHolds) {
-    const VelodyneModel& model = velodyneModel("HDL-32E");
+    const packets::VelodyneModel& model = packets::velodyneModel("HDL-32E");
     const auto observation = encodeScan(model, randomFirings(59, model, 240, 0.1));
     Scan with, without;
     decodePackets(*observation, with);
@@ -385,7 +386,8 @@ TEST(VelodyneDecoder, WithoutACalibrationTheModelsDefaultHolds) {
 
 TEST(VelodyneDecoder, TheSensorHasTheObservationsRangeLimits) {
     const auto observation =
-        encodeScan(velodyneModel("VLP-16"), randomFirings(60, velodyneModel("VLP-16"), 24, 0.0));
+        encodeScan(packets::velodyneModel("VLP-16"),
+                   randomFirings(60, packets::velodyneModel("VLP-16"), 24, 0.0));
     observation->minRange = 0.9;
     observation->maxRange = 77.0;
     EXPECT_EQ(sensorOf(*observation).min_range_m, 0.9f);

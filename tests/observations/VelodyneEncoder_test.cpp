@@ -20,7 +20,7 @@ TEST(VelodyneEncoder, WritesWhatTheManualSays) {
     Firings firings = firingsAt(10.0f, 16, 24);
     firings.first_azimuth_deg = 359.9;
     firings.first_time_us = 1234567;
-    const auto packets = encodePackets(velodyneModel("VLP-16"), firings);
+    const auto packets = encodePackets(packets::velodyneModel("VLP-16"), firings);
     ASSERT_EQ(packets.size(), 1u);
     EXPECT_EQ(packets[0].blocks[0].header(), 0xeeff);
     EXPECT_EQ(packets[0].blocks[0].rotation(), 35990);
@@ -35,7 +35,7 @@ TEST(VelodyneEncoder, WritesWhatTheManualSays) {
 TEST(VelodyneEncoder, DualModeRepeatsBlocks) {
     Firings firings = firingsAt(10.0f, 32, 12);
     firings.last_range_m = firings.range_m + 2.0f;
-    const auto packets = encodePackets(velodyneModel("HDL-32E"), firings);
+    const auto packets = encodePackets(packets::velodyneModel("HDL-32E"), firings);
     ASSERT_EQ(packets.size(), 2u);
     EXPECT_EQ(packets[0].laser_return_mode, 0x39);
     EXPECT_EQ(packets[0].velodyne_model_ID, 0x21);
@@ -46,10 +46,12 @@ TEST(VelodyneEncoder, DualModeRepeatsBlocks) {
 
 TEST(VelodyneEncoder, RangesThatAPacketCannotHoldAreNoReturns) {
     for (const float range_m : {0.0f, -1.0f, 131.1f, 1e9f, kNoValue}) {
-        const auto packets = encodePackets(velodyneModel("VLP-16"), firingsAt(range_m, 16, 24));
+        const auto packets =
+            encodePackets(packets::velodyneModel("VLP-16"), firingsAt(range_m, 16, 24));
         EXPECT_EQ(packets[0].blocks[0].laser_returns[0].distance(), 0) << range_m;
     }
-    const auto packets = encodePackets(velodyneModel("VLP-16"), firingsAt(131.07f, 16, 24));
+    const auto packets =
+        encodePackets(packets::velodyneModel("VLP-16"), firingsAt(131.07f, 16, 24));
     EXPECT_EQ(packets[0].blocks[0].laser_returns[0].distance(), 65535);
 }
 
@@ -58,14 +60,14 @@ TEST(VelodyneEncoder, AzimuthsWrapAndIntensitiesAreLimited) {
     firings.first_azimuth_deg = -10.0;
     firings.intensity.setConstant(7.0f);
     firings.intensity(3, 0) = kNoValue;
-    const auto packets = encodePackets(velodyneModel("VLP-16"), firings);
+    const auto packets = encodePackets(packets::velodyneModel("VLP-16"), firings);
     EXPECT_EQ(packets[0].blocks[0].rotation(), 35000);
     EXPECT_EQ(packets[0].blocks[0].laser_returns[0].intensity(), 255);
     EXPECT_EQ(packets[0].blocks[0].laser_returns[3].intensity(), 0);
 }
 
 TEST(VelodyneEncoder, TheLastPacketIsFilledUpWithNothing) {
-    const auto packets = encodePackets(velodyneModel("VLP-16"), firingsAt(10.0f, 16, 25));
+    const auto packets = encodePackets(packets::velodyneModel("VLP-16"), firingsAt(10.0f, 16, 25));
     ASSERT_EQ(packets.size(), 2u);
     EXPECT_EQ(packets[1].blocks[0].laser_returns[15].distance(), 5000);
     EXPECT_EQ(packets[1].blocks[0].laser_returns[16].distance(), 0);
@@ -73,14 +75,14 @@ TEST(VelodyneEncoder, TheLastPacketIsFilledUpWithNothing) {
 }
 
 TEST(VelodyneEncoder, FiringsOfAnotherSensorAreRefused) {
-    EXPECT_THROW(encodePackets(velodyneModel("VLP-16"), firingsAt(1.0f, 32, 24)),
+    EXPECT_THROW(encodePackets(packets::velodyneModel("VLP-16"), firingsAt(1.0f, 32, 24)),
                  std::invalid_argument);
     Firings firings = firingsAt(1.0f, 16, 24);
     firings.intensity.resize(16, 23);
-    EXPECT_THROW(encodePackets(velodyneModel("VLP-16"), firings), std::invalid_argument);
+    EXPECT_THROW(encodePackets(packets::velodyneModel("VLP-16"), firings), std::invalid_argument);
     firings = firingsAt(1.0f, 16, 24);
     firings.last_range_m.setZero(16, 2);
-    EXPECT_THROW(encodePackets(velodyneModel("VLP-16"), firings), std::invalid_argument);
+    EXPECT_THROW(encodePackets(packets::velodyneModel("VLP-16"), firings), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
-#include <hagen/captures/CaptureFile.h>
-#include <hagen/captures/OusterScan.h>
+#include <hagen/captures/OusterObservation.h>
+#include <hagen/packets/CaptureFile.h>
+#include <hagen/packets/OusterScan.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/streaming/OusterStream.h>
 
@@ -13,16 +14,16 @@
 namespace hagen::streaming {
 namespace {
 
-using captures::OusterFrame;
-using captures::OusterSensor;
+using packets::OusterFrame;
+using packets::OusterSensor;
 using Taken = OusterStream::Taken;
 
 const std::uint8_t* bytesOf(const std::string& packet) {
     return reinterpret_cast<const std::uint8_t*>(packet.data());
 }
 
-observations::Settings settingsOfFourBeams() {
-    observations::Settings settings;
+Settings settingsOfFourBeams() {
+    Settings settings;
     settings.options.columns = 64;
     settings.options.window_size = 2;
     settings.options.principal_components = 1;
@@ -41,7 +42,7 @@ class OusterStreamTest : public testing::Test {
         return stream_.add(bytesOf(packet), packet.size(), time_s_, 0);
     }
 
-    const OusterSensor sensor_ = captures::ousterSensorOf(test::ousterJson(), "test");
+    const OusterSensor sensor_ = packets::ousterSensorOf(test::ousterJson(), "test");
     std::vector<OusterFrame> frames_;
     double time_s_ = 0;
     std::size_t returns_ = 0, labels_ = 0;
@@ -60,7 +61,7 @@ TEST_F(OusterStreamTest, EachReturnOfAFrameIsLabelled) {
         for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) {
             EXPECT_EQ(add(packet), Taken::Yes);
         }
-        expected += captures::scanOf(frames_.back(), sensor_).size();
+        expected += packets::scanOf(frames_.back(), sensor_).size();
     }
     stream_.flush();
     EXPECT_EQ(returns_, expected);
@@ -127,7 +128,7 @@ TEST_F(OusterStreamTest, OtherDatagramsAreRefused) {
     EXPECT_EQ(add("noise"), Taken::WrongSize);
     EXPECT_EQ(add(std::string(sensor_.packetBytes(), '\0')), Taken::WrongSize);
     const OusterSensor other =
-        captures::ousterSensorOf(test::ousterJson("RNG19_RFL8_SIG16_NIR16", "17"), "test");
+        packets::ousterSensorOf(test::ousterJson("RNG19_RFL8_SIG16_NIR16", "17"), "test");
     EXPECT_EQ(add(test::packetsOf(other, test::randomFrame(other, 1)).front()), Taken::OtherSensor);
     EXPECT_EQ(stream_.counts().wrong_size, 2u);
     EXPECT_EQ(stream_.counts().other_sensor, 1u);
@@ -138,13 +139,13 @@ TEST_F(OusterStreamTest, OtherDatagramsAreRefused) {
 TEST(OusterStreams, LabelsOfARealCaptureAreThoseOfWholeTurns) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
-    const OusterSensor sensor = captures::readOusterSensor(folder / "OS-1-128_v2.3.0_1024x10.json");
+    const OusterSensor sensor = packets::readOusterSensor(folder / "OS-1-128_v2.3.0_1024x10.json");
     std::vector<Label> labels;
     OusterStream stream(sensor, {}, [&](const LabelledSector& sector) {
         labels.insert(labels.end(), sector.label.begin(), sector.label.end());
     });
-    captures::CaptureFile capture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap");
-    captures::Datagram datagram;
+    packets::CaptureFile capture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap");
+    packets::Datagram datagram;
     while (capture.next(datagram)) {
         stream.add(datagram.bytes, datagram.size, 1e-9 * static_cast<double>(datagram.time_ns),
                    datagram.time_ns);
@@ -155,7 +156,7 @@ TEST(OusterStreams, LabelsOfARealCaptureAreThoseOfWholeTurns) {
     HagenFilter filter(*sensor.model);
     std::size_t at = 0, same = 0, compared = 0, missed = 0, near = 0;
     for (std::size_t turn = 0; turn < 3; ++turn) {
-        const Scan scan = captures::scanOf(stream.complete()[turn], sensor);
+        const Scan scan = packets::scanOf(stream.complete()[turn], sensor);
         const std::vector<Label> whole = filter.segment(scan).returns.label;
         ASSERT_LE(at + whole.size(), labels.size());
         for (std::size_t i = 0; i < whole.size(); ++i, ++at) {

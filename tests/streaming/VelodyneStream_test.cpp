@@ -21,7 +21,7 @@ namespace hagen::streaming {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
-using observations::velodyneModel;
+using packets::velodyneModel;
 using test::ByteString;
 using Taken = VelodyneStream::Taken;
 
@@ -82,8 +82,7 @@ class VelodyneStreamTest : public testing::Test {
 };
 
 /// The share of the labels that are those of whole scans, where enough of a turn was known.
-double sameShare(const std::string& recording, const observations::Settings& settings,
-                 std::size_t& near_missed) {
+double sameShare(const std::string& recording, const Settings& settings, std::size_t& near_missed) {
     const auto source = logs::openRecording(recording);
     source->usePoses({});
     Labelled all;
@@ -287,11 +286,11 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
 
 TEST(VelodyneStreams, AnHdl64NeedsItsCalibration) {
     Labelled all;
-    EXPECT_THROW(VelodyneStream(observations::hdl64Model(), {}, into(all)), std::invalid_argument);
+    EXPECT_THROW(VelodyneStream(packets::hdl64Model(), {}, into(all)), std::invalid_argument);
 }
 
 TEST(VelodyneStreams, TheAirframeIsMasked) {
-    observations::Settings settings;
+    Settings settings;
     settings.airframe.parts.spheres.push_back({{8, 3, 0}, 3});
     Labelled all;
     VelodyneStream stream(velodyneModel("VLP-16"), settings, into(all));

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/captures/OusterFrames.h>
+#include <hagen/packets/OusterFrames.h>
 
 #include <cstdint>
 #include <string>
@@ -13,10 +13,10 @@ std::string ousterJson(const std::string& profile = "RNG19_RFL8_SIG16_NIR16",
 
 /// The packets of a frame, by the maker's manual and SDK; each holds what the frame has in its
 /// columns. The serial number is that of `sensor`.
-std::vector<std::string> packetsOf(const captures::OusterSensor& sensor,
-                                   const captures::OusterFrame& frame);
+std::vector<std::string> packetsOf(const packets::OusterSensor& sensor,
+                                   const packets::OusterFrame& frame);
 
 /// A frame of such a sensor with random pixels, some without a return, all columns valid.
-captures::OusterFrame randomFrame(const captures::OusterSensor& sensor, std::uint16_t id);
+packets::OusterFrame randomFrame(const packets::OusterSensor& sensor, std::uint16_t id);
 
 }  // namespace hagen::test

@@ -1,6 +1,7 @@
 #include "support/PlainVelodyneDecoder.h"
 
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/observations/VelodyneCalibrations.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <hagen/range_image/Angle.h>
 #include <algorithm>
 #include <array>
@@ -62,7 +63,7 @@ class AzimuthTable {
  public:
     AzimuthTable() {
         for (int reading = 0; reading < kTurn; ++reading) {
-            const double clockwise_rad = radians(observations::azimuthOfReadingDeg(reading));
+            const double clockwise_rad = radians(packets::azimuthOfReadingDeg(reading));
             entries_[reading] = {static_cast<float>(std::sin(clockwise_rad)),
                                  static_cast<float>(std::cos(clockwise_rad)),
                                  static_cast<float>(-clockwise_rad)};
@@ -84,10 +85,13 @@ class AzimuthTable {
 };
 
 const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observation,
-                                         const observations::VelodyneModel& model) {
+                                         const packets::VelodyneModel& model) {
     const bool has_own =
         observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
-    return has_own ? observation.calibration : observations::defaultCalibration(model);
+    if (has_own) return observation.calibration;
+    static VelodyneCalibration of_model;
+    of_model = observations::mrptCalibration(packets::defaultCalibration(model));
+    return of_model;
 }
 
 /// Rotation of the sensor from one firing's block to the next, in 0.01 degrees: the median over the
@@ -117,7 +121,9 @@ struct Laser {
 };
 
 std::vector<Laser> lasersOf(const VelodyneCalibration& calibration) {
-    const std::vector<std::uint8_t> rows = observations::rowsOfLasers(calibration);
+    packets::VelodyneCalibration readable;
+    observations::readCalibration(calibration, readable);
+    const std::vector<std::uint8_t> rows = packets::rowsOfLasers(readable);
     std::vector<Laser> lasers;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& correction = calibration.laser_corrections[i];
@@ -150,8 +156,8 @@ void appendReturn(const Laser& laser, double reading, float distance_m, Scan& sc
 std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& scan) {
     scan.clear();
     if (observation.scan_packets.empty()) return 0;
-    const observations::VelodyneModel& model =
-        *observations::findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
+    const packets::VelodyneModel& model =
+        *packets::findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
     const std::vector<Laser> lasers = lasersOf(calibrationOf(observation, model));
     const int turn = turnOfBlocks(observation);
     const float unit_m = model.name == "VLP-32C" ? 0.004f : 0.002f;

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/trials/TrialSensor.h>
 
 #include <algorithm>
@@ -122,8 +122,8 @@ TEST(TrialSensor, DustyAirHasDustAndTheVehiclesOwnReturnsAreMasked) {
 }
 
 TEST(TrialSensor, TheAirframeIsThatOfItsSettings) {
-    observations::Settings settings;
-    observations::mergeSettings(HAGEN_SOURCE_DIR "/config/airframe_simulated.yaml", settings);
+    Settings settings;
+    mergeSettings(HAGEN_SOURCE_DIR "/config/airframe_simulated.yaml", settings);
     const Airframe &file = settings.airframe.parts, built_in = trialAirframe(Air::Dusty);
     ASSERT_EQ(built_in.boxes.size(), file.boxes.size());
     for (std::size_t i = 0; i < file.boxes.size(); ++i) {

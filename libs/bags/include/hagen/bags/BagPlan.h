@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/bags/BagSurvey.h>
-#include <hagen/captures/OusterSensor.h>
+#include <hagen/packets/OusterSensor.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct BagSensor {
     LidarKind kind = LidarKind::None;
     std::string label;                ///< sensor label of its scans
     mrpt::poses::CPose3D on_vehicle;  ///< by the bag's static transforms; origin: not known
-    std::shared_ptr<const captures::OusterSensor> ouster;  ///< of Ouster packets; otherwise null
+    std::shared_ptr<const packets::OusterSensor> ouster;  ///< of Ouster packets; otherwise null
 };
 
 /// What is read of a bag.

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/captures/CaptureFile.h>
+#include <hagen/packets/CaptureFile.h>
 #include <mrpt/obs/CObservation.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/captures/LivoxPacket.h>
+#include <hagen/packets/LivoxPacket.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -29,7 +29,7 @@ class LivoxScans {
 
     /// `time_ns` is when the packet came; a scan has that of its first packet. A packet that comes
     /// twice in a row is left out; late ones join the scan in progress.
-    void add(const LivoxPacket& packet, std::int64_t time_ns);
+    void add(const packets::LivoxPacket& packet, std::int64_t time_ns);
     /// Ends the scan in progress.
     void finish();
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/captures/CaptureFile.h>
+#include <hagen/packets/CaptureFile.h>
 #include <mrpt/core/Clock.h>
 
 #include <cstddef>
@@ -20,7 +20,7 @@ void addCount(std::size_t number, const std::string& one, const std::string& mor
 /// The datagrams of something else, by port and size.
 class OtherDatagrams {
  public:
-    void add(const Datagram& datagram);
+    void add(const packets::Datagram& datagram);
     /// Adds ", 5 other UDP datagrams (most: 3 of 48 bytes to port 7503)" unless there are none.
     void describe(std::string& text) const;
 
@@ -30,10 +30,10 @@ class OtherDatagrams {
 };
 
 /// The frames that did not become datagrams; "" if there are none.
-std::string textOfLosses(const FrameCounts& counts);
+std::string textOfLosses(const packets::FrameCounts& counts);
 
 /// "350 frames; left out: LEFT_OUT and the losses".
-std::string textOfFrames(const FrameCounts& counts, const std::string& left_out);
+std::string textOfFrames(const packets::FrameCounts& counts, const std::string& left_out);
 
 /// The time of a capture as MRPT's.
 mrpt::Clock::time_point timeOf(std::int64_t since_1970_ns);

@@ -1,30 +1,15 @@
 #pragma once
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneCalibration.h>
+#include <hagen/packets/VelodyneModel.h>
+#include <hagen/packets/VelodynePacket.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace hagen::captures {
-
-/// A data packet of a Velodyne and when it came.
-struct VelodynePacket {
-    using Raw = mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket;
-
-    Raw raw;
-    std::int64_t time_ns = 0;  ///< of the capture
-
-    /// Microseconds since the full hour, by the sensor's clock.
-    double sensorTimeUs() const;
-    /// Whether it says so; those of an HDL-64E do not.
-    bool isDual() const;
-    /// Azimuth of its first block that has one, 0.01 degrees; -1: none has.
-    int azimuth() const;
-};
 
 /// Groups the packets of one sensor into turns: one ends where the azimuth wraps.
 ///
@@ -47,10 +32,10 @@ class VelodyneTurns {
     };
 
     /// `calibration`: of the sensor; null: that of the model.
-    VelodyneTurns(const observations::VelodyneModel& model, std::string label,
-                  std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration = nullptr);
+    VelodyneTurns(const packets::VelodyneModel& model, std::string label,
+                  const packets::VelodyneCalibration* calibration = nullptr);
 
-    void add(const VelodynePacket& packet);
+    void add(const packets::VelodynePacket& packet);
     /// Ends the last turn: no packets follow.
     void finish();
 
@@ -60,15 +45,15 @@ class VelodyneTurns {
 
  private:
     void flush();
-    void append(const VelodynePacket& packet);
-    void checkGap(const VelodynePacket& packet);
+    void append(const packets::VelodynePacket& packet);
+    void checkGap(const packets::VelodynePacket& packet);
     void endTurn();
 
-    const observations::VelodyneModel& model_;
+    const packets::VelodyneModel& model_;
     std::string label_;
-    std::shared_ptr<const mrpt::obs::VelodyneCalibration> calibration_;
-    std::deque<VelodynePacket> waiting_;  ///< by the sensor's clock
-    Turn turn_;                           ///< in progress; null: none
+    mrpt::obs::VelodyneCalibration calibration_;
+    std::deque<packets::VelodynePacket> waiting_;  ///< by the sensor's clock
+    Turn turn_;                                    ///< in progress; null: none
     double turn_start_us_ = 0;
     bool has_last_ = false;
     double last_us_ = 0;     ///< of the last packet appended
@@ -79,12 +64,5 @@ class VelodyneTurns {
 
 /// "293 packets in 5 turns, 2 packets lost": for remarks().
 std::string textOf(const VelodyneTurns::Counts& counts);
-
-/// Whether these bytes are a data packet: of the right size, and any of its blocks has a header.
-bool isVelodyneData(const std::uint8_t* bytes, std::size_t size);
-/// Whether such a packet is of an HDL-64E, the only one to send blocks of lower lasers.
-bool isOfHdl64(const std::uint8_t* packet);
-/// Byte of the packet that holds the id of the model.
-constexpr std::size_t kVelodyneModelAt = 1205;
 
 }  // namespace hagen::captures

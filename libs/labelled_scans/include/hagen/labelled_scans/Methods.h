@@ -2,7 +2,7 @@
 #pragma once
 #include <hagen/evaluation/Method.h>
 #include <hagen/observations/CloudSensors.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,20 +15,19 @@ namespace hagen::labelled_scans {
 /// The filter with one set of settings: one row of the table.
 struct SweepPoint {
     std::string name;
-    observations::Settings settings;
+    Settings settings;
     std::string sweep_key;  ///< key of the sweep; empty: no sweep
     std::string sweep_value;
 };
 
 /// Returns one row "hagen" without sweeps, otherwise one row per value of each "KEY=VALUE,VALUE".
 /// Throws SettingsError if a sweep cannot be parsed or settings are inconsistent.
-std::vector<SweepPoint> rowsOf(const observations::Settings& settings,
-                               const std::vector<std::string>& sweeps);
+std::vector<SweepPoint> rowsOf(const Settings& settings, const std::vector<std::string>& sweeps);
 
 /// All scored methods: the filter's rows, then the baselines if requested, then labels of others.
 struct MethodSet {
     std::vector<SweepPoint> filter;
-    std::optional<observations::Settings> baselines;  ///< provides zone and sensor of the baselines
+    std::optional<Settings> baselines;  ///< provides zone and sensor of the baselines
     std::vector<LabelRow> labels = {};
     bool is_upside_down = false;  ///< the sensor; see evaluation::mirrored()
 };

@@ -65,7 +65,7 @@ struct Summary {
     std::vector<std::string> folders;       ///< paths
     std::vector<std::string> folder_names;  ///< short
     std::vector<std::string> sensor_texts;  ///< of each folder; empty: settings name the sensor
-    observations::Settings settings;
+    Settings settings;
     evaluation::RangeBands range;
     std::string label_map, camera;  ///< files, or empty
     evaluation::BootstrapOptions bootstrap;

@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/live/LatencyHistogram.h>
 #include <hagen/live/PacketSource.h>
-#include <hagen/live/TurnRecorder.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/live/Recording.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/streaming/SectorDistances.h>
 #include <hagen/streaming/SensorMotion.h>
 #include <hagen/streaming/StreamingSegmenter.h>
@@ -19,16 +19,20 @@
 
 namespace hagen::live {
 
+/// Models that are not of packets::velodyneModels().
+inline constexpr const char* kLivox = "Mid-360";
+inline constexpr const char* kHdl64 = "HDL-64E";
+
 /// A sensor to label while it runs.
 struct LiveOptions {
     /// "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
     std::string model;
     std::filesystem::path calibration;  ///< of an HDL-64E
-    observations::Settings settings;
+    Settings settings;
     streaming::StreamingOptions streaming;
-    TurnRecorder::Options recording;  ///< an empty name: none
-    std::filesystem::path stats;      ///< JSON; empty: none
-    bool overwrite = false;           ///< replaces an existing file of `stats`
+    RecordingOptions recording;
+    std::filesystem::path stats;  ///< JSON; empty: none
+    bool overwrite = false;       ///< replaces an existing file of `stats`
     double duration_s = std::numeric_limits<double>::infinity();
     std::filesystem::path sensor_json;  ///< metadata of an Ouster; `model` is empty then
 };
@@ -58,10 +62,10 @@ struct LiveReport {
     /// sectors; infinity: none.
     std::array<float, streaming::SectorDistances::kSectors> nearest_m{};
     std::array<streaming::SectorDistances::Sector, streaming::SectorDistances::kSectors> latest{};
-    double seconds = 0;             ///< that it ran
-    double filter_cpu_s = 0;        ///< CPU time of the thread that labels
-    double process_cpu_s = 0;       ///< of all threads
-    TurnRecorder::Counts recorded;  ///< if it was
+    double seconds = 0;        ///< that it ran
+    double filter_cpu_s = 0;   ///< CPU time of the thread that labels
+    double process_cpu_s = 0;  ///< of all threads, without the recorder
+    Recorded recorded;         ///< if it was
 };
 
 /// The last second.
@@ -99,10 +103,11 @@ std::string liveModels();
 void checkLive(const LiveOptions& options);
 
 /// Labels the packets of a source until it ends, the time is over or the listener says so. One
-/// thread receives, one labels (that of the caller), one records. What a packet holds never ends
-/// it.
+/// thread receives, one labels (that of the caller). A process of its own records; a recording that
+/// ends early is told, and the session goes on. What a packet holds never ends it.
 ///
-/// Throws std::runtime_error naming the file or address that failed, and SettingsError.
+/// Throws std::runtime_error naming the file or address that failed, also a recording that cannot
+/// begin, and SettingsError.
 LiveReport runLive(PacketSource& source, const LiveOptions& options,
                    const LiveListener& listener = {});
 

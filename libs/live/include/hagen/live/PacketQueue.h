@@ -21,7 +21,7 @@ struct Packet {
 double steadyNow_s();
 
 /// Packets from the thread that receives them to the one that labels them. Bounded, and its memory
-/// is reused.
+/// is reused: it has as much as the packets that waited at a time.
 class PacketQueue {
  public:
     explicit PacketQueue(std::size_t most);
@@ -46,6 +46,7 @@ class PacketQueue {
     mutable std::mutex mutex_;
     std::condition_variable has_packet_, has_place_;
     std::vector<Packet> ring_;
+    std::vector<std::vector<std::uint8_t>> spare_;  ///< memory for the next packets, last first
     std::size_t first_ = 0, size_ = 0;
     bool is_closed_ = false;
 };

@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/captures/CaptureFile.h>
 #include <hagen/live/PacketQueue.h>
+#include <hagen/packets/CaptureFile.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -65,9 +65,9 @@ class ReplaySource : public PacketSource {
     bool isLive() const override { return false; }
 
  private:
-    captures::CaptureFile capture_;
+    packets::CaptureFile capture_;
     double speed_;
-    captures::Datagram waiting_;
+    packets::Datagram waiting_;
     bool has_waiting_ = false;
     std::optional<std::int64_t> first_ns_;
     double start_s_ = 0;

@@ -3,7 +3,7 @@
 #include <hagen/logs/ScanSource.h>
 #include <hagen/mapping/ScanMap.h>
 #include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -42,7 +42,7 @@ struct Conversion {
     bool preview = false;  ///< add a coloured scene after each pair of clouds
     std::optional<float>
         picture_azimuth_deg;  ///< column to draw; none: that of the nearest obstacle
-    observations::Settings settings;
+    Settings settings;
 };
 
 /// Results of one scan.
@@ -89,8 +89,7 @@ struct ConversionReport {
     bool is_attitude_of_poses = false;    ///< interpolated; otherwise the latest in the log
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
-    observations::Settings
-        settings;  ///< those of the conversion, merged with a scan folder's sensor.yaml
+    Settings settings;    ///< those of the conversion, merged with a scan folder's sensor.yaml
 };
 
 /// Callbacks of a conversion. They are called in the order of the log and never concurrently, but

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -21,7 +21,7 @@ struct AirframeLearning {
     std::size_t from = 0;               ///< first and last entry to read, both inclusive
     std::size_t to = std::numeric_limits<std::size_t>::max();
     std::vector<std::string> sensor_labels;  ///< the LiDAR; empty: the only one
-    observations::Settings settings;         ///< its sensor; an airframe in it is ignored
+    Settings settings;                       ///< its sensor; an airframe in it is ignored
 };
 
 struct AirframeReport {

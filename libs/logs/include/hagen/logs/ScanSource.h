@@ -3,7 +3,7 @@
 #include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/ScanPose.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/serialization/CSerializable.h>
 
@@ -107,7 +107,7 @@ class ScanSource {
 
     /// Returns settingsFor(settings). If these name no sensor, each cloud comes with the beams that
     /// beamsOf() recovers. Call it before the first entry is read.
-    observations::Settings useSettings(const observations::Settings& settings);
+    Settings useSettings(const Settings& settings);
 
     /// The beams of a LiDAR's clouds, recovered from the first ones in the recording, also if these
     /// are not selected (CloudSensors): the same for all parts of a recording. Null if none of its
@@ -116,7 +116,7 @@ class ScanSource {
     const observations::SharedBeams& beamsOf(const std::string& sensor_label);
 
     /// The settings, with those of the recording's own sensor merged in.
-    virtual observations::Settings settingsFor(const observations::Settings& settings) const;
+    virtual Settings settingsFor(const Settings& settings) const;
 
     /// Entries read so far, including skipped ones. For a scan folder: all entries.
     virtual std::size_t entriesKnown() const = 0;

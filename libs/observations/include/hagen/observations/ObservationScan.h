@@ -1,10 +1,10 @@
 #pragma once
 #include <hagen/observations/CloudSensors.h>
 #include <hagen/observations/RotatingScan.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/observations/VelodyneDecoder.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
+#include <hagen/settings/Settings.h>
 #include <mrpt/core/Clock.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservation.h>

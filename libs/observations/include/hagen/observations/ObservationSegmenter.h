@@ -3,9 +3,9 @@
 #include <hagen/observations/Horizon.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/ScanPose.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/observations/Trajectory.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/settings/Settings.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/rtti/CObject.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/observations/CloudSensors.h>
-#include <hagen/observations/Settings.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/settings/Settings.h>
 #include <mrpt/maps/CPointCloudFilterBase.h>
 #include <mrpt/poses/CPose3D.h>
 

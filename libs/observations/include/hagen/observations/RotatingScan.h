@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/observations/Settings.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
+#include <hagen/settings/Settings.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 

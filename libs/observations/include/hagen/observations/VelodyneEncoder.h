@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <hagen/range_image/Image.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <cstdint>
@@ -20,17 +20,18 @@ struct Firings {
 
 /// Returns the azimuth at which a laser of a firing points, degrees clockwise from x, as the
 /// decoder computes it (up to rounding). Use it to compute the range to encode.
-double firingAzimuthDeg(const VelodyneModel& model, const Firings& firings, int laser, int firing);
+double firingAzimuthDeg(const packets::VelodyneModel& model, const Firings& firings, int laser,
+                        int firing);
 
 /// Encodes raw packets, the inverse of decodePackets(). Ranges are rounded to the model's unit (2
 /// or 4 mm); those that a packet cannot represent (131.07 or 262.14 m and more) become missing
 /// returns, as with the sensor. The last packet is padded with firings without returns. Throws
 /// std::invalid_argument if array sizes differ or do not fit the model.
 std::vector<mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket> encodePackets(
-    const VelodyneModel& model, const Firings& firings);
+    const packets::VelodyneModel& model, const Firings& firings);
 
 /// Returns a complete observation of these firings, with the model's default calibration.
-mrpt::obs::CObservationVelodyneScan::Ptr encodeScan(const VelodyneModel& model,
+mrpt::obs::CObservationVelodyneScan::Ptr encodeScan(const packets::VelodyneModel& model,
                                                     const Firings& firings);
 
 }  // namespace hagen::observations

@@ -2,7 +2,7 @@
 #include <hagen/logs/ScanSource.h>
 #include <hagen/mapping/MappedScan.h>
 #include <hagen/observations/ObservationSegmenter.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/settings/Settings.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -17,7 +17,7 @@ struct LogSource {
     std::filesystem::path log;    ///< a rawlog, a capture or a scan folder
     std::filesystem::path poses;  ///< pose file (TUM, KITTI); empty: poses in the log
     std::string sensor_label;     ///< of the LiDAR; empty: all LiDARs of the log
-    observations::Settings settings;
+    Settings settings;
     float own_reach_m = 0.8f;  ///< nearer returns are the vehicle's own and are left out
     std::filesystem::path sensor_json = {};  ///< metadata of the Ouster of a capture; empty: none
     std::vector<std::string> topics = {};    ///< LiDAR topics of a bag; empty: all

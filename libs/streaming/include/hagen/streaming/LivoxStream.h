@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/captures/LivoxPacket.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/packets/LivoxPacket.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
 #include <cstddef>
@@ -28,8 +28,8 @@ class LivoxStream {
     enum class Taken { Yes, Foreign, Repeated, Imu };
 
     /// Throws SettingsError if the options do not fit the sensor.
-    LivoxStream(const observations::Settings& settings, StreamingSegmenter::Take take,
-                double frame_s = 0.02, double window_s = 0.1);
+    LivoxStream(const Settings& settings, StreamingSegmenter::Take take, double frame_s = 0.02,
+                double window_s = 0.1);
 
     /// Takes a datagram that came at `arrival_s`, in seconds of any clock that does not go back.
     Taken add(const std::uint8_t* bytes, std::size_t size, double arrival_s);
@@ -44,7 +44,7 @@ class LivoxStream {
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
-    observations::Settings settings_;
+    Settings settings_;
     double frame_s_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
     bool is_begun_ = false, has_last_ = false;

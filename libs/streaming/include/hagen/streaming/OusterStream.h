@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/captures/OusterFrames.h>
-#include <hagen/captures/OusterSensor.h>
-#include <hagen/observations/Settings.h>
+#include <hagen/packets/OusterFrames.h>
+#include <hagen/packets/OusterSensor.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
 #include <cstddef>
@@ -36,7 +36,7 @@ class OusterStream {
     };
 
     /// Throws SettingsError if the options do not fit the sensor.
-    OusterStream(const captures::OusterSensor& sensor, const observations::Settings& settings,
+    OusterStream(const packets::OusterSensor& sensor, const Settings& settings,
                  StreamingSegmenter::Take take, const StreamingOptions& streaming = {});
     OusterStream(const OusterStream&) = delete;
     OusterStream& operator=(const OusterStream&) = delete;
@@ -54,17 +54,17 @@ class OusterStream {
     void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
 
     /// The turns that are complete, oldest first. The caller takes them out.
-    std::deque<captures::OusterFrame>& complete() { return frames_.complete(); }
-    const captures::OusterSensor& sensor() const { return sensor_; }
+    std::deque<packets::OusterFrame>& complete() { return frames_.complete(); }
+    const packets::OusterSensor& sensor() const { return sensor_; }
     const Counts& counts() const { return counts_; }
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
     void countLosses();
 
-    const captures::OusterSensor sensor_;
-    observations::Settings settings_;
-    captures::OusterFrames frames_;
+    const packets::OusterSensor sensor_;
+    Settings settings_;
+    packets::OusterFrames frames_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
     double ahead_rad_ = 0;  ///< clockwise from the sensor's x axis to column 0
     bool has_last_ = false;

@@ -1,8 +1,9 @@
 #pragma once
-#include <hagen/captures/VelodyneTurns.h>
-#include <hagen/observations/Settings.h>
-#include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/observations/VelodyneModel.h>
+#include <hagen/packets/VelodyneCalibration.h>
+#include <hagen/packets/VelodyneDecoder.h>
+#include <hagen/packets/VelodyneModel.h>
+#include <hagen/packets/VelodynePacket.h>
+#include <hagen/settings/Settings.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
 #include <cstddef>
@@ -40,10 +41,9 @@ class VelodyneStream {
     /// `settings`: options, range limits, airframe and mount. `calibration` is of an HDL-64E; null:
     /// that of the model. Throws SettingsError if the options do not fit the sensor, and
     /// std::invalid_argument for an HDL-64E without calibration.
-    VelodyneStream(
-        const observations::VelodyneModel& model, const observations::Settings& settings,
-        StreamingSegmenter::Take take, const StreamingOptions& streaming = {},
-        const std::shared_ptr<const mrpt::obs::VelodyneCalibration>& calibration = nullptr);
+    VelodyneStream(const packets::VelodyneModel& model, const Settings& settings,
+                   StreamingSegmenter::Take take, const StreamingOptions& streaming = {},
+                   const packets::VelodyneCalibration* calibration = nullptr);
 
     /// Takes a datagram that came at `arrival_s`, in seconds of any clock that does not go back.
     Taken add(const std::uint8_t* bytes, std::size_t size, double arrival_s);
@@ -61,16 +61,16 @@ class VelodyneStream {
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
-    bool isRepeated(const captures::VelodynePacket& packet, double time_us) const;
-    bool readSweep(const captures::VelodynePacket& packet, double elapsed_us, Sweep& sweep) const;
+    bool isRepeated(const packets::VelodynePacket& packet, double time_us) const;
+    bool readSweep(const packets::VelodynePacket& packet, double elapsed_us, Sweep& sweep) const;
 
-    const observations::VelodyneModel& model_;
-    observations::Settings settings_;
+    const packets::VelodyneModel& model_;
+    Settings settings_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
-    mrpt::obs::CObservationVelodyneScan one_packet_;
-    observations::DecoderWorkspace decoder_;
+    packets::VelodyneCalibration calibration_;
+    packets::DecoderWorkspace decoder_;
     Scan returns_;
-    std::deque<captures::VelodynePacket> recent_;
+    std::deque<packets::VelodynePacket> recent_;
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< by the sensor's clock, of the latest packet
     Sweep last_sweep_{};  ///< likewise

@@ -1,0 +1,207 @@
+#include "RecorderProcess.h"
+
+#include <hagen/base/NumberText.h>
+#include <hagen/live/RecorderLink.h>
+
+#include <sched.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace hagen::live {
+namespace {
+
+constexpr std::size_t kQueue = 4096;  // packets: seconds
+
+std::filesystem::path programOf(const RecordingOptions& recording) {
+    return recording.program.empty() ? recorderProgram() : recording.program;
+}
+
+/// The flags of live-record. Names may begin with a dash, so that each is part of its flag.
+std::vector<std::string> argumentsOf(const LiveOptions& options, const std::string& program,
+                                     bool waits) {
+    const RecordingOptions& recording = options.recording;
+    std::vector<std::string> arguments{program};
+    const auto add = [&](const char* flag, const std::string& value) {
+        if (!value.empty()) arguments.push_back(std::string(flag) + "=" + value);
+    };
+    add("--model", options.model);
+    add("--sensor-json", options.sensor_json.string());
+    add("--calibration", options.calibration.string());
+    for (const auto& file : recording.settings_files) add("--config", file.string());
+    add("--record", recording.file.string());
+    add("--rotate-bytes", std::to_string(recording.rotate_bytes));
+    if (recording.overwrite) arguments.emplace_back("--overwrite");
+    if (waits) arguments.emplace_back("--wait");
+    return arguments;
+}
+
+/// Starts a program with a socket as its standard input. Returns 0 or an errno.
+int spawn(std::vector<std::string> arguments, int socket, pid_t& pid) {
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, socket, STDIN_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    // In a process group of its own: Ctrl-C in a terminal is for the session, which ends it.
+    short flags = POSIX_SPAWN_SETPGROUP;
+    posix_spawnattr_setpgroup(&attributes, 0);
+    // Real-time priority is for labels.
+    const int policy = sched_getscheduler(0);
+    if (policy == SCHED_FIFO || policy == SCHED_RR) {
+        const sched_param none{};
+        posix_spawnattr_setschedpolicy(&attributes, SCHED_OTHER);
+        posix_spawnattr_setschedparam(&attributes, &none);
+        flags |= POSIX_SPAWN_SETSCHEDULER;
+    }
+    posix_spawnattr_setflags(&attributes, flags);
+    const int failed = posix_spawn(&pid, words[0], &actions, &attributes, words.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return failed;
+}
+
+/// Waits until a process has ended. Without `reaps`, its number stays its own.
+siginfo_t waitFor(pid_t process, bool reaps) {
+    siginfo_t end{};
+    const int how = reaps ? WEXITED : WEXITED | WNOWAIT;
+    while (waitid(P_PID, static_cast<id_t>(process), &end, how) < 0 && errno == EINTR) {
+    }
+    return end;
+}
+
+}  // namespace
+
+RecorderProcess::RecorderProcess(const LiveOptions& options, bool waits)
+    : program_(programOf(options.recording).string()),
+      file_(options.recording.file.string()),
+      waits_(waits),
+      patience_s_(options.recording.patience_s),
+      queue_(kQueue) {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+        throw std::runtime_error(file_ + ": cannot be recorded: " + std::strerror(errno));
+    }
+    const int failed = spawn(argumentsOf(options, program_, waits), ends[1], process_);
+    close(ends[1]);
+    socket_ = ends[0];
+    if (failed != 0) {
+        close(socket_);
+        throw std::runtime_error(file_ + ": cannot be recorded: " + program_ +
+                                 " cannot be started: " + std::strerror(failed));
+    }
+    std::string line, failure;
+    try {
+        failure = readLine(socket_, line) ? failureIn(line) : howItEnded();
+    } catch (const std::runtime_error& e) {
+        failure = program_ + " answers '" + line.substr(0, 40) + "', which " + e.what();
+    }
+    if (!failure.empty()) {
+        close(socket_);
+        kill(process_, SIGKILL);  // it has said why it ends, or nothing that is known
+        waitFor(process_, true);
+        throw std::runtime_error(failure);
+    }
+    if (!waits_) {
+        timeval patience{};
+        patience.tv_sec = static_cast<time_t>(patience_s_);
+        patience.tv_usec = static_cast<suseconds_t>(1e6 * (patience_s_ - std::floor(patience_s_)));
+        setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    }
+    sender_ = std::thread([this] { send(); });
+    listener_ = std::thread([this] { listen(); });
+}
+
+RecorderProcess::~RecorderProcess() {
+    if (sender_.joinable()) finish();
+}
+
+/// Hands packets over as fast as the recorder takes them.
+void RecorderProcess::send() {
+    Packet packet;
+    bool is_open = true;
+    for (;;) {
+        const auto popped = queue_.pop(packet, std::chrono::seconds(1));
+        if (popped == PacketQueue::Popped::Closed) break;
+        if (popped != PacketQueue::Popped::Packet || !is_open) continue;
+        is_open = sendPacket(socket_, packet);
+        if (is_open) continue;
+        if (errno == EAGAIN) {
+            was_stuck_ = true;
+            kill(process_, SIGKILL);
+        }
+        queue_.close();
+    }
+    shutdown(socket_, SHUT_WR);
+}
+
+/// Waits for what the recorder says at its end.
+void RecorderProcess::listen() {
+    std::string line;
+    Recorded recorded;
+    try {
+        if (readLine(socket_, line)) {
+            recorded = recordedIn(line);
+        } else {
+            recorded.failure = howItEnded();
+        }
+    } catch (const std::runtime_error& e) {
+        recorded.failure = file_ + ": the recorder's last words are none: " + e.what();
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        recorded_ = std::move(recorded);
+    }
+    queue_.close();
+}
+
+/// Waits until the process has ended, without a word.
+std::string RecorderProcess::howItEnded() const {
+    const siginfo_t end = waitFor(process_, false);
+    const std::string how =
+        was_stuck_ ? "took no packets for " + base::fixedText(patience_s_, 1) + " s and was ended"
+        : end.si_code == CLD_EXITED ? "ended with exit status " + std::to_string(end.si_status)
+                                    : "was killed by signal " + std::to_string(end.si_status) +
+                                          " (" + strsignal(end.si_status) + ")";
+    return file_ + ": its recorder (" + program_ + ") " + how +
+           "; what was written can be read under a temporary name beside it";
+}
+
+void RecorderProcess::add(const Packet& packet) {
+    copy_ = packet;
+    const bool is_taken = waits_ ? queue_.pushOrWait(copy_) : queue_.push(copy_);
+    left_out_ += !is_taken;
+}
+
+std::string RecorderProcess::failure() const {
+    const std::lock_guard lock(mutex_);
+    return recorded_.failure;
+}
+
+Recorded RecorderProcess::finish() {
+    queue_.close();
+    if (sender_.joinable()) sender_.join();
+    if (listener_.joinable()) listener_.join();
+    if (socket_ >= 0) {
+        close(socket_);
+        socket_ = -1;
+        waitFor(process_, true);
+    }
+    recorded_.packets_left_out = left_out_;
+    return recorded_;
+}
+
+}  // namespace hagen::live

@@ -1,0 +1,54 @@
+#pragma once
+#include <hagen/live/LiveSession.h>
+#include <hagen/live/PacketQueue.h>
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace hagen::live {
+
+/// The process that records a sensor, seen from the session: packets go there, counts come back.
+/// Whatever becomes of it, the session goes on.
+class RecorderProcess {
+ public:
+    /// Starts it and waits until it has made its file. `waits`: add() waits for it; otherwise
+    /// packets that come too fast are left out. Throws std::runtime_error naming the program or the
+    /// file.
+    RecorderProcess(const LiveOptions& options, bool waits);
+    /// Has it complete its file, unless finish() was called.
+    ~RecorderProcess();
+    RecorderProcess(const RecorderProcess&) = delete;
+    RecorderProcess& operator=(const RecorderProcess&) = delete;
+
+    /// Takes a data packet of the sensor.
+    void add(const Packet& packet);
+    /// Why recording ended early, naming the file; empty: it goes on.
+    std::string failure() const;
+    /// Has it complete its file, and returns what became of it.
+    Recorded finish();
+
+ private:
+    void send();
+    void listen();
+    std::string howItEnded() const;
+
+    const std::string program_, file_;
+    const bool waits_;
+    const double patience_s_;
+    pid_t process_ = -1;
+    int socket_ = -1;
+    PacketQueue queue_;
+    Packet copy_;
+    std::size_t left_out_ = 0;
+    std::thread sender_, listener_;
+    std::atomic<bool> was_stuck_ = false;
+
+    mutable std::mutex mutex_;
+    Recorded recorded_;  ///< from its last line; until then, `failure` only
+};
+
+}  // namespace hagen::live

@@ -1,0 +1,140 @@
+#include <hagen/logs/RecordedObject.h>
+#include <hagen/recording/TurnRecorder.h>
+
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+namespace hagen::recording {
+namespace {
+
+constexpr std::size_t kMostWaiting = 50;  // turns: seconds, about 10 MB
+
+}  // namespace
+
+TurnRecorder::TurnRecorder(Options options, const Settings& settings)
+    : options_(std::move(options)) {
+    segmenter_.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    segmenter_.initialize(settings);
+    writing_ = nextName();
+    writer_.emplace(writing_, options_.overwrite);
+    thread_ = std::thread([this] { work(); });
+}
+
+TurnRecorder::~TurnRecorder() {
+    if (thread_.joinable()) finish();
+}
+
+std::filesystem::path TurnRecorder::nextName() {
+    if (options_.rotate_bytes == 0) return options_.file;
+    char number[16];
+    std::snprintf(number, sizeof number, ".%04zu", ++number_);
+    std::filesystem::path name = options_.file;
+    return name.replace_filename(options_.file.stem().string() + number +
+                                 options_.file.extension().string());
+}
+
+void TurnRecorder::add(const mrpt::obs::CObservation::Ptr& turn) {
+    std::unique_lock lock(mutex_);
+    if (options_.waits) {
+        changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting || !failure_.empty(); });
+    }
+    if (!failure_.empty() || waiting_.size() >= kMostWaiting) {
+        ++left_out_;
+        return;
+    }
+    waiting_.push_back(turn);
+    lock.unlock();
+    changed_.notify_all();
+}
+
+std::string TurnRecorder::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+}
+
+void TurnRecorder::work() {
+    while (true) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return !waiting_.empty() || is_at_end_; });
+        if (waiting_.empty()) return;
+        const mrpt::obs::CObservation::Ptr turn = std::move(waiting_.front());
+        waiting_.pop_front();
+        lock.unlock();
+        changed_.notify_all();
+        try {
+            write(turn);
+        } catch (const std::exception& e) {
+            const std::lock_guard failing(mutex_);
+            failure_ = e.what();
+            left_out_ += 1 + waiting_.size();
+            waiting_.clear();
+            changed_.notify_all();
+            return;
+        }
+    }
+}
+
+void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
+    if (!writer_) {
+        writing_ = nextName();
+        writer_.emplace(writing_, options_.overwrite);
+    }
+    entries_.clear();
+    logs::serialise(*logs::objectOf(turn, observations::CloudClass::Simple), entries_);
+    try {
+        segmenter_.process(*turn, output_);
+        logs::serialise(*output_.roi, entries_);
+        logs::serialise(*output_.non_roi, entries_);
+    } catch (const std::runtime_error&) {  // as rawlog-segment: kept, not segmented
+        ++recorded_.unreadable;
+    }
+    writer_->gather(entries_, member_);
+    if (!member_.empty()) {
+        logs::packGzipMember(member_, packed_);
+        written_bytes_ += packed_.size();
+        writer_->writeMember(packed_);
+    }
+    has_turns_ = true;
+    ++recorded_.turns;
+    if (options_.rotate_bytes > 0 && written_bytes_ >= options_.rotate_bytes) endFile();
+}
+
+void TurnRecorder::endFile() {
+    writer_->commit();
+    writer_.reset();
+    recorded_.files.push_back(writing_);
+    written_bytes_ = 0;
+    has_turns_ = false;
+}
+
+live::Recorded TurnRecorder::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_at_end_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) thread_.join();
+    recorded_.left_out = left_out_;
+    if (failure_.empty()) {
+        try {
+            // Nothing was received, or the last turn ended a file.
+            if (writer_ && !has_turns_) writer_.reset();
+            if (writer_) endFile();
+        } catch (const std::exception& e) {
+            failure_ = e.what();
+        }
+    }
+    recorded_.failure = failure_;
+    if (writer_) {  // it has failed
+        try {
+            recorded_.failure += "; what was written is in " + writer_->keepPartial().string();
+        } catch (const std::exception&) {  // nothing was written
+        }
+    }
+    writer_.reset();
+    return recorded_;
+}
+
+}  // namespace hagen::recording

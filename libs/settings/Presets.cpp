@@ -1,0 +1,149 @@
+#include <hagen/settings/Presets.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <mutex>
+#include <set>
+#include <sstream>
+#include <system_error>
+
+#include <hagen/base/Folder.h>
+#include <hagen/settings/Settings.h>
+#include "YamlParts.h"
+
+namespace hagen {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const kVariable = "HAGEN_CONFIG_PATH";
+
+/// The folder `../share/hagen/config` of the running program: of an installation that was moved,
+/// and of a build, which links it to the sources' config/. Empty if the program is not known.
+fs::path folderOfProgram() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (error || !program.has_parent_path()) return {};
+    return program.parent_path().parent_path() / "share/hagen/config";
+}
+
+/// Whether a name can be that of a preset: no path.
+bool isPlain(const fs::path& name) { return !name.has_parent_path() && !name.stem().empty(); }
+
+/// The name of a preset, given with or without the extension of its file.
+std::string presetName(const fs::path& name) {
+    return (name.extension() == ".yaml" ? name.stem() : name).string();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+std::string searchedFolders() {
+    std::vector<std::string> folders;
+    for (const fs::path& folder : presetFolders()) {
+        std::error_code error;
+        const bool exists = fs::is_directory(folder, error);
+        folders.push_back(folder.string() + (exists ? "" : " (no such folder)"));
+    }
+    return joined(folders);
+}
+
+/// The folders of addPresetFolder().
+struct AddedFolders {
+    std::mutex mutex;
+    std::vector<fs::path> folders;
+};
+AddedFolders& added() {
+    static AddedFolders folders;
+    return folders;
+}
+
+}  // namespace
+
+void addPresetFolder(const fs::path& folder) {
+    const std::lock_guard lock(added().mutex);
+    added().folders.push_back(folder);
+}
+
+std::vector<fs::path> presetFolders() {
+    std::vector<fs::path> folders;
+    const auto add = [&](const fs::path& folder) {
+        if (folder.empty()) return;
+        const fs::path normal = folder.lexically_normal();
+        if (std::find(folders.begin(), folders.end(), normal) == folders.end()) {
+            folders.push_back(normal);
+        }
+    };
+    if (const char* const given = std::getenv(kVariable); given != nullptr) {
+        std::istringstream list(given);
+        for (std::string folder; std::getline(list, folder, ':');) add(folder);
+    }
+    {
+        const std::lock_guard lock(added().mutex);
+        for (const fs::path& folder : added().folders) add(folder);
+    }
+    add(folderOfProgram());
+    add(HAGEN_INSTALLED_CONFIG);
+    return folders;
+}
+
+std::vector<std::string> presetNames(const std::function<bool(const fs::path&)>& isUsable) {
+    std::set<std::string> seen, names;
+    for (const fs::path& folder : presetFolders()) {
+        std::error_code error;
+        for (const fs::path& file : base::entriesOf(folder, error)) {
+            if (file.extension() != ".yaml" || !fs::is_regular_file(file, error)) continue;
+            // An earlier folder's file of the same name hides this one.
+            const std::string name = file.stem().string();
+            if (seen.insert(name).second && isUsable(file)) names.insert(name);
+        }
+    }
+    return {names.begin(), names.end()};
+}
+
+bool isSettingsFile(const fs::path& file) {
+    try {
+        Settings ignored;
+        mergeSettings(file, ignored);
+        return true;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
+fs::path findPreset(const std::string& name) {
+    if (!isPlain(name)) return {};
+    for (const fs::path& folder : presetFolders()) {
+        const fs::path file = folder / (presetName(name) + ".yaml");
+        std::error_code error;
+        if (fs::is_regular_file(file, error)) return file;
+    }
+    return {};
+}
+
+fs::path presetFile(const std::string& name, const std::function<bool(const fs::path&)>& isUsable) {
+    std::error_code error;
+    const bool exists = fs::exists(name, error);
+    // A folder may have the name of a preset; it is no settings file.
+    if (exists && !fs::is_directory(name, error)) return name;
+    if (const fs::path preset = findPreset(name); !preset.empty()) return preset;
+    if (exists) return name;
+    const std::string preset = presetName(fs::path(name).filename());
+    if (!findPreset(preset).empty()) {  // the path is that of a guide, from another folder
+        throw SettingsError(name + ": no such file; the preset's name is '" + preset + "'");
+    }
+    if (!isPlain(name)) throw SettingsError(name + ": no such file");
+
+    const std::vector<std::string> known = presetNames(isUsable);
+    const std::string hint =
+        known.empty() ? "" : "; did you mean '" + nearestOf(preset, known) + "'?";
+    throw SettingsError(name + ": no such file or preset" + hint +
+                        " (presets: " + (known.empty() ? "none" : joined(known)) +
+                        "; searched: " + searchedFolders() + "; " + kVariable + " adds folders)");
+}
+
+}  // namespace hagen

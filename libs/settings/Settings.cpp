@@ -1,0 +1,405 @@
+#include <yaml-cpp/yaml.h>
+
+#include <hagen/base/NumberText.h>
+#include <hagen/range_image/Angle.h>
+#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/settings/Presets.h>
+#include <hagen/settings/Settings.h>
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "AirframeSettings.h"
+#include "YamlParts.h"
+
+namespace hagen {
+namespace {
+
+namespace fs = std::filesystem;
+// Limits of settings files, which may come with a recording of somebody else.
+constexpr int kDeepestInclude = 8, kMostIncludes = 32;
+constexpr std::uintmax_t kMostFileBytes = 1 << 20;
+
+Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    if (text == "lowest") return Seeds::Lowest;
+    if (text == "top_and_nearest") return Seeds::TopAndNearest;
+    if (text == "every") return Seeds::Every;
+    throw SettingsError(key + " must be 'lowest', 'top_and_nearest' or 'every', not '" + text +
+                        "'");
+}
+
+bool parseSwitch(const YAML::Node& node, const std::string& key) {
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    if (text == "true") return true;
+    if (text == "false") return false;
+    throw SettingsError(key + " must be 'true' or 'false', not '" + text + "'");
+}
+
+void parseOption(const OptionKey& key, const YAML::Node& node, Options& options) {
+    if (const auto* real = std::get_if<float Options::*>(&key.field)) {
+        options.*(*real) = parseNumber<float>(node, key.name, key.least, key.most);
+    } else if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
+        options.*(*whole) = parseNumber<int>(node, key.name, key.least, key.most);
+    } else if (const auto* yes = std::get_if<bool Options::*>(&key.field)) {
+        options.*(*yes) = parseSwitch(node, key.name);
+    } else {
+        options.*std::get<Seeds Options::*>(key.field) = parseSeeds(node, key.name);
+    }
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+constexpr double kMostRange_m = 1000;
+
+// The least that optionKeys() allows.
+constexpr int kFewestColumns = 8, kSmallestWindow = 2;
+
+/// The keys of the section `sensor:`.
+const std::vector<SettingsKey>& sensorKeys() {
+    static const std::vector<SettingsKey> keys{
+        {"model", "", kRecoveredName,
+         joined(knownSensorModels(), ", ") + ", custom, " + kRecoveredName,
+         "the sensor of point clouds; packets identify their own", ""},
+        {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
+         "the beams of a custom sensor, lowest first", ""},
+        {"min_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
+         "nearer returns are RoI, unjudged", ""},
+        {"max_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
+         "farther returns are RoI in the zone, unjudged; beyond it ROU", ""},
+        {"mount_roll_deg", "deg", "0", "-180 ... 180",
+         "the sensor's roll on the level vehicle, if its log does not say", ""},
+        {"mount_pitch_deg", "deg", "0", "-90 ... 90",
+         "the sensor's pitch on the level vehicle, if its log does not say", ""}};
+    return keys;
+}
+
+std::vector<std::string> namesOf(const std::vector<SettingsKey>& keys) {
+    std::vector<std::string> names;
+    for (const SettingsKey& key : keys) names.push_back(key.name);
+    return names;
+}
+
+const OptionKey* findOption(const std::string& name) {
+    for (const OptionKey& key : optionKeys()) {
+        if (key.name == name) return &key;
+    }
+    return nullptr;
+}
+
+/// A key of earlier versions. With the value 1 it changes nothing; old files have it.
+constexpr const char* kRemovedKey = "window_scans";
+
+/// The message for a key that is no option, or no longer one.
+std::string refusalOf(const std::string& key, const std::vector<std::string>& known) {
+    if (key != kRemovedKey) return unknownKey(key, known);
+    return "window_scans was removed: each scan is segmented alone, because windows of several "
+           "scans lowered the scores of the presets (docs/paper.md). Delete this line";
+}
+
+float parseAngle(const YAML::Node& node, const std::string& key, double most_deg) {
+    return static_cast<float>(radians(parseNumber<double>(node, key, -most_deg, most_deg)));
+}
+
+/// Throws std::invalid_argument unless a sensor has this name.
+void checkModel(const std::string& name) {
+    try {
+        hagen::sensorModel(name);
+    } catch (const std::invalid_argument& e) {
+        throw std::invalid_argument(std::string(e.what()) + "; '" + kRecoveredName +
+                                    "' recovers its beams from the clouds");
+    }
+}
+
+void parseSensor(const fs::path& file, const YAML::Node& section, Settings& settings) {
+    Settings::Sensor& sensor = settings.sensor;
+    if (!section.IsMap()) {
+        throw SettingsError(at(file, section) +
+                            "sensor must contain keys, such as 'model: VLP-16'");
+    }
+    if (section["model"]) sensor = {};  // a new model discards the settings of the previous sensor
+    std::set<std::string> seen;
+    for (const auto& entry : section) {
+        const std::string key = entry.first.Scalar();
+        if (!seen.insert(key).second) {
+            throw SettingsError(at(file, entry.first) + "key 'sensor." + key + "' occurs twice");
+        }
+        const YAML::Node& value = entry.second;
+        try {
+            if (key == "model") {
+                if (!value.IsScalar()) throw SettingsError("sensor.model must be a name");
+                const std::string& name = value.Scalar();
+                if (name != "custom" && name != kRecoveredName) checkModel(name);
+                if (name != kRecoveredName) sensor.model = name;
+            } else if (key == "elevations_deg") {
+                if (!value.IsSequence()) {
+                    throw SettingsError("sensor.elevations_deg must be a list, lowest beam first");
+                }
+                sensor.elevations_deg.clear();
+                for (const YAML::Node& elevation : value) {
+                    sensor.elevations_deg.push_back(
+                        parseNumber<double>(elevation, "each of sensor.elevations_deg", -90, 90));
+                }
+                customSensorModel(sensor.elevations_deg);
+            } else if (key == "min_range_m") {
+                sensor.min_range_m =
+                    parseNumber<float>(value, "sensor.min_range_m", 0, kMostRange_m);
+            } else if (key == "max_range_m") {
+                sensor.max_range_m =
+                    parseNumber<float>(value, "sensor.max_range_m", 0, kMostRange_m);
+            } else if (key == "mount_roll_deg") {
+                settings.mount.roll_rad = parseAngle(value, "sensor.mount_roll_deg", 180);
+            } else if (key == "mount_pitch_deg") {
+                settings.mount.pitch_rad = parseAngle(value, "sensor.mount_pitch_deg", 90);
+            } else {
+                throw SettingsError(unknownKey(key, namesOf(sensorKeys())) + " (in 'sensor')");
+            }
+        } catch (const std::exception& e) {
+            throw SettingsError(at(file, value) + e.what());
+        }
+    }
+    if (!sensor.elevations_deg.empty() && sensor.model.value_or("") != "custom") {
+        throw SettingsError(
+            at(file, section) +
+            "sensor.elevations_deg goes with 'model: custom'; a known model has its own");
+    }
+}
+
+/// Whether an option is adapted to a recovered sensor.
+bool isAdapted(const std::string& name, const Settings& settings) {
+    if (settings.sensor.model || settings.given.count(name) > 0) return false;
+    if (name != "columns" && name != "window_size" && name != "principal_components") return false;
+    const OptionKey& key = *findOption(name);
+    return textOf(key, settings.options) == textOf(key, Options());
+}
+
+/// The files that are included so far, and how deep the current one is.
+struct Includes {
+    SettingsOrigin origin;
+    int depth = 0, files = 0;
+};
+
+void mergeFile(const fs::path& file, Includes& includes, Settings& settings);
+
+void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& includes,
+                   Settings& settings) {
+    if (includes.depth >= kDeepestInclude) {
+        throw SettingsError(at(file, node) + "include is circular or nested too deeply");
+    }
+    const YAML::Node names = node.IsSequence() ? node : YAML::Load("[]");
+    if (!node.IsSequence() && !node.IsScalar()) {
+        throw SettingsError(at(file, node) + "include must be a file name or a list of them");
+    }
+    const auto merge = [&](const std::string& name) {
+        if (includes.origin == SettingsOrigin::Recording && fs::path(name).has_parent_path()) {
+            throw SettingsError(
+                at(file, node) + "includes '" + name +
+                "'; settings of a recording include files of their own folder only");
+        }
+        fs::path included = file.parent_path() / name;
+        if (!fs::exists(included)) {
+            const fs::path preset = findPreset(name);
+            if (preset.empty()) {
+                throw SettingsError(at(file, node) + "includes " + included.string() +
+                                    ", which does not exist, nor does a preset of this name");
+            }
+            included = preset;
+        }
+        if (!fs::is_regular_file(included)) {
+            throw SettingsError(at(file, node) + "includes " + included.string() +
+                                ", which is no file");
+        }
+        if (++includes.files > kMostIncludes) {
+            throw SettingsError(at(file, node) + "settings include more than " +
+                                std::to_string(kMostIncludes) + " files");
+        }
+        ++includes.depth;
+        mergeFile(included, includes, settings);
+        --includes.depth;
+    };
+    if (node.IsScalar()) merge(node.Scalar());
+    for (const YAML::Node& name : names) merge(name.as<std::string>(""));
+}
+
+void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
+    if (fs::is_regular_file(file) && fs::file_size(file) > kMostFileBytes) {
+        throw SettingsError(file.string() + ": is larger than 1 MiB, so it is no settings file");
+    }
+    const YAML::Node document = parseFile(file);
+    if (document.IsNull()) return;  // empty or comments only: all defaults
+    if (!document.IsMap()) {
+        throw SettingsError(file.string() + ": not settings: 'key: value' lines are expected");
+    }
+    if (document["include"]) mergeIncludes(file, document["include"], includes, settings);
+
+    std::vector<std::string> known{"include", "sensor", "airframe"};
+    for (const OptionKey& key : optionKeys()) known.push_back(key.name);
+    std::set<std::string> seen;
+    for (const auto& entry : document) {
+        const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+        if (!seen.insert(name).second) {
+            throw SettingsError(at(file, entry.first) + "key '" + name + "' occurs twice");
+        }
+        if (name == "include") continue;
+        if (name == "sensor") {
+            parseSensor(file, entry.second, settings);
+        } else if (name == "airframe") {
+            settings.airframe = parseAirframe(file, entry.second);
+        } else if (const OptionKey* key = findOption(name)) {
+            try {
+                parseOption(*key, entry.second, settings.options);
+                settings.given.insert(name);
+            } catch (const SettingsError& e) {
+                throw SettingsError(at(file, entry.second) + e.what());
+            }
+        } else if (name != kRemovedKey || entry.second.as<double>(0) != 1) {
+            throw SettingsError(at(file, entry.first) + refusalOf(name, known));
+        }
+    }
+}
+
+}  // namespace
+
+SensorModel Settings::sensorModel(const RecoveredBeams* recovered) const {
+    if (sensor.model == "custom" && sensor.elevations_deg.empty()) {
+        throw SettingsError("sensor.model is 'custom', but there is no sensor.elevations_deg");
+    }
+    SensorModel model = sensor.model == "custom" ? customSensorModel(sensor.elevations_deg)
+                        : !sensor.model && recovered != nullptr
+                            ? recovered->sensor
+                            : hagen::sensorModel(sensor.model.value_or("VLP-16"));
+    model.min_range_m = sensor.min_range_m.value_or(model.min_range_m);
+    model.max_range_m = sensor.max_range_m.value_or(model.max_range_m);
+    if (!(model.min_range_m < model.max_range_m)) {
+        throw SettingsError("sensor.min_range_m (" + base::shortestText(model.min_range_m) +
+                            ") is not below sensor.max_range_m (" +
+                            base::shortestText(model.max_range_m) + ")");
+    }
+    return model;
+}
+
+std::optional<Attitude> Settings::tiltOnLevelVehicle() const {
+    if (mount.roll_rad == 0 && mount.pitch_rad == 0) return std::nullopt;
+    return mount;
+}
+
+Options Settings::optionsFor(const RecoveredBeams* recovered) const {
+    if (sensor.model || recovered == nullptr) return options;
+    const Options standard;
+    Options fitting = options;
+    if (isAdapted("columns", *this)) {
+        fitting.columns = std::clamp(recovered->most_columns, kFewestColumns, options.columns);
+    }
+    if (isAdapted("window_size", *this)) {
+        const int half = recovered->sensor.rows() / 2;
+        fitting.window_size = std::clamp(half, kSmallestWindow, options.window_size);
+    }
+    if (isAdapted("principal_components", *this)) {
+        const double share = static_cast<double>(standard.principal_components) /
+                             static_cast<double>(standard.window_size);
+        const int components = static_cast<int>(std::lround(share * fitting.window_size));
+        fitting.principal_components = std::min(components, options.principal_components);
+    }
+    return fitting;
+}
+
+HagenFilter filterFor(const SensorModel& sensor, const Options& options) {
+    try {
+        return HagenFilter(sensor, options);
+    } catch (const std::invalid_argument& e) {
+        throw SettingsError(e.what());
+    }
+}
+
+void mergeSettings(const std::filesystem::path& file, Settings& settings, SettingsOrigin origin) {
+    Settings merged = settings;
+    Includes includes{origin};
+    mergeFile(file, includes, merged);
+    settings = merged;
+}
+
+std::string degreesText(float angle_rad) {
+    const double angle_deg = degrees(static_cast<double>(angle_rad));
+    for (int decimals = 0; decimals < 10; ++decimals) {
+        const std::string text = base::fixedText(angle_deg, decimals);
+        const double read_deg = base::numberFrom<double>(text).value();
+        if (static_cast<float>(radians(read_deg)) == angle_rad) return text;
+    }
+    return base::shortestText(angle_deg);
+}
+
+std::string dumpSettings(const Settings& settings) {
+    std::ostringstream text;
+    const auto line = [&](const std::string& key, const std::string& value, const SettingsKey& k) {
+        text << std::left << std::setw(32) << (key + ": " + value) << " # "
+             << (k.unit.empty() ? "" : "[" + k.unit + "] ") << k.what
+             << (k.symbol.empty() ? "" : " (the paper's " + k.symbol + ")") << "\n";
+    };
+    for (const OptionKey& key : optionKeys()) {
+        // Given in a file, it would hold as it is.
+        const std::string comment = isAdapted(key.name, settings) ? "# " : "";
+        line(comment + key.name, textOf(key, settings.options),
+             {key.name, key.unit, "", "", key.what, key.symbol});
+    }
+    const Settings::Sensor& sensor = settings.sensor;
+    std::map<std::string, std::string> values;
+    values["model"] = sensor.model.value_or(kRecoveredName);
+    std::vector<std::string> elevations;
+    for (const double elevation : sensor.elevations_deg)
+        elevations.push_back(base::shortestText(elevation));
+    if (!elevations.empty()) values["elevations_deg"] = "[" + joined(elevations, ", ") + "]";
+    const auto limit = [&](const char* key, std::optional<float> value) {
+        if (value) values[key] = base::shortestText(*value);
+    };
+    limit("min_range_m", sensor.min_range_m);
+    limit("max_range_m", sensor.max_range_m);
+    if (settings.mount.roll_rad != 0) {
+        values["mount_roll_deg"] = degreesText(settings.mount.roll_rad);
+    }
+    if (settings.mount.pitch_rad != 0) {
+        values["mount_pitch_deg"] = degreesText(settings.mount.pitch_rad);
+    }
+    text << "sensor:\n";
+    for (const SettingsKey& key : sensorKeys()) {
+        const auto value = values.find(key.name);
+        if (value != values.end()) line("  " + key.name, value->second, key);
+    }
+    text << airframeText(settings.airframe);
+    return text.str();
+}
+
+std::vector<SettingsKey> settingsKeys() {
+    std::vector<SettingsKey> keys;
+    for (const OptionKey& key : optionKeys()) {
+        keys.push_back(
+            {key.name, key.unit, textOf(key, Options()), rangeOf(key), key.what, key.symbol});
+    }
+    for (SettingsKey key : sensorKeys()) {
+        key.name = "sensor." + key.name;
+        keys.push_back(key);
+    }
+    keys.push_back({"airframe", "", "", "a list of box, sphere, learned",
+                    "parts of the vehicle: their returns are unclassified", ""});
+    keys.push_back({"include", "", "", "a file, or a list", "files merged before this one", ""});
+    return keys;
+}
+
+void setOption(const std::string& key, const std::string& value, Settings& settings) {
+    const OptionKey* option = findOption(key);
+    if (option == nullptr) {
+        std::vector<std::string> known;
+        for (const OptionKey& k : optionKeys()) known.push_back(k.name);
+        throw SettingsError(refusalOf(key, known));
+    }
+    parseOption(*option, YAML::Node(value), settings.options);
+    settings.given.insert(key);
+}
+
+}  // namespace hagen

@@ -1,0 +1,44 @@
+// Parts of settings files: YAML that says where it is wrong.
+#pragma once
+#include <yaml-cpp/yaml.h>
+
+#include <hagen/base/NumberText.h>
+#include <hagen/settings/Settings.h>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace hagen {
+
+/// The place of a value in a file, for messages.
+std::string at(const std::filesystem::path& file, const YAML::Node& node);
+
+/// The known word that is most similar to `word`. There is at least one.
+std::string nearestOf(const std::string& word, const std::vector<std::string>& known);
+
+/// The message for an unknown key, with the nearest of the known ones.
+std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
+
+/// Reads a file of one YAML document. Throws SettingsError naming file and line.
+YAML::Node parseFile(const std::filesystem::path& file);
+
+/// Reads a number within [least, most]; otherwise throws SettingsError with the allowed range.
+template <class Number>
+Number parseNumber(const YAML::Node& node, const std::string& key, double least, double most) {
+    // Integers are also read as real numbers, because YAML parses 010 as octal.
+    double value = 0;
+    const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
+    if (!is_number || (std::is_integral_v<Number> && value != std::floor(value))) {
+        throw SettingsError(key + " must be a " + (std::is_integral_v<Number> ? "whole " : "") +
+                            "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
+    }
+    if (!(value >= least && value <= most)) {  // also for NaN
+        throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
+                            base::shortestText(least) + " and " + base::shortestText(most));
+    }
+    return static_cast<Number>(value);
+}
+
+}  // namespace hagen

@@ -1,0 +1,21 @@
+#pragma once
+#include <hagen/range_image/Image.h>
+#include <filesystem>
+#include <string>
+
+namespace hagen {
+
+/// Reads a file of learned bins as Airframe::bin_range_m:
+///
+///     bin_deg: 2               # [deg] divides 180; 0.5 ... 30
+///     bins:                    # azimuth and elevation where a bin starts [deg], its range [m]
+///     - [-180, -16, 0.531]
+///
+/// A bin starts at a multiple of bin_deg; bins that are not in the file have range 0. Throws
+/// SettingsError naming file, line, key and what is allowed.
+Image<float> readAirframeBins(const std::filesystem::path& file);
+
+/// Returns the bins as the text of such a file. `origin` says in a comment where they are from.
+std::string airframeBinsText(const Image<float>& bin_range_m, const std::string& origin);
+
+}  // namespace hagen

@@ -1,0 +1,126 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/logs/RawlogReader.h>
+#include <hagen/recording/TurnRecorder.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/Program.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen::recording {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> labelsIn(const fs::path& file) {
+    logs::RawlogReader reader(file);
+    std::vector<std::string> labels;
+    while (const auto entry = reader.next()) {
+        const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry);
+        labels.push_back(observation ? observation->sensorLabel : "?");
+    }
+    return labels;
+}
+
+class TurnRecorderTest : public testing::Test {
+ protected:
+    TurnRecorder::Options optionsOf(const std::string& name) const {
+        TurnRecorder::Options options;
+        options.file = folder_ / name;
+        options.waits = true;
+        return options;
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(TurnRecorderTest, EachTurnIsFollowedByItsClouds) {
+    TurnRecorder recorder(optionsOf("a.rawlog"), {});
+    for (int k = 0; k < 3; ++k) recorder.add(test::poleScanFrom(k, "velodyne"));
+    EXPECT_FALSE(fs::exists(folder_ / "a.rawlog"));
+    const auto counts = recorder.finish();
+    EXPECT_EQ(counts.turns, 3u);
+    EXPECT_EQ(counts.left_out, 0u);
+    EXPECT_THAT(counts.files, ElementsAre(folder_ / "a.rawlog"));
+    const std::vector<std::string> labels = labelsIn(folder_ / "a.rawlog");
+    ASSERT_EQ(labels.size(), 9u);
+    for (std::size_t i = 0; i < 9; i += 3) {
+        EXPECT_EQ(labels[i], "velodyne");
+        EXPECT_EQ(labels[i + 1], "velodyne_roi");
+        EXPECT_EQ(labels[i + 2], "velodyne_non_roi");
+    }
+}
+
+TEST_F(TurnRecorderTest, FilesEndWhenTheyAreLongEnough) {
+    auto options = optionsOf("a.rawlog");
+    options.rotate_bytes = 150000;  // each turn is a member of about 100 kB
+    TurnRecorder recorder(options, {});
+    for (int k = 0; k < 6; ++k) recorder.add(test::poleScanFrom(k, "velodyne"));
+    const auto counts = recorder.finish();
+    ASSERT_GE(counts.files.size(), 2u);
+    EXPECT_EQ(counts.files[0], folder_ / "a.0001.rawlog");
+    EXPECT_EQ(counts.files[1], folder_ / "a.0002.rawlog");
+    std::size_t entries = 0;
+    for (const auto& file : counts.files) entries += labelsIn(file).size();
+    EXPECT_EQ(entries, 18u);
+    EXPECT_FALSE(fs::exists(folder_ / "a.rawlog"));
+}
+
+TEST_F(TurnRecorderTest, WithoutTurnsThereIsNoFile) {
+    TurnRecorder recorder(optionsOf("a.rawlog"), {});
+    EXPECT_TRUE(recorder.finish().files.empty());
+    EXPECT_TRUE(fs::is_empty(folder_.path()));
+}
+
+TEST_F(TurnRecorderTest, ExistingFilesAreKept) {
+    folder_.write("a.rawlog", "mine");
+    EXPECT_THAT(test::messageOf([&] { TurnRecorder(optionsOf("a.rawlog"), {}); }),
+                HasSubstr("a.rawlog"));
+    EXPECT_EQ(test::readFile(folder_ / "a.rawlog"), "mine");
+}
+
+TEST_F(TurnRecorderTest, AfterAKillTheFileIsReadable) {
+    const pid_t child = fork();
+    if (child == 0) {
+        TurnRecorder recorder(optionsOf("a.rawlog"), {});
+        for (int k = 0; k < 1000000; ++k) recorder.add(test::poleScanFrom(k % 10, "velodyne"));
+        _exit(0);
+    }
+    const auto written = [&]() -> std::uintmax_t {
+        for (const auto& file : fs::directory_iterator(folder_.path())) {
+            return fs::file_size(file.path());
+        }
+        return 0;
+    };
+    for (int i = 0; i < 2000 && written() < 500000; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const std::vector<fs::path> files = base::partialOutputs(folder_ / "a.rawlog");
+    ASSERT_EQ(files.size(), 1u);
+    // A member may be half written; all before it are read.
+    std::vector<std::string> labels;
+    try {
+        logs::RawlogReader reader(files[0]);
+        while (const auto entry = reader.next()) {
+            labels.push_back(
+                std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry)->sensorLabel);
+        }
+    } catch (const std::runtime_error& e) {
+        EXPECT_THAT(e.what(), HasSubstr(files[0].string()));
+    }
+    EXPECT_GE(labels.size(), 3u);
+}
+
+}  // namespace
+}  // namespace hagen::recording
