@@ -44,7 +44,8 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION libs)
 endforeach()
 
-# The first line of each description is the summary.
+# The first line of each description is the summary; CPack would put that of the project before it.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(about "Hagen separates near obstacles (regions of interest) from ground and distant
 returns in the scans of a sparse LiDAR on board a drone, in real time and
 without a map.
@@ -58,9 +59,9 @@ This package has the libraries for observations and logs of MRPT, recordings
 of several kinds, simulation, evaluation and obstacle avoidance.")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "obstacle detection in sparse LiDAR scans: development files
 ${about}
-This package has headers, CMake packages and pkg-config files. The filter
-needs Eigen only; other components of find_package(hagen) need libhagen-mrpt
-and the other recommended packages.")
+This package has headers, CMake packages, pkg-config files and examples. The
+filter needs Eigen only; other components of find_package(hagen) need
+libhagen-mrpt and the other recommended packages.")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "obstacle detection in sparse LiDAR scans: programs
 ${about}
 This package has programs that segment recordings (rawlogs of MRPT, network
@@ -97,6 +98,10 @@ set(documents ${CMAKE_INSTALL_DATADIR}/doc)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents}/hagen-tools COMPONENT tools)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents}/hagen-tools COMPONENT tools
         PATTERN Doxyfile EXCLUDE PATTERN "*.tar.xz" EXCLUDE PATTERN site EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/docs/cpp.md ${PROJECT_SOURCE_DIR}/docs/mrpt.md
+        DESTINATION ${documents}/libhagen-dev COMPONENT dev)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents}/libhagen-dev COMPONENT dev
+        PATTERN python EXCLUDE REGEX "examples/CMakeLists.txt$" EXCLUDE)
 if(HAGEN_BUILD_PYTHON)
   install(FILES ${PROJECT_SOURCE_DIR}/docs/python.md DESTINATION ${documents}/python3-hagen COMPONENT python)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python/ DESTINATION ${documents}/python3-hagen/examples
