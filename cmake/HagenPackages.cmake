@@ -14,6 +14,7 @@ set(package_tools hagen-tools)
 set(package_python python3-hagen)
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_PACKAGE_NAME hagen)
 set(CPACK_PACKAGE_CONTACT "${HAGEN_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -132,8 +133,8 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   install(FILES ${package_dir}/copyright ${package_dir}/changelog.Debian.gz ${package_dir}/changelog.gz
           DESTINATION ${documents}/${package_${component}} COMPONENT ${component})
 endforeach()
-# CPack calls ldconfig itself, but Debian wants the trigger.
 file(WRITE ${package_dir}/triggers "activate-noawait ldconfig\n")
+set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/without_ldconfig.cmake)
 set(CPACK_DEBIAN_FILTER_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
 set(CPACK_DEBIAN_MRPT_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
 # Python's compiled files come and go with the package.

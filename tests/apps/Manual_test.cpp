@@ -21,6 +21,8 @@ struct Program {
     std::vector<std::string> commands;
     std::string name() const { return fs::path(path).filename().string(); }
 };
+/// In the names of tests, which would have the bytes of a Program otherwise.
+void PrintTo(const Program& program, std::ostream* out) { *out << program.name(); }
 
 bool isInstalled(const std::string& program) {
     return test::run("/bin/sh", {"-c", "command -v " + program}).exit_code == 0;
