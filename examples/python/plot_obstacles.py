@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the obstacles of a scan from above, one colour each, and the ground in grey: of the fullest of a recording's first
-three scans.
+"""Draws the obstacles of a scan from above, one colour each, and the ground in grey.
 
 usage: plot_obstacles.py RECORDING [FOLDER]     without a folder, in a window
 """
@@ -15,7 +14,7 @@ import hagen
 
 
 def draw(recording, folder=None):
-    # The first turn of a capture may be a part of one.
+    # The fullest of three: the first turn of a capture may be a part of one.
     scan = max(itertools.islice(hagen.open(recording), 3), key=len, default=None)
     if scan is None:
         raise RuntimeError(f"{recording}: has no LiDAR scan")
@@ -28,7 +27,8 @@ def draw(recording, folder=None):
     shown_m = np.clip(1.2 * np.abs(scan.xyz[near, :2]).max(initial=0), 5, 25)  # a room, or the zone
     figure, axes = plt.subplots(figsize=(8, 8), layout="constrained")
     axes.scatter(y[ground], x[ground], s=1, color="0.8")
-    axes.scatter(y[near], x[near], s=3, c=result.obstacles[near] % 20, cmap="tab20")
+    colours = np.delete(plt.get_cmap("tab20").colors, [14, 15], axis=0)  # its greys look like ground
+    axes.scatter(y[near], x[near], s=3, c=colours[result.obstacles[near] % len(colours)])
     axes.plot(0, 0, "k+")
     axes.set(
         xlim=(shown_m, -shown_m), ylim=(-shown_m, shown_m), aspect="equal", xlabel="left [m]", ylabel="forward [m]",
