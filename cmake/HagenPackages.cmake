@@ -14,6 +14,7 @@ set(package_tools hagen-tools)
 set(package_python python3-hagen)
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_PACKAGE_NAME hagen)
 set(CPACK_PACKAGE_CONTACT "${HAGEN_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -44,7 +45,8 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION libs)
 endforeach()
 
-# The first line of each description is the summary.
+# The first line of each description is the summary; CPack would put that of the project before it.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(about "Hagen separates near obstacles (regions of interest) from ground and distant
 returns in the scans of a sparse LiDAR on board a drone, in real time and
 without a map.
@@ -58,9 +60,9 @@ This package has the libraries for observations and logs of MRPT, recordings
 of several kinds, simulation, evaluation and obstacle avoidance.")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "obstacle detection in sparse LiDAR scans: development files
 ${about}
-This package has headers, CMake packages and pkg-config files. The filter
-needs Eigen only; other components of find_package(hagen) need libhagen-mrpt
-and the other recommended packages.")
+This package has headers, CMake packages, pkg-config files and examples. The
+filter needs Eigen only; other components of find_package(hagen) need
+libhagen-mrpt and the other recommended packages.")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "obstacle detection in sparse LiDAR scans: programs
 ${about}
 This package has programs that segment recordings (rawlogs of MRPT, network
@@ -97,6 +99,10 @@ set(documents ${CMAKE_INSTALL_DATADIR}/doc)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents}/hagen-tools COMPONENT tools)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents}/hagen-tools COMPONENT tools
         PATTERN Doxyfile EXCLUDE PATTERN "*.tar.xz" EXCLUDE PATTERN site EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/docs/cpp.md ${PROJECT_SOURCE_DIR}/docs/mrpt.md
+        DESTINATION ${documents}/libhagen-dev COMPONENT dev)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents}/libhagen-dev COMPONENT dev
+        PATTERN python EXCLUDE REGEX "examples/CMakeLists.txt$" EXCLUDE)
 if(HAGEN_BUILD_PYTHON)
   install(FILES ${PROJECT_SOURCE_DIR}/docs/python.md DESTINATION ${documents}/python3-hagen COMPONENT python)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/python/ DESTINATION ${documents}/python3-hagen/examples
@@ -127,8 +133,8 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   install(FILES ${package_dir}/copyright ${package_dir}/changelog.Debian.gz ${package_dir}/changelog.gz
           DESTINATION ${documents}/${package_${component}} COMPONENT ${component})
 endforeach()
-# CPack calls ldconfig itself, but Debian wants the trigger.
 file(WRITE ${package_dir}/triggers "activate-noawait ldconfig\n")
+set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/without_ldconfig.cmake)
 set(CPACK_DEBIAN_FILTER_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
 set(CPACK_DEBIAN_MRPT_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
 # Python's compiled files come and go with the package.

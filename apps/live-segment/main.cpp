@@ -49,8 +49,8 @@ void declare(Program& app, Flags& flags) {
         .showDefault()
         .valueName("X")
         .group("Input");
-    app.option("--model", flags.live.model, "the sensor:" + live::liveModels())
-        .valueName("NAME")
+    app.option("--model", flags.live.model, "the sensor")
+        .valueName(live::liveModels("|"))
         .group("Input");
     app.option("--calibration", flags.live.calibration,
                "calibration of an HDL-64E (Velodyne's db.xml)")
@@ -95,7 +95,7 @@ void check(Flags& flags) {
         throw UsageError("--speed", "is of --replay only");
     }
     if (flags.live.model.empty() && flags.live.sensor_json.empty()) {
-        throw UsageError("--model or, of an Ouster, --sensor-json is required; models:" +
+        throw UsageError("--model or, of an Ouster, --sensor-json is required; models: " +
                          live::liveModels());
     }
     checkAutopilot(flags.autopilot);
@@ -201,10 +201,15 @@ int run(const Program& program, Flags& flags) {
             return program.fail(kFailed, report.recorded.failure);
         }
         if (report.packets > 0) return kDone;
-        return program.fail(kFailed, flags.live.model.empty()
-                                         ? "no packet of the Ouster of " +
-                                               flags.live.sensor_json.string() + " has come"
-                                         : "no packet of a " + flags.live.model + " has come");
+        const std::string sensor = flags.live.model.empty()
+                                       ? "the Ouster of " + flags.live.sensor_json.string()
+                                       : "a " + flags.live.model;
+        std::string problem = "no packet of " + sensor + " has come";
+        if (report.foreign > 0) {
+            problem += ", but " + std::to_string(report.foreign) + " of other sensors: see " +
+                       (flags.live.model.empty() ? "--sensor-json" : "--model");
+        }
+        return program.fail(kFailed, problem);
     } catch (const SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }

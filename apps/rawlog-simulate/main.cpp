@@ -32,9 +32,9 @@ void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
         return "unknown scenario '" + name + "'; known are " + known;
     };
 
-    app.option("--scenario", log.scenario, "the scene: " + known)
+    app.option("--scenario", log.scenario, "the scene")
         .required()
-        .check(known_scenario, "NAME")
+        .check(known_scenario, "{" + known + "}")
         .group("Flight");
     app.option("--scans", log.scans, "number of scans")
         .required()

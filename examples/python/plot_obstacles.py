@@ -3,6 +3,7 @@
 
 usage: plot_obstacles.py RECORDING [FOLDER]     without a folder, in a window
 """
+import itertools
 import pathlib
 import sys
 
@@ -13,7 +14,8 @@ import hagen
 
 
 def draw(recording, folder=None):
-    scan = next(hagen.open(recording), None)
+    # The fullest of three: the first turn of a capture may be a part of one.
+    scan = max(itertools.islice(hagen.open(recording), 3), key=len, default=None)
     if scan is None:
         raise RuntimeError(f"{recording}: has no LiDAR scan")
     result = hagen.Filter("vlp16").segment(scan)
@@ -22,12 +24,14 @@ def draw(recording, folder=None):
     ground = result.labels == hagen.ROU
     near = result.obstacles > 0
     sizes = np.bincount(result.obstacles[near])
+    shown_m = np.clip(1.2 * np.abs(scan.xyz[near, :2]).max(initial=0), 5, 25)  # a room, or the zone
     figure, axes = plt.subplots(figsize=(8, 8), layout="constrained")
     axes.scatter(y[ground], x[ground], s=1, color="0.8")
-    axes.scatter(y[near], x[near], s=3, c=result.obstacles[near] % 20, cmap="tab20")
+    colours = np.delete(plt.get_cmap("tab20").colors, [14, 15], axis=0)  # its greys look like ground
+    axes.scatter(y[near], x[near], s=3, c=colours[result.obstacles[near] % len(colours)])
     axes.plot(0, 0, "k+")
     axes.set(
-        xlim=(25, -25), ylim=(-25, 25), aspect="equal", xlabel="left [m]", ylabel="forward [m]",
+        xlim=(shown_m, -shown_m), ylim=(-shown_m, shown_m), aspect="equal", xlabel="left [m]", ylabel="forward [m]",
         title=f"{np.count_nonzero(sizes >= 30)} obstacles of 30 returns or more within 20 m",
     )  # fmt: skip
     if folder is None:
@@ -35,6 +39,7 @@ def draw(recording, folder=None):
             raise RuntimeError("there is no display for a window: name a FOLDER for the picture")
         plt.show()
     else:
+        pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
         figure.savefig(pathlib.Path(folder) / "obstacles.png", dpi=120)
 
 

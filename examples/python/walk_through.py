@@ -30,6 +30,7 @@ print(scan, result)
 
 def show(name, figure):
     if len(sys.argv) == 3:
+        pathlib.Path(sys.argv[2]).mkdir(parents=True, exist_ok=True)
         figure.savefig(pathlib.Path(sys.argv[2]) / f"{name}.png", dpi=120)
     else:
         plt.show()

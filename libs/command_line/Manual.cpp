@@ -73,7 +73,20 @@ std::vector<std::string> choicesOf(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     const std::size_t begin = type.find('{'), end = type.find('}');
     if (begin == std::string::npos || end == std::string::npos) return {};
-    return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
+    std::vector<std::string> words =
+        CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
+    for (std::string& word : words) CLI::detail::trim(word);
+    return words;
+}
+
+/// Those that a shell completes: a word with a space would need quotes.
+std::vector<std::string> completedChoicesOf(const CLI::Option& option) {
+    std::vector<std::string> words = choicesOf(option);
+    words.erase(
+        std::remove_if(words.begin(), words.end(),
+                       [](const std::string& word) { return word.find(' ') != std::string::npos; }),
+        words.end());
+    return words;
 }
 
 bool isNumber(const CLI::Option& option) {
@@ -279,7 +292,7 @@ std::string bashValues(const CLI::App& app, const std::string& command,
         std::vector<std::string> patterns;
         for (const std::string& name : namesOf(*option)) patterns.push_back(command + "," + name);
         const std::string pattern = "        " + joined(patterns, "|") + ")\n            ";
-        const std::vector<std::string> choices = choicesOf(*option);
+        const std::vector<std::string> choices = completedChoicesOf(*option);
         if (!choices.empty()) {
             text += pattern + "mapfile -t COMPREPLY < <(compgen -W " +
                     quoted(joined(choices, " ")) + " -- \"$cur\")\n            return\n" +
@@ -355,7 +368,7 @@ std::string zshArguments(const CLI::App& app, const std::string& function,
     for (const CLI::Option* option : flagsOf(app)) {
         std::string action;
         if (takesValue(*option)) {
-            const std::vector<std::string> choices = choicesOf(*option);
+            const std::vector<std::string> choices = completedChoicesOf(*option);
             action = ":" + zshMessage(valueOf(*option)) + ":";
             if (!choices.empty()) {
                 action += "(" + joined(choices, " ") + ")";

@@ -201,10 +201,10 @@ LiveReport Session::finish(double start_cpu_s) {
 
 }  // namespace
 
-std::string liveModels() {
+std::string liveModels(const std::string& separator) {
     std::string names;
     for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", kHdl64, kLivox}) {
-        names += (names.empty() ? " " : ", ") + std::string(name);
+        names += (names.empty() ? "" : separator) + name;
     }
     return names;
 }
@@ -225,7 +225,7 @@ void checkLive(const LiveOptions& options) {
             packets::velodyneModel(options.model);
         } catch (const std::invalid_argument&) {
             throw std::runtime_error("'" + options.model +
-                                     "' cannot be labelled live; supported are" + liveModels() +
+                                     "' cannot be labelled live; supported are " + liveModels() +
                                      ". An Ouster needs its metadata: --sensor-json FILE");
         }
     }

@@ -63,12 +63,13 @@ def test_own_presets_go_first(tmp_path):
 def test_examples_draw(example, tmp_path):
     pytest.importorskip("matplotlib")
     recording = SOURCES / "rawlogs" / "orchard.rawlog"
+    folder = tmp_path / "made" / "by the example"
     subprocess.run(
-        [sys.executable, SOURCES / "examples" / "python" / example, recording, tmp_path],
+        [sys.executable, SOURCES / "examples" / "python" / example, recording, folder],
         env={**os.environ, "MPLBACKEND": "Agg"},
         check=True,
     )
-    pictures = list(tmp_path.glob("*.png"))
+    pictures = list(folder.glob("*.png"))
     assert pictures and all(picture.stat().st_size > 10000 for picture in pictures)
 
 

@@ -21,6 +21,8 @@ struct Program {
     std::vector<std::string> commands;
     std::string name() const { return fs::path(path).filename().string(); }
 };
+/// In the names of tests, which would have the bytes of a Program otherwise.
+void PrintTo(const Program& program, std::ostream* out) { *out << program.name(); }
 
 bool isInstalled(const std::string& program) {
     return test::run("/bin/sh", {"-c", "command -v " + program}).exit_code == 0;
@@ -180,6 +182,12 @@ TEST(Completion, OffersTheWordsOfAChoice) {
     EXPECT_EQ(bashOffers(segment, {"--cloud", ""}), (Words{"simple", "xyzi", "generic"}));
     EXPECT_EQ(bashOffers(segment, {"--octomap-content", "roi"}), (Words{"roi", "roi+rays"}));
     EXPECT_EQ(bashOffers(segment, {"--from", ""}), Words{});
+    const Program simulate{HAGEN_RAWLOG_SIMULATE, {}};
+    EXPECT_EQ(bashOffers(simulate, {"--scenario", "forest"}),
+              (Words{"forest-0.02", "forest-0.05", "forest-0.10"}));
+    const Program live{HAGEN_LIVE_SEGMENT, {}};
+    EXPECT_EQ(bashOffers(live, {"--model", ""}),  // not "Puck Hi-Res", which has a space
+              (Words{"VLP-16", "HDL-32E", "VLP-32C", "HDL-64E", "Mid-360"}));
     const Program compare{HAGEN_OCTOMAP_COMPARE, {}};
     EXPECT_EQ(bashOffers(compare, {"closedloop", "--unknown", "b"}), Words{"brake-known"});
 }

@@ -95,8 +95,8 @@ struct LiveListener {
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// The models that LiveOptions takes: " VLP-16, ...".
-std::string liveModels();
+/// The models that LiveOptions takes: "VLP-16, ...".
+std::string liveModels(const std::string& separator = ", ");
 
 /// Throws std::runtime_error saying what is wrong, and what is supported, unless such a sensor can
 /// be labelled and recorded as the options say.
