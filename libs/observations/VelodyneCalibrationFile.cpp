@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/observations/VelodyneCalibrationFile.h>
 #include <hagen/observations/VelodyneModel.h>
 #include <hagen/range_image/Angle.h>
@@ -20,7 +21,7 @@ namespace {
 
 using mrpt::obs::VelodyneCalibration;
 
-constexpr std::uintmax_t kMostBytes = 4 << 20;
+constexpr std::size_t kMostBytes = 4 << 20;
 constexpr std::size_t kMostDepth = 32;
 
 std::string_view trimmed(std::string_view text) {
@@ -188,14 +189,7 @@ VelodyneCalibration calibrationOf(std::string_view xml) {
 }  // namespace
 
 VelodyneCalibration readVelodyneCalibration(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) {
-        throw std::runtime_error(file.string() + ": cannot be read");
-    }
-    if (std::filesystem::file_size(file) > kMostBytes) {
-        throw std::runtime_error(file.string() + ": is no calibration of a Velodyne: too large");
-    }
-    const std::string xml{std::istreambuf_iterator<char>(stream), {}};
+    const std::string xml = base::readText(file, kMostBytes);
     try {
         return calibrationOf(xml);
     } catch (const std::runtime_error& e) {
