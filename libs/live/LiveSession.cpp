@@ -46,6 +46,8 @@ class Session {
     /// Tells silence, shows the status; if no packet waits, ends the sector in progress.
     void look(bool is_idle);
     LiveReport finish(double start_cpu_s);
+    /// Throws as TurnRecorder::finish().
+    TurnRecorder::Counts endRecording();
     LiveReport& report() { return report_; }
 
  private:
@@ -80,6 +82,10 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     if (options.recording.file.empty()) return;
     TurnRecorder::Options recording = options.recording;
     recording.waits = !is_live;
+    recording.others.insert(recording.others.end(), {options.stats, options.replay,
+                                                     options.calibration, options.sensor_json});
+    recording.others.insert(recording.others.end(), options.settings.files.begin(),
+                            options.settings.files.end());
     recorder_ = std::make_unique<TurnRecorder>(recording, options.settings);
 }
 
@@ -203,8 +209,11 @@ LiveReport Session::finish(double start_cpu_s) {
     copyCounts();
     report_.filter_cpu_s = threadCpu_s() - start_cpu_s;
     record();
-    if (recorder_) report_.recorded = recorder_->finish();
     return report_;
+}
+
+TurnRecorder::Counts Session::endRecording() {
+    return recorder_ ? recorder_->finish() : TurnRecorder::Counts();
 }
 
 }  // namespace
@@ -247,6 +256,9 @@ void checkLive(const LiveOptions& options) {
 
 LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveListener& listener) {
     checkLive(options);
+    std::vector<std::filesystem::path> inputs = options.settings.files;
+    inputs.insert(inputs.end(), {options.replay, options.calibration, options.sensor_json});
+    base::checkApart({options.recording.file, options.stats}, inputs);
     std::optional<base::OutputPath> stats;
     if (!options.stats.empty()) stats.emplace(options.stats, base::kFile, options.overwrite);
     Session session(options, listener, source.isLive());
@@ -295,6 +307,11 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     // Those that still wait are labelled by nobody.
     session.report().dropped = dropped + (source.isLive() ? queue.size() : 0);
     LiveReport report = session.finish(cpu_s);
+    try {
+        report.recorded = session.endRecording();
+    } catch (const std::exception&) {  // costs no other output
+        failure = std::current_exception();
+    }
     report.process_cpu_s = processCpu_s() - process_s;
     if (stats) writeStats(report, options, listener, *stats);
     if (failure) std::rethrow_exception(failure);
