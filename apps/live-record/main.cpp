@@ -26,7 +26,7 @@ using namespace hagen::command_line;
 struct Flags {
     std::string model;
     std::filesystem::path sensor_json, calibration;
-    std::vector<std::filesystem::path> settings_files;
+    std::vector<std::filesystem::path> settings_files, kept;
     recording::TurnRecorder::Options recording;
 };
 
@@ -36,6 +36,9 @@ void declare(Program& app, Flags& flags) {
     app.option("--calibration", flags.calibration, "of an HDL-64E").valueName("FILE");
     app.option("--config", flags.settings_files, "settings file; may be repeated").once();
     app.option("--record", flags.recording.file, "the rawlog").required().valueName("FILE");
+    app.option("--keep", flags.kept, "a file that no recording may replace; may be repeated")
+        .once()
+        .valueName("FILE");
     app.option("--rotate-bytes", flags.recording.rotate_bytes,
                "a new file whenever one is this long; 0: one file");
     app.flag("--overwrite", flags.recording.overwrite, "replaces existing files");
@@ -58,6 +61,15 @@ bool hasSocket() {
     return fstat(STDIN_FILENO, &input) == 0 && S_ISSOCK(input.st_mode);
 }
 
+/// What is recorded to, and what may not be replaced: inputs, and other outputs.
+recording::TurnRecorder::Options recordingOf(const Flags& flags, const Settings& settings) {
+    recording::TurnRecorder::Options options = flags.recording;
+    options.others = flags.kept;
+    options.others.insert(options.others.end(), {flags.sensor_json, flags.calibration});
+    options.others.insert(options.others.end(), settings.files.begin(), settings.files.end());
+    return options;
+}
+
 int run(const Flags& flags) {
     if (!hasSocket()) throw UsageError("live-segment --record starts this program, not you");
     const int socket = takeSocket();
@@ -71,7 +83,7 @@ int run(const Flags& flags) {
         Settings settings;
         for (const auto& file : flags.settings_files) mergeSettings(file, settings);
         turns = recording::makeSensorTurns(flags.model, flags.sensor_json, flags.calibration);
-        recorder.emplace(flags.recording, settings);
+        recorder.emplace(recordingOf(flags, settings), settings);
     } catch (const std::exception& e) {
         live::sendLine(socket, live::failedLine(e.what()));
         return kFailed;

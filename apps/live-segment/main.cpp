@@ -99,6 +99,7 @@ void check(Flags& flags) {
                          live::liveModels());
     }
     checkAutopilot(flags.autopilot);
+    flags.live.replay = flags.replay;
     flags.live.overwrite = flags.live.recording.overwrite = flags.overwrite;
     flags.live.recording.rotate_bytes = static_cast<std::size_t>(flags.rotate_mb * 1e6);
     try {

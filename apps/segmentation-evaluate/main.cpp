@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <hagen/command_line/CommandLine.h>
+#include <hagen/command_line/Interrupt.h>
 #include <hagen/labelled_scans/Charts.h>
 #include <hagen/labelled_scans/HardSets.h>
 #include <hagen/labelled_scans/LabelledFolders.h>
@@ -92,8 +95,9 @@ auto fromFlag(const std::string& name, Read read) -> std::optional<decltype(read
 
 /// The outputs. None appears before all are complete.
 struct Outputs {
-    Outputs(const Flags& flags, const labelled_scans::MethodSet& rows) {
-        std::vector<fs::path> inputs(flags.folders.begin(), flags.folders.end());
+    Outputs(const Flags& flags, const labelled_scans::MethodSet& rows,
+            std::vector<fs::path> inputs) {
+        inputs.insert(inputs.end(), flags.folders.begin(), flags.folders.end());
         for (const labelled_scans::LabelRow& row : rows.labels) inputs.push_back(row.folder);
         base::checkApart({flags.json, flags.charts, flags.overlay}, inputs);
         const auto open = [&](const std::string& path, const base::OutputKind& kind,
@@ -114,7 +118,12 @@ struct Outputs {
     std::optional<base::OutputPath> json, charts, overlay;
 };
 
+void endIfInterrupted() {
+    if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+}
+
 int run(const Flags& flags, labelled_scans::Summary summary) {
+    catchSignals();
     for (const std::string& config : flags.configs)
         mergeSettings(presetFile(config), summary.settings);
     labelled_scans::MethodSet rows;
@@ -130,13 +139,16 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
         labelled_scans::sourcesOf(inputs.folders, inputs.rows, inputs.label_map);
     const std::vector<evaluation::Degradation> degradations =
         labelled_scans::degradationsOf(flags.degradations, flags.with_hard_sets, inputs);
-    Outputs outputs(flags, rows);
+    std::vector<fs::path> settings_files = summary.settings.files;
+    settings_files.insert(settings_files.end(), {flags.label_map, flags.camera});
+    Outputs outputs(flags, rows, std::move(settings_files));
 
     std::vector<evaluation::MethodScores> methods;
     std::vector<labelled_scans::HardSet> hard_sets;
     {
         Progress progress(sources, 1 + degradations.size());
         methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
+            endIfInterrupted();
             progress.show(view);
             if (!outputs.overlay) return;
             labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source]->name(),
@@ -145,6 +157,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
         hard_sets = labelled_scans::scoreHardSets(
             inputs, degradations, options.range,
             [&](const std::string& degradation, const evaluation::MethodOutput& view) {
+                endIfInterrupted();
                 progress.show(view, degradation + ": ");
             });
     }
@@ -162,6 +175,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     labelled_scans::addHardSets(hard_sets, summary);
     if (outputs.json) labelled_scans::writeJson(outputs.json->temporary(), summary);
     if (outputs.charts) labelled_scans::drawCharts(outputs.charts->temporary(), summary);
+    endIfInterrupted();
     outputs.commit();
     std::cout << reportOf(summary);
     return 0;

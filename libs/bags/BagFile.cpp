@@ -1,4 +1,5 @@
 #include <hagen/bags/BagFile.h>
+#include <hagen/base/ReadFile.h>
 
 #include <fstream>
 
@@ -12,7 +13,7 @@ namespace {
 
 std::string startOf(const std::filesystem::path& file) {
     std::string start(16, '\0');
-    std::ifstream stream(file, std::ios::binary);
+    std::ifstream stream = base::openToRead(file);
     stream.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(stream.gcount()));
     return start;

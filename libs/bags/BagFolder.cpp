@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kMetadata = "metadata.yaml";
 constexpr const char* kSection = "rosbag2_bagfile_information";
-constexpr std::uintmax_t kMostMetadata = 64 << 20;
+constexpr std::size_t kMostMetadata = 2 << 20;
 
 /// What a metadata.yaml says about a bag.
 struct Metadata {
@@ -26,8 +26,7 @@ Metadata metadataOf(const fs::path& folder) {
     std::error_code none;
     if (!fs::is_regular_file(file, none)) return {};
     try {
-        if (fs::file_size(file) > kMostMetadata) return {std::nullopt, "it is too large"};
-        const YAML::Node all = YAML::Load(base::readText(file));
+        const YAML::Node all = YAML::Load(base::readText(file, kMostMetadata));
         if (all.IsMap() && all[kSection] && all[kSection].IsMap()) return {all[kSection], ""};
     } catch (const std::exception& e) {
         return {std::nullopt, e.what()};

@@ -1,5 +1,6 @@
 #include "SqliteBag.h"
 
+#include <hagen/base/ReadFile.h>
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ std::string uriOf(const fs::path& file) {
 /// Why a database lacks pages at its end; empty if it does not, or does not say how many there are.
 std::string whyCut(const fs::path& file) {
     std::array<unsigned char, 100> header{};
-    std::ifstream stream(file, std::ios::binary);
+    std::ifstream stream = base::openToRead(file);
     if (!stream.read(reinterpret_cast<char*>(header.data()), header.size())) {
         return "its header is cut off";
     }

@@ -149,6 +149,8 @@ FileKind kindOfBytes(std::string_view start) {
 }
 
 FileKind kindOfFile(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return {};
     std::ifstream stream(file, std::ios::binary);
     std::string start(kFileKindBytes, '\0');
     stream.read(start.data(), static_cast<std::streamsize>(start.size()));

@@ -136,6 +136,7 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
         throw std::runtime_error(folder.string() + ": no such folder to write to");
     }
     temporary_ = secretName(path_, kTemporaryMark);
+    reserveForRemoval();
 }
 
 OutputPath::~OutputPath() { removeAll(temporary_); }

@@ -1,6 +1,7 @@
 #include "CloudBytes.h"
 
 #include <hagen/base/NumberText.h>
+#include <hagen/base/ReadFile.h>
 
 #include <cmath>
 #include <fstream>
@@ -38,10 +39,13 @@ bool put(std::string_view word, std::uint8_t* to) {
 }  // namespace
 
 Bytes readBytes(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in || !std::filesystem::is_regular_file(file)) {
-        throw BrokenCloud(file.string() + ": cannot be read");
+    std::ifstream in;
+    try {
+        in = base::openToRead(file);
+    } catch (const std::runtime_error& e) {
+        throw BrokenCloud(e.what());
     }
+    in.seekg(0, std::ios::end);
     Bytes bytes(static_cast<std::size_t>(in.tellg()));
     in.seekg(0);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/clouds/CloudFile.h>
 
 #include <hagen/base/FileKind.h>
@@ -117,7 +118,7 @@ bool hasCloudName(const std::filesystem::path& file) {
 }
 
 BinStart startOfBin(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
+    std::ifstream in = base::openToRead(file);
     Bytes bytes(kStart);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));

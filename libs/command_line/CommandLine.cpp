@@ -1,17 +1,25 @@
 #include <hagen/command_line/CommandLine.h>
 
+#include <sys/stat.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <new>
 #include <sstream>
+#include <string_view>
+#include <type_traits>
 
 #include <hagen/base/MemoryLimit.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/command_line/Interrupt.h>
 #include <hagen/command_line/Terminal.h>
 #include "Manual.h"
+#include "Stacks.h"
 #include "StandardStreams.h"
 
 namespace hagen::command_line {
@@ -126,9 +134,48 @@ Flag& Flag::showDefault() {
 }
 bool Flag::isGiven() const { return option_->count() > 0; }
 
+namespace {
+
+/// The number in a value, as in std::optional<float> and std::vector<double>; otherwise the value.
+template <class Value>
+struct NumberIn {
+    using Type = Value;
+};
+template <class Number>
+struct NumberIn<std::optional<Number>> {
+    using Type = Number;
+};
+template <class Number>
+struct NumberIn<std::vector<Number>> {
+    using Type = Number;
+};
+
+/// What is wrong with the text of a number; "" if nothing is. CLI11 takes nan, which passes each of
+/// its checks of ranges, and takes -1 and 99999999999999999999 for other unsigned numbers.
+template <class Number>
+std::string errorOfNumber(const std::string& text) {
+    const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const auto number = base::numberFrom<Number>(std::string_view(text).substr(has_plus ? 1 : 0));
+    if constexpr (std::is_floating_point_v<Number>) {
+        return number && std::isfinite(*number) ? "" : "'" + text + "' is not a finite number";
+    } else {
+        using Limits = std::numeric_limits<Number>;
+        if (number) return "";
+        return "'" + text + "' is not a whole number from " + std::to_string(Limits::min()) +
+               " to " + std::to_string(Limits::max());
+    }
+}
+
+}  // namespace
+
 template <class Value>
 Flag Command::option(const std::string& names, Value& value, const std::string& help) {
-    return Flag(*app_->add_option(names, value, help));
+    CLI::Option* const option = app_->add_option(names, value, help);
+    using Number = typename NumberIn<Value>::Type;
+    if constexpr (std::is_arithmetic_v<Number>) {
+        option->check(CLI::Validator(errorOfNumber<Number>, ""));
+    }
+    return Flag(*option);
 }
 template Flag Command::option(const std::string&, std::string&, const std::string&);
 template Flag Command::option(const std::string&, fs::path&, const std::string&);
@@ -245,9 +292,11 @@ std::string extrasText(const CLI::App& app, int argc, char** argv) {
 
 }  // namespace
 
-int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
+namespace {
+
+int caught(const std::function<int()>& program) noexcept {
     try {
-        return program(argc, argv);
+        return program();
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "%s: out of memory\n", program_invocation_short_name);
     } catch (const std::exception& e) {
@@ -258,11 +307,31 @@ int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexce
     return kFailed;
 }
 
+}  // namespace
+
+int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
+    const auto call = [&] { return program(argc, argv); };
+    const auto work = [&] { return caught(std::cref(call)); };  // a reference takes no memory
+    return withRoomyStacks(std::cref(work));
+}
+
+namespace {
+
+/// Outputs can be read and removed by who writes them, whatever the umask.
+void keepOwnersRights() {
+    constexpr mode_t kOwner = S_IRWXU;
+    umask(umask(0) & ~kOwner);
+}
+
+}  // namespace
+
 Program::Program(std::string name, const std::string& description)
     : Program(std::make_unique<CLI::App>(description), std::move(name)) {}
 Program::Program(std::unique_ptr<CLI::App> app, std::string name)
     : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {
     reserveStandardStreams();
+    ignoreWriteSignals();
+    keepOwnersRights();
     keepTerminalSafe();
     app_->formatter(std::make_shared<HelpText>());  // subcommands inherit it
 }
@@ -293,10 +362,10 @@ int Program::printed(int exit_code, const std::string& what) const {
 int Program::run(int argc, char** argv, const std::function<int()>& work) {
     constexpr double kGb = 1e9;
     double memory_gb = static_cast<double>(base::machineBytes()) / 2 / kGb;
-    app_->add_option("--memory-limit", memory_gb,
-                     "memory that the program may take, in GB (default: half of the machine's)")
-        ->check(CLI::Range(0.05, 1e6))
-        ->option_text("GB");
+    option("--memory-limit", memory_gb,
+           "memory that the program may take, in GB (default: half of the machine's)")
+        .between(0.05, 1e6)
+        .valueName("GB");
     // For the build only: PROGRAM --hagen-manual man DATE, bash or zsh.
     if (argc > 2 && std::string(argv[1]) == "--hagen-manual") {
         const std::string kind = argv[2];

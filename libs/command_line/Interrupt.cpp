@@ -28,8 +28,11 @@ void interrupt(int signal) {
 
 }  // namespace
 
-void catchSignals() {
+void ignoreWriteSignals() {
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+}
+
+void catchSignals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);

@@ -8,11 +8,33 @@
 namespace hagen::command_line {
 namespace {
 
-char printable(char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
-    return is_control ? '?' : c;
-}
+/// Replaces what commands a terminal, byte by byte: control characters, also those from 0x80 on
+/// (such as U+009B, which begins commands) in UTF-8, and bytes that are no UTF-8, which are control
+/// characters of terminals with 8 bits.
+class Utf8Filter {
+ public:
+    char printable(char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80) {
+            following_ = 0;
+            const bool is_control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
+            return is_control ? '?' : c;
+        }
+        if (byte < 0xc0) {
+            const bool is_control = following_ == 0 || (is_latin_ && byte < 0xa0);
+            following_ = std::max(0, following_ - 1);
+            return is_control ? '?' : c;
+        }
+        const bool is_first = byte >= 0xc2 && byte < 0xf5;
+        following_ = !is_first ? 0 : byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
+        is_latin_ = byte == 0xc2;
+        return is_first ? c : '?';
+    }
+
+ private:
+    int following_ = 0;      ///< bytes of the character that are still to come
+    bool is_latin_ = false;  ///< it is one from U+0080 to U+00BF
+};
 
 /// Passes text on to the buffer of a standard stream.
 class PrintableBuffer : public std::streambuf {
@@ -27,11 +49,12 @@ class PrintableBuffer : public std::streambuf {
  protected:
     int_type overflow(int_type c) override {
         if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
-        return stream_->sputc(printable(traits_type::to_char_type(c)));
+        return stream_->sputc(Utf8Filter().printable(traits_type::to_char_type(c)));
     }
     std::streamsize xsputn(const char* text, std::streamsize size) override {
         std::string safe(text, static_cast<std::size_t>(size));
-        std::transform(safe.begin(), safe.end(), safe.begin(), printable);
+        Utf8Filter filter;  // several threads may print
+        for (char& c : safe) c = filter.printable(c);
         return stream_->sputn(safe.data(), size);
     }
     int sync() override { return stream_->pubsync(); }

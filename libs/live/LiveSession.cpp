@@ -239,6 +239,9 @@ void checkLive(const LiveOptions& options) {
 
 LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveListener& listener) {
     checkLive(options);
+    std::vector<std::filesystem::path> inputs = options.settings.files;
+    inputs.insert(inputs.end(), {options.replay, options.calibration, options.sensor_json});
+    base::checkApart({options.recording.file, options.stats}, inputs);
     std::optional<base::OutputPath> stats;
     if (!options.stats.empty()) stats.emplace(options.stats, base::kFile, options.overwrite);
     Session session(options, listener, source.isLive());

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <ctime>
 #include <stdexcept>
@@ -21,6 +22,8 @@ namespace {
 constexpr int kBufferBytes = 8 << 20;      // a second of an HDL-64E
 constexpr std::size_t kMostBytes = 65536;  // of a datagram
 constexpr double kLongestWait_s = 0.1;
+/// Of a capture. A longer one is a clock that was set, or hours without a sensor.
+constexpr double kLongestPause_s = 2;
 
 [[noreturn]] void fail(const std::string& what) {
     throw std::runtime_error(what + ": " + std::system_category().message(errno));
@@ -141,14 +144,15 @@ PacketSource::Next ReplaySource::next(Packet& packet) {
     if (!has_waiting_) {
         if (!capture_.next(waiting_)) return Next::End;
         has_waiting_ = true;
-        if (!first_ns_) {
-            first_ns_ = waiting_.time_ns;
-            start_s_ = steadyNow_s();
-        }
+        if (!latest_ns_) start_s_ = steadyNow_s();
+        const double pause_s =
+            latest_ns_
+                ? 1e-9 * (static_cast<double>(waiting_.time_ns) - static_cast<double>(*latest_ns_))
+                : 0;
+        if (std::abs(pause_s) <= kLongestPause_s) played_s_ += pause_s;
+        latest_ns_ = waiting_.time_ns;
     }
-    const double due_s =
-        start_s_ + 1e-9 * static_cast<double>(waiting_.time_ns - *first_ns_) / speed_;
-    const double wait_s = due_s - steadyNow_s();
+    const double wait_s = start_s_ + played_s_ / speed_ - steadyNow_s();
     if (wait_s > 0) {
         std::this_thread::sleep_for(
             std::chrono::duration<double>(std::min(wait_s, kLongestWait_s)));

@@ -40,6 +40,8 @@ std::vector<std::string> argumentsOf(const LiveOptions& options, const std::stri
     add("--calibration", options.calibration.string());
     for (const auto& file : recording.settings_files) add("--config", file.string());
     add("--record", recording.file.string());
+    add("--keep", options.stats.string());
+    add("--keep", options.replay.string());
     add("--rotate-bytes", std::to_string(recording.rotate_bytes));
     if (recording.overwrite) arguments.emplace_back("--overwrite");
     if (waits) arguments.emplace_back("--wait");

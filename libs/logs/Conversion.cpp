@@ -40,8 +40,10 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     std::vector<fs::path> outputs = conversion.octomaps;
     outputs.insert(outputs.end(), {conversion.rawlog, conversion.folder, conversion.clouds,
                                    conversion.mcap, conversion.pictures, conversion.stats});
-    base::checkApart(outputs, {conversion.input, conversion.poses, conversion.sensor_json,
-                               conversion.calibration});
+    std::vector<fs::path> inputs = conversion.settings.files;
+    inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
+                                 conversion.calibration});
+    base::checkApart(outputs, inputs);
     useExternals(conversion, listener);
     return Converter(conversion, listener).run();
 }

@@ -67,7 +67,9 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
 AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeListener& listener) {
     AirframeReport report;
     report.picture = fs::path(learning.file).replace_extension(".png");
-    base::checkApart({learning.file, report.picture}, {learning.input});
+    std::vector<fs::path> inputs = learning.settings.files;
+    inputs.insert(inputs.end(), {learning.input, learning.sensor_json, learning.calibration});
+    base::checkApart({learning.file, report.picture}, inputs);
     base::OutputPath file(learning.file, base::kFile, learning.overwrite);
     base::OutputPath picture(report.picture, base::kFile, learning.overwrite);
 

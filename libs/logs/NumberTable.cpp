@@ -1,4 +1,5 @@
 #include <hagen/base/NumberText.h>
+#include <hagen/base/ReadFile.h>
 #include <hagen/logs/NumberTable.h>
 
 #include <cmath>
@@ -20,13 +21,10 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets beg
 }  // namespace
 
 std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file)) {
-        throw std::runtime_error(file.string() + ": cannot be read");
-    }
+    std::ifstream in = base::openToRead(file);
     std::vector<NumberLine> table;
     std::size_t line = 0;
-    for (std::string text; std::getline(in, text);) {
+    for (std::string text; base::nextLine(in, text, file);) {
         ++line;
         if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
         std::istringstream words(text);

@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/logs/NumberTable.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/observations/TimeStamp.h>
@@ -104,9 +105,9 @@ void writeKittiPoses(const fs::path& file, const std::vector<CPose3D>& sensor_po
 }
 
 CPose3D readKittiCalibration(const fs::path& file) {
-    std::ifstream in(file);
+    std::ifstream in = base::openToRead(file);
     std::size_t number = 0;
-    for (std::string text; std::getline(in, text);) {
+    for (std::string text; base::nextLine(in, text, file);) {
         ++number;
         if (text.rfind("Tr:", 0) != 0) continue;
         std::istringstream words(text.substr(3));

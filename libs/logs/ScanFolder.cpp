@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/logs/NumberTable.h>
 #include <hagen/logs/ScanFolder.h>
@@ -22,8 +23,13 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files n
 
 template <class Record>
 std::vector<Record> readRecords(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in) throw BrokenScan(file.string() + ": cannot be read");
+    std::ifstream in;
+    try {
+        in = base::openToRead(file);
+    } catch (const std::runtime_error& e) {
+        throw BrokenScan(e.what());
+    }
+    in.seekg(0, std::ios::end);
     const auto bytes = static_cast<std::size_t>(in.tellg());
     if (bytes % sizeof(Record) != 0) {
         throw BrokenScan(file.string() + ": " + std::to_string(bytes) +

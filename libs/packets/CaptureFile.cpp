@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/packets/CaptureFile.h>
 #include <pcap/pcap.h>
 
@@ -21,6 +22,7 @@ struct CloseCapture {
 using PcapPtr = std::unique_ptr<pcap_t, CloseCapture>;
 
 PcapPtr open(const std::filesystem::path& file) {
+    base::checkIsFile(file);
     std::array<char, PCAP_ERRBUF_SIZE> why{};
     PcapPtr capture(pcap_open_offline_with_tstamp_precision(
         file.c_str(), PCAP_TSTAMP_PRECISION_NANO, why.data()));

@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/packets/OusterSensor.h>
 
 #include <hagen/base/FileKind.h>
@@ -224,11 +225,10 @@ void sortBeams(OusterSensor& sensor) {
 constexpr std::size_t kMostBytes = 1 << 20;
 
 std::string readText(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
+    std::ifstream stream = base::openToRead(file);
     std::string text(kMostBytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (!stream.is_open()) throw std::runtime_error("cannot be opened");
     return text;
 }
 
@@ -306,13 +306,7 @@ OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) 
 }
 
 OusterSensor readOusterSensor(const std::filesystem::path& file) {
-    std::string text;
-    try {
-        text = readText(file);
-    } catch (const std::exception& e) {
-        throw std::runtime_error(file.string() + ": not metadata of an Ouster: " + e.what());
-    }
-    return ousterSensorOf(text, file.string());
+    return ousterSensorOf(readText(file), file.string());
 }
 
 }  // namespace hagen::packets

@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/packets/VelodyneCalibrationFile.h>
 #include <hagen/packets/VelodyneModel.h>
 #include <hagen/range_image/Angle.h>
@@ -18,7 +19,7 @@
 namespace hagen::packets {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 4 << 20;
+constexpr std::size_t kMostBytes = 4 << 20;
 constexpr std::size_t kMostDepth = 32;
 
 std::string_view trimmed(std::string_view text) {
@@ -181,14 +182,7 @@ VelodyneCalibration calibrationOf(std::string_view xml) {
 }  // namespace
 
 VelodyneCalibration readVelodyneCalibration(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) {
-        throw std::runtime_error(file.string() + ": cannot be read");
-    }
-    if (std::filesystem::file_size(file) > kMostBytes) {
-        throw std::runtime_error(file.string() + ": is no calibration of a Velodyne: too large");
-    }
-    const std::string xml{std::istreambuf_iterator<char>(stream), {}};
+    const std::string xml = base::readText(file, kMostBytes);
     try {
         return calibrationOf(xml);
     } catch (const std::runtime_error& e) {

@@ -1,14 +1,19 @@
 #include <fcntl.h>
 #include <hagen/pictures/Gnuplot.h>
+#include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 namespace hagen::pictures {
 namespace {
@@ -30,6 +35,45 @@ File scratchFile(const std::string& content) {
                                  std::strerror(errno));
     }
     return file;
+}
+
+// A picture takes about a second of CPU time, and less than a megabyte.
+constexpr rlim_t kMostCpu_s = 20, kMostFileBytes = 64 << 20;
+constexpr double kPatience_s = 5;  ///< for a start without CPU time
+constexpr double kLeastLoad = 0.02;
+
+double cpuTimeOf_s(pid_t process) {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Waits for gnuplot, and ends it with all that it started: if it hangs, or fills the disk. It
+/// hangs if it does not use its time, for on a busy machine a picture may take many seconds.
+/// Returns its status; `complaint` says what was wrong if it was ended.
+int waitFor(pid_t process, std::string& complaint) {
+    const rlimit cpu{kMostCpu_s, kMostCpu_s + 1}, file{kMostFileBytes, kMostFileBytes};
+    prlimit(process, RLIMIT_CPU, &cpu, nullptr);
+    prlimit(process, RLIMIT_FSIZE, &file, nullptr);
+    const auto start = std::chrono::steady_clock::now();
+    int status = 0;
+    while (true) {
+        const pid_t ended = waitpid(process, &status, WNOHANG);
+        // Where SIGCHLD is ignored, nothing is left of it (ECHILD); the pictures tell.
+        if (ended == process || (ended < 0 && errno != EINTR)) break;
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        if (passed.count() > kPatience_s && cpuTimeOf_s(process) < kLeastLoad * passed.count()) {
+            complaint = "it hangs";
+            break;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(passed.count() < 0.1 ? 1 : 10));
+    }
+    kill(-process, SIGKILL);
+    if (complaint.empty()) return status;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
 }
 
 /// Returns gnuplot's last line: it repeats the command and marks the place before the error
@@ -116,11 +160,9 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     if (error != 0) {
         throw std::runtime_error(std::string("gnuplot cannot be run: ") + std::strerror(error));
     }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-
-    const std::string complaint = lastWord(errors.get());
+    std::string complaint;
+    const int status = waitFor(child, complaint);
+    if (complaint.empty()) complaint = lastWord(errors.get());
     for (const std::string& picture : pictures) {
         if (isWhole(folder / picture)) continue;
         throw std::runtime_error((folder / picture).string() + " could not be written completely" +

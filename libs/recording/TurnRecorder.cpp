@@ -1,3 +1,4 @@
+#include <hagen/base/OutputPath.h>
 #include <hagen/logs/RecordedObject.h>
 #include <hagen/recording/TurnRecorder.h>
 
@@ -17,8 +18,7 @@ TurnRecorder::TurnRecorder(Options options, const Settings& settings)
     : options_(std::move(options)) {
     segmenter_.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     segmenter_.initialize(settings);
-    writing_ = nextName();
-    writer_.emplace(writing_, options_.overwrite);
+    openNext();
     thread_ = std::thread([this] { work(); });
 }
 
@@ -33,6 +33,12 @@ std::filesystem::path TurnRecorder::nextName() {
     std::filesystem::path name = options_.file;
     return name.replace_filename(options_.file.stem().string() + number +
                                  options_.file.extension().string());
+}
+
+void TurnRecorder::openNext() {
+    writing_ = nextName();
+    base::checkApart({writing_}, options_.others);
+    writer_.emplace(writing_, options_.overwrite);
 }
 
 void TurnRecorder::add(const mrpt::obs::CObservation::Ptr& turn) {
@@ -77,10 +83,7 @@ void TurnRecorder::work() {
 }
 
 void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
-    if (!writer_) {
-        writing_ = nextName();
-        writer_.emplace(writing_, options_.overwrite);
-    }
+    if (!writer_) openNext();
     entries_.clear();
     logs::serialise(*logs::objectOf(turn, observations::CloudClass::Simple), entries_);
     try {

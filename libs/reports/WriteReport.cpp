@@ -1,4 +1,5 @@
 #include <hagen/avoidance/WorldModel.h>
+#include <hagen/base/Folder.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/reports/Report.h>
@@ -50,6 +51,13 @@ Report readReport(const ReportRequest& request) {
 
 /// Finds out what cannot be written before minutes of flying.
 void checkOutputs(const ReportRequest& request) {
+    if (!request.markdown.empty()) {
+        std::vector<fs::path> others{request.memory};
+        for (const fs::path& file : base::entriesOf(request.folder)) {
+            if (file.extension() != ".md") others.push_back(file);
+        }
+        base::checkApart({request.markdown}, others);
+    }
     const auto check = [&](const fs::path& path) {
         base::OutputPath(path, base::kFile, request.overwrite);
     };

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 // Limits of settings files, which may come with a recording of somebody else.
 constexpr int kDeepestInclude = 8, kMostIncludes = 32;
-constexpr std::uintmax_t kMostFileBytes = 1 << 20;
+constexpr std::size_t kMostFileBytes = 1 << 20;
 
 Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
@@ -229,10 +229,8 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
 }
 
 void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
-    if (fs::is_regular_file(file) && fs::file_size(file) > kMostFileBytes) {
-        throw SettingsError(file.string() + ": is larger than 1 MiB, so it is no settings file");
-    }
-    const YAML::Node document = parseFile(file);
+    const YAML::Node document = parseFile(file, kMostFileBytes);
+    settings.files.push_back(file);
     if (document.IsNull()) return;  // empty or comments only: all defaults
     if (!document.IsMap()) {
         throw SettingsError(file.string() + ": not settings: 'key: value' lines are expected");

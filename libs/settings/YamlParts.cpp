@@ -71,11 +71,10 @@ std::string unknownKey(const std::string& key, const std::vector<std::string>& k
     return "unknown key '" + key + "'; did you mean '" + nearestOf(key, known) + "'?";
 }
 
-YAML::Node parseFile(const fs::path& file) {
+YAML::Node parseFile(const fs::path& file, std::size_t most_bytes) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
-    if (fs::is_directory(file)) throw SettingsError(file.string() + ": is a folder, not a file");
     try {
-        const std::string text = base::readText(file);
+        const std::string text = base::readText(file, most_bytes);
         if (hasSeveralDocuments(text)) {
             throw SettingsError(file.string() +
                                 ": contains several documents (---), or text that is no YAML; only "
@@ -87,8 +86,10 @@ YAML::Node parseFile(const fs::path& file) {
     } catch (const YAML::ParserException& e) {
         throw SettingsError(file.string() + ":" + std::to_string(e.mark.line + 1) +
                             ": not YAML: " + e.msg);
-    } catch (const std::exception&) {
+    } catch (const YAML::Exception&) {
         throw SettingsError(file.string() + ": cannot be read");
+    } catch (const std::runtime_error& e) {  // readText() names the file
+        throw SettingsError(e.what());
     }
 }
 

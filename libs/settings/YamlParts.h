@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <hagen/base/NumberText.h>
+#include <hagen/base/ReadFile.h>
 #include <hagen/settings/Settings.h>
 #include <cmath>
 #include <filesystem>
@@ -22,7 +23,8 @@ std::string nearestOf(const std::string& word, const std::vector<std::string>& k
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
 
 /// Reads a file of one YAML document. Throws SettingsError naming file and line.
-YAML::Node parseFile(const std::filesystem::path& file);
+YAML::Node parseFile(const std::filesystem::path& file,
+                     std::size_t most_bytes = base::kMostTextBytes);
 
 /// Reads a number within [least, most]; otherwise throws SettingsError with the allowed range.
 template <class Number>

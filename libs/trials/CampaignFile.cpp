@@ -1,4 +1,5 @@
 #include <hagen/base/Json.h>
+#include <hagen/base/ReadFile.h>
 #include <hagen/settings/Settings.h>
 #include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/SettingsHash.h>
@@ -82,9 +83,9 @@ std::string textOf(const CampaignPlan& plan) {
 CampaignFile readCampaignFile(const fs::path& folder) {
     const fs::path file = folder / kFileName;
     CampaignFile campaign;
+    const std::string text = base::readText(file);
     try {
-        std::ifstream in(file, std::ios::binary);
-        const Json root = Json::parse({std::istreambuf_iterator<char>(in), {}});
+        const Json root = Json::parse(text);
         campaign.settings_hash = root.at("settings").text();
         for (const Json& plan : root.at("flown").items()) campaign.plans.push_back(plan.dump());
     } catch (const std::exception& e) {
@@ -113,11 +114,10 @@ void writeCampaignFile(const CampaignFile& campaign, const LatencyProfile& profi
 
 std::vector<CampaignPlan> readPlans(const fs::path& folder) {
     const fs::path file = folder / kFileName;
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+    const std::string text = base::readText(file);
     std::vector<CampaignPlan> plans;
     try {
-        const Json root = Json::parse({std::istreambuf_iterator<char>(in), {}});
+        const Json root = Json::parse(text);
         for (const Json& noted : root.at("flown").items()) plans.push_back(planFrom(noted));
     } catch (const std::exception& e) {
         throw std::runtime_error(file.string() + ": " + e.what());

@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/HeapCurves.h>
@@ -27,10 +28,9 @@ void writeHeapCurves(const std::vector<std::string>& models, double path_m,
 
 std::vector<HeapCurve> readHeapCurves(const fs::path& file) {
     std::vector<HeapCurve> curves;
-    std::ifstream in(file);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+    std::ifstream in = base::openToRead(file);
     std::string text;
-    for (int line = 1; std::getline(in, text); ++line) {
+    for (int line = 1; base::nextLine(in, text, file); ++line) {
         if (line == 1) continue;
         const std::size_t first = text.find(','), second = text.find(',', first + 1);
         try {

@@ -1,5 +1,6 @@
 #include <hagen/base/Json.h>
 #include <hagen/base/Quantile.h>
+#include <hagen/base/ReadFile.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/Statistics.h>
@@ -108,11 +109,9 @@ LatencyProfile latencyProfileFrom(const std::string& text) {
 }
 
 LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+    const std::string text = base::readText(file);
     try {
-        return latencyProfileFrom(
-            {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+        return latencyProfileFrom(text);
     } catch (const std::runtime_error& e) {
         throw std::runtime_error(file.string() + ": " + e.what());
     }

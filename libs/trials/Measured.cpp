@@ -1,4 +1,5 @@
 #include <hagen/base/NumberText.h>
+#include <hagen/base/ReadFile.h>
 #include <hagen/trials/Measured.h>
 #include <hagen/trials/Updates.h>
 
@@ -51,12 +52,11 @@ void addMeasured(const std::string& header, const std::string& row, MeasuredByMo
 }
 
 MeasuredByModel readMeasured(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+    std::ifstream in = base::openToRead(file);
     MeasuredByModel all;
     std::string header, row;
-    std::getline(in, header);
-    for (int line = 2; std::getline(in, row); ++line) {
+    base::nextLine(in, header, file);
+    for (int line = 2; base::nextLine(in, row, file); ++line) {
         try {
             addMeasured(header, row, all);
         } catch (const std::runtime_error& e) {

@@ -1,3 +1,4 @@
+#include <hagen/base/ReadFile.h>
 #include <hagen/trials/RunTable.h>
 #include <algorithm>
 #include <fstream>
@@ -140,8 +141,7 @@ Run runOfKey(const std::string& key) {
 }
 
 std::vector<Run> readRuns(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+    std::ifstream in = base::openToRead(file);
     const auto fail = [&](int line, const std::string& what) {
         throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
     };
@@ -149,7 +149,7 @@ std::vector<Run> readRuns(const std::filesystem::path& file) {
     Columns columns;
     std::string text;
     int line = 0;
-    while (std::getline(in, text)) {
+    while (base::nextLine(in, text, file)) {
         ++line;
         if (!text.empty() && text.back() == '\r') text.pop_back();
         if (line == 1) {

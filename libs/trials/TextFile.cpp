@@ -1,6 +1,7 @@
 #include "TextFile.h"
 
 #include <hagen/base/OutputPath.h>
+#include <hagen/base/ReadFile.h>
 #include <hagen/base/WriteFile.h>
 
 #include <cerrno>
@@ -19,9 +20,9 @@ void writeWhole(const fs::path& file, const std::string& text) {
 }
 
 std::vector<std::string> linesOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
+    std::ifstream in = base::openToRead(file);
     std::vector<std::string> lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    for (std::string line; base::nextLine(in, line, file);) lines.push_back(line);
     if (in.bad() || !in.eof()) throw std::runtime_error(file.string() + ": cannot be read");
     return lines;
 }

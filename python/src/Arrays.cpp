@@ -1,5 +1,7 @@
 #include "Arrays.h"
 
+#include <hagen/range_image/MostReturns.h>
+
 #include <cstring>
 
 namespace hagen::python {
@@ -36,6 +38,11 @@ py::array_t<float> pointsFrom(const py::object& points) {
         const bool has_more = array.ndim() == 2 && array.shape(1) > 3;
         throw py::value_error("expected " + expected + ", not of shape " + shapeText(array) +
                               (has_more ? "; pass points[:, :3]" : ""));
+    }
+    if (static_cast<std::size_t>(array.shape(0)) > kMostReturns) {  // before all are converted
+        throw py::value_error("the scan has " + std::to_string(array.shape(0)) +
+                              " returns, more than the " + std::to_string(kMostReturns) +
+                              " that it may have");
     }
     auto floats = py::array_t<float, py::array::forcecast>::ensure(array);
     if (!floats) throw py::error_already_set();

@@ -18,6 +18,7 @@
 
 #include "Arrays.h"
 #include "Filter.h"
+#include "OthersRun.h"
 #include "Recording.h"
 #include "Simulation.h"
 
@@ -62,12 +63,12 @@ std::shared_ptr<Segmented> segment(Filter& filter, const py::object& scan,
     const std::optional<Attitude> tilt = attitudeFrom(attitude);
     if (py::isinstance<PythonScan>(scan)) {
         const auto& recorded = scan.cast<const PythonScan&>();
-        const py::gil_scoped_release others_run;
+        const OthersRun others_run;
         return filter.segment(recorded, tilt);
     }
     const py::array_t<float> points = pointsFrom(scan);
     const PointsView view = viewOf(points);
-    const py::gil_scoped_release others_run;
+    const OthersRun others_run;
     return filter.segment(view, tilt);
 }
 
@@ -411,6 +412,9 @@ Raises ValueError for other shapes and labels.)");
 }  // namespace hagen::python
 
 PYBIND11_MODULE(_hagen, m) {
+    // pybind11 looks NumPy up when it makes the first array. Two threads that do so at once wait
+    // for each other: one for the GIL, the other for the first one's result.
+    py::dtype::of<float>();
     using namespace hagen;
     using namespace hagen::python;
     m.doc() = "Regions of interest in sparse LiDAR scans, without a map.";

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "Arrays.h"
+#include "OthersRun.h"
 
 namespace hagen::python {
 
@@ -15,7 +16,7 @@ namespace py = pybind11;
 void readArrays(PythonScan& scan) {
     observations::ObservedScan observed;
     {
-        const py::gil_scoped_release others_run;
+        const OthersRun others_run;
         const Settings nothing_named;
         try {
             readObservation(*scan.recorded.observation,

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "OthersRun.h"
+
 namespace hagen::python {
 
 namespace py = pybind11;
@@ -17,7 +19,7 @@ namespace {
 template <class Read>
 auto withoutGil(Read read) {
     try {
-        const py::gil_scoped_release others_run;
+        const OthersRun others_run;
         return read();
     } catch (const logs::Interrupted&) {
         if (PyErr_Occurred() != nullptr) throw py::error_already_set();
@@ -50,8 +52,23 @@ Recording::Recording(const std::filesystem::path& file, logs::SourceOptions opti
     });
 }
 
+std::string Recording::poseSource() const {
+    const OthersRun others_run;
+    const std::lock_guard lock(reading_);
+    return source_->poses().source;
+}
+
+std::vector<std::string> Recording::remarks() const {
+    const OthersRun others_run;
+    const std::lock_guard lock(reading_);
+    return source_->remarks();
+}
+
 std::optional<PythonScan> Recording::next() {
-    auto recorded = withoutGil([&] { return source_->nextScan(); });
+    auto recorded = withoutGil([&] {
+        const std::lock_guard lock(reading_);
+        return source_->nextScan();
+    });
     if (!recorded) return std::nullopt;
     PythonScan scan;
     scan.recorded = std::move(*recorded);

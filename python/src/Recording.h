@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,8 @@
 
 namespace hagen::python {
 
-/// A recording that Python iterates. All functions require the GIL, and release it while they read.
+/// A recording that Python iterates, from any number of threads: each scan goes to one. All
+/// functions require the GIL, and release it while they read.
 class Recording {
  public:
     /// Throws FileNotFoundError, and like logs::openRecording() and ScanSource::usePoses().
@@ -23,12 +25,13 @@ class Recording {
     std::optional<PythonScan> next();
 
     const std::filesystem::path& file() const { return file_; }
-    std::string poseSource() const { return source_->poses().source; }
-    std::vector<std::string> remarks() const { return source_->remarks(); }
+    std::string poseSource() const;
+    std::vector<std::string> remarks() const;
 
  private:
     std::filesystem::path file_;
     std::shared_ptr<logs::ScanSource> source_;
+    mutable std::mutex reading_;  ///< locked without the GIL, which a source takes now and then
 };
 
 }  // namespace hagen::python

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "Arrays.h"
+#include "OthersRun.h"
 
 namespace hagen::python {
 
@@ -80,17 +81,18 @@ Simulation::Simulation(const SimulationRequest& request)
 }
 
 std::optional<PythonScan> Simulation::next() {
-    if (made_ >= request_.scans) return std::nullopt;
-    const double time_s = request_.every_s * made_;
     simulation::SimulatedScan made;
     PythonScan scan;
     {
-        const py::gil_scoped_release others_run;
+        const OthersRun others_run;
+        const std::lock_guard lock(simulating_);
+        if (made_ >= request_.scans) return std::nullopt;
+        const double time_s = request_.every_s * made_;
+        scan.recorded.entry = static_cast<std::size_t>(made_++);
         made = simulation::simulateScan(scene_, sensor_, flight_, time_s, random_, faults_);
         scan.recorded.observation = observationOf(made, sensor_, time_s);
     }
     const mrpt::poses::CPose3D pose = simulated_logs::mrptPose(made.pose);
-    scan.recorded.entry = static_cast<std::size_t>(made_++);
     scan.recorded.pose.sensor_pose = pose;
     scan.recorded.pose.pose_has_horizon = true;
     scan.recorded.pose.attitude =

@@ -4,7 +4,9 @@
 #include <hagen/simulation/Random.h>
 #include <hagen/simulation/Scene.h>
 
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -40,7 +42,8 @@ class Simulation {
     simulation::Flight flight_;
     simulation::SensorErrorModel faults_;
     simulation::Random random_;
-    int made_ = 0;
+    std::mutex simulating_;  ///< locked without the GIL
+    std::atomic<int> made_ = 0;
 };
 
 }  // namespace hagen::python

@@ -286,3 +286,8 @@ def test_wrong_settings_are_refused(tmp_path):
     with pytest.raises(TypeError):
         hagen.Filter(5)
     assert issubclass(hagen.SettingsError, ValueError)
+
+
+def test_too_many_returns_are_refused_before_they_are_copied():
+    with pytest.raises(ValueError, match="more than the 16777216"):
+        hagen.Filter().segment(np.broadcast_to(np.float32(1), (10**9, 3)))

@@ -1,6 +1,11 @@
 """hagen.open(). Oracle: rawlog-segment on the same recording."""
+import os
 import signal
 import struct
+import subprocess
+import sys
+import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -160,3 +165,41 @@ def test_an_interrupted_recording_raises():
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
+
+
+@pytest.mark.parametrize("scans", [lambda: hagen.open(POLES), lambda: hagen.simulate("gap", scans=10)])
+def test_threads_share_the_scans_of_one_iterator(scans):
+    alone = [scan.xyz.tobytes() for scan in scans()]
+    together, errors, iterator = [], [], scans()
+
+    def read():
+        try:
+            together.extend(scan.xyz.tobytes() for scan in iterator)
+        except BaseException as error:
+            errors.append(error)
+
+    threads = [threading.Thread(target=read) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert errors == []
+    assert sorted(together) == sorted(alone)
+
+
+def test_python_can_end_while_a_daemon_thread_reads():
+    code = f"""
+import sys, threading, time, hagen
+def read():
+    while True:
+        for scan in hagen.open({str(POLES)!r}):
+            hagen.Filter().segment(scan)
+for _ in range(3):
+    threading.Thread(target=read, daemon=True).start()
+time.sleep(0.3)
+sys.exit(0)
+"""
+    environment = {**os.environ, "PYTHONPATH": str(Path(hagen.__file__).parents[1])}
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", code], env=environment, timeout=60)
+        assert ended.returncode == 0

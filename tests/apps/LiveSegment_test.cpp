@@ -139,6 +139,38 @@ TEST_F(LiveSegment, RecordingsAreRotated) {
     EXPECT_FALSE(fs::exists(path("a.rawlog")));
 }
 
+TEST_F(LiveSegment, NoOutputReplacesAnInputOrAnother) {
+    const std::string file = capture(), before = test::readFile(file);
+    const std::vector<std::string> flags = with(sensor_, {"-q", "--replay", file, "--speed", "50"});
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
+        const auto outcome = run(with(with(flags, {"--overwrite"}), more));
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_THAT(outcome.err, HasSubstr(words));
+    };
+    refused({"--record", file}, "is or contains the input");
+    refused({"--stats", file}, "is or contains the input");
+    refused({"--record", path("a"), "--stats", path("a")}, "one output is inside the other");
+    fs::rename(file, path("a.0002.rawlog"));
+    const std::vector<std::string> rotated{"--record", path("a.rawlog"), "--rotate-mb", "0.001"};
+    const auto outcome = run(with(with(sensor_, rotated), {"-q", "--overwrite", "--speed", "50",
+                                                           "--replay", path("a.0002.rawlog")}));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_TRUE(test::readFile(path("a.0002.rawlog")) == before);
+    EXPECT_TRUE(fs::exists(path("a.0001.rawlog")));
+}
+
+TEST_F(LiveSegment, ARecordingThatCannotBeWrittenCostsNoStatistics) {
+    const auto outcome =
+        test::run("/bin/bash", {"-c", "ulimit -f 8; exec \"" + std::string(HAGEN_LIVE_SEGMENT) +
+                                          "\" --model VLP-16 --speed 50 --replay \"" + capture() +
+                                          "\" --record \"" + path("a.rawlog") + "\" --stats \"" +
+                                          path("stats.json") + "\""});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("a.rawlog"));
+    EXPECT_FALSE(fs::exists(path("a.rawlog")));
+    EXPECT_GT(stats()["packets"]["taken"], 0);
+}
+
 TEST_F(LiveSegment, ReceivesFromTheNetwork) {
     const std::uint16_t port = freePort();
     std::vector<std::string> packets;

@@ -10,6 +10,7 @@
 #include <mrpt/serialization/CArchive.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -196,6 +197,107 @@ TEST_F(RawlogSegmentTrouble, LabelsSendNothingToTheTerminal) {
     for (const std::string& text : {outcome.err, outcome.out}) {
         EXPECT_THAT(text, Not(HasSubstr("\x1b")));
         EXPECT_THAT(text, Not(HasSubstr("\x07")));
+    }
+}
+
+/// U+009B begins a command as ESC [ does, and so does its byte on terminals with 8 bits.
+TEST_F(RawlogSegmentTrouble, LabelsSendNoControlCharactersBeyondAscii) {
+    const auto log = logOf(folder_, 1, [](int, CObservationVelodyneScan& scan) {
+        scan.sensorLabel =
+            "Ö\xc2\x9b"
+            "2J\x9b"
+            "2J\u65e5";
+        scan.scan_packets.clear();
+    });
+    const auto outcome = run({"-i", log, "-o", path("out.rawlog")});
+    EXPECT_THAT(outcome.err, HasSubstr("Ö\xc2?2J?2J\u65e5"));
+}
+
+/// To open a pipe may take forever, and a device may have no end.
+TEST_F(RawlogSegmentTrouble, PipesAndDevicesAreRefusedAsAnyInput) {
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    const std::vector<std::string> flags{"-i", kRecording, "-o", path("out.rawlog")};
+    for (const std::string& file : {path("pipe"), std::string("/dev/zero")}) {
+        const std::string words = file + ": is a pipe or a device";
+        expectFailure(with(flags, {"--octomap", path("map.bt"), "--poses", file}), 1, words);
+        expectFailure(with(flags, {"-c", file}), 2, words);
+        expectFailure(with(flags, {"-c", folder_.write("i.yaml", "include: " + file)}), 2, "");
+    }
+}
+
+/// A file of zeros is one line of gigabytes.
+TEST_F(RawlogSegmentTrouble, PosesWithoutLineBreaksAreNoText) {
+    std::ofstream(path("poses.tum")).close();
+    fs::resize_file(path("poses.tum"), std::uintmax_t{4} << 30);
+    expectFailure({"-i", kRecording, "--octomap", path("map.bt"), "--poses", path("poses.tum")}, 1,
+                  "has a line longer than 1 MiB");
+}
+
+TEST_F(RawlogSegmentTrouble, SettingsAreNotReplacedByAnOutput) {
+    const std::string inner = folder_.write("inner.yaml", "beta_deg: 7\n").string();
+    const std::string outer = folder_.write("outer.yaml", "include: inner.yaml\n").string();
+    for (const std::string& file : {inner, outer}) {
+        const std::vector<std::string> flags{"-i", kRecording, "-c", outer, "--overwrite"};
+        const std::string words = "is or contains the input";
+        expectFailure(with(flags, {"-o", file}), 1, words);
+        expectFailure(with(flags, {"--stats", file}), 1, words);
+        expectFailure(with(flags, {"--learn-airframe", file}), 1, words);
+    }
+    EXPECT_EQ(test::readFile(inner), "beta_deg: 7\n");
+}
+
+/// nan passes comparisons with limits, and -1 is a large unsigned number.
+TEST_F(RawlogSegmentTrouble, FlagsTakeNumbersOnly) {
+    const std::vector<std::string> flags{"-i", kRecording, "-o", path("out.rawlog")};
+    for (const std::string wrong :
+         {"--memory-limit=nan", "--memory-limit=inf", "--to=-0", "--from=99999999999999999999",
+          "--jobs=2147483648", "--jobs=1.0", "--jobs=", "--memory-limit=1,5", "--to=0x10"}) {
+        expectFailure(with(flags, {wrong}), 2, wrong.substr(0, wrong.find('=')));
+    }
+}
+
+/// Folders that were begun are removed also where no file can be opened any more.
+TEST_F(RawlogSegmentTrouble, WithoutFileDescriptorsNothingIsLeft) {
+    for (int descriptors = 4; descriptors < 12; ++descriptors) {
+        const std::string command = "ulimit -n " + std::to_string(descriptors) + "; ";
+        const auto outcome = test::run(
+            "/bin/bash", {"-c", shell(command, "-i \"" + kRecording.string() + "\" --kitti \"" +
+                                                   path("k") + "\" --clouds \"" + path("c") +
+                                                   "\" --mcap \"" + path("m.mcap") + "\"")});
+        for (const fs::path& file : files()) EXPECT_THAT(file.string(), Not(HasSubstr("tmp-")));
+        if (outcome.exit_code == 0) break;
+    }
+}
+
+/// The least stack that Linux gives, and a umask that takes the owner's rights.
+TEST_F(RawlogSegmentTrouble, StacksAndUmasksOfTheShellCostNothing) {
+    for (const std::string odd : {"ulimit -s 64; ", "umask 777; "}) {
+        const std::string arguments = "-i \"" + kRecording.string() + "\" --overwrite -o \"" +
+                                      path("out.rawlog") + "\" --kitti \"" + path("k") + "\"";
+        EXPECT_EQ(test::run("/bin/bash", {"-c", shell(odd, arguments)}).exit_code, 0) << odd;
+    }
+    EXPECT_EQ(fs::status(path("out.rawlog")).permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
+}
+
+/// Instead of gnuplot: what hangs, fills the disk or leaves processes costs the pictures alone.
+TEST_F(RawlogSegmentTrouble, AGnuplotThatHangsCostsThePicturesAlone) {
+    for (const std::string script : {"exec sleep 1000", "sleep 1000 & wait", "kill -STOP $$",
+                                     "while true; do sleep 1; done", "exec yes >&2"}) {
+        const fs::path program = folder_.write("gnuplot", "#!/bin/bash\n" + script + "\n");
+        fs::permissions(program, fs::perms::owner_all);
+        const auto start = std::chrono::steady_clock::now();
+        const auto outcome = test::run(
+            "/bin/bash",
+            {"-c", shell("PATH=\"" + folder_.path().string() + ":$PATH\" ",
+                         "-i \"" + kRecording.string() + "\" --overwrite --to 8 -o \"" +
+                             path("out.rawlog") + "\" --pictures \"" + path("p") + "\"")});
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        EXPECT_EQ(outcome.exit_code, 1) << script;
+        EXPECT_THAT(outcome.err, HasSubstr("could not be written completely: gnuplot")) << script;
+        EXPECT_TRUE(fs::exists(path("out.rawlog"))) << script;
+        EXPECT_FALSE(fs::exists(path("p"))) << script;
+        EXPECT_LT(passed.count(), 60) << script;
     }
 }
 

@@ -310,6 +310,11 @@ TEST_F(RawlogSimulate, RefusesWhatCannotBeFlown) {
     const std::vector<std::string> one = with(orchard, {"--scans", "1", "--altitude", "2"});
     expectFailure(with(one, {"--mount-roll-deg", "181"}), 2, "--mount-roll-deg");
     expectFailure(with(one, {"--mount-roll-deg", "down"}), 2, "--mount-roll-deg");
+    for (const std::string flag : {"--speed-m-s", "--tilt-sd-deg", "--every-s", "--mount-roll-deg",
+                                   "--mount-pitch-deg", "--altitude", "--scans", "--seed"}) {
+        expectFailure(with(one, {flag + "=nan"}), 2, flag);
+    }
+    expectFailure(with(one, {"--seed=-1"}), 2, "--seed");
     expectFailure(with(one, {"--mount-pitch-deg", "-91"}), 2, "--mount-pitch-deg");
 }
 

@@ -201,6 +201,28 @@ TEST_F(SegmentationEvaluate, LabelsOfAnotherProgramAreARow) {
     EXPECT_EQ(row(outcome.out, "theirs"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
 }
 
+/// A closed pipe, and settings, label maps and cameras as outputs.
+TEST_F(SegmentationEvaluate, TroubleCostsNoFile) {
+    const std::string pole = labelledPole();
+    const auto piped =
+        test::run("/bin/bash", {"-c", "\"" + std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" +
+                                          pole + "\" --json \"" + path("pole.json") +
+                                          "\" | true; exit ${PIPESTATUS[0]}"});
+    EXPECT_EQ(piped.exit_code, 1);
+    EXPECT_THAT(piped.err, HasSubstr("cannot be printed"));
+    EXPECT_TRUE(fs::exists(path("pole.json")));
+    const std::string settings = folder_.write("c.yaml", "beta_deg: 7\n");
+    const std::vector<std::string> flags{"-i", pole, "--overwrite", "--json", settings};
+    expectFailure(with(flags, {"-c", settings}), 1, "is or contains the input");
+    const std::string interrupted =
+        "timeout -s TERM -k 20 0.5 \"" + std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" +
+        pole + "\" --baselines --hard-sets --bootstrap 1000000 --charts \"" + path("charts") + "\"";
+    const auto outcome = test::run("/bin/bash", {"-c", interrupted});
+    if (outcome.exit_code == 0) GTEST_SKIP() << "all was scored within half a second";
+    EXPECT_THAT(outcome.err, HasSubstr("interrupted; nothing was written"));
+    for (const fs::path& file : files()) EXPECT_THAT(file.string(), Not(HasSubstr("tmp-")));
+}
+
 TEST_F(SegmentationEvaluate, LabelsOfSeveralFoldersAreInFoldersOfTheirNames) {
     const std::string pole = labelledPole(), other = labelledPole("other");
     const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");

@@ -123,5 +123,24 @@ TEST(ReplaySource, PacketsComeAsTheyWereRecorded) {
     }
 }
 
+/// A clock that is set is no pause, nor are hours without a sensor.
+TEST(ReplaySource, PausesOfHoursAreNotWaitedFor) {
+    const test::TemporaryFolder folder;
+    test::CaptureWriter writer;
+    for (const double time_s : {1.7e9, 1.7e9 + 1e6, 1.7e9 + 1e6 + 0.2, 1.0, 4e9, 4e9 + 0.2}) {
+        test::SentDatagram datagram;
+        datagram.content = "a";
+        datagram.time_s = time_s;
+        writer.datagram(datagram);
+    }
+    ReplaySource source(writer.write(folder / "a.pcap"), 1);
+    const double start_s = steadyNow_s();
+    Packet packet;
+    while (source.next(packet) != Next::End) {
+        ASSERT_LT(steadyNow_s() - start_s, 60);
+    }
+    EXPECT_GT(steadyNow_s() - start_s, 0.399);
+}
+
 }  // namespace
 }  // namespace hagen::live

@@ -215,7 +215,7 @@ TEST_F(OusterSourceTest, MetadataAreForCapturesOnly) {
                 HasSubstr("are the two files exchanged?"));
     options_.sensor_json = folder_ / "none.json";
     EXPECT_THAT(test::messageOf([&] { openRecording(capture_, options_); }),
-                HasSubstr("none.json: not metadata of an Ouster: cannot be opened"));
+                HasSubstr("none.json: cannot be read"));
 }
 
 TEST_F(CaptureSourceTest, ABreakIsReportedAfterTheScansBeforeIt) {

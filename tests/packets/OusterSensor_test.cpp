@@ -109,7 +109,7 @@ TEST_F(OusterSensorTest, OldMetadataHaveNoFormat) {
 
 TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
     EXPECT_THAT(test::messageOf([&] { readOusterSensor(folder_ / "none.json"); }),
-                HasSubstr("none.json: not metadata of an Ouster: cannot be opened"));
+                HasSubstr("none.json: cannot be read"));
     EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("sensor.json: not metadata"));
     EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("is empty"));
     EXPECT_THAT(test::messageOf([&] { read("{}"); }),

@@ -211,7 +211,8 @@ TEST(RunTable, SaysWhichFileIsNoTable) {
     const auto said = [](const std::filesystem::path& file) {
         return test::messageOf([&] { readRuns(file); });
     };
-    EXPECT_EQ(said(folder / "no.csv"), (folder / "no.csv").string() + ": cannot be opened");
+    EXPECT_EQ(said(folder / "no.csv"),
+              (folder / "no.csv").string() + ": cannot be read: No such file or directory");
     EXPECT_THAT(said(folder.write("a.csv", "")), HasSubstr("a.csv:1: is empty"));
     EXPECT_THAT(said(folder.write("b.csv", "a,b\n1,2\n")), HasSubstr("b.csv:1: not the header"));
 }

@@ -18,4 +18,8 @@ std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder
 /// error.
 std::error_code removeAll(const std::filesystem::path& path) noexcept;
 
+/// Keeps a file descriptor for removeAll(): what was begun can be removed also where a process has
+/// no other left.
+void reserveForRemoval() noexcept;
+
 }  // namespace hagen::base

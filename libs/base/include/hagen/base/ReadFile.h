@@ -1,22 +1,27 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 namespace hagen::base {
 
-/// The whole text of a file. Throws std::runtime_error naming it if it cannot be read to its end: a
-/// parser would take what was read for all there is.
-inline std::string readText(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text;
-    char block[4096];
-    while (in.read(block, sizeof block) || in.gcount() > 0) {
-        text.append(block, static_cast<std::size_t>(in.gcount()));
-    }
-    if (!in.is_open() || in.bad()) throw std::runtime_error(file.string() + ": cannot be read");
-    return text;
-}
+/// Throws std::runtime_error naming what is a folder, a pipe or a device: to open a pipe may take
+/// forever, and a device may have no end. What does not exist passes.
+void checkIsFile(const std::filesystem::path& file);
+
+/// Opens a file. Throws as checkIsFile(), and if it cannot be read.
+std::ifstream openToRead(const std::filesystem::path& file);
+
+/// The longest text that is read as a whole: parsers take many times its memory.
+constexpr std::size_t kMostTextBytes = 256 << 20;
+
+/// The whole text of a file. Throws std::runtime_error naming it if it cannot be read to its end (a
+/// parser would take what was read for all there is), or is longer than `most_bytes`.
+std::string readText(const std::filesystem::path& file, std::size_t most_bytes = kMostTextBytes);
+
+/// Reads the next line, like std::getline(); false at the end. Throws std::runtime_error naming the
+/// file if the line is longer than a megabyte, as those of files that are no text.
+bool nextLine(std::ifstream& in, std::string& line, const std::filesystem::path& file);
 
 }  // namespace hagen::base

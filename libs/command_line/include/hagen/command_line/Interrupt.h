@@ -3,9 +3,11 @@
 namespace hagen::command_line {
 
 /// Shuts a program down cleanly: after SIGINT, SIGTERM or SIGHUP (unless ignored) isInterrupted()
-/// returns true; a later signal ends the program at once. SIGPIPE and SIGXFSZ are ignored, so that
-/// the failed write reports the error.
+/// returns true; a later signal ends the program at once.
 void catchSignals();
+
+/// Ignores SIGPIPE and SIGXFSZ, so that the failed write reports the error. Each Program does.
+void ignoreWriteSignals();
 
 bool isInterrupted();
 

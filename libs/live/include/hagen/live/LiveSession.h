@@ -35,6 +35,7 @@ struct LiveOptions {
     bool overwrite = false;       ///< replaces an existing file of `stats`
     double duration_s = std::numeric_limits<double>::infinity();
     std::filesystem::path sensor_json;  ///< metadata of an Ouster; `model` is empty then
+    std::filesystem::path replay;       ///< the capture that its source reads; empty: none
 };
 
 /// What came so far.

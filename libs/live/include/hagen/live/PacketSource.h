@@ -69,8 +69,8 @@ class ReplaySource : public PacketSource {
     double speed_;
     packets::Datagram waiting_;
     bool has_waiting_ = false;
-    std::optional<std::int64_t> first_ns_;
-    double start_s_ = 0;
+    std::optional<std::int64_t> latest_ns_;
+    double start_s_ = 0, played_s_ = 0;  ///< of the capture, without its longest pauses
 };
 
 }  // namespace hagen::live

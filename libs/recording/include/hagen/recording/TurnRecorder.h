@@ -29,6 +29,8 @@ class TurnRecorder {
         /// A file ends with the turn that makes it this long; names are then NAME.0001.rawlog and
         /// so on. 0: one file.
         std::size_t rotate_bytes = 0;
+        /// What no recording may replace: inputs, and other outputs.
+        std::vector<std::filesystem::path> others;
         /// Waits for the disk; false: turns that come too fast are left out.
         bool waits = false;
     };
@@ -49,6 +51,7 @@ class TurnRecorder {
 
  private:
     std::filesystem::path nextName();
+    void openNext();
     void work();
     void write(const mrpt::obs::CObservation::Ptr& turn);
     void endFile();

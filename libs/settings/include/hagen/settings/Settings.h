@@ -26,6 +26,8 @@ struct Settings {
     /// The keys of `options` that a file or setOption() gave. These hold as they are, also for a
     /// recovered sensor, like options that differ from their default.
     std::set<std::string> given;
+    /// All files that were read, in their order. No output may replace them.
+    std::vector<std::filesystem::path> files;
 
     /// The section `sensor:` of a settings file. Defaults come from the model.
     struct Sensor {

@@ -1,0 +1,63 @@
+#include <hagen/base/ReadFile.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace hagen::base {
+namespace {
+
+constexpr std::size_t kLongestLine = 1 << 20;
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+    throw std::runtime_error(file.string() + ": " + what);
+}
+
+}  // namespace
+
+void checkIsFile(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (std::filesystem::is_directory(status)) fail(file, "is a folder, not a file");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        fail(file, "is a pipe or a device; store it in a file first");
+    }
+}
+
+std::ifstream openToRead(const std::filesystem::path& file) {
+    checkIsFile(file);
+    errno = 0;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+        fail(file, std::string("cannot be read") +
+                       (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
+    }
+    return in;
+}
+
+std::string readText(const std::filesystem::path& file, std::size_t most_bytes) {
+    std::ifstream in = openToRead(file);
+    std::string text;
+    char block[4096];
+    while (in.read(block, sizeof block) || in.gcount() > 0) {
+        text.append(block, static_cast<std::size_t>(in.gcount()));
+        if (text.size() > most_bytes) {
+            fail(file, "is larger than " + std::to_string(most_bytes >> 20) +
+                           " MiB, so this is no such text");
+        }
+    }
+    if (in.bad()) fail(file, "cannot be read");
+    return text;
+}
+
+bool nextLine(std::ifstream& in, std::string& line, const std::filesystem::path& file) {
+    line.clear();
+    for (int c = in.get(); c != std::ifstream::traits_type::eof(); c = in.get()) {
+        if (c == '\n') return true;
+        if (line.size() == kLongestLine) fail(file, "has a line longer than 1 MiB: it is no text");
+        line += static_cast<char>(c);
+    }
+    return !line.empty();
+}
+
+}  // namespace hagen::base
