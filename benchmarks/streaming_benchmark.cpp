@@ -124,7 +124,8 @@ struct Misses {
 
 struct Figures {
     std::size_t same = 0, different = 0;
-    Misses near, obstacles;  ///< obstacles: those that are, by ground truth
+    std::size_t judged = 0, right = 0;  ///< of the different: with ground truth, and as it says
+    Misses near, obstacles;             ///< obstacles: those that are, by ground truth
     Confusion whole, streamed;
     std::vector<double> sector_us;
     double turn_us = 0;
@@ -210,6 +211,9 @@ void stream(const Recording& recording, const streaming::StreamingOptions& optio
             if (!turn.truth.empty() && turn.range_m[i] <= recording.settings.options.zone_m) {
                 figures.whole.add(turn.whole[i], turn.truth[i]);
                 figures.streamed.add(label, turn.truth[i]);
+                const bool is_judged = !is_same && turn.truth[i] != Label::Unclassified;
+                figures.judged += is_judged;
+                figures.right += is_judged && label == turn.truth[i];
             }
         }
     }
@@ -258,10 +262,11 @@ int run(int argc, char** argv) {
                     recordings.back().turns.size(), recordings.back().whole_us);
     }
     std::printf(
-        "| sector | window | every | equal %% | worst %% | RoI < 5 m missed | in two turns | "
+        "| sector | window | every | equal %% | worst %% | different ones right %% | RoI < 5 m "
+        "missed | in two turns | "
         "obstacles < 5 m missed | in two turns | F1 whole | F1 | "
         "ms/turn | sector us p50 | p99 | p99.9 "
-        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const auto& options : all) {
         Figures sum;
         double worst = 100;
@@ -273,12 +278,14 @@ int run(int argc, char** argv) {
             if (n_all > 0) worst = std::min(worst, 100 * n_same / n_all);
         }
         std::printf(
-            "| %.1f | %.0f | %d | %.2f | %.2f | %zu of %zu | %zu | %zu of %zu | %zu | %.2f | %.2f "
+            "| %.1f | %.0f | %d | %.2f | %.2f | %.0f | %zu of %zu | %zu | %zu of %zu | %zu | %.2f "
+            "| %.2f "
             "| %.2f | %.0f | "
             "%.0f | %.0f |\n",
             degrees(options.sector_rad), degrees(options.window_rad), options.keep_every,
             100.0 * static_cast<double>(sum.same) / static_cast<double>(sum.same + sum.different),
-            worst, sum.near.missed, sum.near.all, sum.near.missed_long, sum.obstacles.missed,
+            worst, 100.0 * static_cast<double>(sum.right) / static_cast<double>(sum.judged),
+            sum.near.missed, sum.near.all, sum.near.missed_long, sum.obstacles.missed,
             sum.obstacles.all, sum.obstacles.missed_long, sum.whole.f1(), sum.streamed.f1(),
             1e-3 * sum.turn_us / static_cast<double>(recordings.size()),
             base::quantile(sum.sector_us, 0.5), base::quantile(sum.sector_us, 0.99),

@@ -53,7 +53,8 @@ void SectorFigures::noteNearest(const streaming::LabelledSector& sector) {
         const double share = clockwise_rad / (2 * kPi) + (clockwise_rad < 0 ? 1 : 0);
         const int k = std::min(static_cast<int>(share * SectorDistances::kSectors),
                                SectorDistances::kSectors - 1);
-        report_.nearest_m[k] = std::min(report_.nearest_m[k], std::hypot(scan.x_m[i], scan.y_m[i]));
+        const float distance_m = std::sqrt(scan.x_m[i] * scan.x_m[i] + scan.y_m[i] * scan.y_m[i]);
+        report_.nearest_m[k] = std::min(report_.nearest_m[k], distance_m);
     }
 }
 

@@ -7,7 +7,7 @@ namespace hagen {
 
 void mapColumns(int columns, int group, int first, int count, ColumnMap& map) {
     const int groups = group > 0 ? (columns + group - 1) / group : 0;
-    if (columns < 1 || group < 2 || first < 0 || first >= groups || count < 0 || count > groups) {
+    if (columns < 1 || group < 1 || first < 0 || first >= groups || count < 0 || count > groups) {
         throw std::invalid_argument("mapColumns: the window does not fit into the turn");
     }
     map.to_image.resize(static_cast<std::size_t>(columns));
@@ -20,18 +20,16 @@ void mapColumns(int columns, int group, int first, int count, ColumnMap& map) {
         const auto at = static_cast<std::int32_t>(map.to_turn.size());
         const bool is_in_window = (g < first ? g + groups : g) - first < count;
         for (int column = begin; column < end; ++column) {
-            const int half = (column - begin) * 2 / group;
-            map.to_image[column] = at + (is_in_window ? column - begin : half);
+            map.to_image[column] = at + (is_in_window ? column - begin : 0);
         }
         map.even.push_back(at);
         if (is_in_window) {
             for (int column = begin; column < end; ++column) map.to_turn.push_back(column);
         } else {
             map.to_turn.push_back(begin);
-            map.to_turn.push_back(std::min(begin + (group + 1) / 2, columns - 1));
         }
     }
-    const int size = 2 * groups + (group - 2) * count;
+    const int size = groups + (group - 1) * count;
     map.to_turn.resize(static_cast<std::size_t>(size), map.to_turn.back());
 }
 

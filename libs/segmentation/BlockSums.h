@@ -1,6 +1,8 @@
 // Sums over blocks of ground cells around each block, for stages that judge a surrounding.
 #pragma once
+#include <hagen/segmentation/CellArea.h>
 #include <hagen/segmentation/GroundSurface.h>
+#include <algorithm>
 #include <array>
 
 namespace hagen {
@@ -29,14 +31,32 @@ void sumAlong(const Value* blocks, int stride, Value* sums) {
     }
 }
 
-/// Replaces the value of each block by the sum over the square around it.
+/// Blocks from `first` up to before `end`, along both sides.
+struct BlockArea {
+    int first_row = 0, end_row = kBlocks, first_column = 0, end_column = kBlocks;
+};
+
+/// The blocks that are in an area with all of their cells.
+inline BlockArea blocksIn(const CellArea& area) {
+    const auto first = [](int place) {
+        return (std::max(place - 1, 0) + kBlockCells - 1) / kBlockCells;
+    };
+    const auto end = [](int place) { return std::max(place - 1, 0) / kBlockCells; };
+    return {first(area.first_row), end(area.end_row), first(area.first_column),
+            end(area.end_column)};
+}
+
+/// Replaces the value of each block of an area by the sum over the square around it. Without the
+/// area, there is nothing.
 template <int kReach, class Value>
-void sumAround(Blocks<Value>& blocks) {
-    Blocks<Value> sums;
-    for (int j = 0; j < kBlocks; ++j) {
+void sumAround(Blocks<Value>& blocks, const BlockArea& area = {}) {
+    Blocks<Value> sums{};
+    for (int j = area.first_column; j < area.end_column; ++j) {
         sumAlong<kReach>(&blocks[j * kBlocks], 1, &sums[j * kBlocks]);
     }
-    for (int i = 0; i < kBlocks; ++i) sumAlong<kReach>(&sums[i], kBlocks, &blocks[i]);
+    for (int i = area.first_row; i < area.end_row; ++i) {
+        sumAlong<kReach>(&sums[i], kBlocks, &blocks[i]);
+    }
 }
 
 }  // namespace hagen

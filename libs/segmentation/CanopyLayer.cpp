@@ -72,23 +72,23 @@ bool isPlant(float top_m) { return (top_m > kLowest_m) & (top_m < kTallest_m); }
 /// The highest return of each cell in a column of the grid, without the border.
 const float* columnOf(const CellTops& tops, int j) { return tops.highest_m.col(j + 1).data() + 1; }
 
-void countCells(const CellTops& tops, Blocks<Census>& blocks) {
+void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blocks) {
     constexpr std::int32_t kTall = 1 << 8, kPlants = 1 << 16;  // three counts in one number
-    for (int first = 0; first < kCells; first += kBlockCells) {
+    for (int column = area.first_column; column < area.end_column; ++column) {
         std::int32_t counts[kCells] = {};
+        const int first = column * kBlockCells;
         for (int j = first; j < first + kBlockCells; ++j) {
             const float* const top_m = columnOf(tops, j);
-            for (int i = 0; i < kCells; ++i) {
+            for (int i = 0; i < kCells; ++i) {  // all: so that the compiler vectorises it
                 counts[i] += (top_m[i] != CellTops::kNone_m ? 1 : 0) +
                              (top_m[i] >= kTallest_m ? kTall : 0) +
                              (isPlant(top_m[i]) ? kPlants : 0);
             }
         }
-        for (int block = 0; block < kBlocks; ++block) {
+        for (int block = area.first_row; block < area.end_row; ++block) {
             std::int32_t sum = 0;
             for (int k = 0; k < kBlockCells; ++k) sum += counts[block * kBlockCells + k];
-            blocks[first / kBlockCells * kBlocks + block] = {sum % kTall, sum / kTall % kTall,
-                                                             sum / kPlants};
+            blocks[column * kBlocks + block] = {sum % kTall, sum / kTall % kTall, sum / kPlants};
         }
     }
 }
@@ -124,17 +124,20 @@ void raiseTolerances(const PixelCells& cells, const CellTops& tops,
 
 }  // namespace
 
-void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m) {
-    Blocks<Census> own;
-    countCells(tops, own);
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m,
+                    const CellArea& area) {
+    static_assert(kCanopyReach == kReach * kBlockCells + kBlockCells);
+    const BlockArea blocks = blocksIn(area);
+    Blocks<Census> own{};
+    countCells(tops, blocks, own);
     Blocks<Census> around = own;
-    sumAround<kReach>(around);
+    sumAround<kReach>(around, blocks);
     const auto isCanopy = [](const Census& census) { return census.isCanopy(); };
     if (std::none_of(around.begin(), around.end(), isCanopy)) return;  // nearly always
 
     Blocks<Heights> heights;
     sumHeights(tops, own, heights);
-    sumAround<kReach>(heights);
+    sumAround<kReach>(heights, blocks);
     BlocksAndNone<float> canopy_m{};
     for (std::size_t block = 0; block < around.size(); ++block) {
         if (!around[block].isCanopy()) continue;

@@ -28,12 +28,16 @@ namespace HWY_NAMESPACE {
 
 /// The maximum of each cell and the four at its sides, limited to 0...kTallest_m. The border gets
 /// the values of the adjacent cells.
-void TallestAroundIn(const float* HWY_RESTRICT top_m, float* HWY_RESTRICT tallest_m) {
+void TallestAroundIn(const float* HWY_RESTRICT top_m, const CellArea& area,
+                     float* HWY_RESTRICT tallest_m) {
     const hn::ScalableTag<float> d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int j = 0; j < kCells; ++j) {
+    const int first_i = std::max(area.first_row - 1, 0) / lanes * lanes;  // whole vectors
+    const int end_i = std::min(area.end_row - 1, kCells);
+    const int end_j = std::min(area.end_column - 1, kCells);
+    for (int j = std::max(area.first_column - 1, 0); j < end_j; ++j) {
         float* HWY_RESTRICT result_m = tallest_m + gridColumn(j);
-        for (int i = 0; i < kCells; i += lanes) {
+        for (int i = first_i; i < end_i; i += lanes) {
             const float* HWY_RESTRICT cell = top_m + gridColumn(j) + i;
             auto highest_m = hn::Zero(d);
             for (const int place : {-kGridStride, -1, 0, 1, kGridStride}) {
@@ -105,9 +109,9 @@ HWY_EXPORT(LabelByHeightIn);
 
 void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
-                      Image<float>& tolerance_m, ToleranceWorkspace& work) {
+                      Image<float>& tolerance_m, ToleranceWorkspace& work, const CellArea& area) {
     work.tallest_m.resize(kGridSize);
-    HWY_DYNAMIC_DISPATCH(TallestAroundIn)(tops.top_m.data(), work.tallest_m.data());
+    HWY_DYNAMIC_DISPATCH(TallestAroundIn)(tops.top_m.data(), area, work.tallest_m.data());
     tolerance_m.resize(cells.cell.rows(), cells.cell.cols());
     HWY_DYNAMIC_DISPATCH(ToleratedHeightsIn)
     (tolerance_m.size(), pixels.x_m.data(), pixels.y_m.data(), cells.cell.data(),

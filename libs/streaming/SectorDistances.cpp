@@ -75,7 +75,7 @@ void SectorDistances::take(const LabelledSector& sector) {
         const Eigen::Vector3f at =
             settings_.body_from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
         if (at.z() < settings_.low_m || at.z() > settings_.high_m) continue;
-        const double clockwise_rad = -std::atan2(static_cast<double>(at.y()), at.x());
+        const double clockwise_rad = -static_cast<double>(std::atan2(at.y(), at.x()));
         const double turned_rad = clockwise_rad < 0 ? clockwise_rad + kTurn_rad : clockwise_rad;
         Bin& bin = bins_[std::min(static_cast<int>(turned_rad / kTurn_rad * kBins), kBins - 1)];
         // What an earlier turn saw is replaced. The sectors on both sides of a bin's centre are of

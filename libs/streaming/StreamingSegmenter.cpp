@@ -26,14 +26,20 @@ void append(const std::vector<Value>& from, std::vector<Value>& to) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Calls visit(a, b) for each array of two scans.
+template <class A, class B, class Visit>
+void forEachArray(A& a, B& b, Visit visit) {
+    visit(a.x_m, b.x_m);
+    visit(a.y_m, b.y_m);
+    visit(a.z_m, b.z_m);
+    visit(a.intensity, b.intensity);
+    visit(a.range_m, b.range_m);
+    visit(a.azimuth_rad, b.azimuth_rad);
+    visit(a.row, b.row);
+}
+
 void append(const Scan& from, Scan& to) {
-    append(from.x_m, to.x_m);
-    append(from.y_m, to.y_m);
-    append(from.z_m, to.z_m);
-    append(from.intensity, to.intensity);
-    append(from.range_m, to.range_m);
-    append(from.azimuth_rad, to.azimuth_rad);
-    append(from.row, to.row);
+    forEachArray(from, to, [](const auto& values, auto& all) { append(values, all); });
 }
 
 bool isStill(const Eigen::Isometry3d& motion) {
@@ -41,11 +47,11 @@ bool isStill(const Eigen::Isometry3d& motion) {
            Eigen::AngleAxisd(motion.linear()).angle() < kLeastMotion_rad;
 }
 
-/// The angle between two directions that a sensor swept, in any turn.
+/// The angle between two directions that a sensor swept, at most a turn apart.
 double between(const Sweep& a, const Sweep& b) {
-    const double middle =
-        std::abs(std::remainder((a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2, kTurn_rad));
-    return middle - (a.to_rad - a.from_rad + b.to_rad - b.from_rad) / 2;
+    const double apart_rad = std::abs(a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2;
+    const double middle_rad = std::min(apart_rad, std::abs(kTurn_rad - apart_rad));
+    return middle_rad - (a.to_rad - a.from_rad + b.to_rad - b.from_rad) / 2;
 }
 
 void check(bool is_right, const std::string& what) {
@@ -56,7 +62,10 @@ void check(bool is_right, const std::string& what) {
 
 StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take take,
                                        const StreamingOptions& streaming)
-    : filter_(std::move(sensor), options), streaming_(streaming), take_(std::move(take)) {
+    : filter_(std::move(sensor), options),
+      sector_filter_(filter_.sensor(), options),
+      streaming_(streaming),
+      take_(std::move(take)) {
     check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
           "sector_rad must be above 0 and at most a turn");
     check(streaming.window_rad >= 0, "window_rad must not be negative");
@@ -68,6 +77,33 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
           "least_known_rad must be at least 0 and at most a turn");
     check(streaming.longest_sector_s > 0, "longest_sector_s must be positive");
     check(take_ != nullptr, "there is no function that takes the sectors");
+}
+
+void StreamingSegmenter::Returns::clear() {
+    scan.clear();
+    region.clear();
+}
+
+void StreamingSegmenter::Returns::append(const Returns& other, std::size_t i) {
+    appendReturn(other.scan, i, scan);
+    region.push_back(other.region[i]);
+}
+
+void StreamingSegmenter::Returns::append(const Returns& other, std::size_t first, std::size_t end) {
+    const auto appendPart = [=](const auto& values, auto& all) {
+        all.insert(all.end(), values.begin() + static_cast<std::ptrdiff_t>(first),
+                   values.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    forEachArray(other.scan, scan, appendPart);
+    appendPart(other.region, region);
+}
+
+void StreamingSegmenter::Returns::eraseFirst(std::size_t number) {
+    const auto erase = [=](auto& values, auto&) {
+        values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(number));
+    };
+    forEachArray(scan, scan, erase);
+    erase(region, region);
 }
 
 void StreamingSegmenter::setAttitude(const std::optional<Attitude>& attitude) {
@@ -89,11 +125,12 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     }
     ++open_;
     Packet& packet = packets_.back();
-    packet.returns.clear();
-    append(returns, packet.returns);
-    packet.returns.intensity.resize(returns.size());
-    packet.returns.beams = returns.beams;
-    packet.thinned.clear();
+    packet.all.clear();
+    append(returns, packet.all.scan);
+    packet.all.scan.intensity.resize(returns.size());
+    packet.all.scan.beams = returns.beams;
+    packet.all.region.resize(returns.size(), Label::Unclassified);
+    packet.thinned_first = packet.thinned_end = 0;
     packet.sweep.reset();
     packet.time_s = time_s;
     packet.pose = pose_;
@@ -106,12 +143,26 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
 }
 
 /// Each n-th column, so that those that are left have all their beams.
-void StreamingSegmenter::thin(Packet& packet) const {
+void StreamingSegmenter::thin(Packet& packet) {
+    packet.thinned_first = packet.thinned_end = thinned_.scan.size();
     if (streaming_.keep_every == 0) return;
-    const Scan& all = packet.returns;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const int column = nearestColumn(all.azimuth_rad[i], filter_.options().columns);
-        if (column % streaming_.keep_every == 0) appendReturn(all, i, packet.thinned);
+    const std::vector<float>& azimuth_rad = packet.all.scan.azimuth_rad;
+    for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
+        const int column = nearestColumn(azimuth_rad[i], filter_.options().columns);
+        if (column % streaming_.keep_every == 0) thinned_.append(packet.all, i);
+    }
+    packet.thinned_end = thinned_.scan.size();
+}
+
+/// Those of packets that were forgotten, once they are most of them.
+void StreamingSegmenter::forgetThinned() {
+    const std::size_t known = packets_.size() - open_;
+    const std::size_t first = known > 0 ? packets_.front().thinned_first : thinned_.scan.size();
+    if (2 * first < thinned_.scan.size()) return;
+    thinned_.eraseFirst(first);
+    for (std::size_t i = 0; i < known; ++i) {
+        packets_[i].thinned_first -= first;
+        packets_[i].thinned_end -= first;
     }
 }
 
@@ -122,7 +173,6 @@ void StreamingSegmenter::add(const Scan& returns, const Sweep& sweep, double tim
     const bool is_first = packets_.empty();
     Packet& packet = push(returns, time_s);
     packet.sweep = sweep;
-    thin(packet);
     if (is_first) {
         head_rad_ = sweep.to_rad;
         start_rad_ = sweep.from_rad;
@@ -169,33 +219,47 @@ void StreamingSegmenter::forget(double now_s) {
 }
 
 /// The returns ahead of the sensor of a packet that it has begun to overwrite.
-void StreamingSegmenter::addAhead(const Scan& scan, double head_rad) {
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const double clockwise_rad = -static_cast<double>(scan.azimuth_rad[i]);
-        if (std::remainder(clockwise_rad - head_rad, kTurn_rad) > 0) appendReturn(scan, i, window_);
+void StreamingSegmenter::addAhead(const Returns& returns, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+        const double clockwise_rad = -static_cast<double>(returns.scan.azimuth_rad[i]);
+        if (std::remainder(clockwise_rad - head_rad_, kTurn_rad) > 0) window_.append(returns, i);
     }
 }
 
+/// Stretches that follow each other are copied at once. An empty one ends the last.
+void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
+    if (first != pending_end_ || first == end) {
+        window_.append(thinned_, pending_first_, pending_end_);
+        pending_first_ = first;
+    }
+    pending_end_ = end;
+}
+
 /// Beams are located later, all at once.
-void StreamingSegmenter::addMoved(const Scan& scan, const Eigen::Isometry3d& motion) {
+void StreamingSegmenter::addMoved(const Returns& returns, std::size_t first, std::size_t end,
+                                  const Eigen::Isometry3d& motion) {
     const Eigen::Matrix3f turn = motion.linear().cast<float>();
     const Eigen::Vector3f way_m = motion.translation().cast<float>();
-    const std::size_t first = moved_.size();
-    for (auto* values : {&moved_.x_m, &moved_.y_m, &moved_.z_m, &moved_.intensity}) {
-        values->resize(first + scan.size());
+    const Scan& scan = returns.scan;
+    Scan& moved = moved_.scan;
+    std::size_t at = moved.size();
+    for (auto* values : {&moved.x_m, &moved.y_m, &moved.z_m, &moved.intensity}) {
+        values->resize(at + end - first);
     }
-    std::size_t at = first;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
+    moved_.region.resize(at + end - first);
+    for (std::size_t i = first; i < end; ++i) {
         const float x_m = scan.x_m[i], y_m = scan.y_m[i], z_m = scan.z_m[i];
-        moved_.x_m[at] = turn(0, 0) * x_m + turn(0, 1) * y_m + turn(0, 2) * z_m + way_m.x();
-        moved_.y_m[at] = turn(1, 0) * x_m + turn(1, 1) * y_m + turn(1, 2) * z_m + way_m.y();
-        moved_.z_m[at] = turn(2, 0) * x_m + turn(2, 1) * y_m + turn(2, 2) * z_m + way_m.z();
-        moved_.intensity[at] = scan.intensity[i];
+        moved.x_m[at] = turn(0, 0) * x_m + turn(0, 1) * y_m + turn(0, 2) * z_m + way_m.x();
+        moved.y_m[at] = turn(1, 0) * x_m + turn(1, 1) * y_m + turn(1, 2) * z_m + way_m.y();
+        moved.z_m[at] = turn(2, 0) * x_m + turn(2, 1) * y_m + turn(2, 2) * z_m + way_m.z();
+        moved.intensity[at] = scan.intensity[i];
+        moved_.region[at] = returns.region[i];
         at += std::isfinite(scan.range_m[i]);  // the airframe moves with the sensor
     }
-    for (auto* values : {&moved_.x_m, &moved_.y_m, &moved_.z_m, &moved_.intensity}) {
+    for (auto* values : {&moved.x_m, &moved.y_m, &moved.z_m, &moved.intensity}) {
         values->resize(at);
     }
+    moved_.region.resize(at);
 }
 
 void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
@@ -209,13 +273,16 @@ void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
         is_near = between(*packet.sweep, sector) <= streaming_.window_rad;
         is_cut = packet.sweep->from_rad < head_rad_ - kTurn_rad;
     }
-    const Scan& scan = is_near ? packet.returns : packet.thinned;
+    const Returns& returns = is_near ? packet.all : thinned_;
+    const std::size_t first = is_near ? 0 : packet.thinned_first;
+    const std::size_t end = is_near ? packet.all.scan.size() : packet.thinned_end;
     if (has_motion && !is_cut) {
         const Eigen::Isometry3d motion = latest.pose->inverse() * *packet.pose;
-        if (!isStill(motion)) return addMoved(scan, motion);
+        if (!isStill(motion)) return addMoved(returns, first, end, motion);
     }
-    if (is_cut) return addAhead(scan, head_rad_);
-    append(scan, window_);
+    if (is_cut) return addAhead(returns, first, end);
+    if (!is_near) return addThinned(first, end);
+    window_.append(returns, first, end);
 }
 
 /// Whether enough is in sight to tell what is ground.
@@ -231,9 +298,10 @@ bool StreamingSegmenter::knowsEnough() const {
     return known_rad >= streaming_.least_known_rad - kRounding_rad;
 }
 
-/// Runs the filter on all columns in and beside the sector, and on those that are kept elsewhere.
-/// The image has the same size for each sector, unless late packets make one wide.
-const SegmentationResult& StreamingSegmenter::judge(const Sweep& sector) {
+/// The columns of the image: all in and beside the sector, and those that are kept elsewhere. The
+/// image has the same size for each sector, unless late packets make one wide. Returns false if
+/// that is the whole turn.
+bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const int columns = filter_.options().columns;
     const Sweep& latest = *packets_.back().sweep;
     const double beside_rad = streaming_.window_rad + (latest.to_rad - latest.from_rad);
@@ -243,15 +311,46 @@ const SegmentationResult& StreamingSegmenter::judge(const Sweep& sector) {
         std::max(streaming_.sector_rad, sector.to_rad - sector.from_rad) + beside_rad;
     const double width_rad = usual_rad + (has_ahead ? beside_rad : kMargin_rad);
     const int group = streaming_.keep_every > 0 ? streaming_.keep_every : kEmptyColumns;
-    if (group == 1) return filter_.segment(window_, attitude_);
     const int groups = (columns + group - 1) / group;
     const double group_rad = kTurn_rad * group / columns;
     const int count = static_cast<int>(std::ceil(width_rad / group_rad)) + 1;
-    if (count >= groups) return filter_.segment(window_, attitude_);
+    if (count >= groups) return false;
     const double end_rad = sector.to_rad + (has_ahead ? beside_rad : kMargin_rad);
     const auto first_rad = static_cast<float>(std::remainder(width_rad - end_rad, kTurn_rad));
     mapColumns(columns, group, nearestColumn(first_rad, columns) / group, count, columns_);
-    return filter_.segment(window_, attitude_, columns_);
+    return true;
+}
+
+/// The labels of the sector, and its regions.
+const SegmentationResult& StreamingSegmenter::judge() {
+    const bool is_upright =
+        !filter_.options().level_by_attitude || postureOf(attitude_) == Posture::Upright;
+    const std::optional<Sweep>& sweep = packets_.back().sweep;
+    if (sweep && is_upright && mapWindow({start_rad_, head_rad_})) {
+        const SegmentationResult& result =
+            sector_filter_.segment(window_.scan, attitude_, {sector_, columns_, window_.region});
+        labels_ = result.returns.label;
+        regions_ = sector_filter_.regions();
+        return result;
+    }
+    const SegmentationResult& result = filter_.segment(window_.scan, attitude_);
+    labels_.assign(result.returns.label.begin(),
+                   result.returns.label.begin() + static_cast<std::ptrdiff_t>(sector_.size()));
+    regions_ = labels_;
+    return result;
+}
+
+/// From now on, the sector's packets are context.
+void StreamingSegmenter::keepRegions() {
+    forgetThinned();
+    auto from = regions_.begin();
+    for (std::size_t i = packets_.size() - open_; i < packets_.size(); ++i) {
+        std::vector<Label>& region = packets_[i].all.region;
+        const auto to = from + static_cast<std::ptrdiff_t>(region.size());
+        std::copy(from, to, region.begin());
+        from = to;
+        thin(packets_[i]);
+    }
 }
 
 void StreamingSegmenter::label(bool is_cut) {
@@ -265,22 +364,23 @@ void StreamingSegmenter::label(bool is_cut) {
     sector_.clear();
     sweeps_.clear();
     for (std::size_t i = first_open; i < packets_.size(); ++i) {
-        append(packets_[i].returns, sector_);
+        append(packets_[i].all.scan, sector_);
         if (packets_[i].sweep) sweeps_.push_back(*packets_[i].sweep);
     }
-    sector_.beams = last.returns.beams;
+    sector_.beams = last.all.scan.beams;
     window_.clear();
-    append(sector_, window_);
-    window_.beams = sector_.beams;
+    append(sector_, window_.scan);
+    window_.scan.beams = sector_.beams;
+    window_.region.resize(sector_.size(), Label::Unclassified);
     moved_.clear();
+    pending_first_ = pending_end_ = 0;
     for (std::size_t i = 0; i < first_open; ++i) addContext(packets_[i], sector);
-    locateBeams(filter_.sensor(), moved_);
-    append(moved_, window_);
+    addThinned(0, 0);
+    locateBeams(filter_.sensor(), moved_.scan);
+    window_.append(moved_, 0, moved_.scan.size());
 
-    const SegmentationResult& result =
-        last.sweep ? judge(sector) : filter_.segment(window_, attitude_);
-    const auto begin = result.returns.label.begin();
-    labels_.assign(begin, begin + static_cast<std::ptrdiff_t>(sector_.size()));
+    const SegmentationResult& result = judge();
+    keepRegions();
     const bool is_doubtful = !knowsEnough();
     if (is_doubtful) {
         for (std::size_t i = 0; i < labels_.size(); ++i) {

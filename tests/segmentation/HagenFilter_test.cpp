@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
-#include <hagen/range_image/ColumnMap.h>
 #include <hagen/segmentation/CanopyLayer.h>
 #include <hagen/segmentation/Clearance.h>
 #include <hagen/segmentation/GapRepair.h>
@@ -173,30 +172,6 @@ TEST(HagenFilter, ALoneReturnIsAnObstacle) {
     scan.intensity = {0.5f};
     locateBeams(filter.sensor(), scan);
     EXPECT_EQ(filter.segment(scan).returns.label, std::vector<Label>{Label::Roi});
-}
-
-/// What a sector of StreamingSegmenter is judged by.
-TEST(HagenFilter, AnImageWithFewerColumnsGivesTheSameLabelsInItsWindow) {
-    const SensorModel sensor = sensorModel("VLP-16");
-    SimpleScene scene;
-    scene.poles.push_back({5, 2, 0.3, 4});
-    const auto turn = test::scanScene(scene, sensor, 870, kTwoMetresUp);
-    HagenFilter whole(sensor), mapped(sensor);
-    const auto& expected = whole.segment(turn.scan);
-    ColumnMap all, window;
-    mapColumns(870, 4, 0, 218, all);
-    EXPECT_EQ(mapped.segment(turn.scan, {}, all).returns.label, expected.returns.label);
-    mapColumns(870, 6, 50, 40, window);  // around the front, with the pole
-    const auto& found = mapped.segment(turn.scan, {}, window);
-    EXPECT_EQ(found.labels.cols(), 2 * 145 + 4 * 40);
-    int inside = 0;
-    for (std::size_t i = 0; i < turn.scan.size(); ++i) {
-        if (std::abs(turn.scan.azimuth_rad[i]) > radians(40)) continue;
-        ++inside;
-        EXPECT_EQ(found.returns.label[i], expected.returns.label[i]) << i;
-    }
-    EXPECT_GT(inside, 1500);
-    EXPECT_GT(expected.returns.roi.size(), 20u);
 }
 
 TEST(HagenFilter, ATiltedSensorThatKnowsItFindsTheHorizon) {

@@ -18,12 +18,11 @@ struct ColumnMap {
 };
 
 /// The columns of a turn in groups of `group`, clockwise from column 0; the last one may be
-/// smaller. `count` groups from `first` on (wrapped) keep their columns; each other one has two
-/// image columns, for its first half and for its second. A scan that has returns in the first
-/// column of such groups only thus keeps them apart. The image has 2 groups + (group - 2) count
+/// smaller. `count` groups from `first` on (wrapped) keep their columns; each other one is a single
+/// column of the image, with the direction of its first. The image has groups + (group - 1) count
 /// columns in all, wherever the window is; what is left over is empty, and opposite to the window.
 /// Reuses the memory of `map`. Throws std::invalid_argument if the window does not fit into the
-/// turn, or group < 2.
+/// turn, or group < 1.
 void mapColumns(int columns, int group, int first, int count, ColumnMap& map);
 
 /// As projectScan() for the whole turn, into the columns of the map.

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/segmentation/CellArea.h>
 #include <hagen/segmentation/CellTops.h>
 #include <hagen/segmentation/PixelCells.h>
 
@@ -13,7 +14,11 @@ namespace hagen {
 /// m. No cell has a canopy in which two returns are more than another 0.1 m higher: what stands out
 /// of the plants stands on the ground. These statistics are over 13 x 13 blocks of 4 x 4 cells; if
 /// fewer than 30 of the cells were seen, no canopy is assumed. `tops` are relative to the surface;
-/// tolerances of empty pixels are NaN.
-void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m);
+/// tolerances of empty pixels are NaN. `area` is that of `tops`: only pixels that are
+/// kCanopyReach inside it see all of their canopy.
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m,
+                    const CellArea& area = {});
+
+constexpr int kCanopyReach = 28;  // cells: 6 blocks of 4, and the rest of the pixel's own
 
 }  // namespace hagen

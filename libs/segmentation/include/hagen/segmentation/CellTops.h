@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/range_image/Image.h>
+#include <hagen/segmentation/CellArea.h>
 #include <hagen/segmentation/PixelCells.h>
 #include <Eigen/Core>
 #include <limits>
@@ -19,6 +20,7 @@ struct CellTops {
 };
 
 /// `height_m` above the surface.
-void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops);
+void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops,
+                  const CellArea& area = {});
 
 }  // namespace hagen

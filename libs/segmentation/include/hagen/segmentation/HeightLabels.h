@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/range_image/Image.h>
 #include <hagen/range_image/Label.h>
+#include <hagen/segmentation/CellArea.h>
 #include <hagen/segmentation/CellTops.h>
 #include <hagen/segmentation/PixelPoints.h>
 #include <cstdint>
@@ -26,10 +27,11 @@ struct ToleranceWorkspace {
 /// above the ground is more likely the foot of an obstacle than grass. Nearer than three times the
 /// sensor's height above the ground, this decreases to nothing: seen from above, feet are high
 /// enough to be found without it. `pixels` in the ground frame, `tops` of their heights above the
-/// surface.
+/// surface. Those of pixels in other cells than those of `area` mean nothing.
 void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
-                      Image<float>& tolerance_m, ToleranceWorkspace& work);
+                      Image<float>& tolerance_m, ToleranceWorkspace& work,
+                      const CellArea& area = {});
 
 /// RoI if a pixel is higher than its tolerance or more than 1.5 m below the surface, which is then
 /// not the ground; otherwise ROU. Unclassified if it is empty.

@@ -3,6 +3,7 @@
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/HagenFilter.h>
+#include <hagen/segmentation/SectorFilter.h>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
@@ -18,9 +19,9 @@ struct StreamingOptions {
     /// A sector ends with the last packet that still fits into this angle; it has at least one.
     double sector_rad = 0.2617993877991494;  // 15 degrees
     /// Context on both sides of a sector: all returns of the latest turn.
-    double window_rad = 0.3490658503988659;  // 20 degrees
+    double window_rad = 0.08726646259971647;  // 5 degrees
     /// Context beyond: each n-th column of the image; 1: all, 0: none.
-    int keep_every = 6;
+    int keep_every = 5;
     /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
     /// moved since, those up to this angle are no context: ground that is tilted against that of
     /// the sector looks like a step. Less than half a turn.
@@ -51,7 +52,8 @@ struct LabelledSector {
     bool has_turn;                     ///< whether the rest of a turn was known
     bool is_doubtful;                  ///< all in the zone is RoI: too little of a turn was known
     bool is_cut;                       ///< ended by flush() or restart()
-    /// Of the sector and its context; its images have all columns around the sector only.
+    /// Of the sector and its context; its images have all columns around the sector only, and
+    /// labels in these (SectorFilter.h).
     const SegmentationResult& result;
     /// What each of its packets swept; less than `sweep`, if one is lost. Null: not known.
     const std::vector<Sweep>* packets = nullptr;
@@ -59,7 +61,7 @@ struct LabelledSector {
 
 /// Labels the returns of a LiDAR sector by sector, while it turns.
 ///
-/// It runs HagenFilter on the latest turn with the new sector in its place: on all returns in a
+/// It runs SectorFilter on the latest turn with the new sector in its place: on all returns in a
 /// window around the sector, and on some of the others, which show where the ground is. On the
 /// leading side, those are of the turn before. Labels are those of the whole scan but for a few.
 /// Without a turn before, sectors are judged by what there is, but all in the zone is RoI until
@@ -105,8 +107,19 @@ class StreamingSegmenter {
     const StreamingOptions& streaming() const { return streaming_; }
 
  private:
+    /// Returns, and the region of each (SectorFilter.h) once they were in a sector.
+    struct Returns {
+        Scan scan;
+        std::vector<Label> region;
+
+        void clear();
+        void append(const Returns& other, std::size_t i);
+        void append(const Returns& other, std::size_t first, std::size_t end);
+        void eraseFirst(std::size_t number);
+    };
     struct Packet {
-        Scan returns, thinned;
+        Returns all;
+        std::size_t thinned_first = 0, thinned_end = 0;  ///< in `thinned_`
         std::optional<Sweep> sweep;
         double time_s = 0;
         std::optional<Eigen::Isometry3d> pose;  ///< of the sensor; its rotation only: without place
@@ -114,16 +127,22 @@ class StreamingSegmenter {
     };
 
     Packet& push(const Scan& returns, double time_s);
-    void thin(Packet& packet) const;
+    void thin(Packet& packet);
+    void forgetThinned();
     void forget(double now_s);
     void label(bool is_cut);
     bool knowsEnough() const;
     void addContext(const Packet& packet, const Sweep& sector);
-    void addMoved(const Scan& scan, const Eigen::Isometry3d& motion);
-    void addAhead(const Scan& scan, double head_rad);
-    const SegmentationResult& judge(const Sweep& sector);
+    void addMoved(const Returns& returns, std::size_t first, std::size_t end,
+                  const Eigen::Isometry3d& motion);
+    void addAhead(const Returns& returns, std::size_t first, std::size_t end);
+    void addThinned(std::size_t first, std::size_t end);
+    bool mapWindow(const Sweep& sector);
+    const SegmentationResult& judge();
+    void keepRegions();
 
-    HagenFilter filter_;
+    HagenFilter filter_;          ///< of all in sight at once
+    SectorFilter sector_filter_;  ///< of a sector and its context
     StreamingOptions streaming_;
     Take take_;
     std::optional<Attitude> attitude_;
@@ -131,15 +150,19 @@ class StreamingSegmenter {
 
     std::deque<Packet> packets_;  ///< of the latest turn, in the order in which they came
     std::vector<Packet> spare_;   ///< their memory, reused
-    std::size_t open_ = 0;        ///< the last ones of these: of the sector in progress
-    double head_rad_ = 0;         ///< how far the sensor has turned
-    double start_rad_ = 0;        ///< of the sector in progress
+    /// Those of their returns that are context far from a sector, one packet after the other: most
+    /// sectors take long stretches of it.
+    Returns thinned_;
+    std::size_t pending_first_ = 0, pending_end_ = 0;  ///< a stretch that is to be added
+    std::size_t open_ = 0;  ///< the last ones of these: of the sector in progress
+    double head_rad_ = 0;   ///< how far the sensor has turned
+    double start_rad_ = 0;  ///< of the sector in progress
     std::size_t sectors_ = 0;
-    Scan window_, moved_;  ///< reused
-    ColumnMap columns_;    ///< reused
+    Returns window_, moved_;  ///< reused
+    ColumnMap columns_;       ///< reused
     Scan sector_;
-    std::vector<Label> labels_;
-    std::vector<Sweep> sweeps_;  ///< of the sector's packets
+    std::vector<Label> labels_, regions_;  ///< of the sector's returns
+    std::vector<Sweep> sweeps_;            ///< of the sector's packets
 };
 
 }  // namespace hagen::streaming

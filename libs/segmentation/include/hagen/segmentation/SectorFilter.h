@@ -1,0 +1,67 @@
+#pragma once
+#include <hagen/range_image/ColumnMap.h>
+#include <hagen/range_image/PixelDirections.h>
+#include <hagen/range_image/Scan.h>
+#include <hagen/range_image/SensorModel.h>
+#include <hagen/segmentation/FilterWorkspace.h>
+#include <hagen/segmentation/Levelling.h>
+#include <hagen/segmentation/Options.h>
+#include <hagen/segmentation/SegmentationResult.h>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hagen {
+
+/// A sector of a turn among its context, which shows where the ground is.
+struct SectorOfInterest {
+    const Scan& returns;       ///< of the sector: the first ones of the scan, which get labels
+    const ColumnMap& columns;  ///< of the image: all in and beside the sector, fewer elsewhere
+    /// Per return of the scan: its region (SectorFilter::regions()) when it was in a sector itself;
+    /// those of `returns` are not read.
+    const std::vector<Label>& regions;
+};
+
+/// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare a pixel with its
+/// neighbours, run on the columns of the sector and a few beside it; other returns keep the region
+/// that they got there. The ground is found under all of them, and only the sector is labelled by
+/// it: its labels are those of a whole scan but for a few. Obstacles are not numbered.
+class SectorFilter {
+ public:
+    /// As HagenFilter.
+    SectorFilter(const SensorModel& sensor, const Options& options);
+
+    /// Labels the sector's returns. For a sensor that is upright (postureOf()). The images of the
+    /// result have the columns of the map, and labels in those of the sector; what stages 3 to 7
+    /// found is not in it. The result is valid until the next call. Throws std::invalid_argument as
+    /// HagenFilter::segment().
+    const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& attitude,
+                                      const SectorOfInterest& sector);
+
+    /// For each return of the sector the label of its pixel by the regions of the paper, before the
+    /// ground was known: what `SectorOfInterest::regions` needs to know once it is context.
+    const std::vector<Label>& regions() const { return regions_; }
+
+ private:
+    struct Columns {
+        Eigen::Index first, count;
+    };
+    Columns judgedColumns(const SectorOfInterest& sector) const;
+    void project(const Scan& scan, const SectorOfInterest& sector);
+    void findRegions(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
+    void labelSector(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
+
+    SensorModel sensor_;
+    Options options_;
+    PixelDirections turn_;             ///< of all columns of a turn
+    PixelDirections directions_;       ///< of the image's
+    PixelDirections near_directions_;  ///< of those that are judged
+    SegmentationResult result_;
+    Columns judged_{};         ///< of its images
+    SegmentationResult near_;  ///< images of the columns that are judged, and an empty one
+    std::vector<Label> regions_;
+    std::vector<std::int32_t> plane_columns_;
+    FilterWorkspace work_;
+};
+
+}  // namespace hagen
