@@ -10,7 +10,7 @@
 namespace hagen {
 namespace {
 
-constexpr std::int32_t kBeside = 5;    // columns on both sides of a sector, for its regions
+constexpr std::int32_t kBeside = 5;     // columns on both sides of a sector, for its regions
 constexpr std::int32_t kTogether = 16;  // columns; so that most sectors need images of one size
 constexpr std::size_t kPlaneEvery = 2;  // of the columns that are spread over the turn
 
