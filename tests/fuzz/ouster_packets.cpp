@@ -24,7 +24,7 @@ void decode(std::string_view input) {
     const auto takeOut = [&] {
         for (; !frames.complete().empty(); frames.complete().pop_front()) {
             ++complete;
-            const auto observation = observationOf(frames.complete().front(), sensor);
+            const auto observation = captures::observationOf(frames.complete().front(), sensor);
             observations::ObservedScan observed;
             observations::readObservation(*observation, {}, observed);
             for (const std::uint8_t row : observed.scan.row) {
@@ -44,7 +44,7 @@ void decode(std::string_view input) {
     frames.finish();
     takeOut();
     require(complete == frames.counts().frames, "a frame is lost");
-    textOf(frames.counts());
+    captures::textOf(frames.counts());
 }
 
 Seeds packetSeeds() {
