@@ -51,13 +51,11 @@ Report readReport(const ReportRequest& request) {
 
 /// Finds out what cannot be written before minutes of flying.
 void checkOutputs(const ReportRequest& request) {
-    if (!request.markdown.empty()) {
-        std::vector<fs::path> others{request.memory};
-        for (const fs::path& file : base::entriesOf(request.folder)) {
-            if (file.extension() != ".md") others.push_back(file);
-        }
-        base::checkApart({request.markdown}, others);
-    }
+    const fs::path& folder = request.folder;
+    base::checkApart(
+        {request.markdown, folder / "report.html", folder / "summary.json", folder / "summary.csv"},
+        {request.memory, folder / "runs.csv", folder / "measured.csv", folder / "campaign.json",
+         folder / "profile.json", folder / "journal", folder / "memory.csv"});
     const auto check = [&](const fs::path& path) {
         base::OutputPath(path, base::kFile, request.overwrite);
     };

@@ -1,5 +1,6 @@
 #include <hagen/base/Folder.h>
 #include <hagen/base/OutputPath.h>
+#include <hagen/base/ReadFile.h>
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/Journal.h>
 #include <hagen/trials/MeasuredTable.h>
@@ -102,6 +103,7 @@ void CampaignFolder::readTables() {
     const fs::path runs = folder_ / "runs.csv", costs = folder_ / "measured.csv";
     if (!fs::exists(runs)) return;
     std::map<std::string, std::string> measured;
+    base::checkIsFile(costs);
     if (fs::exists(costs)) {
         for (const std::string& line : linesOf(costs)) measured[keyOfMeasuredRow(line)] = line;
     }

@@ -143,6 +143,14 @@ TEST(FlownRuns, OfAJournalThatCannotBeReadAreAnError) {
                 HasSubstr("0.csv: cannot be read"));
 }
 
+TEST_F(ReportCommand, ReplacesNothingOfTheCampaignByItsMarkdown) {
+    writeRuns(threeContenders());
+    for (const char* name : {"runs.csv", "report.html", "./runs.csv"}) {
+        expectFailure({"report", folder(), "--overwrite", "--markdown", folder() + "/" + name}, 1,
+                      folder());
+    }
+}
+
 TEST_F(ReportCommand, LeavesAnEarlierReportAloneUnlessTold) {
     writeRuns(threeContenders());
     folder_.write("summary.csv", "mine");
