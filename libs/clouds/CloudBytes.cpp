@@ -38,6 +38,9 @@ bool put(std::string_view word, std::uint8_t* to) {
 
 }  // namespace
 
+// 128 bytes for each of the points that a scan may have (kMostReturns).
+constexpr std::size_t kMostFileBytes = std::size_t{2} << 30;
+
 Bytes readBytes(const std::filesystem::path& file) {
     std::ifstream in;
     try {
@@ -46,7 +49,12 @@ Bytes readBytes(const std::filesystem::path& file) {
         throw BrokenCloud(e.what());
     }
     in.seekg(0, std::ios::end);
-    Bytes bytes(static_cast<std::size_t>(in.tellg()));
+    const auto size = static_cast<std::size_t>(in.tellg());
+    if (size > kMostFileBytes) {
+        throw BrokenCloud(file.string() + ": is larger than 2 GiB; a cloud has at most 16777216 " +
+                          "points");
+    }
+    Bytes bytes(size);
     in.seekg(0);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!in) throw BrokenCloud(file.string() + ": cannot be read completely");

@@ -3,6 +3,7 @@
 #include <hagen/logs/NumberTable.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/TimeStamp.h>
+#include <hagen/range_image/MostReturns.h>
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -35,6 +36,10 @@ std::vector<Record> readRecords(const fs::path& file) {
         throw BrokenScan(file.string() + ": " + std::to_string(bytes) +
                          " bytes are not a multiple of " + std::to_string(sizeof(Record)) +
                          "-byte points; is it truncated?");
+    }
+    if (bytes / sizeof(Record) > kMostReturns) {
+        throw BrokenScan(file.string() + ": has more than the " + std::to_string(kMostReturns) +
+                         " points that a scan may have");
     }
     std::vector<Record> records(bytes / sizeof(Record));
     in.seekg(0);

@@ -92,6 +92,18 @@ TEST_F(CloudFileTest, EveryFormatHasThePointsThatWereWritten) {
     }
 }
 
+/// A sparse file may be larger than all memory.
+TEST_F(CloudFileTest, AFileOfMoreThanAScanMayHaveIsNotRead) {
+    const fs::path file = write("huge.bin", "");
+    fs::resize_file(file, (std::uintmax_t{2} << 30) + 1);
+    try {
+        readCloud(file);
+        FAIL();
+    } catch (const BrokenCloud& e) {
+        EXPECT_THAT(e.what(), HasSubstr("huge.bin: is larger than 2 GiB"));
+    }
+}
+
 TEST_F(CloudFileTest, FormatsAreToldByTheirContent) {
     const auto format = [&](const std::string& text) { return cloudFormatOf(write("file", text)); };
     EXPECT_EQ(format(test::asciiPcd(filePoints())), CloudFormat::Pcd);
