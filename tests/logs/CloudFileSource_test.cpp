@@ -5,9 +5,6 @@
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/TableCloud.h>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <limits>
 
@@ -198,35 +195,9 @@ TEST_F(CloudFileSourceTest, ABrokenFileIsNamedAndThoseBeforeItAreRead) {
     }
 }
 
-/// Lets the program have less memory, as long as this exists.
-class LessMemory {
- public:
-    explicit LessMemory(rlim_t bytes) {
-        getrlimit(RLIMIT_AS, &before_);
-        const rlimit less{bytes, before_.rlim_max};
-        is_set_ = setrlimit(RLIMIT_AS, &less) == 0;
-    }
-    ~LessMemory() { setrlimit(RLIMIT_AS, &before_); }
-    LessMemory(const LessMemory&) = delete;
-    LessMemory& operator=(const LessMemory&) = delete;
-    bool isSet() const { return is_set_; }
-
- private:
-    rlimit before_{};
-    bool is_set_ = false;
-};
-
-TEST_F(CloudFileSourceTest, AFileThatDoesNotFitIntoMemoryIsNamed) {
-    constexpr std::uintmax_t kLess = std::uintmax_t{4} << 30;
-    std::uintmax_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    if (pages == 0 || pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE)) > kLess) {
-        GTEST_SKIP() << "the program has more already, as with a sanitizer";
-    }
+TEST_F(CloudFileSourceTest, AFileThatIsTooLargeIsNamedBeforeItIsRead) {
     const fs::path folder = folderOf({"1.bin", "2.bin"});
-    fs::resize_file(folder / "2.bin", 2 * kLess);  // holes take no room on the disk
-    const LessMemory less(kLess);
-    ASSERT_TRUE(less.isSet());
+    fs::resize_file(folder / "2.bin", std::uintmax_t{8} << 30);  // holes take no room on the disk
     // Of a folder of clouds, and of a scan folder.
     fs::create_directories(folder_ / "scans");
     fs::create_directory_symlink(folder, folder_ / "scans/velodyne");
@@ -234,8 +205,9 @@ TEST_F(CloudFileSourceTest, AFileThatDoesNotFitIntoMemoryIsNamed) {
         const auto source = openRecording(input);
         source->useSettings({});  // looks at the first clouds, and leaves it to the reading
         EXPECT_TRUE(source->nextScan());
-        EXPECT_THAT(test::messageOf([&] { source->nextScan(); }),
-                    HasSubstr("2.bin: does not fit into memory"));
+        const std::string error = test::messageOf([&] { source->nextScan(); });
+        EXPECT_THAT(error, HasSubstr("2.bin: "));
+        EXPECT_THAT(error, HasSubstr("16777216 points"));
     }
 }
 

@@ -99,7 +99,7 @@ TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
     expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is not a rigid");
     EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_ / "none"); }), HasSubstr("none"));
     EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_.path()); }),
-                HasSubstr("cannot be read"));
+                HasSubstr("is a folder, not a file"));
 }
 
 RawlogSurvey surveyOfTwoScans() {
