@@ -132,7 +132,6 @@ struct Figures {
     Confusion whole, streamed;
     std::vector<double> sector_us;
     double turn_us = 0;
-    int keep_every = 0;  ///< of the options, or by the sensor's beams
 };
 
 /// What is known of the sensor's motion.
@@ -172,7 +171,6 @@ void stream(const Recording& recording, const streaming::StreamingOptions& optio
     const auto& model =
         packets::velodyneModel(observations::sensorOf(*recording.turns.front().packets).name);
     streaming::VelodyneStream packets(model, recording.settings, take, options);
-    figures.keep_every = packets.segmenter().streaming().keep_every.value_or(0);
     double time_s = 0;
     std::size_t count = 0;
     for (std::size_t k = 0; k < recording.turns.size(); ++k) {
@@ -299,7 +297,7 @@ int run(int argc, char** argv) {
             "| %.2f | %.2f | %.2f "
             "| %.2f | %.0f | "
             "%.0f | %.0f |\n",
-            degrees(options.sector_rad), degrees(options.window_rad), sum.keep_every,
+            degrees(options.sector_rad), degrees(options.window_rad), options.keep_every,
             100.0 * static_cast<double>(sum.same) / static_cast<double>(sum.same + sum.different),
             worst, 100.0 * static_cast<double>(sum.right) / static_cast<double>(sum.judged),
             sum.near.missed, sum.near.all, sum.near.missed_long, sum.obstacles.missed,

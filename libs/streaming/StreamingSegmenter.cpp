@@ -17,8 +17,7 @@ constexpr double kTurn_rad = 2 * kPi;
 constexpr std::size_t kMostPackets = 4000;  // whatever the clock says; a turn has up to 600
 constexpr double kRounding_rad = 0.01;      // of where packets begin and end
 constexpr double kMargin_rad = 0.02;        // of the sector's image, ahead of it
-constexpr int kContextBeams = 5, kMostColumns = 5;
-constexpr int kEmptyColumns = 16;  // are two columns, where no returns are kept
+constexpr int kEmptyColumns = 16;           // are two columns, where no returns are kept
 // Less than this moves no return to another pixel.
 constexpr double kLeastMotion_m = 0.01, kLeastMotion_rad = 1e-3;
 
@@ -61,8 +60,6 @@ void check(bool is_right, const std::string& what) {
 
 }  // namespace
 
-int keepEvery(int beams) { return std::clamp(beams / kContextBeams, 1, kMostColumns); }
-
 StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take take,
                                        const StreamingOptions& streaming)
     : filter_(std::move(sensor), options),
@@ -74,8 +71,7 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
     check(streaming.window_rad >= 0, "window_rad must not be negative");
     check(streaming.skip_ahead_rad >= 0 && streaming.skip_ahead_rad < kPi,
           "skip_ahead_rad must be at least 0 and less than half a turn");
-    streaming_.keep_every = streaming.keep_every.value_or(keepEvery(filter_.sensor().rows()));
-    check(*streaming_.keep_every >= 0, "keep_every must not be negative");
+    check(streaming.keep_every >= 0, "keep_every must not be negative");
     check(streaming.context_s > 0, "context_s must be positive");
     check(streaming.least_known_rad >= 0 && streaming.least_known_rad <= kTurn_rad,
           "least_known_rad must be at least 0 and at most a turn");
@@ -149,12 +145,11 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
 /// Each n-th column, so that those that are left have all their beams.
 void StreamingSegmenter::thin(Packet& packet) {
     packet.thinned_first = packet.thinned_end = thinned_.scan.size();
-    const int every = *streaming_.keep_every;
-    if (every == 0) return;
+    if (streaming_.keep_every == 0) return;
     const std::vector<float>& azimuth_rad = packet.all.scan.azimuth_rad;
     for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
         const int column = nearestColumn(azimuth_rad[i], filter_.options().columns);
-        if (column % every == 0) thinned_.append(packet.all, i);
+        if (column % streaming_.keep_every == 0) thinned_.append(packet.all, i);
     }
     packet.thinned_end = thinned_.scan.size();
 }
@@ -315,7 +310,7 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const double usual_rad =
         std::max(streaming_.sector_rad, sector.to_rad - sector.from_rad) + beside_rad;
     const double width_rad = usual_rad + (has_ahead ? beside_rad : kMargin_rad);
-    const int group = *streaming_.keep_every > 0 ? *streaming_.keep_every : kEmptyColumns;
+    const int group = streaming_.keep_every > 0 ? streaming_.keep_every : kEmptyColumns;
     const int groups = (columns + group - 1) / group;
     const double group_rad = kTurn_rad * group / columns;
     const int count = static_cast<int>(std::ceil(width_rad / group_rad)) + 1;

@@ -354,13 +354,6 @@ TEST_F(StreamingSegmenterTest, WrongOptionsAndScansAreRefused) {
     EXPECT_THAT(messageWith([](auto& o) { o.sector_rad = 0; }), HasSubstr("sector_rad"));
     EXPECT_THAT(messageWith([](auto& o) { o.window_rad = -1; }), HasSubstr("window_rad"));
     EXPECT_THAT(messageWith([](auto& o) { o.keep_every = -1; }), HasSubstr("keep_every"));
-    EXPECT_EQ(messageWith([](auto& o) { o.keep_every = 0; }), "");
-    EXPECT_EQ(keepEvery(1), 1);
-    EXPECT_EQ(keepEvery(16), 3);
-    EXPECT_EQ(keepEvery(32), 5);
-    EXPECT_EQ(keepEvery(128), 5);
-    EXPECT_EQ(StreamingSegmenter(sensor_, {}, take()).streaming().keep_every,
-              keepEvery(sensor_.rows()));
     EXPECT_THAT(messageWith([](auto& o) { o.context_s = 0; }), HasSubstr("context_s"));
     EXPECT_EQ(messageWith([](auto&) {}), "");
     StreamingSegmenter segmenter(sensor_, {}, take());

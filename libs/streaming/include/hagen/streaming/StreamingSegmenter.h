@@ -20,9 +20,8 @@ struct StreamingOptions {
     double sector_rad = 0.2617993877991494;  // 15 degrees
     /// Context on both sides of a sector: all returns of the latest turn.
     double window_rad = 0.08726646259971647;  // 5 degrees
-    /// Context beyond: each n-th column of the image; 1: all, 0: none. Not given: keepEvery(), by
-    /// the sensor's beams.
-    std::optional<int> keep_every = std::nullopt;
+    /// Context beyond: each n-th column of the image; 1: all, 0: none.
+    int keep_every = 5;
     /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
     /// moved since, those up to this angle are no context: ground that is tilted against that of
     /// the sector looks like a step. Less than half a turn.
@@ -37,12 +36,6 @@ struct StreamingOptions {
     /// A sector ends at the latest after this time, however slowly the sensor turns.
     double longest_sector_s = 0.05;
 };
-
-/// Which columns are context of a sensor with this many beams: from each (1) to one in five (5),
-/// one in n so that about as many returns are left as five beams have in all columns. With fewer,
-/// plants that cover the ground are taken for obstacles; with more, near obstacles are missed,
-/// because their context was measured from elsewhere (docs/live.md).
-int keepEvery(int beams);
 
 /// What a rotating sensor swept while it measured the returns of a packet: from one azimuth to
 /// another, clockwise from x. Angles go on from turn to turn: one turn later they are 2 pi larger.
