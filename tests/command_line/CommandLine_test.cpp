@@ -16,8 +16,7 @@ struct Ran {
     std::string out, err;
 };
 
-/// Runs a program with -i, which may be repeated, a flag without a value and --many, which takes
-/// several.
+/// Runs a program with -i, with -c, which may be repeated, and with -q, which has no value.
 Ran runWith(std::vector<std::string> words) {
     words.insert(words.begin(), "program");
     std::vector<char*> argv;
