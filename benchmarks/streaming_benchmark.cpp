@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +34,29 @@ struct Turn {
     std::optional<Attitude> attitude;
     std::optional<Eigen::Isometry3d> pose;
     std::vector<Label> whole, truth;
-    std::vector<float> range_m;
+    Scan scan;
     std::vector<std::uint16_t> place;  ///< degree and row of each return
 };
+
+/// How high a return is above the nearest one of the ground, by ground truth; infinite: there is
+/// none within 2 m.
+double heightAboveGround(const Turn& turn, std::size_t i) {
+    constexpr double kNearest_m = 2;
+    const Eigen::Matrix3d level = turn.pose.value_or(Eigen::Isometry3d::Identity()).linear();
+    const auto at = [&](std::size_t k) -> Eigen::Vector3d {
+        return level * Eigen::Vector3d(turn.scan.x_m[k], turn.scan.y_m[k], turn.scan.z_m[k]);
+    };
+    const Eigen::Vector3d own = at(i);
+    double nearest_m = kNearest_m, height_m = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < turn.truth.size(); ++k) {
+        if (turn.truth[k] != Label::Rou) continue;
+        const Eigen::Vector3d way = own - at(k);
+        if (way.head<2>().norm() >= nearest_m) continue;
+        nearest_m = way.head<2>().norm();
+        height_m = way.z();
+    }
+    return height_m;
+}
 
 struct Recording {
     std::vector<Turn> turns;
@@ -88,7 +109,7 @@ Recording read(const std::string& file, const std::string& preset, bool levels) 
         turn.whole = filter->segment(observed.scan, turn.attitude).returns.label;
         whole_us.push_back(
             std::chrono::duration<double, std::micro>(base::threadCpuTime() - start).count());
-        turn.range_m = observed.scan.range_m;
+        turn.scan = observed.scan;
         for (std::size_t i = 0; i < observed.scan.size(); ++i) {
             const double azimuth_deg = degrees(observed.scan.azimuth_rad[i]);
             const int degree = std::min(359, static_cast<int>(azimuth_deg + 180));
@@ -116,19 +137,23 @@ struct Misses {
         now.assign(360 * 128, false);
         before.resize(now.size());
     }
-    void add(std::uint16_t place, bool is_missed) {
+    /// Returns whether it is missed, and something was in the turn before.
+    bool add(std::uint16_t place, bool is_missed) {
         ++all;
-        if (!is_missed) return;
+        if (!is_missed) return false;
         ++missed;
         missed_long += before[place];
         now[place] = true;
+        return before[place];
     }
 };
 
 struct Figures {
     std::size_t same = 0, different = 0;
     std::size_t judged = 0, right = 0;  ///< of the different: with ground truth, and as it says
-    Misses near, obstacles;             ///< obstacles: those that are, by ground truth
+    std::size_t whole_right = 0, both_right = 0;  ///< with ground truth: whole scans are; both are
+    Misses near, obstacles;                       ///< obstacles: those that are, by ground truth
+    double highest_missed_m = 0;  ///< of these, above the ground: of those in two turns
     Confusion whole, streamed;
     std::vector<double> sector_us;
     double turn_us = 0;
@@ -205,18 +230,25 @@ void stream(const Recording& recording, const streaming::StreamingOptions& optio
             const bool is_same = label == turn.whole[i];
             figures.same += is_same;
             figures.different += !is_same;
-            if (turn.whole[i] == Label::Roi && turn.range_m[i] < kNear_m) {
+            if (turn.whole[i] == Label::Roi && turn.scan.range_m[i] < kNear_m) {
                 figures.near.add(turn.place[i], label != Label::Roi);
                 if (!turn.truth.empty() && turn.truth[i] == Label::Roi) {
-                    figures.obstacles.add(turn.place[i], label != Label::Roi);
+                    if (figures.obstacles.add(turn.place[i], label != Label::Roi)) {
+                        figures.highest_missed_m =
+                            std::max(figures.highest_missed_m, heightAboveGround(turn, i));
+                    }
                 }
             }
-            if (!turn.truth.empty() && turn.range_m[i] <= recording.settings.options.zone_m) {
+            if (!turn.truth.empty() && turn.scan.range_m[i] <= recording.settings.options.zone_m) {
                 figures.whole.add(turn.whole[i], turn.truth[i]);
                 figures.streamed.add(label, turn.truth[i]);
                 const bool is_judged = !is_same && turn.truth[i] != Label::Unclassified;
                 figures.judged += is_judged;
                 figures.right += is_judged && label == turn.truth[i];
+                const bool is_right =
+                    turn.whole[i] == turn.truth[i] && label != Label::Unclassified;
+                figures.whole_right += is_right;
+                figures.both_right += is_right && is_same;
             }
         }
     }
@@ -267,12 +299,11 @@ int run(int argc, char** argv) {
                     recordings.back().turns.size(), recordings.back().whole_us);
     }
     std::printf(
-        "| sector | window | every | equal %% | worst %% | different ones right %% | RoI < 5 m "
-        "missed | in two turns | "
-        "obstacles < 5 m missed | in two turns | F1 whole | F1 | of the worst flight: F1 whole | "
-        "F1 | "
-        "ms/turn | sector us p50 | p99 | p99.9 "
-        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "| sector | window | every | equal %% | worst %% | different ones right %% | of those that "
+        "are right in whole scans, equal %% | RoI < 5 m missed | in two turns | obstacles < 5 m "
+        "missed | in two turns | these are up to, m above ground | F1 whole | F1 | of the worst "
+        "flight: F1 whole | F1 | ms/turn | sector us p50 | p99 | p99.9 |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const auto& options : all) {
         Figures sum;
         double worst = 100;
@@ -295,16 +326,15 @@ int run(int argc, char** argv) {
             }
         }
         std::printf(
-            "| %.1f | %.0f | %d | %.2f | %.2f | %.0f | %zu of %zu | %zu | %zu of %zu | %zu | %.2f "
-            "| %.2f | %.2f | %.2f "
-            "| %.2f | %.0f | "
-            "%.0f | %.0f |\n",
+            "| %.1f | %.0f | %d | %.2f | %.2f | %.0f | %.2f | %zu of %zu | %zu | %zu of %zu | %zu "
+            "| %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.0f | %.0f | %.0f |\n",
             degrees(options.sector_rad), degrees(options.window_rad), options.keep_every,
             100.0 * static_cast<double>(sum.same) / static_cast<double>(sum.same + sum.different),
             worst, 100.0 * static_cast<double>(sum.right) / static_cast<double>(sum.judged),
+            100.0 * static_cast<double>(sum.both_right) / static_cast<double>(sum.whole_right),
             sum.near.missed, sum.near.all, sum.near.missed_long, sum.obstacles.missed,
-            sum.obstacles.all, sum.obstacles.missed_long, sum.whole.f1(), sum.streamed.f1(),
-            whole_of_worst.f1(), streamed_of_worst.f1(),
+            sum.obstacles.all, sum.obstacles.missed_long, sum.highest_missed_m, sum.whole.f1(),
+            sum.streamed.f1(), whole_of_worst.f1(), streamed_of_worst.f1(),
             1e-3 * sum.turn_us / static_cast<double>(recordings.size()),
             base::quantile(sum.sector_us, 0.5), base::quantile(sum.sector_us, 0.99),
             base::quantile(sum.sector_us, 0.999));

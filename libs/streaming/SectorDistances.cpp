@@ -12,12 +12,28 @@ constexpr double kTurn_rad = 2 * kPi;
 constexpr double kTolerance_rad = 0.005;
 constexpr double kPeriod_s = 0.1;  // of a sensor without turns
 
-/// Whether a direction is in what a packet swept, in any turn.
-bool isWithin(double direction_rad, const Sweep& sweep) {
-    const double into_rad = direction_rad - sweep.from_rad + kTolerance_rad;
-    const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
-    return turned_rad <= sweep.to_rad - sweep.from_rad + 2 * kTolerance_rad;
+/// The same direction, from 0 up to a turn.
+double withinTurn(double angle_rad) {
+    const double turned_rad = angle_rad - kTurn_rad * std::floor(angle_rad / kTurn_rad);
+    return turned_rad < kTurn_rad ? turned_rad : 0;  // rounded up
 }
+
+/// What a packet swept, in any turn.
+class Swept {
+ public:
+    explicit Swept(const Sweep& sweep)
+        : from_rad_(withinTurn(sweep.from_rad - kTolerance_rad)),
+          width_rad_(sweep.to_rad - sweep.from_rad + 2 * kTolerance_rad) {}
+
+    /// `direction_rad` from 0 up to a turn; false for NaN.
+    bool has(double direction_rad) const {
+        const double into_rad = direction_rad - from_rad_;
+        return (into_rad < 0 ? into_rad + kTurn_rad : into_rad) <= width_rad_;
+    }
+
+ private:
+    double from_rad_, width_rad_;
+};
 
 }  // namespace
 
@@ -34,7 +50,7 @@ SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& sett
             Eigen::Vector3d(std::cos(clockwise_rad), -std::sin(clockwise_rad), 0);
         const double elevation_rad = std::asin(std::clamp(ahead.z(), -1.0, 1.0));
         const bool is_seen = elevation_rad >= lowest_rad && elevation_rad <= highest_rad;
-        sensor_rad_[bin] = is_seen ? -std::atan2(ahead.y(), ahead.x()) : std::nan("");
+        sensor_rad_[bin] = is_seen ? withinTurn(-std::atan2(ahead.y(), ahead.x())) : std::nan("");
     }
 }
 
@@ -50,25 +66,34 @@ void SectorDistances::beginFrame(double time_s) {
     }
 }
 
+/// A bin counts as swept with the packet that has its centre: what a lost packet would have seen is
+/// not known.
+void SectorDistances::noteSwept(const LabelledSector& sector) {
+    const auto note = [&](int bin) {
+        bins_[bin].swept_s = sector.first_time_s;
+        bins_[bin].swept_rad = sector.sweep ? sector.sweep->to_rad : 0;
+    };
+    const auto noteSweep = [&](const Sweep& sweep) {
+        const Swept swept(sweep);
+        for (int bin = 0; bin < kBins; ++bin) {
+            if (swept.has(sensor_rad_[bin])) note(bin);
+        }
+    };
+    if (!sector.sweep) {
+        for (int bin = 0; bin < kBins; ++bin) {
+            if (!std::isnan(sensor_rad_[bin])) note(bin);
+        }
+    } else if (sector.packets == nullptr) {
+        noteSweep(*sector.sweep);
+    } else {
+        for (const Sweep& packet : *sector.packets) noteSweep(packet);
+    }
+}
+
 void SectorDistances::take(const LabelledSector& sector) {
     const double now_rad = sector.sweep ? sector.sweep->to_rad : 0;
     if (!sector.sweep) beginFrame(sector.first_time_s);
-    for (int bin = 0; bin < kBins; ++bin) {
-        if (std::isnan(sensor_rad_[bin])) continue;
-        // A bin counts as swept with the packet that has its centre.
-        const auto hasCentre = [&](const Sweep& sweep) {
-            return isWithin(sensor_rad_[bin], sweep);
-        };
-        if (sector.sweep && sector.packets != nullptr) {
-            // What a lost packet would have seen is not known.
-            const std::vector<Sweep>& packets = *sector.packets;
-            if (std::none_of(packets.begin(), packets.end(), hasCentre)) continue;
-        } else if (sector.sweep && !hasCentre(*sector.sweep)) {
-            continue;
-        }
-        bins_[bin].swept_s = sector.first_time_s;
-        bins_[bin].swept_rad = now_rad;
-    }
+    noteSwept(sector);
     const Scan& scan = sector.returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (sector.label[i] != Label::Roi) continue;

@@ -60,10 +60,11 @@ class SectorDistances {
     };
 
     void beginFrame(double time_s);
+    void noteSwept(const LabelledSector& sector);
 
     Settings settings_;
-    std::array<double, kBins>
-        sensor_rad_{};  ///< where the sensor sees the bin, clockwise; NaN: not
+    /// Where the sensor sees the bin, clockwise from 0 up to a turn; NaN: not.
+    std::array<double, kBins> sensor_rad_{};
     std::array<Bin, kBins> bins_{};
     double period_start_s_ = kNever;  ///< without turns
 };

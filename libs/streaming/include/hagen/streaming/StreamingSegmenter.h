@@ -25,7 +25,7 @@ struct StreamingOptions {
     /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
     /// moved since, those up to this angle are no context: ground that is tilted against that of
     /// the sector looks like a step. Less than half a turn.
-    double skip_ahead_rad = 0.5235987755982988;  // 30 degrees
+    double skip_ahead_rad = 0.4363323129985824;  // 25 degrees
     /// The same if its motion is known: what is seen from elsewhere has other neighbours. None are
     /// left out if it stood still.
     double skip_ahead_moved_rad = 0.03490658503988659;  // 2 degrees
