@@ -89,6 +89,15 @@ TEST_F(McapWriterTest, TheSameMessagesGiveTheSameBytes) {
     EXPECT_TRUE(bytesOf("a.mcap") == bytesOf("b.mcap"));
 }
 
+/// Their numbers have 16 bits, and none is 0.
+TEST_F(McapWriterTest, TopicsHave16BitsOfNumbers) {
+    McapWriter writer(folder_ / "a.mcap", "a.mcap");
+    for (int topic = 1; topic <= 65535; ++topic) {
+        ASSERT_EQ(writer.addTopic("/t", poseStampedType()), topic);
+    }
+    EXPECT_THROW(writer.addTopic("/t", poseStampedType()), std::runtime_error);
+}
+
 TEST_F(McapWriterTest, AFileWithoutMessagesIsWhole) {
     write("a.mcap", 0);
     EXPECT_TRUE(readAll(folder_ / "a.mcap").empty());
