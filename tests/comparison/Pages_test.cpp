@@ -39,6 +39,22 @@ TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
     }
 }
 
+/// Cells of a row that touch are one rectangle. The y axis of SVG points down.
+TEST(Overhead, ObstaclesAreRectanglesOfTheirRows) {
+    constexpr double kCell_m = replays::OverheadView::kCell_m;
+    replays::OverheadView view{
+        test::runOf("gap", 0, "W-RoI", "astar", kWon), true, {5, 0}, {45, 0}, {}, {}, {}};
+    view.obstacle_cells = {{20, 4}, {40, 5}, {41, 5}, {42, 5}, {44, 5}, {45, 6}};
+    const auto rectangle = [&](int column, int row, int columns) {
+        const std::string length = pages::figure(kCell_m * columns, 1);
+        return "M" + pages::figure(kCell_m * column, 1) + " " +
+               pages::figure(-kCell_m * (row + 1), 1) + "h" + length + "v" +
+               pages::figure(kCell_m, 1) + "h" + pages::figure(-kCell_m * columns, 1) + "z";
+    };
+    EXPECT_THAT(replays::svgOf(view), HasSubstr("\"" + rectangle(20, 4, 1) + rectangle(40, 5, 3) +
+                                                rectangle(44, 5, 1) + rectangle(45, 6, 1) + "\""));
+}
+
 TEST(Pages, ShowTheWorstRunsThatCanBeFlownBesideThoseThatCannot) {
     reports::Report report;
     report.flown.runs = threeContenders();
