@@ -117,6 +117,12 @@ TEST_F(McapWriterTest, TheIndexLeadsToEveryMessage) {
         kinds.push_back(bytes[at]);
         const std::size_t content = at + 9;
         at = content + little(bytes, at + 1, 8);
+        if (kinds.back() == 4) {  // a channel: numbers, topic, encoding and an empty map
+            std::size_t map = content + 4;
+            for (int text = 0; text < 2; ++text) map += 4 + little(bytes, map, 4);
+            EXPECT_EQ(little(bytes, map, 4), 0u);
+            EXPECT_EQ(map + 4, at);
+        }
         if (kinds.back() != 8) continue;
         ++chunks;
         const std::uint64_t first_ns = little(bytes, content, 8),
