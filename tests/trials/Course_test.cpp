@@ -252,6 +252,26 @@ TEST(CourseTest, ThinWiresHangWhereTheOthersDo) {
     EXPECT_GT(at_wires, 1000);
 }
 
+/// Lamps and trees stand on both sides, every 10 m or up to 3 m from there.
+TEST(CourseTest, LampsOfTheStreetStandNearTheirPlaces) {
+    int lamps = 0;
+    double farthest_m = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const Course& c = course("street", seed);
+        for (const simulation::SceneObject& object : c.scene.content().objects) {
+            if (object.kind != simulation::ObjectClass::Pole) continue;
+            const Eigen::Vector3f at_m = object.pose.translation();
+            EXPECT_NEAR(std::abs(at_m.y()), 4.8, 1);
+            const double along_m = std::remainder(static_cast<double>(at_m.x()) + 4, 10);
+            EXPECT_LE(std::abs(along_m), 3 + 1e-5);
+            farthest_m = std::max(farthest_m, std::abs(along_m));
+            ++lamps;
+        }
+    }
+    EXPECT_GT(lamps, 9);
+    EXPECT_GT(farthest_m, 2);
+}
+
 /// Plants that are no obstacles: everywhere but in the street, lower than one flies.
 TEST_P(EachCourse, HasTuftsOfTenToThirtyFiveCentimetres) {
     const Course& c = course(GetParam(), 1);
