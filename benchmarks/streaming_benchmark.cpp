@@ -227,7 +227,7 @@ int run(int argc, char** argv) {
     std::string preset;
     std::vector<streaming::StreamingOptions> all;
     Known known = Known::Nothing;
-    double skip_rad = streaming::StreamingOptions().skip_ahead_rad;
+    std::optional<double> skip_rad;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         if (word == "-c" && i + 1 < argc) {
@@ -257,7 +257,9 @@ int run(int argc, char** argv) {
         return 2;
     }
     if (all.empty()) all.emplace_back();
-    for (auto& options : all) options.skip_ahead_rad = skip_rad;
+    for (auto& options : all) {
+        if (skip_rad) options.skip_ahead_rad = options.skip_ahead_moved_rad = *skip_rad;
+    }
     std::vector<Recording> recordings;
     for (const std::string& file : files) {
         recordings.push_back(read(file, preset, known != Known::Nothing));

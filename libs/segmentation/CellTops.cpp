@@ -46,6 +46,7 @@ void forEachStretch(const CellArea& area, Visit visit) {
 
 void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops,
                   const CellArea& area) {
+    tops.area = area;
     tops.two_m.resize(2 * kGridSize);
     float* const two_m = tops.two_m.data();
     const float* const h_m = height_m.data();
@@ -68,6 +69,22 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
     forEachStretch(area, [&](int first, int size) {
         separate(two_m + 2 * first, size, tops.highest_m.data() + first, tops.top_m.data() + first);
     });
+}
+
+void raiseHighest(const PixelCells& cells, const Image<float>& known_m, CellTops& tops) {
+    float* const highest_m = tops.highest_m.data();
+    for (Eigen::Index pixel = 0; pixel < known_m.size(); ++pixel) {
+        float& own_m = highest_m[cells.cell.data()[pixel]];
+        own_m = known_m.data()[pixel] > own_m ? known_m.data()[pixel] : own_m;  // ignores NaN
+    }
+}
+
+float highestOf(const CellTops& tops, int cell) {
+    const int row = cell % CellArea::kSide, column = cell / CellArea::kSide;
+    const CellArea& area = tops.area;
+    const bool is_computed = row >= area.first_row && row < area.end_row &&
+                             column >= area.first_column && column < area.end_column;
+    return is_computed ? tops.highest_m.data()[cell] : kNoValue;
 }
 
 }  // namespace hagen

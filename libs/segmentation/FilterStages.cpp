@@ -47,6 +47,7 @@ void findSurface(const Image<Label>& labels, const Options& o, const JudgedPart*
     heightsAbove(g.surface, g.pixels, g.height_m);
     const CellArea area = part != nullptr ? areaOf(g, *part, o) : CellArea();
     findCellTops(g.cells, g.height_m, g.tops, area);
+    if (part != nullptr) raiseHighest(g.cells, part->known_m, g.tops);
     toleratedHeights(
         g.pixels, g.cells, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},

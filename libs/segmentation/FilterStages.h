@@ -17,6 +17,8 @@ struct JudgedPart {
     Eigen::Index first, count;  ///< its columns
     /// Columns of the image that are spread over the turn: for the plane, and for the surface.
     const std::vector<std::int32_t>&of_plane, &of_surface;
+    const Image<float>&
+        known_m;  ///< how high the cell of each pixel is known to be; NaN: not known
 };
 
 /// III-B to III-E: the labels that the paper gives to the pixels of a depth image.

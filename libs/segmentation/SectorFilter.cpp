@@ -42,14 +42,18 @@ void copyColumns(const PixelDirections& from, Eigen::Index first, Eigen::Index c
     copy(from.column_cosine, to.column_cosine);
 }
 
-/// The region of each pixel: that of its closest return.
-void regionsOfContext(const RangeImage& image, const std::vector<Label>& regions,
-                      Image<Label>& labels) {
+/// What is known of each pixel by its closest return, unless that is of the sector.
+void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<Label>& labels,
+                 Image<float>& known_m) {
     labels.resize(image.depth_m.rows(), image.depth_m.cols());
+    known_m.resize(labels.rows(), labels.cols());
     const std::int32_t* const closest = image.closest_return.data();
-    Label* const label = labels.data();
+    const auto of_sector = static_cast<std::int32_t>(sector.returns.size());
     for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
-        label[pixel] = closest[pixel] < 0 ? Label::Unclassified : regions[closest[pixel]];
+        const bool is_known = closest[pixel] >= of_sector;
+        const ContextReturn known = is_known ? sector.context[closest[pixel]] : ContextReturn();
+        labels.data()[pixel] = known.region;
+        known_m.data()[pixel] = known.cell_height_m;
     }
 }
 
@@ -72,9 +76,10 @@ const SegmentationResult& SectorFilter::segment(const Scan& scan,
         for (std::size_t k = 0; k < even.size(); k += kPlaneEvery) {
             plane_columns_.push_back(even[k]);
         }
-        const JudgedPart part{judged_.first, judged_.count, plane_columns_, even};
+        const JudgedPart part{judged_.first, judged_.count, plane_columns_, even, known_m_};
         findGround(scan, directions_, result_, horizon, options_, &part, result_.ground, work_);
     }
+    keepHeights();
     labelSector(sector, horizon);
     return result_;
 }
@@ -124,14 +129,24 @@ void SectorFilter::findRegions(const SectorOfInterest& sector,
     SegmentationResult& r = result_;
     labelByAngles(near_.repaired_m, near_directions_, sensor_.min_range_m, horizon, options_, near_,
                   work_);
-    regionsOfContext(r.range_image, sector.regions, r.labels);
+    readContext(r.range_image, sector, r.labels, known_m_);
     r.labels.middleCols(judged_.first, judged_.count) = near_.labels.leftCols(judged_.count);
 
-    regions_.resize(sector.returns.size());
-    for (std::size_t i = 0; i < regions_.size(); ++i) {
+    found_.assign(sector.returns.size(), {});
+    for (std::size_t i = 0; i < found_.size(); ++i) {
         const std::int32_t pixel = r.range_image.depth_mapper[i];
-        const bool has_pixel = pixel != RangeImage::kNoPixel;
-        regions_[i] = has_pixel ? r.labels.data()[pixel] : Label::Unclassified;
+        if (pixel != RangeImage::kNoPixel) found_[i].region = r.labels.data()[pixel];
+    }
+}
+
+/// How high the cells of the sector's returns are, now that all of its returns are in them.
+void SectorFilter::keepHeights() {
+    const Ground& ground = result_.ground;
+    if (!ground.has_surface) return;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        const std::int32_t pixel = result_.range_image.depth_mapper[i];
+        if (pixel == RangeImage::kNoPixel) continue;
+        found_[i].cell_height_m = highestOf(ground.tops, ground.cells.cell.data()[pixel]);
     }
 }
 

@@ -42,6 +42,21 @@ void append(const Scan& from, Scan& to) {
     forEachArray(from, to, [](const auto& values, auto& all) { append(values, all); });
 }
 
+/// Moves the returns from this one on.
+void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan) {
+    const Eigen::Matrix3f turn = motion.linear().cast<float>();
+    const Eigen::Vector3f way_m = motion.translation().cast<float>();
+    float* const x_m = scan.x_m.data();
+    float* const y_m = scan.y_m.data();
+    float* const z_m = scan.z_m.data();
+    for (std::size_t i = first; i < scan.size(); ++i) {
+        const float x = x_m[i], y = y_m[i], z = z_m[i];
+        x_m[i] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + way_m.x();
+        y_m[i] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + way_m.y();
+        z_m[i] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + way_m.z();
+    }
+}
+
 bool isStill(const Eigen::Isometry3d& motion) {
     return motion.translation().norm() < kLeastMotion_m &&
            Eigen::AngleAxisd(motion.linear()).angle() < kLeastMotion_rad;
@@ -69,8 +84,11 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
     check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
           "sector_rad must be above 0 and at most a turn");
     check(streaming.window_rad >= 0, "window_rad must not be negative");
-    check(streaming.skip_ahead_rad >= 0 && streaming.skip_ahead_rad < kPi,
+    const auto isAhead = [](double angle_rad) { return angle_rad >= 0 && angle_rad < kPi; };
+    check(isAhead(streaming.skip_ahead_rad),
           "skip_ahead_rad must be at least 0 and less than half a turn");
+    check(isAhead(streaming.skip_ahead_moved_rad),
+          "skip_ahead_moved_rad must be at least 0 and less than half a turn");
     check(streaming.keep_every >= 0, "keep_every must not be negative");
     check(streaming.context_s > 0, "context_s must be positive");
     check(streaming.least_known_rad >= 0 && streaming.least_known_rad <= kTurn_rad,
@@ -81,12 +99,12 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
 
 void StreamingSegmenter::Returns::clear() {
     scan.clear();
-    region.clear();
+    found.clear();
 }
 
 void StreamingSegmenter::Returns::append(const Returns& other, std::size_t i) {
     appendReturn(other.scan, i, scan);
-    region.push_back(other.region[i]);
+    found.push_back(other.found[i]);
 }
 
 void StreamingSegmenter::Returns::append(const Returns& other, std::size_t first, std::size_t end) {
@@ -95,7 +113,7 @@ void StreamingSegmenter::Returns::append(const Returns& other, std::size_t first
                    values.begin() + static_cast<std::ptrdiff_t>(end));
     };
     forEachArray(other.scan, scan, appendPart);
-    appendPart(other.region, region);
+    appendPart(other.found, found);
 }
 
 void StreamingSegmenter::Returns::eraseFirst(std::size_t number) {
@@ -103,7 +121,7 @@ void StreamingSegmenter::Returns::eraseFirst(std::size_t number) {
         values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(number));
     };
     forEachArray(scan, scan, erase);
-    erase(region, region);
+    erase(found, found);
 }
 
 void StreamingSegmenter::setAttitude(const std::optional<Attitude>& attitude) {
@@ -129,7 +147,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     append(returns, packet.all.scan);
     packet.all.scan.intensity.resize(returns.size());
     packet.all.scan.beams = returns.beams;
-    packet.all.region.resize(returns.size(), Label::Unclassified);
+    packet.all.found.resize(returns.size());
     packet.thinned_first = packet.thinned_end = 0;
     packet.sweep.reset();
     packet.time_s = time_s;
@@ -218,14 +236,6 @@ void StreamingSegmenter::forget(double now_s) {
     }
 }
 
-/// The returns ahead of the sensor of a packet that it has begun to overwrite.
-void StreamingSegmenter::addAhead(const Returns& returns, std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-        const double clockwise_rad = -static_cast<double>(returns.scan.azimuth_rad[i]);
-        if (std::remainder(clockwise_rad - head_rad_, kTurn_rad) > 0) window_.append(returns, i);
-    }
-}
-
 /// Stretches that follow each other are copied at once. An empty one ends the last.
 void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
     if (first != pending_end_ || first == end) {
@@ -235,54 +245,56 @@ void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
     pending_end_ = end;
 }
 
-/// Beams are located later, all at once.
+/// Where the returns of a packet are by now, if it is known how the sensor has moved since then.
+std::optional<Eigen::Isometry3d> StreamingSegmenter::motionSince(const Packet& packet) const {
+    const Packet& latest = packets_.back();
+    // A tilt and a pose do not compare: the pose has a heading and a place.
+    if (!packet.pose || !latest.pose || packet.has_place != latest.has_place) return std::nullopt;
+    return latest.pose->inverse() * *packet.pose;
+}
+
+/// Returns of a turn keep the pixels in which they were measured: elsewhere they would not be
+/// neighbours. Those of frames, in which a sensor looks everywhere, get the pixels of today.
 void StreamingSegmenter::addMoved(const Returns& returns, std::size_t first, std::size_t end,
-                                  const Eigen::Isometry3d& motion) {
-    const Eigen::Matrix3f turn = motion.linear().cast<float>();
-    const Eigen::Vector3f way_m = motion.translation().cast<float>();
-    const Scan& scan = returns.scan;
-    Scan& moved = moved_.scan;
-    std::size_t at = moved.size();
-    for (auto* values : {&moved.x_m, &moved.y_m, &moved.z_m, &moved.intensity}) {
-        values->resize(at + end - first);
+                                  const Eigen::Isometry3d& motion, bool keeps_pixels) {
+    Returns& to = keeps_pixels ? window_ : moved_;
+    const std::size_t at = to.scan.size();
+    if (keeps_pixels) {
+        to.append(returns, first, end);
+    } else {
+        for (std::size_t i = first; i < end; ++i) {  // the airframe moves with the sensor
+            if (std::isfinite(returns.scan.range_m[i])) to.append(returns, i);
+        }
     }
-    moved_.region.resize(at + end - first);
-    for (std::size_t i = first; i < end; ++i) {
-        const float x_m = scan.x_m[i], y_m = scan.y_m[i], z_m = scan.z_m[i];
-        moved.x_m[at] = turn(0, 0) * x_m + turn(0, 1) * y_m + turn(0, 2) * z_m + way_m.x();
-        moved.y_m[at] = turn(1, 0) * x_m + turn(1, 1) * y_m + turn(1, 2) * z_m + way_m.y();
-        moved.z_m[at] = turn(2, 0) * x_m + turn(2, 1) * y_m + turn(2, 2) * z_m + way_m.z();
-        moved.intensity[at] = scan.intensity[i];
-        moved_.region[at] = returns.region[i];
-        at += std::isfinite(scan.range_m[i]);  // the airframe moves with the sensor
-    }
-    for (auto* values : {&moved.x_m, &moved.y_m, &moved.z_m, &moved.intensity}) {
-        values->resize(at);
-    }
-    moved_.region.resize(at);
+    moveReturns(motion, at, to.scan);
 }
 
 void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
-    bool is_near = true, is_cut = false;
-    const Packet& latest = packets_.back();
-    // A tilt and a pose do not compare: the pose has a heading and a place.
-    const bool has_motion = packet.pose && latest.pose && packet.has_place == latest.has_place;
+    const std::optional<Eigen::Isometry3d> motion = motionSince(packet);
+    const bool has_moved = motion && !isStill(*motion);
+    bool is_near = true;
     if (packet.sweep) {
+        double skip_rad = motion ? 0 : streaming_.skip_ahead_rad;
+        if (has_moved) skip_rad = streaming_.skip_ahead_moved_rad;
         const double ahead_rad = packet.sweep->from_rad - (head_rad_ - kTurn_rad);
-        if (!has_motion && ahead_rad < streaming_.skip_ahead_rad) return;
+        if (ahead_rad < 0 && skip_rad == 0 && !has_moved) return addAhead(packet.all);
+        if (ahead_rad < skip_rad) return;
         is_near = between(*packet.sweep, sector) <= streaming_.window_rad;
-        is_cut = packet.sweep->from_rad < head_rad_ - kTurn_rad;
     }
     const Returns& returns = is_near ? packet.all : thinned_;
     const std::size_t first = is_near ? 0 : packet.thinned_first;
     const std::size_t end = is_near ? packet.all.scan.size() : packet.thinned_end;
-    if (has_motion && !is_cut) {
-        const Eigen::Isometry3d motion = latest.pose->inverse() * *packet.pose;
-        if (!isStill(motion)) return addMoved(returns, first, end, motion);
-    }
-    if (is_cut) return addAhead(returns, first, end);
+    if (has_moved) return addMoved(returns, first, end, *motion, packet.sweep.has_value());
     if (!is_near) return addThinned(first, end);
     window_.append(returns, first, end);
+}
+
+/// Those ahead of the sensor, of a packet that it has begun to overwrite.
+void StreamingSegmenter::addAhead(const Returns& returns) {
+    for (std::size_t i = 0; i < returns.scan.size(); ++i) {
+        const double clockwise_rad = -static_cast<double>(returns.scan.azimuth_rad[i]);
+        if (std::remainder(clockwise_rad - head_rad_, kTurn_rad) > 0) window_.append(returns, i);
+    }
 }
 
 /// Whether enough is in sight to tell what is ground.
@@ -321,33 +333,34 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     return true;
 }
 
-/// The labels of the sector, and its regions.
+/// The labels of the sector, and what later sectors need to know of it.
 const SegmentationResult& StreamingSegmenter::judge() {
     const bool is_upright =
         !filter_.options().level_by_attitude || postureOf(attitude_) == Posture::Upright;
     const std::optional<Sweep>& sweep = packets_.back().sweep;
     if (sweep && is_upright && mapWindow({start_rad_, head_rad_})) {
         const SegmentationResult& result =
-            sector_filter_.segment(window_.scan, attitude_, {sector_, columns_, window_.region});
+            sector_filter_.segment(window_.scan, attitude_, {sector_, columns_, window_.found});
         labels_ = result.returns.label;
-        regions_ = sector_filter_.regions();
+        found_ = sector_filter_.found();
         return result;
     }
     const SegmentationResult& result = filter_.segment(window_.scan, attitude_);
     labels_.assign(result.returns.label.begin(),
                    result.returns.label.begin() + static_cast<std::ptrdiff_t>(sector_.size()));
-    regions_ = labels_;
+    found_.assign(sector_.size(), {});
+    for (std::size_t i = 0; i < found_.size(); ++i) found_[i].region = labels_[i];
     return result;
 }
 
 /// From now on, the sector's packets are context.
-void StreamingSegmenter::keepRegions() {
+void StreamingSegmenter::keepFound() {
     forgetThinned();
-    auto from = regions_.begin();
+    auto from = found_.begin();
     for (std::size_t i = packets_.size() - open_; i < packets_.size(); ++i) {
-        std::vector<Label>& region = packets_[i].all.region;
-        const auto to = from + static_cast<std::ptrdiff_t>(region.size());
-        std::copy(from, to, region.begin());
+        std::vector<ContextReturn>& found = packets_[i].all.found;
+        const auto to = from + static_cast<std::ptrdiff_t>(found.size());
+        std::copy(from, to, found.begin());
         from = to;
         thin(packets_[i]);
     }
@@ -371,7 +384,7 @@ void StreamingSegmenter::label(bool is_cut) {
     window_.clear();
     append(sector_, window_.scan);
     window_.scan.beams = sector_.beams;
-    window_.region.resize(sector_.size(), Label::Unclassified);
+    window_.found.resize(sector_.size());
     moved_.clear();
     pending_first_ = pending_end_ = 0;
     for (std::size_t i = 0; i < first_open; ++i) addContext(packets_[i], sector);
@@ -380,7 +393,7 @@ void StreamingSegmenter::label(bool is_cut) {
     window_.append(moved_, 0, moved_.scan.size());
 
     const SegmentationResult& result = judge();
-    keepRegions();
+    keepFound();
     const bool is_doubtful = !knowsEnough();
     if (is_doubtful) {
         for (std::size_t i = 0; i < labels_.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <hagen/segmentation/CellTops.h>
 #include <hagen/segmentation/HeightLabels.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -88,6 +89,58 @@ TEST(CellArea, WhatIsFoundInsideIsWhatTheWholeGridShows) {
             ASSERT_EQ(tolerance_m.data()[k], whole_m.data()[k]) << k;
         }
         EXPECT_GT(pixels, 0);
+    }
+}
+
+TEST(CellTops, CellsThatAreKnownToBeHigherAreRaised) {
+    const Crops crops = makeCrops(6);
+    CellTops all;
+    findCellTops(crops.cells, crops.height_m, all);
+    // One pixel in five is left, with what its cell was.
+    Crops thin;
+    Image<float> known_m;
+    for (auto* image :
+         {&thin.pixels.x_m, &thin.pixels.y_m, &thin.pixels.z_m, &thin.height_m, &known_m}) {
+        image->resize(kRows, kColumns / 5);
+    }
+    for (Eigen::Index k = 0; k < thin.height_m.size(); ++k) {
+        thin.pixels.set(k, crops.pixels.at(5 * k));
+        thin.height_m.data()[k] = crops.height_m.data()[5 * k];
+        const int cell = crops.cells.cell.data()[5 * k];
+        known_m.data()[k] = k % 3 == 0 ? kNoValue : highestOf(all, cell);
+    }
+    findPixelCells(thin.pixels, thin.cells);
+    CellTops tops, before;
+    findCellTops(thin.cells, thin.height_m, tops);
+    before = tops;
+    raiseHighest(thin.cells, known_m, tops);
+    int raised = 0;
+    for (Eigen::Index k = 0; k < known_m.size(); ++k) {
+        const int cell = thin.cells.cell.data()[k];
+        if (cell == 0) continue;  // of empty pixels
+        // The highest of what is known of this cell, and of its own pixels.
+        float expected_m = before.highest_m.data()[cell];
+        for (Eigen::Index other = 0; other < known_m.size(); ++other) {
+            if (thin.cells.cell.data()[other] != cell || std::isnan(known_m.data()[other]))
+                continue;
+            expected_m = std::max(expected_m, known_m.data()[other]);
+        }
+        ASSERT_EQ(tops.highest_m.data()[cell], expected_m);
+        raised += expected_m > before.highest_m.data()[cell];
+    }
+    EXPECT_GT(raised, 50);
+    EXPECT_TRUE((tops.top_m == before.top_m).all());
+}
+
+TEST(CellTops, OfCellsThatWereNotComputedNothingIsKnown) {
+    const Crops crops = makeCrops(7);
+    CellTops tops;
+    const CellArea area{40, 60, 50, 90};
+    findCellTops(crops.cells, crops.height_m, tops, area);
+    for (int cell = 0; cell < CellArea::kSide * CellArea::kSide; ++cell) {
+        const int row = cell % CellArea::kSide, column = cell / CellArea::kSide;
+        const bool is_in_area = row >= 40 && row < 60 && column >= 50 && column < 90;
+        ASSERT_EQ(!std::isnan(highestOf(tops, cell)), is_in_area);
     }
 }
 

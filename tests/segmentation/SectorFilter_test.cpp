@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/AppendReturn.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <hagen/segmentation/SectorFilter.h>
 
@@ -47,6 +48,13 @@ Turn turnOf(const SimpleScene& scene, const SensorModel& sensor, double half_rad
     return turn;
 }
 
+/// What sectors found before, if it was no more than the labels.
+std::vector<ContextReturn> contextOf(const std::vector<Label>& regions) {
+    std::vector<ContextReturn> context;
+    for (const Label region : regions) context.push_back({region, kNoValue});
+    return context;
+}
+
 /// All columns up to 35 degrees from the front, and one in six elsewhere.
 ColumnMap windowInFront() {
     ColumnMap map;
@@ -67,9 +75,10 @@ TEST(SectorFilter, ItsLabelsAreThoseOfTheWholeScan) {
         const Turn turn = turnOf(sceneWithPole(), sensor, radians(20.0));
         const ColumnMap columns = windowInFront();
         SectorFilter filter(sensor, {});
-        const auto& found = filter.segment(turn.scan, {}, {turn.sector, columns, turn.whole});
+        const auto& found =
+            filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(turn.whole)});
         ASSERT_EQ(found.returns.label.size(), turn.sector.size());
-        ASSERT_EQ(filter.regions().size(), turn.sector.size());
+        ASSERT_EQ(filter.found().size(), turn.sector.size());
         EXPECT_TRUE(found.ground.has_surface);
         std::size_t different = 0, roi = 0, rou = 0;
         for (std::size_t i = 0; i < turn.sector.size(); ++i) {
@@ -89,14 +98,14 @@ TEST(SectorFilter, RegionsAreWhatThePaperFindsWithoutTheGround) {
     const Turn turn = turnOf(sceneWithPole(), sensor, radians(20.0));
     const ColumnMap columns = windowInFront();
     SectorFilter filter(sensor, {});
-    filter.segment(turn.scan, {}, {turn.sector, columns, turn.whole});
+    filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(turn.whole)});
     std::size_t ground = 0, rou = 0, pole = 0, roi = 0;
     for (std::size_t i = 0; i < turn.sector.size(); ++i) {
         const bool is_ground = turn.sector.z_m[i]<-1.99f, is_pole = turn.sector.z_m[i]> - 1.5f;
         ground += is_ground;
-        rou += is_ground && filter.regions()[i] == Label::Rou;
+        rou += is_ground && filter.found()[i].region == Label::Rou;
         pole += is_pole;
-        roi += is_pole && filter.regions()[i] == Label::Roi;
+        roi += is_pole && filter.found()[i].region == Label::Roi;
     }
     EXPECT_GT(ground, 400u);
     EXPECT_GT(rou, ground * 8 / 10);
@@ -112,11 +121,12 @@ TEST(SectorFilter, RegionsOfTheContextShowTheGround) {
     const Turn turn = turnOf(scene, sensor, radians(8.0));
     const ColumnMap columns = windowInFront();
     SectorFilter filter(sensor, {});
-    const auto& seen = filter.segment(turn.scan, {}, {turn.sector, columns, turn.whole});
+    const auto& seen = filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(turn.whole)});
     EXPECT_TRUE(seen.ground.is_seen);
     EXPECT_NEAR(seen.ground.from_sensor.translation().z(), 2, 0.02);
     const std::vector<Label> unknown(turn.scan.size(), Label::Unclassified);
-    const auto& doubtful = filter.segment(turn.scan, {}, {turn.sector, columns, unknown});
+    const auto& doubtful =
+        filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(unknown)});
     EXPECT_FALSE(doubtful.ground.is_seen);
     for (const Label label : doubtful.returns.label) EXPECT_EQ(label, Label::Roi);
 }
@@ -131,7 +141,7 @@ TEST(SectorFilter, ASectorWithoutReturnsHasNoLabels) {
     // Context only.
     const Scan scan = test::scanScene({}, sensor, kColumns, kTwoMetresUp).scan;
     const std::vector<Label> rou(scan.size(), Label::Rou);
-    EXPECT_TRUE(filter.segment(scan, {}, {none, columns, rou}).returns.label.empty());
+    EXPECT_TRUE(filter.segment(scan, {}, {none, columns, contextOf(rou)}).returns.label.empty());
 }
 
 TEST(SectorFilter, ReturnsThatWereNotLocatedAreRefused) {
@@ -139,12 +149,66 @@ TEST(SectorFilter, ReturnsThatWereNotLocatedAreRefused) {
     SectorFilter filter(sensor, {});
     Scan scan;
     scan.x_m = scan.y_m = scan.z_m = {1};
-    const std::vector<Label> regions(1);
+    const std::vector<ContextReturn> context(1);
     const ColumnMap columns = windowInFront();
-    EXPECT_THROW(filter.segment(scan, {}, {scan, columns, regions}), std::invalid_argument);
+    EXPECT_THROW(filter.segment(scan, {}, {scan, columns, context}), std::invalid_argument);
     Options options;
     options.window_size = 1;
     EXPECT_THROW(SectorFilter(sensor, options), std::invalid_argument);
+}
+
+/// Thin plants in rows. One column in six meets few of their tops.
+SimpleScene sceneWithCrops() {
+    SimpleScene scene;
+    for (int i = -14; i <= 14; ++i) {
+        for (int j = -14; j <= 14; ++j) {
+            scene.poles.push_back({1.2 * i + 0.05 * j, 1.2 * j, 0.05, 0.7});
+        }
+    }
+    return scene;
+}
+
+/// The returns of the sector, and of the others those of one column in six.
+Turn thinned(const Turn& turn, std::vector<std::size_t>& kept) {
+    Turn thin;
+    thin.sector = turn.sector;
+    for (std::size_t i = 0; i < turn.scan.size(); ++i) {
+        const bool is_context = i >= turn.sector.size();
+        if (is_context && nearestColumn(turn.scan.azimuth_rad[i], kColumns) % 6 != 0) continue;
+        appendReturn(turn.scan, i, thin.scan);
+        thin.whole.push_back(turn.whole[i]);
+        kept.push_back(i);
+    }
+    thin.scan.beams = turn.scan.beams;
+    return thin;
+}
+
+TEST(SectorFilter, ACanopyIsToldByHowHighTheCellsOfTheContextWere) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Turn turn = turnOf(sceneWithCrops(), sensor, radians(7.5));
+    std::vector<std::size_t> kept;
+    const Turn thin = thinned(turn, kept);
+    // What the sectors found that had all of these returns: here, one of the whole turn.
+    SectorFilter all(sensor, {});
+    ColumnMap every_column;
+    mapColumns(kColumns, 6, 0, kColumns / 6, every_column);
+    all.segment(turn.scan, {}, {turn.scan, every_column, contextOf(turn.whole)});
+    std::vector<ContextReturn> context;
+    for (const std::size_t i : kept) context.push_back(all.found()[i]);
+
+    const ColumnMap columns = windowInFront();
+    const auto differentWith = [&](const std::vector<ContextReturn>& known) {
+        SectorFilter filter(sensor, {});
+        const auto& found = filter.segment(thin.scan, {}, {thin.sector, columns, known});
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < thin.sector.size(); ++i) {
+            different += found.returns.label[i] != turn.whole[i];
+        }
+        return different;
+    };
+    const std::size_t with = differentWith(context), without = differentWith(contextOf(thin.whole));
+    EXPECT_GT(without, 20u);
+    EXPECT_EQ(with, 0u);
 }
 
 }  // namespace

@@ -315,6 +315,30 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     EXPECT_LT(errorsWith(false, radians(30.0)), not_told);
 }
 
+/// Thin plants, of which one column in five shows few tops: a sector knows how high they were.
+TEST_F(StreamingSegmenterTest, CropsAreACanopyForSectorsToo) {
+    test::SimpleScene crops;
+    for (int i = -14; i <= 14; ++i) {
+        for (int j = -14; j <= 14; ++j) {
+            crops.poles.push_back({1.2 * i + 0.05 * j, 1.2 * j, 0.05, 0.7});
+        }
+    }
+    const auto turn = test::scanScene(crops, sensor_, kColumns, {0, 0, 2});
+    HagenFilter filter(sensor_);
+    const auto roiOf = [](const std::vector<Label>& labels) {
+        return std::count(labels.begin(), labels.end(), Label::Roi);
+    };
+    ASSERT_EQ(roiOf(filter.segment(turn.scan).returns.label), 0);
+    const std::vector<Scan> packets = packetsOf(turn);
+    StreamingSegmenter segmenter(sensor_, {}, take());
+    for (int k = 0; k < 2; ++k) addTurn(k, packets, segmenter);
+    segmenter.flush();
+    taken_.clear();
+    addTurn(2, packets, segmenter);
+    segmenter.flush();
+    EXPECT_EQ(roiOf(labels()), 0);
+}
+
 TEST_F(StreamingSegmenterTest, SilenceEndsTheContext) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);

@@ -17,10 +17,18 @@ struct CellTops {
     Eigen::ArrayXXf top_m;      ///< height above the surface; kNone_m in cells without pixels
     Eigen::ArrayXXf highest_m;  ///< the highest up to 1.5 m, likewise
     std::vector<float> two_m;   ///< the highest two of each cell, side by side (workspace)
+    CellArea area;              ///< the cells that were computed
 };
 
 /// `height_m` above the surface.
 void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops,
                   const CellArea& area = {});
+
+/// Raises `highest_m` of the cell of each pixel to what is known of it from an earlier call, in
+/// which the cell had more pixels. `known_m` is per pixel, NaN where nothing is known.
+void raiseHighest(const PixelCells& cells, const Image<float>& known_m, CellTops& tops);
+
+/// `highest_m` of a cell (PixelCells::cell), for raiseHighest(); NaN if it was not computed.
+float highestOf(const CellTops& tops, int cell);
 
 }  // namespace hagen

@@ -1,5 +1,7 @@
 #pragma once
 #include <hagen/range_image/ColumnMap.h>
+#include <hagen/range_image/Image.h>
+#include <hagen/range_image/Label.h>
 #include <hagen/range_image/PixelDirections.h>
 #include <hagen/range_image/Scan.h>
 #include <hagen/range_image/SensorModel.h>
@@ -13,19 +15,28 @@
 
 namespace hagen {
 
+/// What a sector found of a return, for later sectors that have it as context.
+struct ContextReturn {
+    Label region = Label::Unclassified;  ///< of its pixel, by the stages of the paper
+    /// The highest return of its ground cell, above the surface (CellTops.h); NaN: not known. Later
+    /// sectors have few of the returns of that cell.
+    float cell_height_m = kNoValue;
+};
+
 /// A sector of a turn among its context, which shows where the ground is.
 struct SectorOfInterest {
     const Scan& returns;       ///< of the sector: the first ones of the scan, which get labels
     const ColumnMap& columns;  ///< of the image: all in and beside the sector, fewer elsewhere
-    /// Per return of the scan: its region (SectorFilter::regions()) when it was in a sector itself;
-    /// those of `returns` are not read.
-    const std::vector<Label>& regions;
+    /// Per return of the scan: what was found of it (SectorFilter::found()) when it was in a sector
+    /// itself; those of `returns` are not read.
+    const std::vector<ContextReturn>& context;
 };
 
 /// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare a pixel with its
 /// neighbours, run on the columns of the sector and a few beside it; other returns keep the region
 /// that they got there. The ground is found under all of them, and only the sector is labelled by
-/// it: its labels are those of a whole scan but for a few. Obstacles are not numbered.
+/// it: its labels are those of a whole scan but for a few. Whether a canopy is around is told by
+/// how high the cells of the context were in their own sectors. Obstacles are not numbered.
 class SectorFilter {
  public:
     /// As HagenFilter.
@@ -38,9 +49,8 @@ class SectorFilter {
     const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& attitude,
                                       const SectorOfInterest& sector);
 
-    /// For each return of the sector the label of its pixel by the regions of the paper, before the
-    /// ground was known: what `SectorOfInterest::regions` needs to know once it is context.
-    const std::vector<Label>& regions() const { return regions_; }
+    /// Per return of the sector, what `SectorOfInterest::context` needs once it is context.
+    const std::vector<ContextReturn>& found() const { return found_; }
 
  private:
     struct Columns {
@@ -49,6 +59,7 @@ class SectorFilter {
     Columns judgedColumns(const SectorOfInterest& sector) const;
     void project(const Scan& scan, const SectorOfInterest& sector);
     void findRegions(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
+    void keepHeights();
     void labelSector(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
 
     SensorModel sensor_;
@@ -59,7 +70,8 @@ class SectorFilter {
     SegmentationResult result_;
     Columns judged_{};         ///< of its images
     SegmentationResult near_;  ///< images of the columns that are judged, and an empty one
-    std::vector<Label> regions_;
+    std::vector<ContextReturn> found_;
+    Image<float> known_m_;  ///< how high the cell of each pixel is known to be
     std::vector<std::int32_t> plane_columns_;
     FilterWorkspace work_;
 };

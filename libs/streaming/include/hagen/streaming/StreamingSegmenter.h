@@ -26,6 +26,9 @@ struct StreamingOptions {
     /// moved since, those up to this angle are no context: ground that is tilted against that of
     /// the sector looks like a step. Less than half a turn.
     double skip_ahead_rad = 0.5235987755982988;  // 30 degrees
+    /// The same if its motion is known: what is seen from elsewhere has other neighbours. None are
+    /// left out if it stood still.
+    double skip_ahead_moved_rad = 0.03490658503988659;  // 2 degrees
     /// Returns older than this are no context: the sensor was silent. For a sensor that does not
     /// turn, the time that is judged at once.
     double context_s = 0.25;
@@ -107,10 +110,10 @@ class StreamingSegmenter {
     const StreamingOptions& streaming() const { return streaming_; }
 
  private:
-    /// Returns, and the region of each (SectorFilter.h) once they were in a sector.
+    /// Returns, and what was found of each once they were in a sector.
     struct Returns {
         Scan scan;
-        std::vector<Label> region;
+        std::vector<ContextReturn> found;
 
         void clear();
         void append(const Returns& other, std::size_t i);
@@ -133,13 +136,14 @@ class StreamingSegmenter {
     void label(bool is_cut);
     bool knowsEnough() const;
     void addContext(const Packet& packet, const Sweep& sector);
+    std::optional<Eigen::Isometry3d> motionSince(const Packet& packet) const;
     void addMoved(const Returns& returns, std::size_t first, std::size_t end,
-                  const Eigen::Isometry3d& motion);
-    void addAhead(const Returns& returns, std::size_t first, std::size_t end);
+                  const Eigen::Isometry3d& motion, bool keeps_pixels);
+    void addAhead(const Returns& returns);
     void addThinned(std::size_t first, std::size_t end);
     bool mapWindow(const Sweep& sector);
     const SegmentationResult& judge();
-    void keepRegions();
+    void keepFound();
 
     HagenFilter filter_;          ///< of all in sight at once
     SectorFilter sector_filter_;  ///< of a sector and its context
@@ -158,11 +162,12 @@ class StreamingSegmenter {
     double head_rad_ = 0;   ///< how far the sensor has turned
     double start_rad_ = 0;  ///< of the sector in progress
     std::size_t sectors_ = 0;
-    Returns window_, moved_;  ///< reused
+    Returns window_, moved_;  ///< reused; moved: of frames
     ColumnMap columns_;       ///< reused
     Scan sector_;
-    std::vector<Label> labels_, regions_;  ///< of the sector's returns
-    std::vector<Sweep> sweeps_;            ///< of the sector's packets
+    std::vector<Label> labels_;         ///< of the sector's returns
+    std::vector<ContextReturn> found_;  ///< of the sector's returns
+    std::vector<Sweep> sweeps_;         ///< of the sector's packets
 };
 
 }  // namespace hagen::streaming
