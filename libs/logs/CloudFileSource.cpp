@@ -47,12 +47,11 @@ std::string stemOf(const fs::path& file) {
     return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
 }
 
-/// By number if all names have one, otherwise by name.
-void sortByName(std::vector<fs::path>& files) {
+/// By number if all names have one, otherwise by name, as they are.
+void sortByNumber(std::vector<fs::path>& files) {
     const bool are_numbered = std::all_of(files.begin(), files.end(), [](const fs::path& file) {
         return numberOfName(stemOf(file)) >= 0;
     });
-    std::sort(files.begin(), files.end());
     if (!are_numbered) return;
     std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
         return numberOfName(stemOf(a)) < numberOfName(stemOf(b));
@@ -75,7 +74,7 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
         if (files_.empty()) {
             throw std::runtime_error(file_or_folder.string() + ": contains no point cloud files");
         }
-        sortByName(files_);
+        sortByNumber(files_);
     } else {
         files_ = {file_or_folder};
     }

@@ -5,8 +5,10 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/HagenFilter.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -84,23 +86,21 @@ class AutopilotLinkTest : public testing::Test {
             remarks_.push_back(remark);
         });
     }
-    /// A turn that sees one return straight ahead.
-    void takeTurn() {
+    /// A turn that sees one return straight ahead, or as many on other sides, each 1 m farther.
+    void takeTurn(int returns = 1) {
         Scan scan;
-        scan.x_m = {6};
-        scan.y_m = {0};
-        scan.z_m = {-0.5f};
+        for (int i = 0; i < returns; ++i) {
+            const float range_m = 6.0f + static_cast<float>(i),
+                        left_rad = 0.7f * static_cast<float>(i);
+            scan.x_m.push_back(range_m * std::cos(left_rad));
+            scan.y_m.push_back(range_m * std::sin(left_rad));
+            scan.z_m.push_back(-0.5f);
+        }
         SegmentationResult result;
         const double time_s = now_s();
-        link_->take({scan,
-                     {Label::Roi},
-                     streaming::Sweep{turned_rad_, turned_rad_ + 2 * kPi},
-                     time_s - 0.001,
-                     time_s,
-                     true,
-                     false,
-                     false,
-                     result});
+        link_->take({scan, std::vector<Label>(scan.size(), Label::Roi),
+                     streaming::Sweep{turned_rad_, turned_rad_ + 2 * kPi}, time_s - 0.001, time_s,
+                     true, false, false, result});
         turned_rad_ += 2 * kPi;
     }
     std::size_t count(const std::string& name) const {
@@ -158,6 +158,24 @@ TEST_F(AutopilotLinkTest, AFilterThatStallsIsToldAndNothingIsFree) {
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(
         [](const auto& m) { return m.distances[0] == 600 && m.distances[36] == 2001; }));
     EXPECT_THAT(remarks(), Contains(HasSubstr("known again")));
+}
+
+TEST_F(AutopilotLinkTest, TheFiveNearestObstaclesAreSentOneByOne) {
+    link_->begin(sensor_, {20, 0});
+    takeTurn(8);
+    ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(
+        [](const auto& m) { return !isAllUnknown(m); }));
+    std::vector<float> ranges_m;
+    for (int i = 0; i < 40; ++i) {
+        const auto message = mavlink::messageOf<mavlink::ObstacleDistance3d>(autopilot_.receive());
+        if (message) ranges_m.push_back(std::hypot(message->x, message->y));
+        if (!message && !ranges_m.empty()) break;
+    }
+    std::sort(ranges_m.begin(), ranges_m.end());
+    ASSERT_EQ(ranges_m.size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_NEAR(ranges_m[i], 6.0f + static_cast<float>(i), 1e-3);
+    }
 }
 
 TEST_F(AutopilotLinkTest, ASectorThatIsLabelledLateIsNotFree) {

@@ -286,6 +286,33 @@ TEST_F(SurroundingsTest, AnObstacleIsForgottenWhenTheNextTurnDoesNotSeeIt) {
     EXPECT_EQ(surroundings.at(0.36, flight.motion)[0].state, State::SeenNothing);
 }
 
+/// A sweep counts as that of a later turn if it ended more than half a turn later.
+TEST_F(SurroundingsTest, HalfATurnLaterIsStillTheSameTurn) {
+    const auto stateAfter = [&](double turned_rad) {
+        Surroundings surroundings(sensor_, {});
+        Scan scan;
+        scan.x_m = {6};
+        scan.y_m = {0};
+        scan.z_m = {0};
+        const SegmentationResult result;
+        surroundings.take(
+            {scan, {Label::Roi}, Sweep{-2 * kPi, 0}, 1, 1.1, true, false, false, result});
+        scan.clear();
+        surroundings.take({scan,
+                           {},
+                           Sweep{turned_rad - 2 * kPi, turned_rad},
+                           1.1,
+                           1.15,
+                           true,
+                           false,
+                           false,
+                           result});
+        return surroundings.at(1.15, {})[0].state;
+    };
+    EXPECT_EQ(stateAfter(kPi), State::Obstacle);
+    EXPECT_EQ(stateAfter(std::nextafter(kPi, 4)), State::SeenNothing);
+}
+
 TEST_F(SurroundingsTest, WithoutAttitudeTheSensorIsTakenToBeAsItWas) {
     Flight flight;
     flight.has_attitude = flight.has_place = false;

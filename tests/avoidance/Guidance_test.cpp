@@ -44,6 +44,25 @@ TEST(Guidance, APathThroughEmptySpaceIsStraight) {
     EXPECT_NEAR(at_m.norm(), std::sqrt(16 + 4), 0.3);
 }
 
+/// The grid path turns by 45 degrees. The straight line to the goal is as far from the posts as it
+/// is between the two rows.
+TEST(Guidance, CornersAreCutWhereThereIsRoom) {
+    constexpr float kRoom_m = 1.4f, kPost_m = 0.2f;
+    const Eigen::Vector2f along = Eigen::Vector2f(2, 1).normalized();
+    const Eigen::Vector2f across(-along.y(), along.x());
+    SolidWorld world;
+    for (float at_m = -2; at_m < 16; at_m += 0.25f) {
+        for (const float side : {-1.0f, 1.0f}) {
+            world.trunk(at_m * along + side * (kRoom_m + kPost_m) * across, kPost_m);
+        }
+    }
+    GuidanceTask task = eastwards();
+    task.goal_m = {40, 20, 2};
+    const Eigen::Vector3d ahead_m = carrot("astar", world, task).at_m - task.position_m;
+    EXPECT_NEAR(ahead_m.norm(), 4, 1e-9);
+    EXPECT_LT(std::abs(ahead_m.head<2>().dot(across.cast<double>())), 0.25);
+}
+
 TEST(Guidance, TheCarrotIsTheGoalWhereThatIsNear) {
     GuidanceTask task = eastwards();
     task.position_m = {37, 0, 2};

@@ -165,7 +165,7 @@ TEST_F(BagPosesTest, TransformsOfMoreFramesThanAreKeptAreCounted) {
     const ReadBag bag = read({cloud("/points"), transforms("/tf", kMostMovingFrames + 2),
                               // A frame that is known already is no further one.
                               transform("/tf", "base_link", "f0", 2, 0.1),
-                              transforms("/tf_static", FrameTree::kMostFrames + 1)});
+                              transforms("/tf_static", FrameTree::kMostFrames + 2)});
     EXPECT_EQ(bag.survey.transforms.size(), kMostMovingFrames);
     EXPECT_EQ(bag.survey.transforms.at("f0").poses.size(), 2u);
     EXPECT_THAT(bag.scans->remarks(),
@@ -173,7 +173,7 @@ TEST_F(BagPosesTest, TransformsOfMoreFramesThanAreKeptAreCounted) {
                          "left out; the first: message 0 (recorded at 1700000000.000 s): from "
                          "'base_link' to 'f1000'"));
     EXPECT_THAT(bag.scans->remarks(),
-                Contains(HasSubstr("/tf_static: 1 transform of frames beyond the first 1000")));
+                Contains(HasSubstr("/tf_static: 2 transforms of frames beyond the first 1000")));
 }
 
 TEST_F(BagPosesTest, AFrameOnItselfIsNamed) {

@@ -89,6 +89,15 @@ TEST_F(McapWriterTest, TheSameMessagesGiveTheSameBytes) {
     EXPECT_TRUE(bytesOf("a.mcap") == bytesOf("b.mcap"));
 }
 
+/// Their numbers have 16 bits, and none is 0.
+TEST_F(McapWriterTest, TopicsHave16BitsOfNumbers) {
+    McapWriter writer(folder_ / "a.mcap", "a.mcap");
+    for (int topic = 1; topic <= 65535; ++topic) {
+        ASSERT_EQ(writer.addTopic("/t", poseStampedType()), topic);
+    }
+    EXPECT_THROW(writer.addTopic("/t", poseStampedType()), std::runtime_error);
+}
+
 TEST_F(McapWriterTest, AFileWithoutMessagesIsWhole) {
     write("a.mcap", 0);
     EXPECT_TRUE(readAll(folder_ / "a.mcap").empty());
@@ -108,6 +117,12 @@ TEST_F(McapWriterTest, TheIndexLeadsToEveryMessage) {
         kinds.push_back(bytes[at]);
         const std::size_t content = at + 9;
         at = content + little(bytes, at + 1, 8);
+        if (kinds.back() == 4) {  // a channel: numbers, topic, encoding and an empty map
+            std::size_t map = content + 4;
+            for (int text = 0; text < 2; ++text) map += 4 + little(bytes, map, 4);
+            EXPECT_EQ(little(bytes, map, 4), 0u);
+            EXPECT_EQ(map + 4, at);
+        }
         if (kinds.back() != 8) continue;
         ++chunks;
         const std::uint64_t first_ns = little(bytes, content, 8),

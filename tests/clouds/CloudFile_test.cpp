@@ -216,6 +216,12 @@ TEST_F(CloudFileTest, PcdHeadersMayLackWhatIsUsual) {
     EXPECT_THAT(column(cloud.table, "z"), ElementsAre(3, 7));
 }
 
+TEST_F(CloudFileTest, PcdTextMayBeAsShortAsItCan) {
+    const std::string header = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n";
+    EXPECT_THAT(column(read("a.pcd", header + "1 2 3").table, "z"), ElementsAre(3));
+    EXPECT_THAT(complaint("a.pcd", header + "1 2"), HasSubstr("is it truncated?"));
+}
+
 TEST_F(CloudFileTest, PcdViewpointAndRestAreTold) {
     const std::string moved =
         replaced(test::binaryPcd(filePoints()), "VIEWPOINT 0 0 0", "VIEWPOINT 0 0 2");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -35,6 +36,11 @@ std::string onTerminal(const std::function<void()>& write) {
     return text;
 }
 
+/// A busy machine may take more than no time.
+std::string withoutSeconds(const std::string& text) {
+    return std::regex_replace(text, std::regex("about [0-9]+ s"), "about N s");
+}
+
 std::string clearing() {
     std::ostringstream text;
     text << clearLine;
@@ -43,14 +49,15 @@ std::string clearing() {
 
 TEST(ProgressLine, OnATerminalIsOneLineThatIsGoneAtTheEnd) {
     const std::string clear = clearing();
-    EXPECT_EQ(onTerminal([] {
-                  ProgressLine line("scan");
-                  line.show(0, 2);
-                  line.show(0, 2);  // nothing new
-                  line.show(1, 2);
-                  line.show(2, 2);
-              }),
-              clear + "scan 0 of 2" + clear + "scan 1 of 2, about 0 s left" + clear + clear);
+    const std::string shown = onTerminal([] {
+        ProgressLine line("scan");
+        line.show(0, 2);
+        line.show(0, 2);  // nothing new
+        line.show(1, 2);
+        line.show(2, 2);
+    });
+    EXPECT_EQ(withoutSeconds(shown),
+              clear + "scan 0 of 2" + clear + "scan 1 of 2, about N s left" + clear + clear);
 }
 
 TEST(ProgressLine, ClearsWhatHasNotComeToItsEnd) {
@@ -65,9 +72,9 @@ TEST(ProgressLine, ElsewhereHasALinePerTenth) {
         ProgressLine line("flight");
         for (std::size_t done = 0; done <= 30; ++done) line.show(done, 30);
     }
-    const std::string text = testing::internal::GetCapturedStderr();
+    const std::string text = withoutSeconds(testing::internal::GetCapturedStderr());
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 11);
-    EXPECT_EQ(text.find("flight 0 of 30\nflight 3 of 30, about 0 s left\n"), 0u) << text;
+    EXPECT_EQ(text.find("flight 0 of 30\nflight 3 of 30, about N s left\n"), 0u) << text;
     EXPECT_NE(text.find("flight 30 of 30\n"), std::string::npos) << text;
 }
 

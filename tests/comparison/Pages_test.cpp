@@ -9,6 +9,7 @@
 #include <hagen/replays/Overhead.h>
 #include <hagen/reports/Figures.h>
 #include <hagen/reports/Report.h>
+#include <nlohmann/json.hpp>
 #include "SampleRuns.h"
 
 namespace hagen {
@@ -38,6 +39,22 @@ TEST(Overhead, ShowsTheWholeFlightAndMarksItsEnds) {
     }
 }
 
+/// Cells of a row that touch are one rectangle. The y axis of SVG points down.
+TEST(Overhead, ObstaclesAreRectanglesOfTheirRows) {
+    constexpr double kCell_m = replays::OverheadView::kCell_m;
+    replays::OverheadView view{
+        test::runOf("gap", 0, "W-RoI", "astar", kWon), true, {5, 0}, {45, 0}, {}, {}, {}};
+    view.obstacle_cells = {{20, 4}, {40, 5}, {41, 5}, {42, 5}, {44, 5}, {45, 6}};
+    const auto rectangle = [&](int column, int row, int columns) {
+        const std::string length = pages::figure(kCell_m * columns, 1);
+        return "M" + pages::figure(kCell_m * column, 1) + " " +
+               pages::figure(-kCell_m * (row + 1), 1) + "h" + length + "v" +
+               pages::figure(kCell_m, 1) + "h" + pages::figure(-kCell_m * columns, 1) + "z";
+    };
+    EXPECT_THAT(replays::svgOf(view), HasSubstr("\"" + rectangle(20, 4, 1) + rectangle(40, 5, 3) +
+                                                rectangle(44, 5, 1) + rectangle(45, 6, 1) + "\""));
+}
+
 TEST(Pages, ShowTheWorstRunsThatCanBeFlownBesideThoseThatCannot) {
     reports::Report report;
     report.flown.runs = threeContenders();
@@ -49,6 +66,33 @@ TEST(Pages, ShowTheWorstRunsThatCanBeFlownBesideThoseThatCannot) {
     EXPECT_THAT(page, HasSubstr(replays::overheadLegend()));
     EXPECT_THAT(page, HasSubstr("Flown again from their seeds"));
     EXPECT_THAT(page, HasSubstr("<p>the first cannot</p>\n<p>the second cannot</p>"));
+}
+
+TEST(Pages, ChartsOfAReportHaveTheirPlacesAndTheirData) {
+    reports::Report report;
+    report.flown.runs = threeContenders();
+    report.summary = reports::summarize(report.flown.runs);
+    const auto hasPlace = [](const std::string& page, const std::string& chart) {
+        return page.find("id=\"chart-" + chart + "\"") != std::string::npos;
+    };
+    EXPECT_FALSE(hasPlace(reports::reportPage(report), "memory"));
+    report.memory = {{"W-RoI", {{0, 1e6}, {500, 2.5e6}}}};
+    const std::string page = reports::reportPage(report);
+    for (const char* chart : {"success", "clearance", "command", "memory"}) {
+        EXPECT_TRUE(hasPlace(page, chart)) << chart;
+    }
+    const std::string before = "id=\"data\">";
+    const std::size_t begin = page.find(before) + before.size();
+    const auto data =
+        nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    EXPECT_EQ(data["memory"][0]["megabytes_by_m"],
+              nlohmann::json::parse("[[0.0, 1.0], [500.0, 2.5]]"));
+    // Clearances of the ten courses are 0, 0.1 ... 0.9 m.
+    const auto& quantiles_m = data["clearances"][0]["curves"][0]["quantiles_m"];
+    ASSERT_EQ(quantiles_m.size(), 51u);
+    for (std::size_t i = 0; i <= 50; ++i) {
+        EXPECT_NEAR(quantiles_m[i].get<double>(), 0.9 * static_cast<double>(i) / 50, 1e-9);
+    }
 }
 
 TEST(WorstRuns, AreCollisionsThenTimeoutsThenByClearanceOneOfAKind) {

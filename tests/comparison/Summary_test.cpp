@@ -35,6 +35,23 @@ TEST(Summary, CountsCellsAndSpreads) {
     EXPECT_EQ(reports::find(summary, "gap", kReference, {"W-Full", "astar"}), nullptr);
 }
 
+/// 1000 resamples: the interval of another number is another one.
+TEST(Summary, AMedianHasTheBootstrapsInterval) {
+    std::vector<Row> runs;
+    std::vector<double> clearances_m;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        runs.push_back(runOf("gap", seed, "W-RoI", "astar", kWon));
+        clearances_m.push_back(std::sqrt(1.0 + static_cast<double>(seed)));
+        runs.back().result.min_clearance_m = clearances_m.back();
+    }
+    const reports::Summary summary = reports::summarize(runs);
+    const reports::Cell* cell = reports::find(summary, "gap", kReference, {"W-RoI", "astar"});
+    ASSERT_NE(cell, nullptr);
+    const trials::Bounds expected = trials::medianInterval(clearances_m, 1000);
+    EXPECT_EQ(cell->min_clearance_m.median_interval.low, expected.low);
+    EXPECT_EQ(cell->min_clearance_m.median_interval.high, expected.high);
+}
+
 TEST(Summary, PairsRunsThroughTheSameCourse) {
     std::vector<Row> runs = threeContenders();
     runs.push_back(test::runOf("gap", 99, "W-RoI", "astar", kWon));  // nobody else flew it

@@ -5,6 +5,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <fstream>
 #include <string>
 
 #include "support/CaptureWriter.h"
@@ -59,6 +61,15 @@ TEST(Address, IsReadOrRefused) {
                               "1.2.3.4:0", "1.2.3.4:65536", "1.2.3.4:-1", "1.2.3.4:9x"}) {
         EXPECT_NE(test::messageOf([&] { parseAddress(wrong); }), "") << wrong;
     }
+}
+
+/// A second of an HDL-64E, or as much as the system gives; Linux adds as much for itself.
+TEST(UdpSource, HasABufferAsLargeAsItGets) {
+    int most = 0;
+    std::ifstream("/proc/sys/net/core/rmem_max") >> most;
+    if (most == 0) GTEST_SKIP() << "the system does not tell how large buffers may be";
+    const UdpSource source({0x7f000001, freePort()});
+    EXPECT_GE(source.bufferBytes(), 2 * std::min(most, 8 << 20));
 }
 
 TEST(UdpSource, ReceivesWhatIsSent) {

@@ -80,6 +80,19 @@ TEST_F(CloudFileSourceTest, AFolderIsReadInTheOrderOfItsNumbers) {
                                    testing::DoubleNear(1.1, 1e-6)));
 }
 
+/// A mark before a number belongs to it only behind another number.
+TEST_F(CloudFileSourceTest, NumbersMayFollowAPointOrBeginWithAMark) {
+    for (const std::string before : {"scan.", "_", "left_"}) {
+        SCOPED_TRACE(before);
+        const fs::path folder = folderOf({before + "10.bin", before + "9.bin"});
+        const auto [names, times] = scansOf(folder);
+        EXPECT_THAT(names, ElementsAre(before + "9", before + "10"));
+        EXPECT_THAT(times,
+                    ElementsAre(testing::DoubleNear(0.9, 1e-6), testing::DoubleNear(1.0, 1e-6)));
+        fs::remove_all(folder);
+    }
+}
+
 TEST_F(CloudFileSourceTest, NamesMayBeTimes) {
     const auto near = [](double time_s) { return testing::DoubleNear(time_s, 1e-6); };
     const std::vector<std::vector<std::string>> kNames{

@@ -267,6 +267,16 @@ TEST(Rawlog, WhatIsNoRawlogIsRefused) {
         RawlogReader reader(folder.write("text.rawlog", text));
         EXPECT_THROW(reader.next(), BrokenRawlog);
     }
+    const std::string garbage = "just some text, and more of it than a header";
+    EXPECT_THAT(readAll(folder.write("text.rawlog", garbage)).second,
+                AllOf(HasSubstr("text.rawlog: is no recording: "), HasSubstr("Known are rawlogs")));
+    // Behind an entry, it is a recording.
+    Bytes entry;
+    serialise(comment("first"), entry);
+    const std::string bytes(entry.begin(), entry.end());
+    EXPECT_THAT(readAll(folder.write("longer.rawlog", bytes + garbage)).second,
+                HasSubstr("longer.rawlog: entry 1 at byte " + std::to_string(bytes.size()) +
+                          " (uncompressed) cannot be read: it is not an MRPT object"));
 }
 
 /// An object whose reading ends the process, as that of some of MRPT's does on corrupt data.

@@ -191,6 +191,27 @@ TEST(SerialPeer, PassesAllBytesAndSurvivesThatTheLineIsUnplugged) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
+/// A service may be started without standard input: the line then has the descriptor 0.
+TEST(SerialPeer, WithoutStandardInputTheLineIsUsedAsAnyOther) {
+    const test::TemporaryFolder folder;
+    const std::string name = (folder / "line").string();
+    const int input = dup(0);
+    if (input < 0) GTEST_SKIP() << "there is none";
+    const Line line(name);
+    close(0);
+    {
+        const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+        EXPECT_TRUE(isatty(0));
+        const Bytes special{0x03, '\n', '\r', 0x7f, 0xff};
+        EXPECT_TRUE(peer->send(special));
+        EXPECT_EQ(line.receive(64), special);
+        line.send(special);
+        EXPECT_EQ(received(*peer), special);
+    }
+    dup2(input, 0);
+    close(input);
+}
+
 TEST(SerialPeer, AMessageIsSentWholeOrNotAtAll) {
     const test::TemporaryFolder folder;
     const std::string name = (folder / "line").string();

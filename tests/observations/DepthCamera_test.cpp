@@ -176,11 +176,15 @@ TEST(DepthCamera, WhatIsUnsoundIsNotRead) {
                 HasSubstr("focal length"));
     EXPECT_THAT(errorWith([](auto& o) { o.cameraParams.setDistortionKannalaBrandt(0.1, 0, 0, 0); }),
                 HasSubstr("distortion"));
-    EXPECT_THAT(errorWith([](auto& o) {
-                    o.hasPoints3D = true;
-                    o.points3D_x = {1};
-                }),
-                HasSubstr("differ in size"));
+    using Points = CObservation3DRangeScan;
+    for (const auto missing : {&Points::points3D_y, &Points::points3D_z}) {
+        EXPECT_THAT(errorWith([&](auto& o) {
+                        o.hasPoints3D = true;
+                        o.points3D_x = o.points3D_y = o.points3D_z = {1};
+                        (o.*missing).clear();
+                    }),
+                    HasSubstr("differ in size"));
+    }
 }
 
 /// What a camera of 58 x 45 degrees sees from 1.5 m above flat ground with a pole at 6 m, with the

@@ -176,6 +176,8 @@ TEST(Hdl64, AWrongCalibrationIsNamedWithTheReason) {
     auto lasers = test::hdl64Lasers();
     lasers[5].vert_deg = lasers[9].vert_deg;
     EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), saysOf("lasers 5 and 9 have the same elevation"));
+    lasers[5].vert_deg = 90.5;
+    EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), saysOf("laser 5: vertCorrection_ is 90.5"));
     EXPECT_THAT(errorOf(std::string(5 << 20, ' ')), saysOf("is larger than 4 MiB"));
     EXPECT_THROW(packets::readVelodyneCalibration("/no/such/file.xml"), std::runtime_error);
     EXPECT_THROW(packets::readVelodyneCalibration(std::filesystem::temp_directory_path()),

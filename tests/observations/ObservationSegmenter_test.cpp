@@ -124,6 +124,24 @@ TEST(ObservationSegmenter, AScanHasThePoseOfItsSensorWhereTheVehiclesIsKnown) {
     EXPECT_EQ(out.remark, "");
 }
 
+TEST(ObservationSegmenter, WarnsOfWhatIsRemarkedAndOfNothingElse) {
+    ObservationSegmenter segmenter;
+    segmenter.logging_enable_console_output = false;
+    std::vector<std::string> warnings;
+    segmenter.logRegisterCallback([&](std::string_view text, mrpt::system::VerbosityLevel level,
+                                      std::string_view, mrpt::Clock::time_point) {
+        if (level == mrpt::system::LVL_WARN) warnings.emplace_back(text);
+    });
+    ObservationSegmenter::Output out;
+    segmenter.process(*scanFrom(0), out);
+    EXPECT_THAT(warnings, testing::IsEmpty());
+    CObservationVelodyneScan empty;
+    empty.sensorLabel = "rear";
+    segmenter.process(empty, out);
+    EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("rear: " + out.remark)));
+    EXPECT_THAT(out.remark, HasSubstr("no packets"));
+}
+
 /// A mask around the pole that scanFrom(0) sees at (12, 2), 2 m above the ground.
 Settings withMaskedPole() {
     Settings settings;

@@ -48,6 +48,16 @@ TEST(FreeDirections, AllAreBlockedWithinAnObstacle) {
     EXPECT_EQ(freeAgreement(blocked, blocked), 1);
 }
 
+/// What touches the sphere does not stop it.
+TEST(FreeDirections, RoomForTheVehicleAloneIsFree) {
+    const FreeDirectionOptions options;
+    const auto leave_m = [&](float room_m) { return [room_m](const auto&) { return room_m; }; };
+    const float radius_m = options.clearance_radius_m;
+    EXPECT_TRUE(blockedDirections(leave_m(radius_m), {0, 0, 0}, options).none());
+    EXPECT_TRUE(
+        blockedDirections(leave_m(std::nextafter(radius_m, 0.0f)), {0, 0, 0}, options).all());
+}
+
 /// A sphere that goes 8 m meets a wall at x = 5 where its middle comes beyond 5 - room.
 TEST(FreeDirections, AWallAheadBlocksWhatLeadsToIt) {
     const auto clearance_m = [](const Eigen::Vector3f& p) {

@@ -48,6 +48,14 @@ TEST(LaterScansTruth, WhatIsSeenThroughIsFree) {
     EXPECT_TRUE(truth.blocked.none());
 }
 
+TEST(SeenRanges, APointAtTheOriginIsNoReturn) {
+    mapping::MappedScan scan = everywhere({0.5f, 0, 2}, 20, false);
+    scan.points_m.insert(scan.points_m.begin(), scan.origin_m);
+    const SeenRanges seen(scan);
+    EXPECT_TRUE(seen.isSeenThrough({15, 3, 2}));
+    EXPECT_FALSE(seen.isSeenThrough({25, 3, 2}));
+}
+
 TEST(LaterScansTruth, WhatIsNotSeenToItsEndIsNotScored) {
     // All that came back came from 6 m, which a way with its room does not reach by 0.65 m.
     LaterScansTruth short_way({0, 0, 2}, {5.0f, 0.65f}), long_way({0, 0, 2}, {6.9f, 0.2f});

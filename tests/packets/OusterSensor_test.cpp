@@ -4,6 +4,7 @@
 #include <hagen/range_image/Angle.h>
 
 #include <string>
+#include <tuple>
 
 #include "support/OusterPackets.h"
 #include "support/Program.h"
@@ -28,6 +29,18 @@ class OusterSensorTest : public testing::Test {
     }
     test::TemporaryFolder folder_;
 };
+
+TEST_F(OusterSensorTest, APacketsHeaderSaysWhoseItIs) {
+    const auto headerOf = [&](const std::string& profile) {
+        const OusterSensor sensor = read(test::ousterJson(profile));
+        const std::string packet = test::packetsOf(sensor, test::randomFrame(sensor, 4321)).back();
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(packet.data());
+        return std::tuple(isOfLidar(bytes, sensor), serialOf(bytes, sensor),
+                          frameIdOf(bytes, sensor));
+    };
+    EXPECT_EQ(headerOf("RNG19_RFL8_SIG16_NIR16"), std::tuple(true, 992137000142u, 4321));
+    EXPECT_EQ(headerOf("LEGACY"), std::tuple(true, 0u, 4321));  // it has none
+}
 
 TEST_F(OusterSensorTest, ReadsBeamsAndFormat) {
     const OusterSensor sensor = read(test::ousterJson());

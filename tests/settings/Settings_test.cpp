@@ -6,8 +6,13 @@
 #include <hagen/settings/Settings.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "support/Program.h"
 #include "support/Random.h"
@@ -536,6 +541,24 @@ TEST(Settings, TheTableHasEveryKeyWithItsDefault) {
     EXPECT_EQ(keys[0].name, "zone_m");
     EXPECT_EQ(keys[0].standard, "20");
     EXPECT_EQ(keys[0].range, "0.1 ... 1000");
+}
+
+/// The page is the second statement of each limit.
+TEST(Settings, TheRangesAreThoseOfThePage) {
+    std::ifstream page(std::filesystem::path(HAGEN_SOURCE_DIR) / "docs/settings.md");
+    std::map<std::string, std::string> ranges;
+    for (std::string line; std::getline(page, line);) {
+        if (line.rfind("| ", 0) != 0) continue;
+        std::vector<std::string> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, '|');) {
+            const auto last = cell.find_last_not_of(' ');
+            cells.push_back(last == std::string::npos ? "" : cell.substr(1, last));
+        }
+        if (cells.size() > 4) ranges[cells[1]] = cells[4];
+    }
+    for (const SettingsKey& key : settingsKeys())
+        EXPECT_EQ(ranges[key.name], key.range) << key.name;
 }
 
 }  // namespace

@@ -42,6 +42,32 @@ TEST(FlightTest, KeepsItsAltitude) {
     }
 }
 
+/// The same flight over level ground is lower by the mean height of the ground from 3 m behind to 3
+/// m ahead.
+TEST(FlightTest, FollowsTheMeanOfTheGround) {
+    TerrainParameters form;
+    form.max_slope_rad = form.bump_m = 0;
+    Random random(5);
+    const Terrain terrain = rolling(), level(form, random);
+    FlightSettings settings;
+    settings.altitude_m = 15;
+    const Flight flight(terrain, {30, 12}, settings, 3), over_level(level, {30, 12}, settings, 3);
+    int compared = 0;
+    double highest_m = 0;
+    for (double time_s = 0; time_s < 60; time_s += 0.3) {
+        const Eigen::Vector3d at = flight.at(time_s).position_m,
+                              step = flight.at(time_s + 1e-3).position_m - at;
+        if (std::abs(step.y()) > 1e-9) continue;  // in a turn
+        double ground_m = 0;
+        for (int i = -3; i <= 3; ++i) ground_m += terrain.height_m(at.x() + i, at.y()) / 7;
+        EXPECT_NEAR(at.z() - over_level.at(time_s).position_m.z(), ground_m, 1e-6);
+        highest_m = std::max(highest_m, std::abs(ground_m));
+        ++compared;
+    }
+    EXPECT_GT(compared, 50);
+    EXPECT_GT(highest_m, 0.5);
+}
+
 TEST(FlightTest, RollAndPitchHaveTheirStandardDeviation) {
     for (const double sd_deg : {1.0, 4.0, 15.0}) {
         FlightSettings settings;

@@ -86,5 +86,16 @@ TEST(PlantsTest, CropAndTuftsAreAMetreHigh) {
     }
 }
 
+TEST(PlantsTest, LeavesAreSeen) {
+    Random random(12);
+    for (const Shape& shape : {makeCanopyPatch(5, random), makeTuft(random), makeShrub(random)}) {
+        for (const auto& [a, b, c] : shape.triangles) {
+            const Eigen::Vector3f &at = shape.vertices_m[a], u = shape.vertices_m[b] - at,
+                                  v = shape.vertices_m[c] - at;
+            EXPECT_GT(u.cross(v).norm() / 2, 5e-4f);  // 5 cm2
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hagen::simulation

@@ -125,6 +125,29 @@ TEST(ScenariosTest, ADenserForestHasMoreTrees) {
     EXPECT_GT(trees("forest-0.10"), 1.6 * trees("forest-0.05"));
 }
 
+/// Both sides of a trap begin at the ends of its back, and lead the same way.
+TEST(ScenariosTest, TrapsAreOpenOnOneSide) {
+    const Scene scene = makeScene("u-trap", 1);
+    std::vector<Eigen::Vector2d> middles_m;  // of the walls: back, one side, the other side ...
+    for (const SceneObject& object : scene.content().objects) {
+        if (object.kind != ObjectClass::Wall) continue;
+        const std::vector<Eigen::Vector3f>& vertices_m =
+            scene.content().shapes[object.shape].vertices_m;
+        Eigen::Vector3f sum_m = Eigen::Vector3f::Zero();
+        for (const Eigen::Vector3f& vertex_m : vertices_m) sum_m += vertex_m;
+        middles_m.emplace_back(
+            (sum_m / static_cast<float>(vertices_m.size())).head<2>().cast<double>());
+    }
+    ASSERT_EQ(middles_m.size(), 4u * 3);
+    for (std::size_t back = 0; back < middles_m.size(); back += 3) {
+        const Eigen::Vector2d one_m = middles_m[back + 1] - middles_m[back],
+                              other_m = middles_m[back + 2] - middles_m[back];
+        EXPECT_GT((one_m + other_m).norm(), 3);  // their length
+        EXPECT_GT((one_m - other_m).norm(), 5);  // that of the back
+        EXPECT_NEAR((one_m + other_m).dot(one_m - other_m), 0, 1e-3);
+    }
+}
+
 TEST(ScenariosTest, AnUnknownOneIsRefusedAndTheKnownOnesNamed) {
     try {
         makeScene("jungle", 1);

@@ -84,6 +84,18 @@ TEST(TerrainTest, TheMeshIsTheGroundWithItsRoughness) {
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.vertices_m.size());
     }
+    // Seen from above, the triangles are counter-clockwise and cover all, once.
+    double area_m2 = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto at = [&](std::uint32_t corner) -> Eigen::Vector2d {
+            return mesh.vertices_m[corner].head<2>().cast<double>();
+        };
+        const Eigen::Vector2d u = at(b) - at(a), v = at(c) - at(a);
+        ASSERT_GT(u.x() * v.y() - u.y() * v.x(), 0);
+        area_m2 += (u.x() * v.y() - u.y() * v.x()) / 2;
+    }
+    const Eigen::Vector3f size_m = mesh.vertices_m.back() - mesh.vertices_m.front();
+    EXPECT_NEAR(area_m2, static_cast<double>(size_m.x() * size_m.y()), 0.1);
 }
 
 }  // namespace

@@ -77,6 +77,21 @@ TEST_F(OusterStreamTest, EachReturnOfAFrameIsLabelled) {
     }
 }
 
+TEST_F(OusterStreamTest, TheSettingsLimitTheRanges) {
+    const auto limitsOf = [&](const Settings& settings) {
+        const OusterStream stream(sensor_, settings, [](const LabelledSector&) {});
+        const SensorModel& used = stream.segmenter().sensor();
+        return std::pair(used.min_range_m, used.max_range_m);
+    };
+    const SensorModel model = *sensor_.model;
+    Settings settings = settingsOfFourBeams();
+    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
+    settings.sensor.min_range_m = 1.5f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
+    settings.sensor.max_range_m = 40.0f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
+}
+
 /// The returns of a packet are where its sweep is.
 TEST_F(OusterStreamTest, ASweepIsWhereTheReturnsAre) {
     bool is_checked = false;

@@ -150,6 +150,27 @@ TEST_F(StreamingSegmenterTest, WithAllContextTheLabelsAreThoseOfTheWholeScan) {
     EXPECT_GT(roi, 100u);
 }
 
+TEST_F(StreamingSegmenterTest, WithAllContextEachReturnOfATurnIsInTheImageOnce) {
+    const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
+    const std::vector<Scan> packets = packetsOf(turn);
+    StreamingOptions options;
+    options.window_rad = kTurn_rad;
+    options.skip_ahead_rad = 0;
+    std::size_t sectors = 0, with_all = 0;
+    const auto check = [&](const LabelledSector& sector) {
+        if (sector.sweep->from_rad < kPi + kTurn_rad) return;  // of the first turn
+        const std::size_t returns = sector.result.range_image.depth_mapper.size();
+        EXPECT_LE(returns, turn.scan.size());
+        with_all += returns == turn.scan.size();
+        ++sectors;
+    };
+    StreamingSegmenter segmenter(sensor_, {}, check, options);
+    for (int k = 0; k < 2; ++k) addTurn(k, packets, segmenter);
+    // By rounding, the packet ahead may be taken for one that is overwritten.
+    EXPECT_GT(2 * with_all, sectors);
+    EXPECT_GT(sectors, 10u);
+}
+
 TEST_F(StreamingSegmenterTest, ASectorEndsWithTheLastPacketThatFits) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);

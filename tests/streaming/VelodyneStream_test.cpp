@@ -289,6 +289,22 @@ TEST(VelodyneStreams, AnHdl64NeedsItsCalibration) {
     EXPECT_THROW(VelodyneStream(packets::hdl64Model(), {}, into(all)), std::invalid_argument);
 }
 
+TEST(VelodyneStreams, TheSettingsLimitTheRanges) {
+    const auto limitsOf = [&](const Settings& settings) {
+        const VelodyneStream stream(velodyneModel("VLP-16"), settings,
+                                    [](const LabelledSector&) {});
+        const SensorModel& used = stream.segmenter().sensor();
+        return std::pair(used.min_range_m, used.max_range_m);
+    };
+    const SensorModel model = sensorModel("VLP-16");
+    Settings settings;
+    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
+    settings.sensor.min_range_m = 1.5f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
+    settings.sensor.max_range_m = 40.0f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
+}
+
 TEST(VelodyneStreams, TheAirframeIsMasked) {
     Settings settings;
     settings.airframe.parts.spheres.push_back({{8, 3, 0}, 3});

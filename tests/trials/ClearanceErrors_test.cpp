@@ -67,6 +67,18 @@ TEST(ClearanceErrors, WallsAndPolesHaveEqualWeight) {
     EXPECT_NEAR(pole.deviation_m, std::sqrt(0.02), 1e-12);
 }
 
+/// 0, 1 ... 100 mm: each percentile is a number of them.
+TEST(ClearanceErrors, QuantilesAreThoseOfAllObstaclesTogether) {
+    std::vector<ClearanceErrors> errors{{"A", "pole of 5 cm radius", {}, 0},
+                                        {"A", "pole of 15 cm radius", {}, 0}};
+    for (int mm = 0; mm <= 100; ++mm) errors[mm % 2].errors_m.push_back(0.001 * mm);
+    const ErrorSpread pole = spreadOf(errors, "A", "pole");
+    EXPECT_EQ(pole.queries, 101);
+    EXPECT_NEAR(pole.p05_m, 0.005, 1e-12);
+    EXPECT_NEAR(pole.median_m, 0.05, 1e-12);
+    EXPECT_NEAR(pole.p95_m, 0.095, 1e-12);
+}
+
 TEST(ClearanceErrors, ModelsThatCannotBeMeasuredAreNamed) {
     const auto saidOf = [](const std::string& model) -> std::string {
         try {

@@ -252,6 +252,49 @@ TEST(CourseTest, ThinWiresHangWhereTheOthersDo) {
     EXPECT_GT(at_wires, 1000);
 }
 
+/// Lamps and trees stand on both sides, every 10 m or up to 3 m from there.
+TEST(CourseTest, LampsOfTheStreetStandNearTheirPlaces) {
+    int lamps = 0;
+    double farthest_m = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const Course& c = course("street", seed);
+        for (const simulation::SceneObject& object : c.scene.content().objects) {
+            if (object.kind != simulation::ObjectClass::Pole) continue;
+            const Eigen::Vector3f at_m = object.pose.translation();
+            EXPECT_NEAR(std::abs(at_m.y()), 4.8, 1);
+            const double along_m = std::remainder(static_cast<double>(at_m.x()) + 4, 10);
+            EXPECT_LE(std::abs(along_m), 3 + 1e-5);
+            farthest_m = std::max(farthest_m, std::abs(along_m));
+            ++lamps;
+        }
+    }
+    EXPECT_GT(lamps, 9);
+    EXPECT_GT(farthest_m, 2);
+}
+
+/// Plants that are no obstacles: everywhere but in the street, lower than one flies.
+TEST_P(EachCourse, HasTuftsOfTenToThirtyFiveCentimetres) {
+    const Course& c = course(GetParam(), 1);
+    double least_m = 1, most_m = 0;
+    int tufts = 0;
+    for (const simulation::SceneObject& object : c.scene.content().objects) {
+        if (object.kind != simulation::ObjectClass::Canopy) continue;
+        const auto height_m = static_cast<double>(object.pose.linear().col(2).norm());
+        least_m = std::min(least_m, height_m);
+        most_m = std::max(most_m, height_m);
+        ++tufts;
+    }
+    if (GetParam() == "street") {
+        EXPECT_EQ(tufts, 0);
+        return;
+    }
+    EXPECT_GT(tufts, 20);
+    EXPECT_GT(least_m, 0.099);
+    EXPECT_LT(least_m, 0.15);
+    EXPECT_GT(most_m, 0.2);
+    EXPECT_LT(most_m, 0.351);
+}
+
 TEST(CourseTest, MoversGoAtOneToThreeMetresASecondAndCrossTheWay) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("movers", seed);

@@ -4,6 +4,8 @@
 #include <hagen/trials/Trial.h>
 
 #include <cmath>
+#include <memory>
+#include <stdexcept>
 
 #include "trials/SimpleCourse.h"
 
@@ -37,6 +39,40 @@ TEST(Trial, OverOpenGroundItFliesStraightToTheGoal) {
         EXPECT_GT(result.time_s, 18.5 / 4);
         EXPECT_LT(result.time_s, 18.5 / 4 + 2);
     }
+}
+
+/// A course that leads aside is as straight as one ahead: it reacts to what is in the way, not at
+/// once.
+TEST(Trial, TheFirstReactionIsToTheObstacle) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -2.5f, 2.5f);
+    Course course = simpleCourse(std::move(content));
+    course.start_m.y() = -8;
+    course.goal_m.y() = 8;
+    TrialSetup setup;
+    setup.model = "oracle";
+    const TrialResult result = runTrial(course, setup, constantProfile(10));
+    EXPECT_EQ(result.outcome, Outcome::Success);
+    const double to_wall_m = std::hypot(10, 8);
+    EXPECT_GT(result.first_reaction_m, 1);
+    EXPECT_LT(result.first_reaction_m, to_wall_m - 3);
+}
+
+TEST(Trial, TheWorldModelIsToldOfTheCourseAndTheFlight) {
+    const Course course = simpleCourse(emptyContent());
+    TrialSetup setup;
+    setup.speed_m_s = 3;
+    setup.distance = ModelDistance::AsStored;
+    avoidance::WorldModelSetting told;
+    setup.make_world = [&](const auto& world) -> std::unique_ptr<avoidance::WorldModel> {
+        told = world;
+        throw std::runtime_error("that is enough");
+    };
+    EXPECT_THROW(runTrial(course, setup, constantProfile(10)), std::runtime_error);
+    EXPECT_EQ(told.bounds_m.min(), course.bounds_m.min().cast<float>());
+    EXPECT_EQ(told.bounds_m.max(), course.bounds_m.max().cast<float>());
+    EXPECT_EQ(told.distance, ModelDistance::AsStored);
+    EXPECT_EQ(told.pace.speed_m_s, 3);
 }
 
 TEST(Trial, LatencyIsTheSumOfTheStagesThatTheModelNeeds) {

@@ -17,7 +17,7 @@ struct OverheadView {
     Eigen::Vector2d start_m, goal_m;
     std::vector<Eigen::Vector2d> track_m;             ///< true
     std::vector<Eigen::Vector2d> stops_m;             ///< positions of emergency stops
-    std::vector<std::pair<int, int>> obstacle_cells;  ///< x, y; ascending
+    std::vector<std::pair<int, int>> obstacle_cells;  ///< x, y; by y, then by x
 };
 
 /// Flies the run again. Obstacles are cells with returns between 0.5 and 4.5 m above the ground.

@@ -1,0 +1,34 @@
+#include <gtest/gtest.h>
+#include <hagen/labelled_scans/Overlay.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/Program.h"
+
+namespace hagen::labelled_scans {
+namespace {
+
+TEST(Overlay, OfSeveralMethodsEachHasAFolder) {
+    const test::TemporaryFolder folder;
+    evaluation::GroundTruthScan truth;
+    truth.name = "scans/velodyne/000007.bin";
+    truth.input.scan.range_m = {5, 6};
+    truth.truth = {Label::Roi, Label::Rou};
+    std::vector<evaluation::CameraPixel> pixels(2);
+    pixels[1].index = 1;
+    evaluation::EvaluationOptions options;
+    options.camera.emplace();
+    options.camera->width_px = options.camera->height_px = 32;
+    const std::string name = "beta/5";
+    for (const std::size_t methods : {1, 2}) {
+        drawOverlay(folder / "pictures", "x/00",
+                    {0, 0, 0, methods, name, truth, truth.truth, pixels}, options);
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder / "pictures/x_00_000007_overlay.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "pictures/beta_5/x_00_000007_overlay.png"));
+}
+
+}  // namespace
+}  // namespace hagen::labelled_scans
