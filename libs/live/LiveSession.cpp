@@ -64,7 +64,7 @@ class Session {
     std::optional<SectorFigures> figures_;
     std::unique_ptr<RecorderProcess> recorder_;
 
-    double start_s_, status_s_, last_packet_s_ = 0;
+    double start_s_, status_s_, last_packet_s_ = 0, last_taken_s_ = 0;  ///< of the sensor, of all
     std::optional<std::uint32_t> sensor_ip_;
     bool is_flushed_ = true, is_silent_ = false, is_recording_told_ = false;
     std::size_t foreign_ip_ = 0;
@@ -105,6 +105,7 @@ bool Session::isOfSensor(const Packet& packet) {
 
 void Session::take(const Packet& packet) {
     ++report_.datagrams;
+    last_taken_s_ = packet.arrival_s;
     if (listener_.motion) sensor_->move(listener_.motion(packet.arrival_s));
     if (sensor_->isToldByAddress(packet) && !isOfSensor(packet)) return;
     if (sensor_->add(packet)) {
@@ -178,7 +179,8 @@ void Session::look(bool is_idle) {
         sensor_->flush();
         is_flushed_ = true;
     }
-    tellSilence(now_s);
+    // Packets that wait for a busy processor are no silence of the sensor.
+    tellSilence(is_idle ? now_s : last_taken_s_);
     if (recorder_ && !is_recording_told_) {
         const std::string failure = recorder_->failure();
         if (!failure.empty()) {

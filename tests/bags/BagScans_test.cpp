@@ -282,7 +282,7 @@ TEST_F(BagScansTest, AnOustersMetadataMayBeInTheBag) {
     ASSERT_EQ(bag.of("ouster_lidar_packets").size(), 3u);
     EXPECT_THAT(bag.scans->remarks(), Contains(HasSubstr("/ouster/points is not read")));
     EXPECT_THAT(bag.scans->remarks(), Contains(HasSubstr("OS-0-32-U1, ")));
-    const auto& scan = bag.of("ouster_lidar_packets")[1];
+    const auto scan = bag.of("ouster_lidar_packets")[1];
     EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(scan->timestamp), kStart_s + 0.2);
     EXPECT_NEAR(CPose3D(scan->sensorPose()).x(), 3, 1e-9);
     EXPECT_NEAR(CPose3D(scan->sensorPose()).z(), sensor.lidar_to_sensor.translation().z(), 1e-9);

@@ -90,6 +90,7 @@ class LiveSessionTest : public testing::Test {
         LiveListener listener;
         listener.remark = [this](const std::string& remark) { remarks_.push_back(remark); };
         listener.sector = [this](const streaming::LabelledSector& sector) {
+            if (returns_ == 0) std::this_thread::sleep_for(first_sector_takes_);
             returns_ += sector.returns.size();
         };
         return runLive(packets, options_, listener);
@@ -101,6 +102,7 @@ class LiveSessionTest : public testing::Test {
     }();
     std::vector<std::string> remarks_;
     std::size_t returns_ = 0;
+    std::chrono::milliseconds first_sector_takes_{0};
 };
 
 TEST_F(LiveSessionTest, EverythingIsCountedOnce) {
@@ -153,6 +155,16 @@ TEST_F(LiveSessionTest, ASensorThatFallsSilentAndComesBackIsTold) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("no packets of the sensor for 1 s")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("the sensor is now at 10.0.0.102")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("packets come again")));
+}
+
+TEST_F(LiveSessionTest, PacketsThatWaitForTheProcessorAreNoSilence) {
+    GivenPackets source;
+    source.addAll(turnsOf(1));
+    first_sector_takes_ = std::chrono::milliseconds(1200);
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets, 76u);
+    EXPECT_EQ(report.silences, 0u);
+    EXPECT_THAT(remarks_, testing::Each(testing::Not(HasSubstr("packets"))));
 }
 
 TEST_F(LiveSessionTest, AnotherModeIsTold) {
