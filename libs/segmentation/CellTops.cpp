@@ -84,7 +84,7 @@ float highestOf(const CellTops& tops, int cell) {
     const CellArea& area = tops.area;
     const bool is_computed = row >= area.first_row && row < area.end_row &&
                              column >= area.first_column && column < area.end_column;
-    return is_computed ? tops.highest_m.data()[cell] : kNoValue;
+    return is_computed ? tops.two_m[2 * static_cast<std::size_t>(cell)] : kNoValue;
 }
 
 }  // namespace hagen

@@ -130,6 +130,10 @@ TEST(CellTops, CellsThatAreKnownToBeHigherAreRaised) {
     }
     EXPECT_GT(raised, 50);
     EXPECT_TRUE((tops.top_m == before.top_m).all());
+    for (Eigen::Index k = 0; k < known_m.size(); ++k) {
+        const int cell = thin.cells.cell.data()[k];
+        ASSERT_EQ(highestOf(tops, cell), before.highest_m.data()[cell]);  // not what was raised
+    }
 }
 
 TEST(CellTops, OfCellsThatWereNotComputedNothingIsKnown) {
