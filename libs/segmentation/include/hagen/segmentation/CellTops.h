@@ -28,8 +28,8 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
 /// which the cell had more pixels. `known_m` is per pixel, NaN where nothing is known.
 void raiseHighest(const PixelCells& cells, const Image<float>& known_m, CellTops& tops);
 
-/// The highest of the pixels in a cell (PixelCells::cell), for a later raiseHighest(); NaN if it was
-/// not computed. What was raised does not count: else, a height could outlast what had it.
+/// The highest of the pixels in a cell (PixelCells::cell), for a later raiseHighest(); NaN if it
+/// was not computed. What was raised does not count: else, a height could outlast what had it.
 float highestOf(const CellTops& tops, int cell);
 
 }  // namespace hagen
