@@ -399,6 +399,9 @@ TEST_F(StreamingSegmenterTest, WrongOptionsAndScansAreRefused) {
     EXPECT_THAT(messageWith([](auto& o) { o.sector_rad = 0; }), HasSubstr("sector_rad"));
     EXPECT_THAT(messageWith([](auto& o) { o.window_rad = -1; }), HasSubstr("window_rad"));
     EXPECT_THAT(messageWith([](auto& o) { o.keep_every = -1; }), HasSubstr("keep_every"));
+    EXPECT_THAT(messageWith([](auto& o) { o.skip_ahead_rad = kPi; }), HasSubstr("skip_ahead_rad"));
+    EXPECT_THAT(messageWith([](auto& o) { o.skip_ahead_moved_rad = -0.1; }),
+                HasSubstr("skip_ahead_moved_rad"));
     EXPECT_THAT(messageWith([](auto& o) { o.context_s = 0; }), HasSubstr("context_s"));
     EXPECT_EQ(messageWith([](auto&) {}), "");
     StreamingSegmenter segmenter(sensor_, {}, take());
