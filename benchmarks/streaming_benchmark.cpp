@@ -260,6 +260,7 @@ int run(int argc, char** argv) {
     std::vector<streaming::StreamingOptions> all;
     Known known = Known::Nothing;
     std::optional<double> skip_rad;
+    bool ground_tells = true;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         if (word == "-c" && i + 1 < argc) {
@@ -268,6 +269,8 @@ int run(int argc, char** argv) {
             known = Known::Attitude;
         } else if (word == "--pose") {
             known = Known::Pose;
+        } else if (word == "--ignore-ground") {
+            ground_tells = false;
         } else if (word == "--skip-deg" && i + 1 < argc) {
             skip_rad = radians(std::atof(argv[++i]));
         } else if (word == "--try" && i + 3 < argc) {
@@ -283,13 +286,14 @@ int run(int argc, char** argv) {
     if (files.empty()) {
         std::fprintf(stderr,
                      "Usage: streaming-benchmark [-c SETTINGS] [--skip-deg ANGLE] [--attitude | "
-                     "--pose] [--try SECTOR_DEG "
+                     "--pose | --ignore-ground] [--try SECTOR_DEG "
                      "WINDOW_DEG EVERY]... RECORDING...\nGround truth: RECORDING.truth beside "
                      "RECORDING.rawlog (rawlog-simulate --kitti)\n");
         return 2;
     }
     if (all.empty()) all.emplace_back();
     for (auto& options : all) {
+        options.ground_tells_motion = ground_tells;
         if (skip_rad) options.skip_ahead_rad = options.skip_ahead_moved_rad = *skip_rad;
     }
     std::vector<Recording> recordings;

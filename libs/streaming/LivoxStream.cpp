@@ -23,11 +23,11 @@ LivoxStream::LivoxStream(const Settings& settings, StreamingSegmenter::Take take
     streaming.context_s = window_s - frame_s / 2;
     segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
                                                       std::move(take), streaming);
-    setAttitude({});
+    segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 
 void LivoxStream::setAttitude(const std::optional<Attitude>& attitude) {
-    segmenter_->setAttitude(attitude ? attitude : settings_.tiltOnLevelVehicle());
+    segmenter_->setAttitude(attitude);
 }
 
 void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {

@@ -33,11 +33,11 @@ OusterStream::OusterStream(const packets::OusterSensor& sensor, const Settings& 
                                                       std::move(take), streaming);
     const Eigen::Matrix3d turned = sensor_.lidar_to_sensor.linear();
     ahead_rad_ = -std::atan2(turned(1, 0), turned(0, 0));
-    setAttitude({});
+    segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 
 void OusterStream::setAttitude(const std::optional<Attitude>& attitude) {
-    segmenter_->setAttitude(attitude ? attitude : settings_.tiltOnLevelVehicle());
+    segmenter_->setAttitude(attitude);
 }
 
 void OusterStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {

@@ -80,6 +80,9 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
     : filter_(std::move(sensor), options),
       sector_filter_(filter_.sensor(), options),
       streaming_(streaming),
+      thinning_(filter_.sensor().rows(), filter_.options().columns,
+                std::max(streaming.keep_every, 0)),
+      turn_motion_(filter_.sensor().rows(), filter_.options().columns),
       take_(std::move(take)) {
     check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
           "sector_rad must be above 0 and at most a turn");
@@ -132,6 +135,8 @@ void StreamingSegmenter::setPose(const std::optional<Eigen::Isometry3d>& map_fro
     pose_ = map_from_sensor;
 }
 
+void StreamingSegmenter::setMount(const std::optional<Attitude>& tilt) { mount_ = tilt; }
+
 StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double time_s) {
     checkLocated(returns, filter_.sensor());
     if (packets_.size() >= kMostPackets) restart();
@@ -160,15 +165,9 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     return packet;
 }
 
-/// Each n-th column, so that those that are left have all their beams.
 void StreamingSegmenter::thin(Packet& packet) {
-    packet.thinned_first = packet.thinned_end = thinned_.scan.size();
-    if (streaming_.keep_every == 0) return;
-    const std::vector<float>& azimuth_rad = packet.all.scan.azimuth_rad;
-    for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
-        const int column = nearestColumn(azimuth_rad[i], filter_.options().columns);
-        if (column % streaming_.keep_every == 0) thinned_.append(packet.all, i);
-    }
+    packet.thinned_first = thinned_.scan.size();
+    for (const std::size_t i : thinning_.of(packet.all.scan)) thinned_.append(packet.all, i);
     packet.thinned_end = thinned_.scan.size();
 }
 
@@ -248,6 +247,10 @@ void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
 /// Where the returns of a packet are by now, if it is known how the sensor has moved since then.
 std::optional<Eigen::Isometry3d> StreamingSegmenter::motionSince(const Packet& packet) const {
     const Packet& latest = packets_.back();
+    if (!packet.pose && !latest.pose && packet.sweep) {
+        const double middle_rad = (packet.sweep->from_rad + packet.sweep->to_rad) / 2;
+        return turn_motion_.since((head_rad_ - middle_rad) / kTurn_rad);
+    }
     // A tilt and a pose do not compare: the pose has a heading and a place.
     if (!packet.pose || !latest.pose || packet.has_place != latest.has_place) return std::nullopt;
     return latest.pose->inverse() * *packet.pose;
@@ -318,7 +321,8 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const Sweep& latest = *packets_.back().sweep;
     const double beside_rad = streaming_.window_rad + (latest.to_rad - latest.from_rad);
     // Without motion, there is nothing ahead that needs narrow columns.
-    const bool has_ahead = packets_.back().pose || streaming_.skip_ahead_rad < beside_rad;
+    const bool has_motion = packets_.back().pose || turn_motion_.since(1);
+    const bool has_ahead = has_motion || streaming_.skip_ahead_rad < beside_rad;
     const double usual_rad =
         std::max(streaming_.sector_rad, sector.to_rad - sector.from_rad) + beside_rad;
     const double width_rad = usual_rad + (has_ahead ? beside_rad : kMargin_rad);
@@ -336,16 +340,16 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
 /// The labels of the sector, and what later sectors need to know of it.
 const SegmentationResult& StreamingSegmenter::judge() {
     const bool is_upright =
-        !filter_.options().level_by_attitude || postureOf(attitude_) == Posture::Upright;
+        !filter_.options().level_by_attitude || postureOf(tilt()) == Posture::Upright;
     const std::optional<Sweep>& sweep = packets_.back().sweep;
     if (sweep && is_upright && mapWindow({start_rad_, head_rad_})) {
         const SegmentationResult& result =
-            sector_filter_.segment(window_.scan, attitude_, {sector_, columns_, window_.found});
+            sector_filter_.segment(window_.scan, tilt(), {sector_, columns_, window_.found});
         labels_ = result.returns.label;
         found_ = sector_filter_.found();
         return result;
     }
-    const SegmentationResult& result = filter_.segment(window_.scan, attitude_);
+    const SegmentationResult& result = filter_.segment(window_.scan, tilt());
     labels_.assign(result.returns.label.begin(),
                    result.returns.label.begin() + static_cast<std::ptrdiff_t>(sector_.size()));
     found_.assign(sector_.size(), {});
@@ -372,6 +376,7 @@ void StreamingSegmenter::label(bool is_cut) {
     const Packet& first = packets_[first_open];
     const Packet& last = packets_.back();
     const Sweep sector{start_rad_, head_rad_};
+    if (first_open == 0) turn_motion_.forget();  // first sector, or the first one after a silence
 
     // The sector comes first, so that its labels are the first ones.
     sector_.clear();
@@ -394,6 +399,9 @@ void StreamingSegmenter::label(bool is_cut) {
 
     const SegmentationResult& result = judge();
     keepFound();
+    if (last.sweep && streaming_.ground_tells_motion) {
+        turn_motion_.add(sector_, labels_, head_rad_);
+    }
     const bool is_doubtful = !knowsEnough();
     if (is_doubtful) {
         for (std::size_t i = 0; i < labels_.size(); ++i) {

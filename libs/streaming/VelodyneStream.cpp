@@ -41,11 +41,11 @@ VelodyneStream::VelodyneStream(const packets::VelodyneModel& model, const Settin
     filterFor(sensor, settings.options);  // throws SettingsError
     segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
                                                       std::move(take), streaming);
-    setAttitude({});
+    segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 
 void VelodyneStream::setAttitude(const std::optional<Attitude>& attitude) {
-    segmenter_->setAttitude(attitude ? attitude : settings_.tiltOnLevelVehicle());
+    segmenter_->setAttitude(attitude);
 }
 
 void VelodyneStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {

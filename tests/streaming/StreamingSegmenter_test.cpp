@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "support/PointScan.h"
@@ -287,11 +288,14 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     }
     tilted.scan.intensity.resize(tilted.scan.size());
     locateBeams(sensor_, tilted.scan);
-    const auto errorsWith = [&](bool tells, double skip_ahead_rad) {
+    std::optional<Attitude> mount;
+    const auto errorsWith = [&](bool tells, double skip_ahead_rad, bool ground_tells = false) {
         taken_.clear();
         StreamingOptions options;
         options.skip_ahead_rad = skip_ahead_rad;
+        options.ground_tells_motion = ground_tells;
         StreamingSegmenter segmenter(sensor_, {}, take(), options);
+        segmenter.setMount(mount);
         if (tells) segmenter.setAttitude(Attitude{});
         addTurn(0, packetsOf(level), segmenter);
         segmenter.flush();
@@ -313,6 +317,12 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     EXPECT_LT(4 * told, not_told);
     // Without the oldest returns beside the sector, not knowing the tilt costs less.
     EXPECT_LT(errorsWith(false, radians(30.0)), not_told);
+    // The first sectors of ground tell the others.
+    EXPECT_LT(4 * errorsWith(false, 0, true), not_told);
+    // A mount is a tilt, but does not tell that the sensor stands still.
+    mount = Attitude{};
+    EXPECT_GT(errorsWith(false, 0), 50u);
+    EXPECT_LT(2 * errorsWith(false, radians(30.0)), errorsWith(false, 0));
 }
 
 /// Thin plants, of which one column in five shows few tops: a sector knows how high they were.

@@ -4,6 +4,8 @@
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/segmentation/HagenFilter.h>
 #include <hagen/segmentation/SectorFilter.h>
+#include <hagen/streaming/Thinning.h>
+#include <hagen/streaming/TurnMotion.h>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
@@ -20,15 +22,17 @@ struct StreamingOptions {
     double sector_rad = 0.2617993877991494;  // 15 degrees
     /// Context on both sides of a sector: all returns of the latest turn.
     double window_rad = 0.08726646259971647;  // 5 degrees
-    /// Context beyond: each n-th column of the image; 1: all, 0: none.
+    /// Context beyond: each n-th column of the image (Thinning); 1: all, 0: none.
     int keep_every = 5;
+    /// Without tilt and pose, the ground tells how the sensor tilts and rises (TurnMotion).
+    bool ground_tells_motion = true;
     /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
-    /// moved since, those up to this angle are no context: ground that is tilted against that of
-    /// the sector looks like a step. Less than half a turn.
+    /// moved since, not even the ground, those up to this angle are no context: ground that is
+    /// tilted against that of the sector looks like a step. Less than half a turn.
     double skip_ahead_rad = 0.4363323129985824;  // 25 degrees
     /// The same if its motion is known: what is seen from elsewhere has other neighbours. None are
     /// left out if it stood still.
-    double skip_ahead_moved_rad = 0.03490658503988659;  // 2 degrees
+    double skip_ahead_moved_rad = 0.06981317007977318;  // 4 degrees
     /// Returns older than this are no context: the sensor was silent. For a sensor that does not
     /// turn, the time that is judged at once.
     double context_s = 0.25;
@@ -86,10 +90,14 @@ class StreamingSegmenter {
                        const StreamingOptions& streaming = {});
 
     /// The tilt and the pose of the sensor (map from sensor) from now on, as far as they are known.
-    /// Context is moved by the pose since it was measured, or, without one, turned by the tilt;
-    /// without both it stays where it was measured. None: unknown.
+    /// Context is moved by the pose since it was measured, or, without one, turned by the tilt.
+    /// Without both, the ground tells how a sensor that turns tilts and rises (TurnMotion), if
+    /// there is some; if not, context stays where it was measured. None: unknown.
     void setAttitude(const std::optional<Attitude>& attitude);
     void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
+    /// The tilt of the sensor on a level vehicle: the filter takes it while the tilt is unknown.
+    /// How the sensor moves is not known by it. Default: none.
+    void setMount(const std::optional<Attitude>& tilt);
 
     /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and when it
     /// came, in seconds of any clock. `sweep` of packets that come late may be before that of
@@ -134,6 +142,7 @@ class StreamingSegmenter {
     void forgetThinned();
     void forget(double now_s);
     void label(bool is_cut);
+    std::optional<Attitude> tilt() const { return attitude_ ? attitude_ : mount_; }
     bool knowsEnough() const;
     void addContext(const Packet& packet, const Sweep& sector);
     std::optional<Eigen::Isometry3d> motionSince(const Packet& packet) const;
@@ -148,8 +157,10 @@ class StreamingSegmenter {
     HagenFilter filter_;          ///< of all in sight at once
     SectorFilter sector_filter_;  ///< of a sector and its context
     StreamingOptions streaming_;
+    Thinning thinning_;
+    TurnMotion turn_motion_;  ///< while nothing else tells it
     Take take_;
-    std::optional<Attitude> attitude_;
+    std::optional<Attitude> attitude_, mount_;
     std::optional<Eigen::Isometry3d> pose_;
 
     std::deque<Packet> packets_;  ///< of the latest turn, in the order in which they came

@@ -1,0 +1,52 @@
+#include <hagen/range_image/RangeImage.h>
+#include <hagen/streaming/Thinning.h>
+
+namespace hagen::streaming {
+namespace {
+
+constexpr float kClearlyLower_m = 0.3F;  // docs/live.md has what other values cost
+constexpr auto kNone = static_cast<std::size_t>(-1);
+
+}  // namespace
+
+Thinning::Thinning(int rows, int columns, int every)
+    : rows_(rows), columns_(columns), every_(every) {
+    if (every == 0) return;
+    const int groups = (columns + every - 1) / every;
+    at_pixel_.resize(static_cast<std::size_t>(groups) * static_cast<std::size_t>(rows), kNone);
+}
+
+const std::vector<std::size_t>& Thinning::of(const Scan& packet) {
+    kept_.clear();
+    kept_pixels_.clear();
+    if (every_ == 0) return kept_;
+    const auto pixelOf = [&](int column, int row) {
+        return static_cast<std::size_t>(column / every_) * static_cast<std::size_t>(rows_) +
+               static_cast<std::size_t>(row);
+    };
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+        const int column = nearestColumn(packet.azimuth_rad[i], columns_);
+        if (column % every_ != 0) continue;
+        const std::size_t pixel = pixelOf(column, packet.row[i]);
+        std::size_t& at = at_pixel_[pixel];
+        if (at == kNone) {
+            at = kept_.size();
+            kept_.push_back(i);
+            kept_pixels_.push_back({pixel, 0});
+        } else if (packet.range_m[i] < packet.range_m[kept_[at]]) {
+            kept_[at] = i;
+        }
+        kept_pixels_[at].below_m = packet.z_m[kept_[at]] - kClearlyLower_m;
+    }
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+        const int column = nearestColumn(packet.azimuth_rad[i], columns_);
+        const std::size_t at = at_pixel_[pixelOf(column, packet.row[i])];
+        if (at == kNone || !(packet.z_m[i] < kept_pixels_[at].below_m)) continue;
+        kept_[at] = i;
+        kept_pixels_[at].below_m = packet.z_m[i];
+    }
+    for (const Kept& kept : kept_pixels_) at_pixel_[kept.pixel] = kNone;
+    return kept_;
+}
+
+}  // namespace hagen::streaming

@@ -1,0 +1,31 @@
+#pragma once
+#include <hagen/range_image/Scan.h>
+#include <cstddef>
+#include <vector>
+
+namespace hagen::streaming {
+
+/// Which of a packet's returns are context far from a sector: the closest one of each pixel, in
+/// each n-th column. It gives way to the lowest return of its row up to the next such column, if
+/// that is clearly lower: the ground in gaps between obstacles shows how high these are.
+class Thinning {
+ public:
+    /// Of a sensor with so many rows, and images with so many columns. `every`: n; 0: none.
+    Thinning(int rows, int columns, int every);
+
+    /// Indices into the packet's returns; valid until the next call.
+    const std::vector<std::size_t>& of(const Scan& packet);
+
+ private:
+    struct Kept {
+        std::size_t pixel;  ///< row and column, of those that are kept
+        float below_m;      ///< what is lower takes its place
+    };
+
+    int rows_, columns_, every_;
+    std::vector<std::size_t> kept_;
+    std::vector<Kept> kept_pixels_;      ///< one per kept return
+    std::vector<std::size_t> at_pixel_;  ///< its place among these; between two calls: none
+};
+
+}  // namespace hagen::streaming
