@@ -325,6 +325,32 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     EXPECT_LT(2 * errorsWith(false, radians(30.0)), errorsWith(false, 0));
 }
 
+TEST_F(StreamingSegmenterTest, AfterARestartItIsAsNew) {
+    // The ground seems to fall by 0.2 m per turn, and then no longer.
+    const test::SimpleScene scene = sceneWithPole();
+    const auto packetsAt = [&](double height_m) {
+        return packetsOf(test::scanScene(scene, sensor_, kColumns, {0, 0, height_m}));
+    };
+    const std::vector<Scan> latest = packetsAt(1.4);
+    const auto labelsOfLatest = [&](StreamingSegmenter& segmenter) {
+        taken_.clear();
+        addTurn(3, latest, segmenter);
+        addTurn(4, latest, segmenter, 0, kPackets / 2);
+        segmenter.flush();
+        return labels();
+    };
+    StreamingSegmenter fresh(sensor_, {}, take());
+    const std::vector<Label> expected = labelsOfLatest(fresh);
+    StreamingSegmenter restarted(sensor_, {}, take()), not_restarted(sensor_, {}, take());
+    for (StreamingSegmenter* segmenter : {&restarted, &not_restarted}) {
+        for (int k = 0; k < 3; ++k) addTurn(k, packetsAt(2 - 0.2 * k), *segmenter);
+    }
+    restarted.restart();
+    EXPECT_EQ(labelsOfLatest(restarted), expected);
+    not_restarted.flush();
+    EXPECT_NE(labelsOfLatest(not_restarted), expected);
+}
+
 /// Thin plants, of which one column in five shows few tops: a sector knows how high they were.
 TEST_F(StreamingSegmenterTest, CropsAreACanopyForSectorsToo) {
     test::SimpleScene crops;

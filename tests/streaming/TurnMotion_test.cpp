@@ -133,9 +133,10 @@ TEST_F(TurnMotionTest, TiltAndRiseAreFoundFromAnyStart) {
 TEST_F(TurnMotionTest, WhatDoesNotFitHardlyCounts) {
     Flight flight;
     flight.then_from_now = stepOf(1, -2, 0.05);
-    flight.strangers = 0.2;
-    fly(flight, 3 * kSectors);
-    EXPECT_LT(worstHeight_m(flight, 1), 0.15);
+    fly(flight, 2 * kSectors);
+    flight.strangers = 0.3;
+    fly(flight, kSectors);
+    EXPECT_LT(worstHeight_m(flight, 1), 0.1);
 }
 
 TEST_F(TurnMotionTest, ASlopeIsNoTilt) {
