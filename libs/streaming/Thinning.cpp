@@ -20,14 +20,13 @@ const std::vector<std::size_t>& Thinning::of(const Scan& packet) {
     kept_.clear();
     kept_pixels_.clear();
     if (every_ == 0) return kept_;
-    const auto pixelOf = [&](int column, int row) {
-        return static_cast<std::size_t>(column / every_) * static_cast<std::size_t>(rows_) +
-               static_cast<std::size_t>(row);
-    };
+    pixel_.resize(packet.size());
     for (std::size_t i = 0; i < packet.size(); ++i) {
         const int column = nearestColumn(packet.azimuth_rad[i], columns_);
-        if (column % every_ != 0) continue;
-        const std::size_t pixel = pixelOf(column, packet.row[i]);
+        const auto group = static_cast<unsigned>(column) / static_cast<unsigned>(every_);
+        const std::size_t pixel = group * static_cast<std::size_t>(rows_) + packet.row[i];
+        pixel_[i] = pixel;
+        if (column != static_cast<int>(group) * every_) continue;
         std::size_t& at = at_pixel_[pixel];
         if (at == kNone) {
             at = kept_.size();
@@ -39,8 +38,7 @@ const std::vector<std::size_t>& Thinning::of(const Scan& packet) {
         kept_pixels_[at].below_m = packet.z_m[kept_[at]] - kClearlyLower_m;
     }
     for (std::size_t i = 0; i < packet.size(); ++i) {
-        const int column = nearestColumn(packet.azimuth_rad[i], columns_);
-        const std::size_t at = at_pixel_[pixelOf(column, packet.row[i])];
+        const std::size_t at = at_pixel_[pixel_[i]];
         if (at == kNone || !(packet.z_m[i] < kept_pixels_[at].below_m)) continue;
         kept_[at] = i;
         kept_pixels_[at].below_m = packet.z_m[i];

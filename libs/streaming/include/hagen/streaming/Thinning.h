@@ -18,12 +18,13 @@ class Thinning {
 
  private:
     struct Kept {
-        std::size_t pixel;  ///< row and column, of those that are kept
-        float below_m;      ///< what is lower takes its place
+        std::size_t pixel;
+        float below_m;  ///< what is lower takes its place
     };
 
     int rows_, columns_, every_;
     std::vector<std::size_t> kept_;
+    std::vector<std::size_t> pixel_;     ///< of each return: its group of columns, and row
     std::vector<Kept> kept_pixels_;      ///< one per kept return
     std::vector<std::size_t> at_pixel_;  ///< its place among these; between two calls: none
 };
