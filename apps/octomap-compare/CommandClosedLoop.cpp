@@ -3,6 +3,7 @@
 #include <hagen/avoidance/Planner.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/NumberText.h>
+#include <hagen/base/TextStream.h>
 #include <hagen/trials/Campaign.h>
 #include <hagen/trials/Course.h>
 #include <cstdio>
@@ -10,7 +11,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <thread>
 
 #include <hagen/command_line/Interrupt.h>
@@ -87,7 +87,7 @@ void printCells(const std::vector<trials::Run>& runs) {
     };
     std::map<std::string, Cell> cells;
     for (const trials::Run& run : runs) {
-        std::ostringstream name;
+        base::TextStream name;
         const trials::TrialSetup& setup = run.setup;
         name << std::left << std::setw(12) << run.scenario << " " << std::setw(4) << setup.speed_m_s
              << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner

@@ -1,13 +1,13 @@
+#include <hagen/base/TextStream.h>
 #include <hagen/evaluation/BaselineBogoslavskyi.h>
 #include <hagen/evaluation/BaselineZermas.h>
 #include <hagen/evaluation/Baselines.h>
-#include <sstream>
 
 namespace hagen::evaluation {
 namespace {
 
 Baseline zermas(const std::string& name, const ZermasOptions& options) {
-    std::ostringstream parameters;
+    base::TextStream parameters;
     parameters << "N_segs " << options.segments << ", N_iter " << options.iterations << ", N_LPR "
                << options.lowest_points << ", Th_seeds " << options.seed_height_m << " m, Th_dist "
                << options.ground_distance_m << " m";
@@ -18,7 +18,7 @@ Baseline zermas(const std::string& name, const ZermasOptions& options) {
 }
 
 Baseline bogoslavskyi(const std::string& name, const BogoslavskyiOptions& options) {
-    std::ostringstream parameters;
+    base::TextStream parameters;
     parameters << options.columns << " columns, repair " << options.repair_step_m << " m, window "
                << options.smoothing_window << ", start " << options.start_angle_deg
                << " deg, difference " << options.ground_difference_deg << " deg";

@@ -1,4 +1,5 @@
 #include <hagen/base/NumberText.h>
+#include <hagen/base/TextStream.h>
 #include <hagen/labelled_scans/Charts.h>
 
 #include <hagen/pictures/Gnuplot.h>
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <locale>
-#include <sstream>
 
 namespace hagen::labelled_scans {
 namespace {
@@ -52,7 +52,6 @@ class Chart {
     /// `panels_px`: width without the legend. `bottom`: fraction of the height for the axis labels.
     Chart(std::string name, int panels_px, int panels, double bottom, bool has_legend)
         : name_(std::move(name)), has_legend_(has_legend) {
-        text_.imbue(std::locale::classic());
         const int legend_px = has_legend ? kLegendWidth_px : 0;
         const int width_px = panels_px + legend_px;
         text_ << "set terminal svg size " << width_px << "," << kHeight_px
@@ -147,7 +146,7 @@ class Chart {
     std::string name_;
     bool has_legend_;
     std::size_t panel_ = 0;
-    std::ostringstream text_;
+    base::TextStream text_;
 };
 
 using Figure = std::function<Value(const GroupTotals&)>;

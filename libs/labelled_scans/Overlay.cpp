@@ -1,10 +1,10 @@
+#include <hagen/base/TextStream.h>
 #include <hagen/labelled_scans/Overlay.h>
 
 #include <hagen/pictures/Gnuplot.h>
 #include <algorithm>
 #include <array>
 #include <locale>
-#include <sstream>
 #include <string>
 
 namespace hagen::labelled_scans {
@@ -40,17 +40,15 @@ std::string fileName(std::string name) {
 void draw(const fs::path& picture, const std::string& title, const evaluation::MethodOutput& view,
           const evaluation::PinholeCamera& camera, float max_range_m) {
     std::array<std::size_t, kOutcomes> counts{};
-    std::array<std::ostringstream, kOutcomes> points;
+    std::array<base::TextStream, kOutcomes> points;
     for (const evaluation::CameraPixel& pixel : view.pixels) {
         const bool is_scored = view.truth.input.scan.range_m[pixel.index] <= max_range_m;
         const Outcome outcome =
             is_scored ? outcomeOf(view.truth.truth[pixel.index], view.found[pixel.index]) : LeftOut;
-        points[outcome].imbue(std::locale::classic());
         points[outcome] << pixel.u << " " << pixel.v << "\n";
         ++counts[outcome];
     }
-    std::ostringstream script;
-    script.imbue(std::locale::classic());
+    base::TextStream script;
     for (int o = 0; o < kOutcomes; ++o) {  // gnuplot rejects an empty block
         script << "$outcome" << o << " << EOD\nNaN NaN\n" << points[o].str() << "EOD\n";
     }

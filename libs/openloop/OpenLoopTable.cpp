@@ -1,10 +1,10 @@
+#include <hagen/base/TextStream.h>
 #include <hagen/openloop/OpenLoopTable.h>
 
 #include <hagen/evaluation/Latency.h>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <sstream>
 
 #include <hagen/openloop/OpenLoopFiles.h>
 
@@ -12,7 +12,7 @@ namespace hagen::openloop {
 namespace {
 
 std::string cell(double value, int decimals, int width) {
-    std::ostringstream text;
+    base::TextStream text;
     if (std::isnan(value)) {
         text << std::setw(width) << "-";
     } else {
@@ -75,7 +75,7 @@ void addAgreement(std::ostream& out, const OpenLoopResult& result) {
 
 std::string tableOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
     const evaluation::Latency filter = evaluation::latencyOf(result.filter_ms);
-    std::ostringstream out;
+    base::TextStream out;
     out << result.scans << " scans of " << open_loop.source.log.string() << ", poses from "
         << result.poses << "\n"
         << "per scan: " << cell(evaluation::latencyOf(result.returns).p50_ms, 0, 0) << " returns, "

@@ -8,7 +8,7 @@ namespace hagen::pictures {
 void drawAirframe(const Image<float>& bin_range_m, const std::string& title,
                   const std::filesystem::path& folder, const std::string& name) {
     const double bin_deg = 180.0 / static_cast<double>(bin_range_m.rows());
-    std::ostringstream text = plainText();
+    GnuplotStream text;
     text << "$range << EOD\n";
     for (Eigen::Index row = 0; row < bin_range_m.rows(); ++row) {
         for (Eigen::Index column = 0; column < bin_range_m.cols(); ++column) {

@@ -1,7 +1,7 @@
 #pragma once
+#include <hagen/base/TextStream.h>
+
 #include <array>
-#include <locale>
-#include <sstream>
 
 namespace hagen::pictures {
 
@@ -13,12 +13,10 @@ inline constexpr const char* kRou = "#A9BCCB";
 inline constexpr const char* kEmpty = "#E9E9E9";
 inline constexpr const char* kInk = "#333333";
 
-/// Returns a stream whose numbers are independent of the program's locale.
-inline std::ostringstream plainText() {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(5);
-    return text;
-}
+/// A script or its data: numbers have five digits.
+class GnuplotStream : public base::TextStream {
+ public:
+    GnuplotStream() { precision(5); }
+};
 
 }  // namespace hagen::pictures

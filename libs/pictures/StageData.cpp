@@ -255,7 +255,7 @@ class DataBlockWriter {
     const StageView& view_;
     const int columns_, rows_;  ///< of the images
     StageData data_;
-    std::ostringstream text_ = plainText();
+    GnuplotStream text_;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr double kZoomHalf_deg = 30.0;
 
 /// A number with one decimal.
 std::string oneDecimal(double value) {
-    std::ostringstream text = plainText();
+    GnuplotStream text;
     text.setf(std::ios::fixed);
     text.precision(1);
     text << value;
@@ -112,7 +112,7 @@ void StagePanelWriter::zoomLabels(const Box& box) {
 
 void StagePanelWriter::barcode(const Box& box) {
     const std::size_t number = view_.result.maxima.size();
-    std::ostringstream title = plainText();
+    GnuplotStream title;
     if (number > static_cast<std::size_t>(data_.bars)) title << data_.bars << " longest of ";
     title << number << (number == 1 ? " maximum" : " maxima");
     panelTitle(title.str() + " from birth to death");
@@ -151,7 +151,7 @@ void StagePanelWriter::series(const Box& box) {
 void StagePanelWriter::components(const Box& box) {
     const int shares = static_cast<int>(data_.component_share.size());
     const int kept = view_.options.principal_components;
-    std::ostringstream title = plainText();
+    GnuplotStream title;
     title << "principal components, " << kept << " of " << view_.options.window_size
           << " kept (blue)";
     panelTitle(title.str());

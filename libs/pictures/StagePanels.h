@@ -1,6 +1,5 @@
 #pragma once
 #include <hagen/pictures/StagePictures.h>
-#include <sstream>
 #include <string>
 
 #include "GnuplotText.h"
@@ -78,7 +77,7 @@ class StagePanelWriter {
     int width_px_ = 0, height_px_ = 0;
     bool has_heading_ = false;
     std::string heading_, panel_title_;
-    std::ostringstream text_ = plainText();
+    GnuplotStream text_;
 };
 
 }  // namespace hagen::pictures

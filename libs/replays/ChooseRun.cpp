@@ -1,11 +1,11 @@
 #include <hagen/base/NumberText.h>
+#include <hagen/base/TextStream.h>
 #include <hagen/replays/ChooseRun.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 namespace hagen::replays {
@@ -60,7 +60,7 @@ std::string overviewOf(const std::vector<trials::Run>& runs) {
         scenario.models.insert(run.setup.model);
         scenario.guidances.insert(run.setup.guidance);
     }
-    std::ostringstream text;
+    base::TextStream text;
     for (const auto& [name, scenario] : scenarios) {
         const std::uint64_t first = *scenario.seeds.begin(), last = *scenario.seeds.rbegin();
         text << "\n  " << name << ": seed" << (first == last ? " " : "s ") << first;

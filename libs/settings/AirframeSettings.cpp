@@ -1,9 +1,9 @@
 #include "AirframeSettings.h"
 
 #include <hagen/base/NumberText.h>
+#include <hagen/base/TextStream.h>
 #include <hagen/settings/AirframeFile.h>
 #include <set>
-#include <sstream>
 
 #include "YamlParts.h"
 
@@ -119,7 +119,7 @@ Settings::AirframeMask parseAirframe(const fs::path& file, const YAML::Node& sec
 
 std::string airframeText(const Settings::AirframeMask& mask) {
     if (mask.parts.isEmpty() && mask.learned.empty()) return "# airframe: none is masked\n";
-    std::ostringstream text;
+    base::TextStream text;
     text << "airframe:  # parts of the vehicle in the sensor frame: their returns are "
             "unclassified\n";
     for (const AirframeBox& box : mask.parts.boxes) {

@@ -1,6 +1,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <hagen/base/NumberText.h>
+#include <hagen/base/TextStream.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <hagen/settings/Presets.h>
@@ -10,7 +11,6 @@
 #include <iomanip>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "AirframeSettings.h"
 #include "YamlParts.h"
@@ -334,7 +334,7 @@ std::string degreesText(float angle_rad) {
 }
 
 std::string dumpSettings(const Settings& settings) {
-    std::ostringstream text;
+    base::TextStream text;
     const auto line = [&](const std::string& key, const std::string& value, const SettingsKey& k) {
         text << std::left << std::setw(32) << (key + ": " + value) << " # "
              << (k.unit.empty() ? "" : "[" + k.unit + "] ") << k.what

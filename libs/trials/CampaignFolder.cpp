@@ -20,6 +20,13 @@ namespace fs = std::filesystem;
 namespace {
 /// The one that tells a campaign's folder is the last: it is removed last.
 constexpr const char* kFiles[] = {"profile.json", "runs.csv", "measured.csv", "campaign.json"};
+
+/// But for outputs that did not get their names, as of a run that failed while it made the folder.
+bool holdsNothing(const fs::path& folder) {
+    std::size_t partial = 0;
+    for (const char* name : kFiles) partial += base::partialOutputs(folder / name).size();
+    return base::entriesOf(folder).size() == partial;
+}
 }  // namespace
 
 CampaignFolder::CampaignFolder(fs::path folder, const LatencyProfile& profile, bool overwrite)
@@ -31,7 +38,7 @@ void CampaignFolder::open(bool overwrite) {
     fs::create_directories(folder_);
     lock_ = lockFolder(folder_);  // first of all, because another program may be setting it up
     removeUnfinished();
-    const bool is_new = base::entriesOf(folder_).empty();
+    const bool is_new = holdsNothing(folder_);
     if (!is_new && !fs::exists(folder_ / "campaign.json")) {
         throw std::runtime_error(folder_.string() +
                                  ": exists and contains no campaign; choose another folder");

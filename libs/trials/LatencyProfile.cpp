@@ -1,6 +1,7 @@
 #include <hagen/base/Json.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/base/ReadFile.h>
+#include <hagen/base/TextStream.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/Statistics.h>
@@ -9,7 +10,6 @@
 #include <fstream>
 #include <iterator>
 #include <locale>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -63,8 +63,7 @@ LatencyProfile profileFrom(const Json& root) {
 }  // namespace
 
 std::string textOf(const LatencyProfile& profile) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
+    base::TextStream text;
     text << "{\n  \"machine\": " << Json(profile.machine).dump()
          << ",\n  \"made_by\": " << Json(profile.made_by).dump()
          << ",\n  \"date\": " << Json(profile.date).dump() << ",\n  \"quantiles_ms\": {";

@@ -88,8 +88,9 @@ int exitCodeOf(pid_t pid) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// For ten minutes at most: a flight takes that long under sanitizers on a busy machine.
 void waitForALine(const fs::path& journal) {
-    for (int i = 0; i < 3000 && (!fs::exists(journal) || fs::file_size(journal) == 0); ++i) {
+    for (int i = 0; i < 60000 && (!fs::exists(journal) || fs::file_size(journal) == 0); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
 }

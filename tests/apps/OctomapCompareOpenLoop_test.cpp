@@ -57,7 +57,9 @@ TEST_F(OpenLoopCommand, TheOracleIsRightAndAllHaveDigestedTheSame) {
     EXPECT_GT(models[1]["directions"]["level"]["recall"], 0.9);
     EXPECT_GT(models[2]["obstacles"], models[1]["obstacles"]);
     EXPECT_EQ(summary["free_agreement"]["jaccard"][0][0], 1.0);
+#ifndef __SANITIZE_ADDRESS__  // whose heap does not tell its size
     EXPECT_GT(summary["measured"]["models"][2]["peak_heap_bytes"], 100000);
+#endif
 
     std::istringstream rows(test::readFile(path("out/scans.csv")));
     std::map<std::string, int> rows_of_returns;

@@ -168,6 +168,11 @@ TEST(CampaignFolder, OneThatWasStoppedWhileItWasMadeIsMadeWhole) {
     { CampaignFolder folder(place / "d", constantProfile(1), false); }
     EXPECT_FALSE(fs::exists(place / "d" / killed));
     EXPECT_TRUE(fs::exists(place / "d/campaign.json"));
+    // Failed before that: what it wrote is kept.
+    place.write("e/campaign.partial.json", "{");
+    { CampaignFolder folder(place / "e", constantProfile(1), false); }
+    EXPECT_TRUE(fs::exists(place / "e/campaign.json"));
+    EXPECT_EQ(readFile(place / "e/campaign.partial.json"), "{");
 }
 
 TEST(CampaignFolder, OneThatCannotBeRemovedRemainsACampaign) {
