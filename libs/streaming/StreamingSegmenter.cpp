@@ -57,6 +57,13 @@ void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan)
     }
 }
 
+/// Where up is along the sensor's z axis; 0: neither way.
+float upOf(const std::optional<Attitude>& tilt) {
+    const Posture posture = postureOf(tilt);
+    if (posture == Posture::Upright) return 1;
+    return posture == Posture::UpsideDown ? -1 : 0;
+}
+
 bool isStill(const Eigen::Isometry3d& motion) {
     return motion.translation().norm() < kLeastMotion_m &&
            Eigen::AngleAxisd(motion.linear()).angle() < kLeastMotion_rad;
@@ -82,7 +89,7 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
       streaming_(streaming),
       thinning_(filter_.sensor().rows(), filter_.options().columns,
                 std::max(streaming.keep_every, 0)),
-      turn_motion_(filter_.sensor().rows(), filter_.options().columns),
+      turn_motion_(filter_.sensor().rows(), filter_.options().columns, options.zone_m),
       take_(std::move(take)) {
     check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
           "sector_rad must be above 0 and at most a turn");
@@ -139,6 +146,11 @@ void StreamingSegmenter::setMount(const std::optional<Attitude>& tilt) { mount_ 
 
 StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double time_s) {
     checkLocated(returns, filter_.sensor());
+    check(std::all_of(returns.azimuth_rad.begin(), returns.azimuth_rad.end(),
+                      [](float azimuth_rad) {
+                          return std::abs(azimuth_rad) <= static_cast<float>(kTurn_rad);
+                      }),
+          "a return has no azimuth, or one beyond a turn");
     if (packets_.size() >= kMostPackets) restart();
     if (spare_.empty()) {
         packets_.emplace_back();
@@ -167,7 +179,9 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
 
 void StreamingSegmenter::thin(Packet& packet) {
     packet.thinned_first = thinned_.scan.size();
-    for (const std::size_t i : thinning_.of(packet.all.scan)) thinned_.append(packet.all, i);
+    for (const std::size_t i : thinning_.of(packet.all.scan, upOf(tilt()))) {
+        thinned_.append(packet.all, i);
+    }
     packet.thinned_end = thinned_.scan.size();
 }
 

@@ -4,7 +4,7 @@
 namespace hagen::streaming {
 namespace {
 
-constexpr float kClearlyLower_m = 0.3F;  // docs/live.md has what other values cost
+constexpr float kClearlyLower_m = 0.3F;
 constexpr auto kNone = static_cast<std::size_t>(-1);
 
 }  // namespace
@@ -16,7 +16,7 @@ Thinning::Thinning(int rows, int columns, int every)
     at_pixel_.resize(static_cast<std::size_t>(groups) * static_cast<std::size_t>(rows), kNone);
 }
 
-const std::vector<std::size_t>& Thinning::of(const Scan& packet) {
+const std::vector<std::size_t>& Thinning::of(const Scan& packet, float up) {
     kept_.clear();
     kept_pixels_.clear();
     if (every_ == 0) return kept_;
@@ -35,13 +35,13 @@ const std::vector<std::size_t>& Thinning::of(const Scan& packet) {
         } else if (packet.range_m[i] < packet.range_m[kept_[at]]) {
             kept_[at] = i;
         }
-        kept_pixels_[at].below_m = packet.z_m[kept_[at]] - kClearlyLower_m;
+        kept_pixels_[at].below_m = up * packet.z_m[kept_[at]] - kClearlyLower_m;
     }
     for (std::size_t i = 0; i < packet.size(); ++i) {
         const std::size_t at = at_pixel_[pixel_[i]];
-        if (at == kNone || !(packet.z_m[i] < kept_pixels_[at].below_m)) continue;
+        if (at == kNone || !(up * packet.z_m[i] < kept_pixels_[at].below_m)) continue;
         kept_[at] = i;
-        kept_pixels_[at].below_m = packet.z_m[i];
+        kept_pixels_[at].below_m = up * packet.z_m[i];
     }
     for (const Kept& kept : kept_pixels_) at_pixel_[kept.pixel] = kNone;
     return kept_;

@@ -9,21 +9,21 @@
 namespace hagen::streaming {
 namespace {
 
-// docs/live.md has what other values cost.
-constexpr int kEvery = 4;            // columns that are compared: more tell no more
+constexpr int kEvery = 4;            // columns that are compared
 constexpr double kMemory_rad = 0.8;  // of returns that weigh e times less than the latest
 constexpr double kMisfit_m = 0.3;    // of returns that weigh half
 constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // per turn, as far as none is seen
 constexpr double kLeastWeight = 10;
-constexpr double kSteepest = 0.6;            // slope from ring to ring
-constexpr float kLeastApart_m = 0.2F;        // of rings that tell a slope
-constexpr double kLatestTurn_rad = 3 * kPi;  // what is older was not seen in the turn before
+constexpr double kSteepest = 0.6;                     // slope from ring to ring
+constexpr float kLeastApart_m = 0.2F;                 // of rings that tell a slope
+constexpr double kTurnBefore_rad[] = {kPi, 3 * kPi};  // how long ago it was seen
 
 }  // namespace
 
-TurnMotion::TurnMotion(int rows, int columns)
+TurnMotion::TurnMotion(int rows, int columns, float zone_m)
     : rows_(rows),
       columns_((columns + kEvery - 1) / kEvery),
+      zone_m_(zone_m),
       ground_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_)) {}
 
 void TurnMotion::forget() {
@@ -39,8 +39,9 @@ const TurnMotion::Ground& TurnMotion::groundOf(int row, int column) const {
                    static_cast<std::size_t>(row)];
 }
 
-bool TurnMotion::isKnown(const Ground& ground) const {
-    return ground.radius_m > 0 && head_rad_ - ground.head_rad < kLatestTurn_rad;
+bool TurnMotion::isOfTurnBefore(const Ground& ground) const {
+    const double ago_rad = head_rad_ - ground.head_rad;
+    return ground.radius_m > 0 && ago_rad > kTurnBefore_rad[0] && ago_rad < kTurnBefore_rad[1];
 }
 
 /// Of the ground of the turn before, outwards: towards the ring on the side of the return, or else
@@ -52,7 +53,7 @@ std::optional<double> TurnMotion::slopeAt(const Pixel& now) const {
         if (row < 0 || row >= rows_) continue;
         const Ground& ring = groundOf(row, now.column);
         const float apart_m = ring.radius_m - then.radius_m;
-        if (!isKnown(ring) || std::abs(apart_m) < kLeastApart_m) continue;
+        if (!isOfTurnBefore(ring) || std::abs(apart_m) < kLeastApart_m) continue;
         const double slope = (ring.point_m.z() - then.point_m.z()) / apart_m;
         return std::abs(slope) < kSteepest ? std::optional(slope) : std::nullopt;
     }
@@ -61,7 +62,7 @@ std::optional<double> TurnMotion::slopeAt(const Pixel& now) const {
 
 void TurnMotion::compare(const Pixel& now) {
     const Ground& then = groundOf(now.row, now.column);
-    if (!isKnown(then)) return;
+    if (!isOfTurnBefore(then)) return;
     const std::optional<double> slope = slopeAt(now);
     if (!slope) return;
     const Eigen::Vector3d point_m = now.ground.point_m.cast<double>();
@@ -90,7 +91,7 @@ void TurnMotion::add(const Scan& sector, const std::vector<Label>& label, double
         const int column = nearestColumn(sector.azimuth_rad[i], columns_ * kEvery);
         if (column % kEvery != 0) continue;
         Ground ground;
-        if (label[i] == Label::Rou) {
+        if (label[i] == Label::Rou && sector.range_m[i] <= zone_m_) {
             ground.point_m = {sector.x_m[i], sector.y_m[i], sector.z_m[i]};
             ground.radius_m = ground.point_m.head<2>().norm();
             ground.head_rad = head_rad;
@@ -101,8 +102,11 @@ void TurnMotion::add(const Scan& sector, const std::vector<Label>& label, double
         if (pixel.ground.radius_m > 0) compare(pixel);
     }
     for (const Pixel& pixel : sector_) {
-        ground_[static_cast<std::size_t>(pixel.column) * static_cast<std::size_t>(rows_) +
-                static_cast<std::size_t>(pixel.row)] = pixel.ground;
+        Ground& ground =
+            ground_[static_cast<std::size_t>(pixel.column) * static_cast<std::size_t>(rows_) +
+                    static_cast<std::size_t>(pixel.row)];
+        // Of several returns of a pixel, ground is kept.
+        if (pixel.ground.radius_m > 0 || ground.head_rad < head_rad) ground = pixel.ground;
     }
     const Eigen::Vector3d usual(kUsualRise_m, kUsualTilt_rad, kUsualTilt_rad);
     const Eigen::Matrix3d prior = usual.cwiseAbs2().cwiseInverse().asDiagonal();

@@ -341,14 +341,19 @@ TEST_F(StreamingSegmenterTest, AfterARestartItIsAsNew) {
     };
     StreamingSegmenter fresh(sensor_, {}, take());
     const std::vector<Label> expected = labelsOfLatest(fresh);
-    StreamingSegmenter restarted(sensor_, {}, take()), not_restarted(sensor_, {}, take());
-    for (StreamingSegmenter* segmenter : {&restarted, &not_restarted}) {
-        for (int k = 0; k < 3; ++k) addTurn(k, packetsAt(2 - 0.2 * k), *segmenter);
-    }
+    StreamingSegmenter restarted(sensor_, {}, take());
+    for (int k = 0; k < 3; ++k) addTurn(k, packetsAt(2 - 0.2 * k), restarted);
     restarted.restart();
     EXPECT_EQ(labelsOfLatest(restarted), expected);
-    not_restarted.flush();
-    EXPECT_NE(labelsOfLatest(not_restarted), expected);
+}
+
+TEST_F(StreamingSegmenterTest, ReturnsWithoutAzimuthAreRefused) {
+    StreamingSegmenter segmenter(sensor_, {}, take());
+    Scan packet = packetsOf(test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2}))[0];
+    for (const float azimuth_rad : {std::nanf(""), 7.0F}) {
+        packet.azimuth_rad.back() = azimuth_rad;
+        EXPECT_THROW(segmenter.add(packet, sweepOf(0, 0), 0), std::invalid_argument);
+    }
 }
 
 /// Thin plants, of which one column in five shows few tops: a sector knows how high they were.

@@ -83,6 +83,17 @@ TEST(Thinning, LowGroundInAGapTakesThePlaceOfACrown) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(2, 3));
 }
 
+TEST(Thinning, OfASensorThatIsUpsideDownLowIsAlongItsZAxis) {
+    Thinning thinning(kRows, kColumns, 5);
+    Scan scan;
+    add(100, 3, 4, 1, scan);
+    add(101, 3, 9, 2.3F, scan);
+    add(102, 3, 4, -1, scan);
+    EXPECT_THAT(thinning.of(scan, -1), ElementsAre(1));
+    EXPECT_THAT(thinning.of(scan, 0), ElementsAre(0));  // on its side
+    EXPECT_THAT(thinning.of(scan), ElementsAre(2));
+}
+
 TEST(Thinning, ReturnsWithoutPlaceTakeNoOther) {
     Thinning thinning(kRows, kColumns, 5);
     Scan scan;

@@ -98,7 +98,7 @@ class TurnMotionTest : public testing::Test {
     }
 
     const SensorModel sensor_ = sensorModel("VLP-16");
-    TurnMotion motion_{sensor_.rows(), kColumns};
+    TurnMotion motion_{sensor_.rows(), kColumns, 20};
     test::Random random_{1};
     int swept_ = 0;
 };
@@ -134,7 +134,7 @@ TEST_F(TurnMotionTest, WhatDoesNotFitHardlyCounts) {
     Flight flight;
     flight.then_from_now = stepOf(1, -2, 0.05);
     fly(flight, 2 * kSectors);
-    flight.strangers = 0.3;
+    flight.strangers = 0.2;
     fly(flight, kSectors);
     EXPECT_LT(worstHeight_m(flight, 1), 0.1);
 }
@@ -158,6 +158,19 @@ TEST_F(TurnMotionTest, ASensorThatLooksDownIsToldAsWell) {
     flight.then_from_now = stepOf(2, 1, 0);
     fly(flight, 3 * kSectors);
     EXPECT_LT(worstHeight_m(flight, 1), 0.1);
+}
+
+TEST_F(TurnMotionTest, WhatIsBeyondTheZoneIsNotCompared) {
+    motion_ = TurnMotion(sensor_.rows(), kColumns, 9);  // the first ring is 9.7 m away
+    fly({}, 3 * kSectors);
+    EXPECT_FALSE(motion_.since(1));
+}
+
+TEST_F(TurnMotionTest, WhatWasSeenInTheSameTurnIsNotCompared) {
+    fly({}, kSectors);
+    --swept_;
+    fly({}, 1);
+    EXPECT_FALSE(motion_.since(1));
 }
 
 TEST_F(TurnMotionTest, OnlyGroundTells) {

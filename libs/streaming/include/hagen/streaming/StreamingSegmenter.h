@@ -30,8 +30,8 @@ struct StreamingOptions {
     /// moved since, not even the ground, those up to this angle are no context: ground that is
     /// tilted against that of the sector looks like a step. Less than half a turn.
     double skip_ahead_rad = 0.4363323129985824;  // 25 degrees
-    /// The same if its motion is known: what is seen from elsewhere has other neighbours. None are
-    /// left out if it stood still.
+    /// The same if its motion is known, or its tilt, or what the ground tells: what is seen from
+    /// elsewhere has other neighbours. None are left out if nothing has changed by that.
     double skip_ahead_moved_rad = 0.06981317007977318;  // 4 degrees
     /// Returns older than this are no context: the sensor was silent. For a sensor that does not
     /// turn, the time that is judged at once.
@@ -100,9 +100,9 @@ class StreamingSegmenter {
     void setMount(const std::optional<Attitude>& tilt);
 
     /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and when it
-    /// came, in seconds of any clock. `sweep` of packets that come late may be before that of
-    /// others: their returns are labelled with the sector in progress. Calls the function if that
-    /// ends a sector.
+    /// came, in seconds of any clock. Throws std::invalid_argument if one of these is missing.
+    /// `sweep` of packets that come late may be before that of others: their returns are labelled
+    /// with the sector in progress. Calls the function if that ends a sector.
     void add(const Scan& returns, const Sweep& sweep, double time_s);
     /// The same for a frame of a sensor that does not turn, which is a sector.
     void addFrame(const Scan& returns, double time_s);
@@ -158,7 +158,7 @@ class StreamingSegmenter {
     SectorFilter sector_filter_;  ///< of a sector and its context
     StreamingOptions streaming_;
     Thinning thinning_;
-    TurnMotion turn_motion_;  ///< while nothing else tells it
+    TurnMotion turn_motion_;  ///< told while neither tilt nor pose is known
     Take take_;
     std::optional<Attitude> attitude_, mount_;
     std::optional<Eigen::Isometry3d> pose_;

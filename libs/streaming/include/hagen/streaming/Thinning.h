@@ -13,8 +13,9 @@ class Thinning {
     /// Of a sensor with so many rows, and images with so many columns. `every`: n; 0: none.
     Thinning(int rows, int columns, int every);
 
-    /// Indices into the packet's returns; valid until the next call.
-    const std::vector<std::size_t>& of(const Scan& packet);
+    /// Indices into the packet's returns; valid until the next call. `up`: 1, or -1 for a sensor
+    /// that is upside down: along its z axis. 0, for one on its side: nothing is taken for lower.
+    const std::vector<std::size_t>& of(const Scan& packet, float up = 1);
 
  private:
     struct Kept {

@@ -8,8 +8,9 @@
 
 namespace hagen::streaming {
 
-/// How a rotating sensor tilts and rises, told by the ground it sees: each ROU return is compared
-/// with what the same pixel saw a turn before.
+/// How a rotating sensor tilts and rises, told by the ground it sees: each ROU return of the zone
+/// is compared with what the same pixel saw a turn before. (Beyond the zone, ROU is not ground
+/// only.)
 ///
 /// Point-to-plane registration (Chen and Medioni 1992) with three unknowns: height, roll and pitch.
 /// Heading and place do not show on level ground. The plane at a return goes through the next ring
@@ -17,8 +18,8 @@ namespace hagen::streaming {
 /// do older ones.
 class TurnMotion {
  public:
-    /// Of a sensor with so many rows, and images with so many columns.
-    TurnMotion(int rows, int columns);
+    /// Of a sensor with so many rows, and images with so many columns. `zone_m`: of the filter.
+    TurnMotion(int rows, int columns, float zone_m);
 
     /// Compares a sector with the turn before, and keeps it for the next. One label per return;
     /// `head_rad`: how far the sensor has turned by now. It goes on from turn to turn.
@@ -40,12 +41,13 @@ class TurnMotion {
         int row, column;
         Ground ground;
     };
-    bool isKnown(const Ground& ground) const;
+    bool isOfTurnBefore(const Ground& ground) const;
     std::optional<double> slopeAt(const Pixel& now) const;
     void compare(const Pixel& now);
     const Ground& groundOf(int row, int column) const;
 
     int rows_, columns_;
+    float zone_m_;
     std::vector<Ground> ground_;  ///< the latest of each pixel, in the columns that are compared
     std::vector<Pixel> sector_;   ///< reused
     double head_rad_ = 0;
