@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
         streaming::VelodyneStream stream(
             packets::velodyneModel("VLP-16"), {},
             [&](const streaming::LabelledSector& sector) { distances.take(sector); });
-        // With an IMU: stream.setAttitude() before each packet.
+        // With an IMU, if there is one: stream.setAttitude() before each packet.
 
         live::UdpSource source(live::parseAddress(argc > 1 ? argv[1] : "0.0.0.0:2368"));
         live::Packet packet;

@@ -50,8 +50,8 @@ class VelodyneStream {
     /// Labels what has come: the sensor is silent.
     void flush() { segmenter_->flush(); }
 
-    /// The tilt and the pose of the sensor from now on. Without a tilt, the mount of the settings
-    /// holds on a level vehicle.
+    /// The tilt and the pose of the sensor from now on; none: not known (StreamingSegmenter). The
+    /// filter then takes the tilt of the settings' mount on a level vehicle.
     void setAttitude(const std::optional<Attitude>& attitude);
     void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
 
