@@ -16,8 +16,10 @@ namespace {
 constexpr double kTurn_rad = 2 * kPi;
 constexpr std::size_t kMostPackets = 4000;  // whatever the clock says; a turn has up to 600
 constexpr double kRounding_rad = 0.01;      // of where packets begin and end
-constexpr double kMargin_rad = 0.02;        // of the sector's image, ahead of it
-constexpr int kEmptyColumns = 16;           // are two columns, where no returns are kept
+// A beam's correction may add half a turn; nearestColumn() wraps once.
+constexpr float kMostAzimuth_rad = 7.8F;
+constexpr double kMargin_rad = 0.02;  // of the sector's image, ahead of it
+constexpr int kEmptyColumns = 16;     // are two columns, where no returns are kept
 // Less than this moves no return to another pixel.
 constexpr double kLeastMotion_m = 0.01, kLeastMotion_rad = 1e-3;
 
@@ -146,11 +148,12 @@ void StreamingSegmenter::setMount(const std::optional<Attitude>& tilt) { mount_ 
 
 StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double time_s) {
     checkLocated(returns, filter_.sensor());
-    check(std::all_of(returns.azimuth_rad.begin(), returns.azimuth_rad.end(),
-                      [](float azimuth_rad) {
-                          return std::abs(azimuth_rad) <= static_cast<float>(kTurn_rad);
-                      }),
-          "a return has no azimuth, or one beyond a turn");
+    const auto isUsable = [](float azimuth_rad) {
+        return std::abs(azimuth_rad) <= kMostAzimuth_rad;
+    };
+    if (!std::all_of(returns.azimuth_rad.begin(), returns.azimuth_rad.end(), isUsable)) {
+        throw std::invalid_argument("streaming: a return has no azimuth, or one far beyond a turn");
+    }
     if (packets_.size() >= kMostPackets) restart();
     if (spare_.empty()) {
         packets_.emplace_back();

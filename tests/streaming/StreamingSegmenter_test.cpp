@@ -350,7 +350,7 @@ TEST_F(StreamingSegmenterTest, AfterARestartItIsAsNew) {
 TEST_F(StreamingSegmenterTest, ReturnsWithoutAzimuthAreRefused) {
     StreamingSegmenter segmenter(sensor_, {}, take());
     Scan packet = packetsOf(test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2}))[0];
-    for (const float azimuth_rad : {std::nanf(""), 7.0F}) {
+    for (const float azimuth_rad : {std::nanf(""), 8.0F}) {
         packet.azimuth_rad.back() = azimuth_rad;
         EXPECT_THROW(segmenter.add(packet, sweepOf(0, 0), 0), std::invalid_argument);
     }

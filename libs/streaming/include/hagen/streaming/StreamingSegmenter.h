@@ -100,7 +100,7 @@ class StreamingSegmenter {
     void setMount(const std::optional<Attitude>& tilt);
 
     /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and when it
-    /// came, in seconds of any clock. Throws std::invalid_argument if one of these is missing.
+    /// came, in seconds of any clock. Throws std::invalid_argument if one of these is unsound.
     /// `sweep` of packets that come late may be before that of others: their returns are labelled
     /// with the sector in progress. Calls the function if that ends a sector.
     void add(const Scan& returns, const Sweep& sweep, double time_s);
