@@ -93,9 +93,10 @@ BagFolder::BagFolder(const fs::path& folder) {
         throw BrokenBag(folder.string() + ": has no .mcap and no .db3 files");
     }
     if (!metadata.why_none.empty()) {
-        remarks_.push_back(std::string(kMetadata) + " is not used (" + metadata.why_none +
-                           "): the .mcap and .db3 files of the folder are read in the order of "
-                           "their numbers");
+        std::string& remark = remarks_.emplace_back(kMetadata);
+        remark += " is not used (" + metadata.why_none +
+                  "): the .mcap and .db3 files of the folder are read in the order of their "
+                  "numbers";
     }
     for (const fs::path& file : files_) {
         share_before_.push_back(bytes_);

@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using mrpt::poses::CPose3D;
 
-constexpr const char* kTumColumns = "time x y z qx qy qz qw";
-constexpr const char* kKittiColumns = "a 3x4 matrix, row by row";
+const std::string kTumColumns = "time x y z qx qy qz qw";
+const std::string kKittiColumns = "a 3x4 matrix, row by row";
 constexpr double kRotationTolerance = 1e-3;  // files have six digits or more
 
 [[noreturn]] void fail(const fs::path& file, const NumberLine& line, const std::string& why) {
@@ -51,7 +51,7 @@ PoseFileKind kindOfPoseFile(const fs::path& file) {
     if (table.empty()) throw std::runtime_error(file.string() + ": contains no poses");
     if (table.front().numbers.size() == 12) return PoseFileKind::Kitti;
     checkColumns(file, table.front(), 8,
-                 std::string("TUM: ") + kTumColumns + "; or 12, KITTI: " + kKittiColumns);
+                 "TUM: " + kTumColumns + "; or 12, KITTI: " + kKittiColumns);
     return PoseFileKind::Tum;
 }
 

@@ -1,9 +1,12 @@
 #include "RawlogTrial.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,6 +58,25 @@ std::uint64_t dataBytes() {
     const bool is_read = std::fscanf(file, "%*u %*u %*u %*u %*u %llu", &pages) == 1;
     std::fclose(file);
     return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// CPU time of a process; 0 if unknown.
+std::int64_t cpuTimeOf_ns(pid_t process) {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+    return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+/// Whether a process waits for a lock now; false if unknown.
+bool waitsForLock(pid_t process) {
+    const std::string name = "/proc/" + std::to_string(process) + "/syscall";
+    std::FILE* const file = std::fopen(name.c_str(), "r");
+    if (file == nullptr) return false;
+    long call = -1;  // "running" is none
+    const bool is_read = std::fscanf(file, "%ld", &call) == 1;
+    std::fclose(file);
+    return is_read && call == SYS_futex;
 }
 
 /// Limits what the next entry may take: no more than its bytes in the rest of the file can need.
@@ -114,31 +136,57 @@ void limitMemory(const PackedInput& stream, const rlimit& of_program) {
 
 }  // namespace
 
-RawlogTrial::RawlogTrial(const std::filesystem::path& file, int descriptor) : file_(file) {
+RawlogTrial::RawlogTrial(const std::filesystem::path& file, int descriptor,
+                         std::chrono::milliseconds patience)
+    : file_(file), descriptor_(descriptor), patience_(patience) {
+    start();
+}
+
+RawlogTrial::~RawlogTrial() { stop(); }
+
+void RawlogTrial::start() {
     int pipe[2];
     if (pipe2(pipe, O_CLOEXEC) != 0) {
-        throw std::runtime_error(file.string() +
+        throw std::runtime_error(file_.string() +
                                  ": cannot be read: no pipe can be made: " + std::strerror(errno));
     }
     process_ = fork();
-    if (process_ == 0) runTrial(file, descriptor, pipe[1]);
+    if (process_ == 0) runTrial(file_, descriptor_, pipe[1]);
     const int error = errno;
     close(pipe[1]);
-    verdicts_ = pipe[0];
     if (process_ < 0) {
-        close(verdicts_);
-        throw std::runtime_error(file.string() +
+        close(pipe[0]);
+        throw std::runtime_error(file_.string() +
                                  ": cannot be read: no process can be started to try its entries "
                                  "(ulimit -u?): " +
                                  std::strerror(error));
     }
+    verdicts_ = pipe[0];
+    received_ = 0;
+    ++starts_;
 }
 
-RawlogTrial::~RawlogTrial() {
-    close(verdicts_);
+void RawlogTrial::stop() {
+    if (verdicts_ >= 0) close(verdicts_);
+    verdicts_ = -1;
     if (process_ < 0) return;
     kill(process_, SIGKILL);
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+}
+
+/// Waits until the process sends something or ends (false), or stands still.
+bool RawlogTrial::standsStill() const {
+    for (;;) {
+        const std::int64_t before_ns = cpuTimeOf_ns(process_);
+        pollfd pipe{verdicts_, POLLIN, 0};
+        const int ready = poll(&pipe, 1, static_cast<int>(patience_.count()));
+        if (ready > 0) return false;
+        if (ready < 0 && errno != EINTR) return false;  // receive() waits
+        if (ready == 0 && waitsForLock(process_) && cpuTimeOf_ns(process_) == before_ns) {
+            return true;
+        }
     }
 }
 
@@ -154,26 +202,53 @@ bool RawlogTrial::receive(void* data, std::size_t size) const {
     return true;
 }
 
+std::string RawlogTrial::cannotBeRead(const std::string& why) const {
+    return file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
+           std::to_string(last_.end) + " (uncompressed) cannot be read: " + why;
+}
+
 std::string RawlogTrial::whyItEnded() {
     int status = 0;
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    const std::string how = WIFSIGNALED(status)
-                                ? std::string("crashes on it (") + strsignal(WTERMSIG(status)) + ")"
-                                : "ends at it";
-    return file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
-           std::to_string(last_.end) + " (uncompressed) cannot be read: MRPT's reader " + how;
+    return cannotBeRead("MRPT's reader " +
+                        (WIFSIGNALED(status)
+                             ? std::string("crashes on it (") + strsignal(WTERMSIG(status)) + ")"
+                             : "ends at it"));
+}
+
+EntryVerdict RawlogTrial::receiveVerdict() {
+    Header header;
+    if (!receive(&header, sizeof header)) {
+        return {EntryVerdict::Kind::Broken, last_.end, whyItEnded()};
+    }
+    EntryVerdict verdict{header.kind, header.end, std::string(header.text, '\0')};
+    if (!receive(verdict.why.data(), header.text)) verdict.why = "the reason was lost";
+    ++received_;
+    return verdict;
 }
 
 EntryVerdict RawlogTrial::next() {
     if (last_.kind != EntryVerdict::Kind::Sound) return last_;
-    Header header;
-    if (!receive(&header, sizeof header)) {
-        return last_ = {EntryVerdict::Kind::Broken, last_.end, whyItEnded()};
-    }
-    last_ = {header.kind, header.end, std::string(header.text, '\0')};
-    if (!receive(last_.why.data(), header.text)) last_.why = "the reason was lost";
+    EntryVerdict verdict = last_;
+    do {
+        if (standsStill()) {
+            stop();
+            if (starts_ == kMostStarts) {
+                return last_ = {EntryVerdict::Kind::Broken, last_.end,
+                                cannotBeRead("MRPT's reader stands still at it")};
+            }
+            try {
+                start();
+            } catch (const std::runtime_error& e) {
+                return last_ = {EntryVerdict::Kind::Broken, last_.end, e.what()};
+            }
+            continue;
+        }
+        verdict = receiveVerdict();
+    } while (verdict.kind == EntryVerdict::Kind::Sound && received_ <= entries_);
+    last_ = verdict;
     ++entries_;
     return last_;
 }

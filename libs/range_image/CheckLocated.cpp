@@ -3,8 +3,11 @@
 #include <hagen/range_image/Scan.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+
+#include "CheckRows.h"
 
 namespace hagen {
 namespace {
@@ -34,6 +37,21 @@ std::string textOf(const BeamSpan& beams) {
            textOf(beamSpan(sensor)));
 }
 
+/// Whether each return with a range has coordinates.
+bool havePlaces(const Scan& scan) {
+    const float* const x_m = scan.x_m.data();
+    const float* const y_m = scan.y_m.data();
+    const float* const z_m = scan.z_m.data();
+    const float* const range_m = scan.range_m.data();
+    std::uint32_t misplaced = 0;  // no branch, for speed
+    for (std::size_t i = 0, size = scan.size(); i < size; ++i) {
+        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if one is not finite
+        misplaced |= static_cast<std::uint32_t>(std::isnan(zero)) &
+                     static_cast<std::uint32_t>(!std::isnan(range_m[i]));
+    }
+    return misplaced == 0;
+}
+
 }  // namespace
 
 BeamSpan beamSpan(const SensorModel& sensor) {
@@ -41,7 +59,7 @@ BeamSpan beamSpan(const SensorModel& sensor) {
     return {sensor.rows(), sensor.elevations_rad.front(), sensor.elevations_rad.back()};
 }
 
-void checkLocated(const Scan& scan, const SensorModel& sensor) {
+void checkRows(const Scan& scan, const SensorModel& sensor) {
     if (scan.size() > kMostReturns) {
         throw std::invalid_argument("the scan has " + std::to_string(scan.size()) +
                                     " returns, more than the " + std::to_string(kMostReturns) +
@@ -59,12 +77,18 @@ void checkLocated(const Scan& scan, const SensorModel& sensor) {
         if (!areAlike(scan.beams, beamSpan(sensor))) {
             refuseRows("rows of " + textOf(scan.beams), sensor);
         }
-        return;
     }
     std::uint8_t most = 0;
     for (const std::uint8_t row : scan.row) most = std::max(most, row);
     if (scan.size() > 0 && most >= sensor.rows()) {
         refuseRows("a return in row " + std::to_string(most), sensor);
+    }
+}
+
+void checkLocated(const Scan& scan, const SensorModel& sensor) {
+    checkRows(scan, sensor);
+    if (!havePlaces(scan)) {
+        refuse("a return has a range, but coordinates that are not finite");
     }
 }
 

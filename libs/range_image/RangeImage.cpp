@@ -8,6 +8,8 @@
 #include <cstring>
 #include <vector>
 
+#include "CheckRows.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "RangeImage.cpp"
 #include <hwy/foreach_target.h>
@@ -169,7 +171,7 @@ void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_
 // a branch.
 void project(const Scan& scan, const SensorModel& sensor, const Projection& to, int image_columns,
              RangeImage& image, ProjectionWorkspace& work) {
-    checkLocated(scan, sensor);
+    checkRows(scan, sensor);
     std::vector<RangeAndIndex>& closest = work.closest;
     closest.assign(static_cast<std::size_t>(to.rows) * image_columns, emptyPixel());
     image.depth_mapper.resize(scan.size());

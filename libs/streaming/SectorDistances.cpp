@@ -92,6 +92,8 @@ void SectorDistances::noteSwept(const LabelledSector& sector) {
 
 void SectorDistances::take(const LabelledSector& sector) {
     const double now_rad = sector.sweep ? sector.sweep->to_rad : 0;
+    if (sector.first_time_s < latest_s_) bins_.fill({});
+    latest_s_ = sector.first_time_s;
     if (!sector.sweep) beginFrame(sector.first_time_s);
     noteSwept(sector);
     const Scan& scan = sector.returns;

@@ -18,8 +18,10 @@ constexpr std::size_t kMostPackets = 4000;  // whatever the clock says; a turn h
 constexpr double kRounding_rad = 0.01;      // of where packets begin and end
 // A beam's correction may add half a turn; nearestColumn() wraps once.
 constexpr float kMostAzimuth_rad = 7.8F;
-constexpr double kMargin_rad = 0.02;  // of the sector's image, ahead of it
-constexpr int kEmptyColumns = 16;     // are two columns, where no returns are kept
+constexpr double kMostTurned_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
+constexpr double kMostTime_s = 1e11;      // still exact to 0.02 ms
+constexpr double kMargin_rad = 0.02;      // of the sector's image, ahead of it
+constexpr int kEmptyColumns = 16;         // are two columns, where no returns are kept
 // Less than this moves no return to another pixel.
 constexpr double kLeastMotion_m = 0.01, kLeastMotion_rad = 1e-3;
 
@@ -59,6 +61,12 @@ void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan)
     }
 }
 
+std::optional<Attitude> ifFinite(const std::optional<Attitude>& attitude) {
+    const bool is_known =
+        attitude && std::isfinite(attitude->roll_rad) && std::isfinite(attitude->pitch_rad);
+    return is_known ? attitude : std::nullopt;
+}
+
 /// Where up is along the sensor's z axis; 0: neither way.
 float upOf(const std::optional<Attitude>& tilt) {
     const Posture posture = postureOf(tilt);
@@ -76,6 +84,23 @@ double between(const Sweep& a, const Sweep& b) {
     const double apart_rad = std::abs(a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2;
     const double middle_rad = std::min(apart_rad, std::abs(kTurn_rad - apart_rad));
     return middle_rad - (a.to_rad - a.from_rad + b.to_rad - b.from_rad) / 2;
+}
+
+void checkTime(double time_s) {
+    if (!(std::abs(time_s) <= kMostTime_s)) {
+        throw std::invalid_argument("streaming: a packet has no time, or one beyond 3000 years");
+    }
+}
+
+void checkSweep(const Sweep& sweep) {
+    const double swept_rad = sweep.to_rad - sweep.from_rad;
+    const bool is_sound = std::abs(sweep.from_rad) <= kMostTurned_rad && swept_rad >= 0 &&
+                          swept_rad <= kTurn_rad + kRounding_rad;
+    if (!is_sound) {
+        throw std::invalid_argument(
+            "streaming: the sweep of a packet must go clockwise, from one angle to one that is not "
+            "smaller, and at most a turn");
+    }
 }
 
 void check(bool is_right, const std::string& what) {
@@ -137,14 +162,15 @@ void StreamingSegmenter::Returns::eraseFirst(std::size_t number) {
 }
 
 void StreamingSegmenter::setAttitude(const std::optional<Attitude>& attitude) {
-    attitude_ = attitude;
+    attitude_ = ifFinite(attitude);
 }
 
 void StreamingSegmenter::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
-    pose_ = map_from_sensor;
+    const bool is_known = map_from_sensor && map_from_sensor->matrix().allFinite();
+    pose_ = is_known ? map_from_sensor : std::nullopt;
 }
 
-void StreamingSegmenter::setMount(const std::optional<Attitude>& tilt) { mount_ = tilt; }
+void StreamingSegmenter::setMount(const std::optional<Attitude>& tilt) { mount_ = ifFinite(tilt); }
 
 StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double time_s) {
     checkLocated(returns, filter_.sensor());
@@ -201,6 +227,8 @@ void StreamingSegmenter::forgetThinned() {
 }
 
 void StreamingSegmenter::add(const Scan& returns, const Sweep& sweep, double time_s) {
+    checkSweep(sweep);
+    checkTime(time_s);
     if (open_ > 0 && time_s - packets_[packets_.size() - open_].time_s > streaming_.context_s) {
         flush();
     }
@@ -225,6 +253,7 @@ void StreamingSegmenter::add(const Scan& returns, const Sweep& sweep, double tim
 }
 
 void StreamingSegmenter::addFrame(const Scan& returns, double time_s) {
+    checkTime(time_s);
     push(returns, time_s);
     label(false);
 }
@@ -346,8 +375,9 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const int group = streaming_.keep_every > 0 ? streaming_.keep_every : kEmptyColumns;
     const int groups = (columns + group - 1) / group;
     const double group_rad = kTurn_rad * group / columns;
-    const int count = static_cast<int>(std::ceil(width_rad / group_rad)) + 1;
-    if (count >= groups) return false;
+    const double stretch = std::ceil(width_rad / group_rad) + 1;  // of late packets: any
+    if (stretch >= groups) return false;
+    const int count = static_cast<int>(stretch);
     const double end_rad = sector.to_rad + (has_ahead ? beside_rad : kMargin_rad);
     const auto first_rad = static_cast<float>(std::remainder(width_rad - end_rad, kTurn_rad));
     mapColumns(columns, group, nearestColumn(first_rad, columns) / group, count, columns_);

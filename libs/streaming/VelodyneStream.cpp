@@ -75,9 +75,10 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
     int turned = packet.azimuthOf(last) - packet.azimuthOf(first);
     if (turned < 0) turned += kReadings;
     // A packet sweeps a few degrees; more is a broken reading.
-    const double per_firing =
-        firings > 0 && turned < kReadings / 8 ? static_cast<double>(turned) / firings : 0.0;
     const int all_firings = kBlocks / blocks_per_firing;
+    const double per_firing = turned * all_firings < firings * kReadings / 8
+                                  ? static_cast<double>(turned) / firings
+                                  : 0.0;
     const int before = first / blocks_per_firing;
     const double from = packet.azimuthOf(first) - per_firing * before;
     const double swept_rad = radians(0.01 * per_firing * all_firings);

@@ -22,9 +22,7 @@ class RawlogSegmentMcap : public test::ProgramTest {
         return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
     }
     /// Ten scans with poses.
-    static std::string recording() {
-        return std::string(HAGEN_SOURCE_DIR) + "/rawlogs/poles_and_wall.rawlog";
-    }
+    static std::string recording() { return HAGEN_SOURCE_DIR "/rawlogs/poles_and_wall.rawlog"; }
     static std::string config() { return std::string(HAGEN_SOURCE_DIR) + "/config/vlp16.yaml"; }
     /// All numbers of a field in a folder of labelled clouds.
     std::vector<double> columnOf(const std::string& folder, const char* name) const {

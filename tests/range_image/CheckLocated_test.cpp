@@ -4,8 +4,11 @@
 #include <hagen/range_image/RangeImage.h>
 #include <hagen/range_image/Scan.h>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace hagen {
 namespace {
@@ -101,6 +104,29 @@ TEST(CheckLocated, RefusesRowsThatTheSensorHasNotWhereNobodySaidWhoseTheyAre) {
         scan.row[i] = 16;
         EXPECT_THAT(objection(scan, sensorModel("VLP-16")),
                     AllOf(HasSubstr("row 16"), HasSubstr("16 beams")));
+    }
+}
+
+TEST(CheckLocated, RefusesRowsThatTheSensorHasNotThoughItIsTheOneThatWasNamed) {
+    Scan scan = locatedWith(sensorModel("VLP-16"));
+    scan.row.back() = 16;
+    EXPECT_THAT(objection(scan, sensorModel("VLP-16")), HasSubstr("a return in row 16"));
+}
+
+TEST(CheckLocated, RefusesARangeWithoutAPlace) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()}) {
+        Scan scan = locatedWith(sensor);
+        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) {
+            const float good = std::exchange(values->back(), bad);
+            EXPECT_THAT(objection(scan, sensor), HasSubstr("coordinates that are not finite"));
+            values->back() = good;
+        }
+        EXPECT_EQ(objection(scan, sensor), "");
+        scan.x_m.back() = bad;
+        scan.range_m.back() = std::nanf("");
+        EXPECT_EQ(objection(scan, sensor), "");
     }
 }
 

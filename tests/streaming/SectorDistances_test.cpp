@@ -107,6 +107,17 @@ TEST_F(SectorDistancesTest, StaleIsNeverFree) {
     EXPECT_EQ(distances.at(-1)[0].state, State::Unknown);
 }
 
+TEST_F(SectorDistancesTest, WhatWasSeenBeforeTheClockWentBackIsForgotten) {
+    SectorDistances distances(sensor_);
+    turn(100, 0.1, {{32, 5}}, distances);  // at 10 s
+    take(0, 20, 9.9, {}, distances);
+    for (const double now_s : {9.9, 10.1}) {
+        for (int k = 0; k < SectorDistances::kSectors; ++k) {
+            EXPECT_EQ(distances.at(now_s)[k].state, k < 4 ? State::SeenNothing : State::Unknown);
+        }
+    }
+}
+
 TEST_F(SectorDistancesTest, APartOfASectorIsNotFree) {
     SectorDistances distances(sensor_);
     take(0, 13, 1, {{11, 4}}, distances);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -354,6 +355,61 @@ TEST_F(StreamingSegmenterTest, ReturnsWithoutAzimuthAreRefused) {
         packet.azimuth_rad.back() = azimuth_rad;
         EXPECT_THROW(segmenter.add(packet, sweepOf(0, 0), 0), std::invalid_argument);
     }
+}
+
+TEST_F(StreamingSegmenterTest, UnsoundSweepsAndTimesAreRefusedAndNothingElseIsLost) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
+    const std::vector<Scan> packets = packetsOf(turn);
+    StreamingSegmenter segmenter(sensor_, {}, take());
+    addTurn(0, packets, segmenter, 0, 10);
+    for (const Sweep& sweep :
+         {Sweep{kNan, 1}, Sweep{0, kNan}, Sweep{0, kInfinity}, Sweep{-kInfinity, 0}, Sweep{4, 3.9},
+          Sweep{0, 7}, Sweep{1e15, 1e15}}) {
+        EXPECT_THROW(segmenter.add(packets[10], sweep, 0.01), std::invalid_argument);
+    }
+    for (const double time_s : {kNan, kInfinity, -1e300}) {
+        EXPECT_THROW(segmenter.add(packets[10], sweepOf(0, 10), time_s), std::invalid_argument);
+        EXPECT_THROW(segmenter.addFrame(packets[10], time_s), std::invalid_argument);
+    }
+    addTurn(0, packets, segmenter, 10, kPackets);
+    segmenter.flush();
+    EXPECT_EQ(labels().size(), turn.scan.size());
+}
+
+TEST_F(StreamingSegmenterTest, AMotionThatIsNoNumberIsUnknown) {
+    const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
+    const std::vector<Scan> packets = packetsOf(turn);
+    const auto labelsAfter = [&](auto set) {
+        taken_.clear();
+        StreamingSegmenter segmenter(sensor_, {}, take());
+        for (int k = 0; k < 3; ++k) {
+            set(segmenter);
+            addTurn(k, packets, segmenter);
+        }
+        return labels();
+    };
+    const auto unknown = labelsAfter([](StreamingSegmenter&) {});
+    const float nan = std::nanf("");
+    EXPECT_EQ(unknown, labelsAfter([&](auto& s) { s.setAttitude(Attitude{nan, 0}); }));
+    EXPECT_EQ(unknown, labelsAfter([&](auto& s) { s.setMount(Attitude{0, nan}); }));
+    EXPECT_EQ(unknown, labelsAfter([&](auto& s) {
+                  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+                  pose.translation().z() = std::numeric_limits<double>::infinity();
+                  s.setPose(pose);
+              }));
+}
+
+/// Late packets: of many turns before.
+TEST_F(StreamingSegmenterTest, ASectorOfManyTurnsIsLabelled) {
+    const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
+    const std::vector<Scan> packets = packetsOf(turn);
+    StreamingSegmenter segmenter(sensor_, {}, take());
+    addTurn(0, packets, segmenter);
+    segmenter.add(packets[0], {-1e11, -1e11}, 0.1);
+    segmenter.flush();
+    EXPECT_EQ(labels().size(), turn.scan.size() + packets[0].size());
 }
 
 /// Thin plants, of which one column in five shows few tops: a sector knows how high they were.

@@ -263,6 +263,23 @@ TEST_F(VelodyneStreamTest, ForeignDatagramsAreRefused) {
     EXPECT_EQ(counts.repeated, 1u);
 }
 
+/// Two sound blocks that are far apart: as the rate of the whole packet, it would sweep more than
+/// a turn.
+TEST_F(VelodyneStreamTest, APacketThatSweepsMoreThanATurnIsABrokenReading) {
+    ByteString packet = turnsOf(1)[0];
+    const auto setAzimuth = [&](int block, unsigned centidegrees) {
+        packet[100 * block + 2] = static_cast<char>(centidegrees & 0xff);
+        packet[100 * block + 3] = static_cast<char>(centidegrees >> 8);
+    };
+    setAzimuth(0, 0);
+    setAzimuth(1, 4400);
+    for (int block = 2; block < 12; ++block) setAzimuth(block, 0xffff);
+    EXPECT_EQ(add(packet, 0, stream_), Taken::Yes);
+    stream_.flush();
+    EXPECT_EQ(stream_.counts().unsound_blocks, 10u);
+    EXPECT_GT(all_.label.size(), 0u);
+}
+
 TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     const auto packets = turnsOf(1);
     std::mt19937 random(1);

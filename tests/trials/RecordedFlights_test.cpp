@@ -22,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 
 const char kFile[] = HAGEN_SOURCE_DIR "/tests/trials/recorded_flights.csv";
-const char kHowToRecord[] =
+const std::string kHowToRecord =
     "count up kRevision in libs/trials/include/hagen/trials/SettingsHash.h, and record again: "
     "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
 
@@ -80,15 +80,13 @@ std::string faultOf(const Recording& recording, const Recording& flown) {
     const bool are_known = std::all_of(
         rows.begin(), rows.end(), [&](const std::string& row) { return known.count(row) > 0; });
     if (are_known && flightsOf(rows) == flightsOf(recorded)) return "";
-    return std::string("flights differ from the recorded ones; if the change is intended, ") +
-           kHowToRecord;
+    return "flights differ from the recorded ones; if the change is intended, " + kHowToRecord;
 }
 
 /// Why these flights may not replace the recorded ones; empty: they may.
 std::string obstacleTo(const Recording& flown, const Recording& recorded) {
     if (flown.revision > recorded.revision || textOf(flown) == textOf(recorded)) return "";
-    return std::string("flights or kRevision changed, but kRevision was not counted up; first ") +
-           kHowToRecord;
+    return "flights or kRevision changed, but kRevision was not counted up; first " + kHowToRecord;
 }
 
 /// Latencies that do not depend on the profile that comes with the program.

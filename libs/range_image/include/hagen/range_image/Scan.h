@@ -36,9 +36,9 @@ struct Scan {
 void locateBeams(const SensorModel& sensor, Scan& scan);
 
 /// Throws std::invalid_argument, saying what to call, unless every return has a range, an azimuth
-/// and a row of this sensor. Rows of another sensor are detected by `scan.beams` (a different
-/// number of beams, or a span that differs by more than 1 degree) or, if that is unknown, by rows
-/// that this sensor does not have.
+/// and a row of this sensor, and finite coordinates unless its range is NaN. Rows of another sensor
+/// are detected by `scan.beams` (a different number of beams, or a span that differs by more than
+/// 1 degree), and by rows that this sensor does not have.
 void checkLocated(const Scan& scan, const SensorModel& sensor);
 
 }  // namespace hagen

@@ -40,6 +40,7 @@ class SectorDistances {
     explicit SectorDistances(const SensorModel& sensor) : SectorDistances(sensor, Settings()) {}
     SectorDistances(const SensorModel& sensor, const Settings& settings);
 
+    /// A clock that goes back does not tell how old the earlier sectors are: they are forgotten.
     void take(const LabelledSector& sector);
 
     /// Sector 0 begins straight ahead, at azimuth 0, and sectors run clockwise, as in MAVLink's
@@ -66,6 +67,7 @@ class SectorDistances {
     /// Where the sensor sees the bin, clockwise from 0 up to a turn; NaN: not.
     std::array<double, kBins> sensor_rad_{};
     std::array<Bin, kBins> bins_{};
+    double latest_s_ = kNever;
     double period_start_s_ = kNever;  ///< without turns
 };
 

@@ -45,7 +45,8 @@ struct StreamingOptions {
 };
 
 /// What a rotating sensor swept while it measured the returns of a packet: from one azimuth to
-/// another, clockwise from x. Angles go on from turn to turn: one turn later they are 2 pi larger.
+/// another, clockwise from x, at most a turn. Angles go on from turn to turn: one turn later they
+/// are 2 pi larger.
 struct Sweep {
     double from_rad, to_rad;
 };
@@ -92,7 +93,8 @@ class StreamingSegmenter {
     /// The tilt and the pose of the sensor (map from sensor) from now on, as far as they are known.
     /// Context is moved by the pose since it was measured, or, without one, turned by the tilt.
     /// Without both, the ground tells how a sensor that turns tilts and rises (TurnMotion), if
-    /// there is some; if not, context stays where it was measured. None: unknown.
+    /// there is some; if not, context stays where it was measured. None, or numbers that are not
+    /// finite: unknown.
     void setAttitude(const std::optional<Attitude>& attitude);
     void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
     /// The tilt of the sensor on a level vehicle: the filter takes it while the tilt is unknown.

@@ -1,0 +1,19 @@
+#pragma once
+// Sensors, options and numbers of which a filter may be made.
+#include <hagen/range_image/SensorModel.h>
+#include <hagen/segmentation/Options.h>
+
+#include "fuzz/Target.h"
+
+namespace hagen::fuzz {
+
+/// A number that is often an odd one.
+float oddNumber(Parts& parts);
+
+/// Changes some options, within their limits. Images get up to 256 columns.
+void setOptions(Parts& parts, Options& options);
+
+/// Throws std::invalid_argument: too few beams.
+SensorModel anySensor(Parts& parts);
+
+}  // namespace hagen::fuzz
