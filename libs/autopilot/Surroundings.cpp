@@ -47,7 +47,9 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
         if (sector.label[i] != Label::Roi) continue;
         seen.roi_m.emplace_back(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
     }
-    latest_s_ = std::max(latest_s_, sector.last_time_s);
+    const bool went_back = !seen_.empty() && sector.first_time_s < seen_.back()->first_time_s;
+    if (went_back) seen_.clear();
+    latest_s_ = went_back ? sector.last_time_s : std::max(latest_s_, sector.last_time_s);
     while (!seen_.empty() && !isFresh(*seen_.front(), sector.last_time_s)) seen_.pop_front();
     seen_.push_back(std::make_shared<const Seen>(std::move(seen)));
 }

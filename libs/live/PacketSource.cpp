@@ -119,7 +119,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     packet.bytes.assign(buffer_.begin(), buffer_.begin() + size);
     packet.from_ip = ntohl(from.sin_addr.s_addr);
     packet.to_port = port_;
-    packet.arrival_s = steadyNow_s();
+    packet.arrival_s = steadyNow_s();  // first: what comes between makes packets older
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
     packet.time_ns = nanoseconds(now);
@@ -129,11 +129,12 @@ PacketSource::Next UdpSource::next(Packet& packet) {
         timespec stamp{};
         std::memcpy(&stamp, CMSG_DATA(part_of), sizeof stamp);
         const std::int64_t waited_ns = packet.time_ns - nanoseconds(stamp);
-        // The system's clock may have been set meanwhile.
-        if (waited_ns < 0 || waited_ns > 1000000000) continue;
         packet.arrival_s -= 1e-9 * static_cast<double>(waited_ns);
         packet.time_ns -= waited_ns;
+        // The system's clock was set meanwhile: it came at an unknown time after the one before.
+        if (waited_ns < 0) packet.arrival_s = latest_arrival_s_;
     }
+    packet.arrival_s = latest_arrival_s_ = std::max(latest_arrival_s_, packet.arrival_s);
     return Next::Packet;
 }
 

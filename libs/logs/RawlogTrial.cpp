@@ -13,6 +13,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <optional>
 #include <stdexcept>
 
 #include "EntryReader.h"
@@ -27,6 +29,9 @@ struct Header {
     std::uint32_t text;
 };
 constexpr std::size_t kLongestText = 4096;
+
+/// How often it has to stand still where it is not told for what it waits: perhaps for a disk.
+constexpr int kPatienceWithAnything = 10;
 
 /// MRPT's objects take more memory than their bytes in a rawlog: an empty pointer or text has 4
 /// bytes there and up to 32 in memory, and vectors double while they grow.
@@ -60,23 +65,41 @@ std::uint64_t dataBytes() {
     return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-/// CPU time of a process; 0 if unknown.
-std::int64_t cpuTimeOf_ns(pid_t process) {
+/// CPU time of a process; none if unknown.
+std::optional<std::int64_t> cpuTimeOf_ns(pid_t process) {
     clockid_t clock{};
     timespec time{};
-    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) {
+        return std::nullopt;
+    }
     return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
-/// Whether a process waits for a lock now; false if unknown.
-bool waitsForLock(pid_t process) {
-    const std::string name = "/proc/" + std::to_string(process) + "/syscall";
-    std::FILE* const file = std::fopen(name.c_str(), "r");
-    if (file == nullptr) return false;
-    long call = -1;  // "running" is none
-    const bool is_read = std::fscanf(file, "%ld", &call) == 1;
-    std::fclose(file);
-    return is_read && call == SYS_futex;
+/// What a process does now, by two files of /proc. For what it waits, only those are told who may
+/// trace it.
+enum class Doing { Work, WaitForLock, WaitForAnything };
+Doing doingOf(pid_t process) {
+    const std::string folder = "/proc/" + std::to_string(process);
+    std::string call, text;  // the call's number, or "running"
+    if (std::ifstream(folder + "/syscall") >> call) {
+        return call == std::to_string(SYS_futex) ? Doing::WaitForLock : Doing::Work;
+    }
+    std::getline(std::ifstream(folder + "/stat"), text);  // number (name) state ...
+    const std::size_t name_end = text.rfind(") ");
+    const bool sleeps = name_end != std::string::npos && text.compare(name_end, 3, ") S") == 0;
+    return sleeps ? Doing::WaitForAnything : Doing::Work;
+}
+
+/// Whether a pipe has something to read, or an end, within this time. Signals do not prolong it.
+bool hasSomething(int pipe, std::chrono::milliseconds patience) {
+    using Clock = std::chrono::steady_clock;
+    for (const auto end = Clock::now() + patience;;) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+        pollfd waits{pipe, POLLIN, 0};
+        const int ready = poll(&waits, 1, std::max(0, static_cast<int>(left.count())));
+        if (ready == 0) return false;
+        if (ready > 0 || errno != EINTR) return true;
+    }
 }
 
 /// Limits what the next entry may take: no more than its bytes in the rest of the file can need.
@@ -178,15 +201,13 @@ void RawlogTrial::stop() {
 
 /// Waits until the process sends something or ends (false), or stands still.
 bool RawlogTrial::standsStill() const {
-    for (;;) {
-        const std::int64_t before_ns = cpuTimeOf_ns(process_);
-        pollfd pipe{verdicts_, POLLIN, 0};
-        const int ready = poll(&pipe, 1, static_cast<int>(patience_.count()));
-        if (ready > 0) return false;
-        if (ready < 0 && errno != EINTR) return false;  // receive() waits
-        if (ready == 0 && waitsForLock(process_) && cpuTimeOf_ns(process_) == before_ns) {
-            return true;
-        }
+    for (int still = 0;;) {
+        const auto before_ns = cpuTimeOf_ns(process_);
+        if (hasSomething(verdicts_, patience_)) return false;
+        const bool is_still = before_ns && cpuTimeOf_ns(process_) == before_ns;
+        const Doing doing = is_still ? doingOf(process_) : Doing::Work;
+        still = doing == Doing::WaitForAnything ? still + 1 : 0;
+        if (doing == Doing::WaitForLock || still == kPatienceWithAnything) return true;
     }
 }
 
@@ -231,26 +252,33 @@ EntryVerdict RawlogTrial::receiveVerdict() {
 
 EntryVerdict RawlogTrial::next() {
     if (last_.kind != EntryVerdict::Kind::Sound) return last_;
-    EntryVerdict verdict = last_;
-    do {
+    const auto broken = [this](const std::string& why) {
+        return last_ = {EntryVerdict::Kind::Broken, last_.end, why};
+    };
+    for (;;) {
         if (standsStill()) {
             stop();
             if (starts_ == kMostStarts) {
-                return last_ = {EntryVerdict::Kind::Broken, last_.end,
-                                cannotBeRead("MRPT's reader stands still at it")};
+                return broken(cannotBeRead("MRPT's reader stands still at it"));
             }
             try {
                 start();
             } catch (const std::runtime_error& e) {
-                return last_ = {EntryVerdict::Kind::Broken, last_.end, e.what()};
+                return broken(e.what());
             }
             continue;
         }
-        verdict = receiveVerdict();
-    } while (verdict.kind == EntryVerdict::Kind::Sound && received_ <= entries_);
-    last_ = verdict;
-    ++entries_;
-    return last_;
+        const bool is_new = received_ == entries_;
+        const EntryVerdict verdict = receiveVerdict();
+        if (is_new) {
+            ++entries_;
+            return last_ = verdict;
+        }
+        if (verdict.kind != EntryVerdict::Kind::Sound) {
+            return broken(file_.string() + ": changed while it was read, before entry " +
+                          std::to_string(entries_));
+        }
+    }
 }
 
 }  // namespace hagen::logs

@@ -147,7 +147,9 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
     }
     sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMostColumns)
                                           : columnsOfMode(metadata.requiredText("lidar_mode"));
-    sensor.columns_per_packet = has_format ? metadata.count("columns_per_packet", 1, 64) : 16;
+    const std::size_t most_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
+    sensor.columns_per_packet =
+        has_format ? metadata.count("columns_per_packet", 1, most_of_packet) : 16;
     const std::string profile = metadata.text("udp_profile_lidar");
     sensor.profile = profileNamed(profile.empty() ? "LEGACY" : profile);
     sensor.has_fusa_header = hasFusaHeader(metadata, sensor.profile);

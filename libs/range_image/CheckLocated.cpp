@@ -73,10 +73,8 @@ void checkRows(const Scan& scan, const SensorModel& sensor) {
         refuse("the scan has " + std::to_string(scan.size()) +
                " returns, but ranges, azimuths or " + "rows of " + std::to_string(size));
     }
-    if (scan.beams.rows > 0) {
-        if (!areAlike(scan.beams, beamSpan(sensor))) {
-            refuseRows("rows of " + textOf(scan.beams), sensor);
-        }
+    if (scan.beams.rows > 0 && !areAlike(scan.beams, beamSpan(sensor))) {
+        refuseRows("rows of " + textOf(scan.beams), sensor);
     }
     std::uint8_t most = 0;
     for (const std::uint8_t row : scan.row) most = std::max(most, row);

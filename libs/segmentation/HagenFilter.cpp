@@ -22,6 +22,7 @@ HagenFilter::View HagenFilter::viewIn(Posture posture) const {
 
 const SegmentationResult& HagenFilter::segment(const Scan& scan,
                                                const std::optional<Attitude>& attitude) {
+    checkLocated(scan, sensor_);
     const std::optional<Attitude> horizon = options_.level_by_attitude ? attitude : std::nullopt;
     const Posture posture = postureOf(horizon);
     if (posture == Posture::Upright) {
@@ -30,7 +31,6 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     }
 
     // The same, in a frame in which the rows of the image rise.
-    checkLocated(scan, sensor_);
     auto view = views_.find(posture);
     if (view == views_.end()) view = views_.emplace(posture, viewIn(posture)).first;
     turnScan(scan, posture, horizon, view->second.sensor, work_.turned);

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "CheckTime.h"
+
 namespace hagen::streaming {
 namespace {
 
@@ -35,6 +37,7 @@ void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_senso
 }
 
 LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size, double arrival_s) {
+    checkTime(arrival_s);
     packets::Datagram datagram;
     datagram.bytes = bytes;
     datagram.size = size;

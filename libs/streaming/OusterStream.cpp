@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "CheckTime.h"
+
 namespace hagen::streaming {
 namespace {
 
@@ -57,6 +59,7 @@ void OusterStream::countLosses() {
 
 OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t size, double arrival_s,
                                       std::int64_t time_ns) {
+    checkTime(arrival_s);
     if (size == kImuBytes) {
         ++counts_.imu;
         return Taken::Imu;

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "CheckTime.h"
+
 namespace hagen::streaming {
 namespace {
 
@@ -19,7 +21,6 @@ constexpr double kRounding_rad = 0.01;      // of where packets begin and end
 // A beam's correction may add half a turn; nearestColumn() wraps once.
 constexpr float kMostAzimuth_rad = 7.8F;
 constexpr double kMostTurned_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
-constexpr double kMostTime_s = 1e11;      // still exact to 0.02 ms
 constexpr double kMargin_rad = 0.02;      // of the sector's image, ahead of it
 constexpr int kEmptyColumns = 16;         // are two columns, where no returns are kept
 // Less than this moves no return to another pixel.
@@ -46,18 +47,21 @@ void append(const Scan& from, Scan& to) {
     forEachArray(from, to, [](const auto& values, auto& all) { append(values, all); });
 }
 
-/// Moves the returns from this one on.
+/// Moves the returns from this one on. What is moved too far to be a number has no range.
 void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan) {
     const Eigen::Matrix3f turn = motion.linear().cast<float>();
     const Eigen::Vector3f way_m = motion.translation().cast<float>();
     float* const x_m = scan.x_m.data();
     float* const y_m = scan.y_m.data();
     float* const z_m = scan.z_m.data();
+    float* const range_m = scan.range_m.data();
     for (std::size_t i = first; i < scan.size(); ++i) {
         const float x = x_m[i], y = y_m[i], z = z_m[i];
         x_m[i] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + way_m.x();
         y_m[i] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + way_m.y();
         z_m[i] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + way_m.z();
+        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if one is not finite
+        range_m[i] += zero;
     }
 }
 
@@ -86,20 +90,15 @@ double between(const Sweep& a, const Sweep& b) {
     return middle_rad - (a.to_rad - a.from_rad + b.to_rad - b.from_rad) / 2;
 }
 
-void checkTime(double time_s) {
-    if (!(std::abs(time_s) <= kMostTime_s)) {
-        throw std::invalid_argument("streaming: a packet has no time, or one beyond 3000 years");
-    }
-}
-
 void checkSweep(const Sweep& sweep) {
     const double swept_rad = sweep.to_rad - sweep.from_rad;
     const bool is_sound = std::abs(sweep.from_rad) <= kMostTurned_rad && swept_rad >= 0 &&
                           swept_rad <= kTurn_rad + kRounding_rad;
     if (!is_sound) {
         throw std::invalid_argument(
-            "streaming: the sweep of a packet must go clockwise, from one angle to one that is not "
-            "smaller, and at most a turn");
+            "streaming: the sweep of a packet must go clockwise, from an angle of up to 1e12 rad "
+            "to "
+            "one that is not smaller, and at most a turn");
     }
 }
 

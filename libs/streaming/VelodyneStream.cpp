@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "CheckTime.h"
+
 namespace hagen::streaming {
 namespace {
 
@@ -97,6 +99,7 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
 
 VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t size,
                                           double arrival_s) {
+    checkTime(arrival_s);
     if (!packets::isVelodyneData(bytes, size)) {
         ++counts_.wrong_size;
         return Taken::WrongSize;

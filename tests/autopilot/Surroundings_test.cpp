@@ -257,6 +257,24 @@ TEST_F(SurroundingsTest, StaleIsNeverFree) {
     EXPECT_EQ(count(0.1, State::Unknown), 72);
 }
 
+TEST_F(SurroundingsTest, WhatWasSeenBeforeTheClockWentBackIsForgotten) {
+    Flight flight;
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.5, surroundings);
+    const Scan scan;
+    const std::vector<Label> labels;
+    const SegmentationResult result;
+    surroundings.take(
+        {scan, labels, streaming::Sweep{0, 0.35}, 0.3, 0.305, true, false, false, result});
+    for (const double now_s : {0.305, 0.5}) {
+        const Directions at = surroundings.at(now_s, flight.motion);
+        EXPECT_GE(std::count_if(at.begin(), at.end(),
+                                [](const Direction& each) { return each.state == State::Unknown; }),
+                  67);
+    }
+    EXPECT_EQ(surroundings.latest_s(), 0.305);
+}
+
 TEST_F(SurroundingsTest, ADirectionWhosePacketsAreLostIsUnknownAfterAWhile) {
     Flight flight;
     // One packet of each turn from the third on, in the middle of a sector.

@@ -73,4 +73,18 @@ SensorModel anySensor(Parts& parts) {
     return sensor;
 }
 
+std::optional<Eigen::Isometry3d> anyPose(Parts& parts) {
+    if (!parts.chance()) return std::nullopt;
+    const Eigen::Vector3d axis(oddNumber(parts), oddNumber(parts), oddNumber(parts));
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::AngleAxisd(axis.norm(), axis.stableNormalized()).toRotationMatrix();
+    pose.translation() = Eigen::Vector3d(oddNumber(parts), oddNumber(parts), oddNumber(parts));
+    return pose;
+}
+
+std::optional<Attitude> anyTilt(Parts& parts) {
+    if (!parts.chance()) return std::nullopt;
+    return Attitude{oddNumber(parts), oddNumber(parts)};
+}
+
 }  // namespace hagen::fuzz

@@ -1,7 +1,11 @@
 #pragma once
 // Sensors, options and numbers of which a filter may be made.
 #include <hagen/range_image/SensorModel.h>
+#include <hagen/segmentation/Levelling.h>
 #include <hagen/segmentation/Options.h>
+#include <Eigen/Geometry>
+
+#include <optional>
 
 #include "fuzz/Target.h"
 
@@ -15,5 +19,9 @@ void setOptions(Parts& parts, Options& options);
 
 /// Throws std::invalid_argument: too few beams.
 SensorModel anySensor(Parts& parts);
+
+/// None, or any numbers.
+std::optional<Attitude> anyTilt(Parts& parts);
+std::optional<Eigen::Isometry3d> anyPose(Parts& parts);
 
 }  // namespace hagen::fuzz

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "fuzz/AnyFilter.h"
 #include "fuzz/SectorChecker.h"
 #include "fuzz/Target.h"
 #include "support/OusterPackets.h"
@@ -69,6 +70,8 @@ struct AnyStream {
     virtual std::string packet(std::size_t n) = 0;
     virtual void add(const std::string& bytes, double time_s) = 0;
     virtual void flush() = 0;
+    virtual void move(const std::optional<Attitude>& tilt,
+                      const std::optional<Eigen::Isometry3d>& pose) = 0;
     /// Of datagrams, those that were counted.
     virtual std::size_t counted() const = 0;
 };
@@ -92,6 +95,11 @@ struct AnyVelodyne : AnyStream {
         stream.add(bytesAt(bytes), bytes.size(), time_s);
     }
     void flush() override { stream.flush(); }
+    void move(const std::optional<Attitude>& tilt,
+              const std::optional<Eigen::Isometry3d>& pose) override {
+        stream.setAttitude(tilt);
+        stream.setPose(pose);
+    }
     std::size_t counted() const override {
         const auto& c = stream.counts();
         return c.packets + c.wrong_size + c.other_model + c.repeated + c.unsound;
@@ -127,6 +135,11 @@ struct AnyOuster : AnyStream {
         stream.complete().clear();
     }
     void flush() override { stream.flush(); }
+    void move(const std::optional<Attitude>& tilt,
+              const std::optional<Eigen::Isometry3d>& pose) override {
+        stream.setAttitude(tilt);
+        stream.setPose(pose);
+    }
     std::size_t counted() const override {
         const auto& c = stream.counts();
         return c.packets + c.wrong_size + c.other_sensor + c.imu + c.repeated + c.unsound +
@@ -149,6 +162,11 @@ struct AnyLivox : AnyStream {
         stream.add(bytesAt(bytes), bytes.size(), time_s);
     }
     void flush() override { stream.flush(); }
+    void move(const std::optional<Attitude>& tilt,
+              const std::optional<Eigen::Isometry3d>& pose) override {
+        stream.setAttitude(tilt);
+        stream.setPose(pose);
+    }
     std::size_t counted() const override {
         const auto& c = stream.counts();
         return c.packets + c.imu + c.foreign + c.repeated;
@@ -185,6 +203,7 @@ void streamDatagrams(std::string_view input) {
         now_s += 1e-3 * parts.number<std::uint8_t>();
         ++n;
         if (cut == 250) stream->flush();
+        if (cut == 249) stream->move(anyTilt(parts), anyPose(parts));
     }
     stream->flush();
 }

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "support/CaptureWriter.h"
 #include "support/Program.h"
@@ -94,6 +96,22 @@ TEST(UdpSource, ReceivesWhatIsSent) {
     EXPECT_TRUE(packet.bytes.empty());
     ASSERT_EQ(source.next(packet), Next::Packet);
     EXPECT_EQ(packet.bytes.size(), 9000u);
+}
+
+/// A process that was stopped: what is in the buffer is old.
+TEST(UdpSource, PacketsThatWaitedForSecondsAreAsOldAsTheyAre) {
+    const std::uint16_t port = freePort();
+    UdpSource source({0x7f000001, port});
+    const Sender sender;
+    sender.send("abc", "127.0.0.1", port);
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    sender.send("abc", "127.0.0.1", port);
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    Packet first, second;
+    ASSERT_EQ(source.next(first), Next::Packet);
+    ASSERT_EQ(source.next(second), Next::Packet);
+    EXPECT_GE(steadyNow_s() - first.arrival_s, 1.2);
+    EXPECT_GE(second.arrival_s - first.arrival_s, 0.59);
 }
 
 TEST(UdpSource, AnAddressThatIsTakenOrForeignIsNamed) {

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 #include <hagen/logs/RawlogWriter.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <future>
+#include <thread>
 #include <vector>
 
 #include "../../libs/logs/RawlogTrial.h"
@@ -26,6 +30,21 @@ mrpt::obs::CObservationComment comment(const std::string& text) {
     observation.text = text;
     observation.timestamp = mrpt::Clock::fromDouble(1.0);
     return observation;
+}
+
+/// An object whose reading takes long: it sleeps, then computes.
+class SlowObject : public mrpt::serialization::CSerializable {
+    DEFINE_SERIALIZABLE(SlowObject, hagen::logs)
+};
+IMPLEMENTS_SERIALIZABLE(SlowObject, CSerializable, hagen::logs)
+
+std::uint8_t SlowObject::serializeGetVersion() const { return 0; }
+void SlowObject::serializeTo(mrpt::serialization::CArchive&) const {}
+void SlowObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(150);
+    while (std::chrono::steady_clock::now() < end) {
+    }
 }
 
 /// An object whose reading waits for what nobody does, as for a lock that another thread of the
@@ -88,6 +107,31 @@ TEST_F(RawlogTrialTest, AnotherProcessTakesThePlaceOfOneThatStandsStill) {
         }
         EXPECT_TRUE(fs::is_empty(locks));
     }
+}
+
+/// Which is longer than the patience, but it does not wait for a lock.
+TEST_F(RawlogTrialTest, AReaderThatIsSlowIsWaitedFor) {
+    mrpt::rtti::registerClass(CLASS_ID(SlowObject));
+    RawlogWriter writer(folder_ / "a.rawlog", true);
+    for (int i = 0; i < 4; ++i) writer.write(SlowObject());
+    writer.commit();
+    EXPECT_EQ(verdicts(0).size(), 5u);
+    EXPECT_EQ(verdicts(0).back().kind, EntryVerdict::Kind::End);
+}
+
+/// With an interval timer, whose signals end system calls early.
+TEST_F(RawlogTrialTest, SignalsDoNotProlongTheWait) {
+    struct sigaction none {
+    }, before{};
+    none.sa_handler = [](int) {};
+    sigaction(SIGALRM, &none, &before);
+    const itimerval often{{0, 10000}, {0, 10000}}, never{};
+    setitimer(ITIMER_REAL, &often, nullptr);
+    const auto told = verdicts(1);
+    setitimer(ITIMER_REAL, &never, nullptr);
+    sigaction(SIGALRM, &before, nullptr);
+    EXPECT_EQ(told.size(), 5u);
+    EXPECT_TRUE(fs::is_empty(locks));
 }
 
 TEST_F(RawlogTrialTest, AReaderThatAlwaysStandsStillIsGivenUp) {

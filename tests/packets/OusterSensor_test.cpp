@@ -143,6 +143,8 @@ TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
                 HasSubstr("sensor.json: not metadata"));
     EXPECT_THAT(messageWith("\"columns_per_packet\": 16", "\"columns_per_packet\": 0"),
                 HasSubstr("'columns_per_packet' is 0"));
+    EXPECT_THAT(messageWith("\"columns_per_frame\": 64", "\"columns_per_frame\": 8"),
+                HasSubstr("'columns_per_packet' is 16, not 1 ... 8"));
     EXPECT_THAT(messageWith("[0, 63]", "[0, 64]"), HasSubstr("'column_window'"));
     EXPECT_THAT(messageWith("[40.0, 15.0", "[40.0, 40.0"), HasSubstr("beam_altitude_angles"));
     EXPECT_THAT(messageWith("[40.0", "[\"up\""),

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -675,6 +676,15 @@ TEST(HagenFilter, RefusesRowsOfAnotherSensorAndKeepsItsResult) {
         EXPECT_EQ(filter.segment(ground.scan).returns.label, labels);
         locateBeams(filter.sensor(), others.scan);  // as the message says
         EXPECT_NO_THROW(filter.segment(others.scan));
+    }
+}
+
+TEST(HagenFilter, RefusesARangeWithoutAPlaceInAnyPosture) {
+    HagenFilter filter(sensorModel("VLP-16"));
+    auto ground = test::scanScene({}, filter.sensor(), 870, kTwoMetresUp);
+    ground.scan.x_m.back() = std::numeric_limits<float>::quiet_NaN();
+    for (const float roll_rad : {0.0f, 0.7f, 3.1f}) {
+        EXPECT_THROW(filter.segment(ground.scan, Attitude{roll_rad, 0}), std::invalid_argument);
     }
 }
 

@@ -401,6 +401,26 @@ TEST_F(StreamingSegmenterTest, AMotionThatIsNoNumberIsUnknown) {
               }));
 }
 
+/// Context that no float can hold has no place, in any posture.
+TEST_F(StreamingSegmenterTest, AMotionBeyondAllNumbersCostsNoReturn) {
+    const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
+    const std::vector<Scan> packets = packetsOf(turn);
+    for (const float roll_rad : {0.0F, 0.7F, 3.1F}) {
+        taken_.clear();
+        StreamingSegmenter segmenter(sensor_, {}, take());
+        segmenter.setAttitude(Attitude{roll_rad, 0});
+        for (int k = 0; k < 4; ++k) {
+            Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+            pose.translation().x() = k % 2 == 0 ? 0 : 1e39;
+            segmenter.setPose(pose);
+            addTurn(k, packets, segmenter);
+            segmenter.addFrame(packets[0], 0.1 * k + 0.1);
+        }
+        segmenter.flush();
+        EXPECT_EQ(labels().size(), 4 * (turn.scan.size() + packets[0].size()));
+    }
+}
+
 /// Late packets: of many turns before.
 TEST_F(StreamingSegmenterTest, ASectorOfManyTurnsIsLabelled) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});

@@ -45,6 +45,7 @@ class Surroundings {
     };
     Surroundings(const SensorModel& sensor, const Settings& settings);
 
+    /// A clock that goes back does not tell how old the earlier sectors are: they are forgotten.
     void take(const streaming::LabelledSector& sector);
     /// What is known at a time of the clock by which packets came.
     Directions at(double now_s, const VehicleMotion& motion) const;

@@ -34,7 +34,7 @@ class PacketSource {
 };
 
 /// Datagrams that come to an address of this machine, or to a multicast group. Their arrival is
-/// that of the kernel's time stamp.
+/// that of the kernel's time stamp, and never before that of the one before.
 class UdpSource : public PacketSource {
  public:
     /// Throws std::runtime_error naming the address if it cannot be listened on.
@@ -53,6 +53,7 @@ class UdpSource : public PacketSource {
     std::uint16_t port_ = 0;
     std::string name_;
     std::vector<std::uint8_t> buffer_;
+    double latest_arrival_s_ = steadyNow_s();
 };
 
 /// The datagrams of a capture, as fast as they were recorded, or `speed` times as fast.

@@ -42,7 +42,7 @@ class OusterStream {
     OusterStream& operator=(const OusterStream&) = delete;
 
     /// Takes a datagram that came at `arrival_s`, in seconds of any clock that does not go back,
-    /// and at `time_ns` since 1970.
+    /// and at `time_ns` since 1970. Throws std::invalid_argument if `arrival_s` is not finite.
     Taken add(const std::uint8_t* bytes, std::size_t size, double arrival_s, std::int64_t time_ns);
     /// Labels what has come: the sensor is silent.
     void flush() { segmenter_->flush(); }

@@ -46,6 +46,7 @@ class VelodyneStream {
                    const packets::VelodyneCalibration* calibration = nullptr);
 
     /// Takes a datagram that came at `arrival_s`, in seconds of any clock that does not go back.
+    /// Throws std::invalid_argument if that is not finite.
     Taken add(const std::uint8_t* bytes, std::size_t size, double arrival_s);
     /// Labels what has come: the sensor is silent.
     void flush() { segmenter_->flush(); }
