@@ -6,6 +6,8 @@
 namespace hagen::evaluation {
 namespace {
 
+constexpr float kMostBands = 1e6f;  // each has scores in memory
+
 void checkSizes(std::size_t returns, std::size_t labels, const std::string& what) {
     if (labels == returns) return;
     throw std::invalid_argument("has " + std::to_string(labels) + " " + what + " for " +
@@ -20,7 +22,13 @@ Eigen::Matrix3f GroundTruthScan::levelFromSensor() const {
 }
 
 std::size_t RangeBands::count() const {
-    return static_cast<std::size_t>(std::max(1.0f, std::ceil(max_range_m / width_m)));
+    const float bands = std::ceil(max_range_m / width_m);
+    if (!(bands <= kMostBands)) {  // true for NaN
+        throw std::invalid_argument("a range of " + base::shortestText(max_range_m) +
+                                    " m has too many bands of " + base::shortestText(width_m) +
+                                    " m");
+    }
+    return static_cast<std::size_t>(std::max(1.0f, bands));
 }
 
 std::size_t RangeBands::bandOf(float range_m) const {

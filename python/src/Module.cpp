@@ -18,6 +18,7 @@
 
 #include "Arrays.h"
 #include "Filter.h"
+#include "Limits.h"
 #include "OthersRun.h"
 #include "Recording.h"
 #include "Simulation.h"
@@ -124,7 +125,8 @@ py::object groundOf(const Segmented& segmented) {
 }
 
 evaluation::Scores evaluate(const py::object& labels, const py::object& truth,
-                            const py::object& xyz, float max_range_m) {
+                            const py::object& xyz, double max_range_m) {
+    checkLimits("max_range_m", max_range_m, 0.1, 1000);  // as of segmentation-evaluate
     evaluation::GroundTruthScan scan;
     const std::vector<Label> found = labelsFrom(labels, "labels");
     scan.truth = labelsFrom(truth, "truth");
@@ -143,7 +145,7 @@ evaluation::Scores evaluate(const py::object& labels, const py::object& truth,
         locateBeams(sensorModel("VLP-16"), scan.input.scan);  // for ranges only
     }
     evaluation::RangeBands bands;
-    bands.max_range_m = max_range_m;
+    bands.max_range_m = static_cast<float>(max_range_m);
     return evaluation::scoreScan(scan, found, {}, bands).all;
 }
 
@@ -399,13 +401,14 @@ summed over returns and scans before ratios are computed.)")
             "__iadd__", [](Scores& a, const Scores& b) { return a += b; }, py::is_operator())
         .def("__repr__", &scoresText);
     m.def("evaluate", &evaluate, py::arg("labels"), py::arg("truth"), py::arg("xyz") = py::none(),
-          py::arg("max_range_m") = 20.0f, R"(Scores labels against the true ones, as
+          py::arg("max_range_m") = 20.0, R"(Scores labels against the true ones, as
 segmentation-evaluate does.
 
 labels, truth: (N,) labels, 0 unclassified, 1 ROU, 2 RoI. Returns whose true label is 0 are not
 scored.
 xyz: (N, 3) [m]; only returns up to max_range_m from the sensor are scored. Without it, all are.
-Raises ValueError for other shapes and labels.)");
+Raises ValueError for other shapes and labels, and for a max_range_m that is not within 0.1 and
+1000.)");
 }
 
 }  // namespace

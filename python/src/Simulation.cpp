@@ -14,28 +14,20 @@
 #include <vector>
 
 #include "Arrays.h"
+#include "Limits.h"
 #include "OthersRun.h"
 
 namespace hagen::python {
 
-namespace py = pybind11;
-
 namespace {
-
-void check(const std::string& what, double value, double least, double most) {
-    if (value >= least && value <= most) return;
-    const auto text = [](double number) { return py::str(py::float_(number)).cast<std::string>(); };
-    throw std::invalid_argument(what + ": " + text(value) + " is not between " + text(least) +
-                                " and " + text(most));
-}
 
 /// The limits of rawlog-simulate.
 const SimulationRequest& checked(const SimulationRequest& request) {
-    check("scans", request.scans, 1, 100000);
-    check("altitude_m", request.altitude_m, 1, 15);
-    check("speed_m_s", request.speed_m_s, 0.1, 20);
-    check("tilt_sd_deg", request.tilt_sd_deg, 0, 15);
-    check("every_s", request.every_s, 0.1, 3600);
+    checkLimits("scans", request.scans, 1, 100000);
+    checkLimits("altitude_m", request.altitude_m, 1, 15);
+    checkLimits("speed_m_s", request.speed_m_s, 0.1, 20);
+    checkLimits("tilt_sd_deg", request.tilt_sd_deg, 0, 15);
+    checkLimits("every_s", request.every_s, 0.1, 3600);
     return request;
 }
 

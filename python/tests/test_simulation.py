@@ -87,6 +87,14 @@ def test_scores_end_at_a_range():
     assert hagen.evaluate([2, 1, 2], [2, 2, 2], xyz, max_range_m=21).returns == 3
 
 
+@pytest.mark.parametrize("max_range_m", [math.inf, -math.inf, math.nan, 1e300, 1e30, 1001, 0.05, -1])
+def test_ranges_beyond_the_limits_are_refused(max_range_m):
+    with pytest.raises(ValueError, match="max_range_m: .* is not between 0.1 and 1000.0"):
+        hagen.evaluate([1, 2], [1, 2], np.ones((2, 3)), max_range_m=max_range_m)
+    for limit_m in (0.1, 1000):
+        assert hagen.evaluate([1], [1], np.full((1, 3), 0.05), max_range_m=limit_m).returns == 1
+
+
 @pytest.mark.parametrize("sensor, rows", [("HDL-64E", 64), ("Mid-360", 24)])
 def test_other_sensors_know_their_beams(sensor, rows):
     scan = next(hagen.simulate("forest-0.05", seed=2, sensor=sensor))

@@ -42,6 +42,16 @@ TEST(ScanScores, EachRangeBandHasItsLowerBoundAndTheLastBothBounds) {
     EXPECT_EQ((RangeBands{20, 5}.bandOf(20)), 3u);
 }
 
+TEST(ScanScores, RefusesRangesWithoutACountOfBands) {
+    for (const RangeBands bands :
+         {RangeBands{INFINITY, 5}, RangeBands{NAN, 5}, RangeBands{1e30f, 5}, RangeBands{20, 0}}) {
+        EXPECT_THROW(bands.count(), std::invalid_argument);
+        EXPECT_THROW(scoreScan(scanAt({1}, {O}), {O}, {}, bands), std::invalid_argument);
+    }
+    EXPECT_EQ((RangeBands{1000, 5}.count()), 200u);
+    EXPECT_EQ((RangeBands{-1, 5}.count()), 1u);
+}
+
 TEST(ScanScores, KindsAreScoredByName) {
     // Two wires, one missed; a tree found; terrain called RoI; dust is left out with its kind.
     GroundTruthScan scan = scanAt({1, 2, 3, 4, 5}, {O, O, O, G, U});

@@ -45,6 +45,7 @@ struct RangeBands {
     float max_range_m = 20;
     float width_m = 5;
 
+    /// Throws std::invalid_argument for more than a million, as of an infinite range.
     std::size_t count() const;
     /// Returns the band of a range up to max_range_m; a range on the border belongs to the farther
     /// band.
@@ -55,7 +56,7 @@ struct RangeBands {
 /// Scores the labels `found` for a scan: of the returns `chosen` (all if omitted), those within the
 /// maximum range whose ground-truth label is not Unclassified. Throws std::invalid_argument unless
 /// there is one ground-truth label, one found label and (if classes are known) one class per
-/// return, and if a scored class has no name in `kinds`.
+/// return, and if a scored class has no name in `kinds`, or as RangeBands::count().
 ScanScores scoreScan(const GroundTruthScan& scan, const std::vector<Label>& found,
                      const LabelMap& kinds, const RangeBands& bands,
                      const std::vector<std::size_t>* chosen = nullptr);

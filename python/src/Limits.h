@@ -1,0 +1,20 @@
+#pragma once
+#include <pybind11/pybind11.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace hagen::python {
+
+/// Throws std::invalid_argument, which Python sees as ValueError, unless `value` lies between
+/// `least` and `most`; NaN does not. Requires the GIL.
+inline void checkLimits(const std::string& what, double value, double least, double most) {
+    if (value >= least && value <= most) return;
+    const auto text = [](double number) {
+        return pybind11::str(pybind11::float_(number)).cast<std::string>();
+    };
+    throw std::invalid_argument(what + ": " + text(value) + " is not between " + text(least) +
+                                " and " + text(most));
+}
+
+}  // namespace hagen::python
