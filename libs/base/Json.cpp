@@ -1,6 +1,7 @@
 #include <hagen/base/Json.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -72,7 +73,7 @@ class Json::Text::Builder : public nlohmann::json_sax<Value> {
     bool start_object(std::size_t) override { return open(Json::object()); }
     bool start_array(std::size_t) override { return open(Json::array()); }
     bool key(std::string& key) override {
-        member_ = &(*open_.back())[key];
+        member_ = &open_.back().member(key);
         return true;
     }
     bool end_object() override { return close(); }
@@ -89,23 +90,47 @@ class Json::Text::Builder : public nlohmann::json_sax<Value> {
     bool is_syntax_error_ = false;
     std::size_t position_ = 0;  ///< bytes read when it was met
     std::string why_;
+    bool is_too_deep_ = false;
+    static constexpr std::size_t kDeepest = 64;
 
  private:
+    /// An object or array whose end was not met yet.
+    struct Open {
+        Json* value;
+        std::map<std::string, std::size_t> index;  ///< of the keys of a large object
+
+        /// Looking through the keys for each new one takes the square of their number.
+        Json& member(const std::string& key) {
+            constexpr std::size_t kFew = 32;
+            auto& members = std::get<Object>(value->value_);
+            if (members.size() < kFew) return (*value)[key];
+            if (index.empty()) {
+                for (std::size_t i = 0; i < kFew; ++i) index.emplace(members[i].first, i);
+            }
+            const auto [known, is_new] = index.emplace(key, members.size());
+            return is_new ? members.emplace_back(key, Json()).second
+                          : members[known->second].second;
+        }
+    };
+
     /// Where the next value belongs.
     Json& place() {
         if (open_.empty()) return root;
-        if (!open_.back()->isArray()) return *member_;
-        auto& items = std::get<Array>(open_.back()->value_);
+        if (!open_.back().value->isArray()) return *member_;
+        auto& items = std::get<Array>(open_.back().value->value_);
         return items.emplace_back();
     }
     bool add(Json value) {
         place() = std::move(value);
         return true;
     }
+    /// Who writes, copies or destroys a value calls itself for each level.
     bool open(Json value) {
+        is_too_deep_ = open_.size() >= kDeepest;
+        if (is_too_deep_) return false;
         Json& at = place();
         at = std::move(value);
-        open_.push_back(&at);
+        open_.push_back({&at, {}});
         return true;
     }
     bool close() {
@@ -113,8 +138,8 @@ class Json::Text::Builder : public nlohmann::json_sax<Value> {
         return true;
     }
 
-    std::vector<Json*> open_;  ///< objects and arrays, from the outermost
-    Json* member_ = nullptr;   ///< of the object that is open
+    std::vector<Open> open_;  ///< from the outermost
+    Json* member_ = nullptr;  ///< of the object that is open
 };
 
 Json::Json() = default;
@@ -219,6 +244,11 @@ std::string faultOf(const std::string& text, std::size_t bytes, const std::strin
 Json Json::parse(const std::string& text) {
     Text::Builder builder;
     if (Value::sax_parse(text, &builder)) return std::move(builder.root);
+    if (builder.is_too_deep_) {
+        throw std::runtime_error("is nested too deeply: more than " +
+                                 std::to_string(Text::Builder::kDeepest) +
+                                 " lists and objects within each other");
+    }
     if (builder.is_syntax_error_) {
         throw std::runtime_error("is no JSON: " + faultOf(text, builder.position_, builder.why_));
     }

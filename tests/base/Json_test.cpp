@@ -3,6 +3,7 @@
 #include <hagen/base/Json.h>
 
 #include <cmath>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <stdexcept>
@@ -134,6 +135,38 @@ TEST(Json, SaysWhereATextIsNoJson) {
     }
     // Only what is close to the place, however long the line is.
     EXPECT_LT(faultOf("[" + std::string(5000, ' ') + "x").size(), 120u);
+}
+
+TEST(Json, RefusesTextThatIsNestedTooDeeply) {
+    const auto nested = [](std::size_t levels) {
+        return std::string(levels, '[') + std::string(levels, ']');
+    };
+    EXPECT_EQ(Json::parse(nested(64)).dump(), nested(64));
+    const std::string fault =
+        "is nested too deeply: more than 64 lists and objects within each other";
+    EXPECT_EQ(test::messageOf([&] { Json::parse(nested(65)); }), fault);
+    // Deep enough to end the program by the calls that destroy such a value; whatever texts say.
+    EXPECT_EQ(test::messageOf([&] { Json::parse(std::string(300000, '[')); }), fault);
+    EXPECT_EQ(test::messageOf([&] {
+                  Json::parse("{\"a\": \"" + std::string(340000, ']') +
+                              "\", \"b\": " + nested(340000) + "}");
+              }),
+              fault);
+}
+
+TEST(Json, LargeObjectsAreReadInTimeAndInOrder) {
+    constexpr std::size_t kKeys = 100000;
+    const std::clock_t start = std::clock();
+    std::string text = "{";
+    for (std::size_t i = 0; i < kKeys; ++i) text += "\"k" + std::to_string(i) + "\":1,";
+    const Json json = Json::parse(text + "\"k5\": 2, \"k70000\": {\"z\": 3}}");
+    // A tenth of a second; many if each key is searched among those before it.
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5);
+    EXPECT_EQ(json.members().size(), kKeys);
+    EXPECT_EQ(json.members().back().first, "k" + std::to_string(kKeys - 1));
+    EXPECT_EQ(json.members()[5].first, "k5");
+    EXPECT_EQ(json.at("k5").count(), 2u);  // the last one counts
+    EXPECT_EQ(json.members()[70000].second.dump(), "{\"z\":3}");
 }
 
 }  // namespace

@@ -132,6 +132,11 @@ TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
                 HasSubstr("larger than 1 MB"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(500000, '[')); }),
                 HasSubstr("nested too deeply"));
+    EXPECT_THAT(test::messageOf([&] {
+                    read("{\"a\": \"" + std::string(340000, ']') +
+                         "\", \"b\": " + std::string(340000, '[') + std::string(300000, ']') + "}");
+                }),
+                HasSubstr("nested too deeply"));
     const std::string unknown = messageWith("\"RNG19_RFL8_SIG16_NIR16\"", "\"SIX_WORD_PIXEL\"");
     EXPECT_THAT(unknown, HasSubstr("'SIX_WORD_PIXEL', which is not supported; known are LEGACY"));
     EXPECT_THAT(unknown, HasSubstr("FIVE_WORD_PIXEL. Set one of these in the sensor's"));

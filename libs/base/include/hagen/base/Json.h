@@ -49,8 +49,8 @@ class Json {
 
     static Json object();
     static Json array(std::initializer_list<Json> items = {});
-    /// Parses a text. Throws std::runtime_error: "is no JSON: line 3, column 7: ...", or that it
-    /// ends too early.
+    /// Parses a text. Throws std::runtime_error: "is no JSON: line 3, column 7: ...", that it ends
+    /// too early, or that more than 64 arrays and objects are within each other.
     static Json parse(const std::string& text);
 
     /// The value of a key; a new key gets null. Null becomes an object; any other type throws
