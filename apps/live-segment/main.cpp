@@ -150,8 +150,13 @@ void printSummary(const live::LiveReport& r) {
             1e3 * r.latency.quantile_s(0.999), 1e3 * r.latency.max_s());
     }
     for (const auto& file : r.recorded.files) std::cout << "recorded: " << file.string() << "\n";
+    for (const auto& file : r.recorded.older_files) {
+        std::cout << "of an earlier recording: " << file.string() << "\n";
+    }
     if (r.recorded.left_out > 0) {
-        std::cout << r.recorded.left_out << " turns are not recorded: the disk was too slow\n";
+        std::cout << r.recorded.left_out << " turns are not recorded: "
+                  << (r.recorded.failure.empty() ? "the disk was too slow\n"
+                                                 : "the recording had ended\n");
     }
     if (r.recorded.packets_left_out > 0) {
         std::cout << r.recorded.packets_left_out

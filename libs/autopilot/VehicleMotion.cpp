@@ -23,9 +23,15 @@ Eigen::Quaterniond turnBy(const Eigen::Vector3d& rotation_rad) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, rotation_rad / angle_rad));
 }
 
+// Beyond these it is no multirotor's motion: gyroscopes measure less, and a direction that is moved
+// by such a speed would be free where an obstacle is.
+constexpr double kMostAngle_rad = 10, kMostRate_rad_s = 50;
+constexpr double kMostPlace_m = 1e7, kMostSpeed_m_s = 100;
+
+/// False for NaN.
 template <class... Value>
-bool areFinite(Value... values) {
-    return (std::isfinite(values) && ...);
+bool areWithin(double most, Value... values) {
+    return ((std::abs(static_cast<double>(values)) <= most) && ...);
 }
 
 template <class Sample>
@@ -99,7 +105,8 @@ void VehicleMotion::add(Place place) {
 
 VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arrival_s) {
     if (const auto m = mavlink::messageOf<mavlink::Attitude>(frame)) {
-        if (!areFinite(m->roll, m->pitch, m->yaw, m->rollspeed, m->pitchspeed, m->yawspeed)) {
+        if (!areWithin(kMostAngle_rad, m->roll, m->pitch, m->yaw) ||
+            !areWithin(kMostRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
             return Taken::Refused;
         }
         using Eigen::AngleAxisd;
@@ -112,7 +119,8 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
         return Taken::Attitude;
     }
     if (const auto m = mavlink::messageOf<mavlink::AttitudeQuaternion>(frame)) {
-        if (!areFinite(m->q1, m->q2, m->q3, m->q4, m->rollspeed, m->pitchspeed, m->yawspeed)) {
+        if (!areWithin(2, m->q1, m->q2, m->q3, m->q4) ||
+            !areWithin(kMostRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
             return Taken::Refused;
         }
         // A rotation's vector part is flipped like any other vector.
@@ -123,7 +131,10 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
         return Taken::Attitude;
     }
     if (const auto m = mavlink::messageOf<mavlink::LocalPositionNed>(frame)) {
-        if (!areFinite(m->x, m->y, m->z, m->vx, m->vy, m->vz)) return Taken::Refused;
+        if (!areWithin(kMostPlace_m, m->x, m->y, m->z) ||
+            !areWithin(kMostSpeed_m_s, m->vx, m->vy, m->vz)) {
+            return Taken::Refused;
+        }
         add({ourTime(m->time_boot_ms, arrival_s), flipped(m->x, m->y, m->z),
              flipped(m->vx, m->vy, m->vz)});
         return Taken::Place;

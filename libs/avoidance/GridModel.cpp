@@ -2,9 +2,14 @@
 
 #include <mrpt/maps/COccupancyGridMap3D.h>
 
+#include <stdexcept>
+#include <string>
+
 namespace hagen::avoidance {
 
 namespace {
+
+constexpr float kMostPlaceInCells = 1e6F;  // where floats tell a cell from a sixteenth of it
 
 mrpt::math::TPoint3D pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -33,9 +38,17 @@ GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m)
     // assigns points less than a cell outside to the first cell.
     const Eigen::Array3f least = ((bounds_m.min().array() - kMapMargin_m) / edge_m).floor() - 1;
     const Eigen::Array3f most = ((bounds_m.max().array() + kMapMargin_m) / edge_m).ceil() + 1;
-    size_ = (most - least).cast<int>();
     corner_m_ = least * edge_m;
+    const float farthest_m = corner_m_.abs().max((most * edge_m).abs()).maxCoeff();
+    if (!(farthest_m <= kMostPlaceInCells * edge_m)) {
+        throw std::runtime_error("a grid of cells of " + std::to_string(edge_m) +
+                                 " m cannot be made at places up to " + std::to_string(farthest_m) +
+                                 " m; have coordinates begin nearer to the path");
+    }
     map_->setSize(pointOf(corner_m_), pointOf(most * edge_m), edge_m);
+    const auto& grid = map_->m_grid;  // rounded by MRPT
+    size_ = {static_cast<int>(grid.getSizeX()), static_cast<int>(grid.getSizeY()),
+             static_cast<int>(grid.getSizeZ())};
 }
 GridModel::~GridModel() = default;
 

@@ -16,8 +16,8 @@ struct Header {
     std::uint64_t bytes;
     std::int64_t time_ns;
 };
-constexpr std::uint64_t kMostBytes = 65536;  // of a datagram
-constexpr std::size_t kLongestLine = 1 << 20;
+constexpr std::uint64_t kMostBytes = 65536;    // of a datagram
+constexpr std::size_t kLongestLine = 8 << 20;  // names of more than 20 000 files
 
 /// A peer that has ended is no reason for a signal.
 bool sendAll(int socket, iovec* parts, std::size_t count) {
@@ -42,10 +42,10 @@ bool sendAll(int socket, iovec* parts, std::size_t count) {
     return true;
 }
 
-ssize_t receive(int socket, void* to, std::size_t bytes) {
+ssize_t receive(int socket, void* to, std::size_t bytes, int flags = 0) {
     ssize_t count = 0;
     do {
-        count = recv(socket, to, bytes, 0);
+        count = recv(socket, to, bytes, flags);
     } while (count < 0 && errno == EINTR);
     return count;
 }
@@ -93,9 +93,15 @@ void sendLine(int socket, const std::string& line) {
 
 bool readLine(int socket, std::string& line) {
     line.clear();
-    for (char byte = 0; line.size() < kLongestLine && receive(socket, &byte, 1) == 1;) {
-        if (byte == '\n') return true;
-        line += byte;
+    char block[4096];
+    while (line.size() < kLongestLine) {
+        const ssize_t there = receive(socket, block, sizeof block, MSG_PEEK);
+        if (there <= 0) return false;
+        const auto length = static_cast<std::size_t>(std::find(block, block + there, '\n') - block);
+        const bool is_whole = length < static_cast<std::size_t>(there);
+        receive(socket, block, length + (is_whole ? 1 : 0));
+        line.append(block, length);
+        if (is_whole) return true;
     }
     return false;
 }
@@ -113,11 +119,11 @@ std::string failureIn(const std::string& line) {
 std::string lineOf(const Recorded& recorded) {
     base::Json files = base::Json::array();
     for (const auto& file : recorded.files) files.push_back(file.string());
-    return base::Json{{"turns", recorded.turns},
-                      {"left_out", recorded.left_out},
-                      {"unreadable", recorded.unreadable},
-                      {"files", files},
-                      {"failure", recorded.failure}}
+    base::Json older_files = base::Json::array();
+    for (const auto& file : recorded.older_files) older_files.push_back(file.string());
+    return base::Json{{"turns", recorded.turns},           {"left_out", recorded.left_out},
+                      {"unreadable", recorded.unreadable}, {"files", files},
+                      {"older_files", older_files},        {"failure", recorded.failure}}
         .dump(-1, base::Json::NotUtf8::Replace);
 }
 
@@ -128,6 +134,9 @@ Recorded recordedIn(const std::string& line) {
     recorded.left_out = json.at("left_out").count();
     recorded.unreadable = json.at("unreadable").count();
     for (const std::string& file : json.at("files").texts()) recorded.files.emplace_back(file);
+    for (const std::string& file : json.at("older_files").texts()) {
+        recorded.older_files.emplace_back(file);
+    }
     recorded.failure = json.at("failure").text();
     return recorded;
 }

@@ -160,7 +160,7 @@ void RecorderProcess::listen() {
         } else {
             recorded.failure = howItEnded();
         }
-    } catch (const std::runtime_error& e) {
+    } catch (const std::exception& e) {  // memory, too
         recorded.failure = file_ + ": the recorder's last words are none: " + e.what();
     }
     {
@@ -170,8 +170,10 @@ void RecorderProcess::listen() {
     queue_.close();
 }
 
-/// Waits until the process has ended, without a word.
+/// Waits until the process has ended, without a word that can be read. If it still speaks, that
+/// ends it.
 std::string RecorderProcess::howItEnded() const {
+    shutdown(socket_, SHUT_RD);
     const siginfo_t end = waitFor(process_, false);
     const std::string how =
         was_stuck_ ? "took no packets for " + base::fixedText(patience_s_, 1) + " s and was ended"

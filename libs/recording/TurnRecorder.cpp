@@ -1,3 +1,5 @@
+#include <hagen/base/Folder.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/logs/RecordedObject.h>
 #include <hagen/recording/TurnRecorder.h>
@@ -5,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace hagen::recording {
@@ -18,6 +21,7 @@ TurnRecorder::TurnRecorder(Options options, const Settings& settings)
     : options_(std::move(options)) {
     segmenter_.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     segmenter_.initialize(settings);
+    checkNumbers();
     openNext();
     thread_ = std::thread([this] { work(); });
 }
@@ -33,6 +37,37 @@ std::filesystem::path TurnRecorder::nextName() {
     std::filesystem::path name = options_.file;
     return name.replace_filename(options_.file.stem().string() + number +
                                  options_.file.extension().string());
+}
+
+/// The numbered files that are there already, by number.
+std::map<std::size_t, std::filesystem::path> TurnRecorder::numbered() const {
+    std::map<std::size_t, std::filesystem::path> files;
+    if (options_.rotate_bytes == 0) return files;
+    const std::string stem = options_.file.stem().string() + ".";
+    const std::string extension = options_.file.extension().string();
+    const std::filesystem::path folder = options_.file.parent_path();
+    std::error_code none;
+    for (const auto& file : base::entriesOf(folder.empty() ? "." : folder, none)) {
+        const std::string name = file.filename().string();
+        if (name.size() <= stem.size() + extension.size() ||
+            name.compare(0, stem.size(), stem) != 0 || file.extension() != extension) {
+            continue;
+        }
+        const auto number = base::numberFrom<std::size_t>(
+            name.substr(stem.size(), name.size() - stem.size() - extension.size()));
+        if (number) files.emplace(*number, file);
+    }
+    return files;
+}
+
+/// Before anything is recorded: a number that is taken would end the recording in flight.
+void TurnRecorder::checkNumbers() const {
+    if (options_.overwrite) return;
+    const auto files = numbered();
+    if (files.empty()) return;
+    throw std::runtime_error(files.begin()->second.string() +
+                             ": exists; it would be a part of this recording (--overwrite replaces "
+                             "such files)");
 }
 
 void TurnRecorder::openNext() {
@@ -130,6 +165,9 @@ live::Recorded TurnRecorder::finish() {
         }
     }
     recorded_.failure = failure_;
+    for (const auto& [number, file] : numbered()) {
+        if (number > recorded_.files.size()) recorded_.older_files.push_back(file);
+    }
     if (writer_) {  // it has failed
         try {
             recorded_.failure += "; what was written is in " + writer_->keepPartial().string();

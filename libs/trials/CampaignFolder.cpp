@@ -18,6 +18,8 @@ namespace hagen::trials {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kMostJournals = 1000000000;  // numbers beyond are no journals of ours
 /// The one that tells a campaign's folder is the last: it is removed last.
 constexpr const char* kFiles[] = {"profile.json", "runs.csv", "measured.csv", "campaign.json"};
 
@@ -124,7 +126,7 @@ void CampaignFolder::readJournals() {
         const std::string name = journal.stem().string();
         int number = 0;
         std::from_chars(name.data(), name.data() + name.size(), number);
-        next_journal_ = std::max(next_journal_, number + 1);
+        if (number < kMostJournals) next_journal_ = std::max(next_journal_, number + 1);
         const std::vector<JournalLine> lines = readJournal(journal);
         for (std::size_t line = 0; line < lines.size(); ++line) {
             try {

@@ -1,6 +1,7 @@
 #include "RunColumns.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "CsvNumbers.h"
 #include "Words.h"
@@ -35,10 +36,17 @@ RunColumn count(const char* name, int TrialResult::*field) {
         [=](const std::string& text, Run& run) { run.result.*field = parsedNumber<int>(text); }};
 }
 
+constexpr double kMostSetting = 100;  // as of a plan; an absurd flight takes for ever
+
 RunColumn setting(const char* name, double TrialSetup::*field) {
-    return {
-        name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
-        [=](const std::string& text, Run& run) { run.setup.*field = parsedNumber<double>(text); }};
+    return {name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
+            [=](const std::string& text, Run& run) {
+                const auto value = parsedNumber<double>(text);
+                if (!(value > 0 && value <= kMostSetting)) {
+                    throw std::runtime_error("\"" + text + "\" is not above 0 and at most 100");
+                }
+                run.setup.*field = value;
+            }};
 }
 
 RunColumn setting(const char* name, std::string TrialSetup::*field) {

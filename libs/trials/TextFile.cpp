@@ -20,7 +20,7 @@ void writeWhole(const fs::path& file, const std::string& text) {
 }
 
 std::vector<std::string> linesOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
+    std::ifstream in = base::openToRead(file);
     std::vector<std::string> lines;
     for (std::string line; base::nextLine(in, line, file);) lines.push_back(line);
     if (in.bad() || !in.eof()) throw std::runtime_error(file.string() + ": cannot be read");

@@ -110,6 +110,19 @@ TEST(VehicleMotion, WhatIsNoMotionIsRefused) {
     vehicle = Vehicle();
     vehicle.ned_m.x() = std::numeric_limits<double>::infinity();
     EXPECT_EQ(motion.take(vehicle.place(1), 1), Taken::Refused);
+    vehicle = Vehicle();
+    for (const double speed_m_s : {-101.0, 1e30}) {
+        vehicle.speed_m_s.x() = speed_m_s;
+        EXPECT_EQ(motion.take(vehicle.place(1), 1), Taken::Refused);
+    }
+    vehicle.speed_m_s.setZero();
+    vehicle.ned_m.y() = 2e7;
+    EXPECT_EQ(motion.take(vehicle.place(1), 1), Taken::Refused);
+    for (const double rate_rad_s : {-51.0, 1e20}) {
+        vehicle.rates_rad_s.z() = rate_rad_s;
+        EXPECT_EQ(motion.take(vehicle.attitude(1), 1), Taken::Refused);
+        EXPECT_EQ(motion.take(vehicle.quaternion(1), 1), Taken::Refused);
+    }
     EXPECT_EQ(motion.take(mavlink::frameOf(mavlink::AttitudeQuaternion()), 1), Taken::Refused);
     EXPECT_EQ(motion.take(mavlink::frameOf(mavlink::Heartbeat()), 1), Taken::Other);
     EXPECT_FALSE(motion.at(1));

@@ -604,4 +604,23 @@ TEST(WorldModel, HasANameForPeopleThatUsersMayGive) {
     EXPECT_EQ(avoidance::worldModelFrom("OctoMap"), "OctoMap");
 }
 
+/// MRPT's own grid rounds its size; floats end to tell cells apart.
+TEST(GridAtFarPlaces, HasTheCellsThatItTellsOrIsRefused) {
+    for (const float far_m : {1e3F, 5e4F, 1.9e5F}) {
+        const Eigen::Vector3f there(far_m, -far_m, 0);
+        auto far = setting();
+        far.bounds_m = {kBounds.min() + there, kBounds.max() + there};
+        const auto model = avoidance::makeWorldModel("G-Full", far);
+        auto scan = scanOf({Eigen::Vector3f(5, 0, 1) + there});
+        scan.origin_m += there;
+        model->update(scan);
+        EXPECT_EQ(model->obstacles().centre_m.size(), 1u) << far_m;
+        EXPECT_LT(model->clearance_m(Eigen::Vector3f(4, 0, 1) + there), 1.3F) << far_m;
+    }
+    auto far = setting();
+    far.bounds_m.max().x() = 5e6F;
+    far.bounds_m.min().x() = 5e6F - 10;
+    EXPECT_THROW(avoidance::makeWorldModel("G-Full", far), std::runtime_error);
+}
+
 }  // namespace

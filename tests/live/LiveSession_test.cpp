@@ -277,6 +277,7 @@ TEST_F(LiveRecordingTest, LabelsGoOnWithoutTheRecorder) {
 TEST_F(LiveRecordingTest, WhatTheRecorderSaysIsReported) {
     recordBy(kReady + std::string("cat <&0 >'") + (folder_ / "packets").string() +
              "'\necho '{\"turns\": 2, \"left_out\": 1, \"unreadable\": 0, \"files\": [\"x\"], "
+             "\"older_files\": [], "
              "\"failure\": \"\"}' >&0");
     GivenPackets source;
     source.addAll(turnsOf(1));
@@ -288,6 +289,13 @@ TEST_F(LiveRecordingTest, WhatTheRecorderSaysIsReported) {
     EXPECT_EQ(report.recorded.failure, "");
     EXPECT_EQ(report.recorded.packets_left_out, 0u);
     EXPECT_EQ(std::filesystem::file_size(folder_ / "packets"), 76u * (16 + 1206));
+}
+
+TEST_F(LiveRecordingTest, ARecorderWithoutAnEndOfWordsIsNotWaitedFor) {
+    recordBy(kReady + std::string("cat <&0 >/dev/null\nexec head -c 100000000 /dev/zero >&0"));
+    GivenPackets source;
+    source.addAll(turnsOf(1));
+    EXPECT_THAT(run(source).recorded.failure, HasSubstr("ended with exit status 1"));
 }
 
 TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {

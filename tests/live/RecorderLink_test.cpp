@@ -80,6 +80,7 @@ TEST_F(RecorderLinkTest, LinesSayWhatBecameOfTheRecording) {
     recorded.left_out = 3;
     recorded.unreadable = 1;
     recorded.files = {"/a/b.0001.rawlog", "c \"d\"\n.rawlog"};
+    recorded.older_files = {"/a/b.0003.rawlog"};
     recorded.failure = "disk: is full";
     sendLine(ends_[0], readyLine());
     sendLine(ends_[0], failedLine("x.rawlog: exists"));
@@ -98,6 +99,7 @@ TEST_F(RecorderLinkTest, LinesSayWhatBecameOfTheRecording) {
     EXPECT_EQ(read.left_out, 3u);
     EXPECT_EQ(read.unreadable, 1u);
     EXPECT_EQ(read.files, recorded.files);
+    EXPECT_EQ(read.older_files, recorded.older_files);
     EXPECT_EQ(read.failure, "disk: is full");
     EXPECT_FALSE(readLine(ends_[1], line));
 }

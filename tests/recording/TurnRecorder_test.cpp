@@ -88,6 +88,27 @@ TEST_F(TurnRecorderTest, ExistingFilesAreKept) {
     EXPECT_EQ(test::readFile(folder_ / "a.rawlog"), "mine");
 }
 
+/// A number that is taken would end the recording in flight.
+TEST_F(TurnRecorderTest, NumbersThatAreTakenAreToldBeforeItBegins) {
+    auto options = optionsOf("a.rawlog");
+    options.rotate_bytes = 150000;
+    for (const char* other : {"a.rawlog", "a.5.txt", "b.0005.rawlog", "a.x.rawlog", "a.rawlog.5"}) {
+        folder_.write(other, "mine");
+    }
+    TurnRecorder(options, {}).finish();
+    folder_.write("a.0005.rawlog", "mine");
+    EXPECT_THAT(test::messageOf([&] { TurnRecorder(options, {}); }),
+                HasSubstr("a.0005.rawlog: exists"));
+    EXPECT_EQ(test::readFile(folder_ / "a.0005.rawlog"), "mine");
+
+    options.overwrite = true;
+    TurnRecorder recorder(options, {});
+    recorder.add(test::poleScanFrom(0, "velodyne"));
+    const auto counts = recorder.finish();
+    EXPECT_THAT(counts.files, ElementsAre(folder_ / "a.0001.rawlog"));
+    EXPECT_THAT(counts.older_files, ElementsAre(folder_ / "a.0005.rawlog"));
+}
+
 TEST_F(TurnRecorderTest, AfterAKillTheFileIsReadable) {
     const pid_t child = fork();
     if (child == 0) {

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/simulation/Random.h>
 #include <hagen/trials/RunTable.h>
 
@@ -150,6 +151,12 @@ TEST(RunTable, SaysWhichLineAndColumnIsBroken) {
     EXPECT_EQ(broken(with("1007", "-1")), at + "column seed: \"-1\" is not a number");
     EXPECT_EQ(broken(with("43.250", "43.25m")), at + "column path_m: \"43.25m\" is not a number");
     EXPECT_EQ(broken(with(",123,", ",,")), at + "column scans: \"\" is not a number");
+    for (const char* speed : {"0", "-1", "nan", "inf", "1e300"}) {
+        auto run = someRun();
+        const std::string text = "," + base::shortestText(run.setup.speed_m_s) + ",success";
+        EXPECT_THAT(broken(with(text, std::string(",") + speed + ",success")),
+                    testing::StartsWith(at + "column speed: "));
+    }
     EXPECT_EQ(broken(with("success", "won")),
               at + "column outcome: \"won\" is not one of success, collision, timeout");
     EXPECT_EQ(broken(with("optimistic", "")),

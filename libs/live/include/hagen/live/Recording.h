@@ -27,6 +27,8 @@ struct Recorded {
     std::size_t packets_left_out = 0;          ///< that came faster than the recorder took them
     std::size_t unreadable = 0;                ///< turns that were written without labels
     std::vector<std::filesystem::path> files;  ///< complete ones
+    /// Of an earlier recording by this name, with higher numbers than these.
+    std::vector<std::filesystem::path> older_files;
     /// Why it ended early, naming the file and what is left of it; empty: it did not.
     std::string failure;
 };

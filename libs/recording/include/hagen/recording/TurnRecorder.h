@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -27,7 +28,7 @@ class TurnRecorder {
         std::filesystem::path file;
         bool overwrite = false;
         /// A file ends with the turn that makes it this long; names are then NAME.0001.rawlog and
-        /// so on. 0: one file.
+        /// so on. 0: one file. Without `overwrite`, there must be no file of such a name.
         std::size_t rotate_bytes = 0;
         /// What no recording may replace: inputs, and other outputs.
         std::vector<std::filesystem::path> others;
@@ -51,6 +52,8 @@ class TurnRecorder {
 
  private:
     std::filesystem::path nextName();
+    std::map<std::size_t, std::filesystem::path> numbered() const;
+    void checkNumbers() const;
     void openNext();
     void work();
     void write(const mrpt::obs::CObservation::Ptr& turn);
