@@ -7,6 +7,7 @@
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/Measured.h>
 #include <hagen/trials/MergeCampaigns.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <fstream>
@@ -74,6 +75,14 @@ TEST(CampaignFolder, WhatIsInJournalsIsThereAgain) {
     EXPECT_THAT(readFile(place / "c/measured.csv"),
                 HasSubstr("gap,1,W-RoI,astar,4,primitives,none,1,optimistic,dusty,unbiased,,,2.000,"
                           "2.900,,,,,0\n"));
+}
+
+TEST(CampaignFolder, AJournalThatIsNoFileIsNamedAndNotWaitedFor) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "journal");
+    ASSERT_EQ(mkfifo((folder / "journal/7.csv").c_str(), 0600), 0);
+    EXPECT_THAT(test::messageOf([&] { readJournal(folder / "journal/7.csv"); }),
+                testing::HasSubstr("7.csv: is a pipe or a device"));
 }
 
 TEST(CampaignFolder, AFinishedOneIsAddedTo) {
