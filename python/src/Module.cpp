@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "Arrays.h"
+#include "FilledCaster.h"
 #include "Filter.h"
 #include "Limits.h"
 #include "OthersRun.h"

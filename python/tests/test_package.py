@@ -43,6 +43,37 @@ def test_everything_is_documented():
                 assert vars(what)[member].__doc__, f"{name}.{member}"
 
 
+ARGUMENTS = {"segment": ([],), "__add__": (hagen.Scores(),), "__iadd__": (hagen.Scores(),)}
+
+
+@pytest.mark.parametrize(
+    "name", ["ClassScore", "Filter", "Recording", "Result", "Scan", "Scores", "Simulation"]
+)
+def test_objects_without_content_are_refused(name):
+    """__new__() alone makes them; their use would read memory that nobody has written."""
+    of = getattr(hagen, name)
+    own = members(of) | {"__len__", "__length_hint__", "__next__", "__repr__", "__add__", "__iadd__"}
+    for member in own & set(vars(of)):
+        empty = of.__new__(of)
+        with pytest.raises(TypeError, match=f"{name}: the object is empty"):
+            getattr(empty, member)(*ARGUMENTS.get(member, ()))
+
+
+def test_a_scan_without_content_is_not_segmented():
+    with pytest.raises(TypeError, match="Scan: the object is empty"):
+        hagen.Filter().segment(hagen.Scan.__new__(hagen.Scan))
+
+
+def test_an_object_is_empty_before_its_constructor_runs():
+    class Early(hagen.Filter):
+        def __init__(self):
+            with pytest.raises(TypeError, match="Early: the object is empty"):
+                self.settings
+            super().__init__("vlp16", zone_m=9)
+
+    assert "zone_m: 9 " in Early().settings
+
+
 def test_presets_are_those_of_the_project():
     assert {"vlp16", "hdl32e", "hdl64e", "mid360", "paper"} <= set(hagen.presets())
     for preset in ("vlp16", "hdl32e", "hdl64e", "mid360", "paper", "ouster_os1_64"):

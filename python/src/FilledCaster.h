@@ -1,0 +1,55 @@
+#pragma once
+#include <hagen/evaluation/Scores.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <typeinfo>
+
+#include "Filter.h"
+#include "PythonScan.h"
+#include "Recording.h"
+#include "Simulation.h"
+
+// Objects of Python that hold none of C++, as __new__() alone makes them, and as __init__() of a
+// class derived from ours has them until it calls that of ours. For these, pybind11 would make up
+// memory that no constructor has seen.
+namespace pybind11::detail {
+
+inline bool isEmpty(handle object, const std::type_info& held) {
+    const type_info* const type = get_type_info(held);
+    if (type == nullptr || !isinstance(object, reinterpret_cast<PyObject*>(type->type)))
+        return false;
+    auto* const of_python = reinterpret_cast<instance*>(object.ptr());
+    return of_python->get_value_and_holder(type).value_ptr() == nullptr;
+}
+
+/// The caster of pybind11, but TypeError for such an object.
+template <class T>
+class FilledCaster : public type_caster_base<T> {
+ public:
+    bool load(handle source, bool convert) {
+        if (source && isEmpty(source, typeid(T))) {
+            throw type_error(str(type::handle_of(source).attr("__name__")).cast<std::string>() +
+                             ": the object is empty, as its constructor has not run");
+        }
+        return type_caster_base<T>::load(source, convert);
+    }
+};
+
+template <>
+class type_caster<hagen::python::PythonScan> : public FilledCaster<hagen::python::PythonScan> {};
+template <>
+class type_caster<hagen::python::Segmented> : public FilledCaster<hagen::python::Segmented> {};
+template <>
+class type_caster<hagen::python::Filter> : public FilledCaster<hagen::python::Filter> {};
+template <>
+class type_caster<hagen::python::Recording> : public FilledCaster<hagen::python::Recording> {};
+template <>
+class type_caster<hagen::python::Simulation> : public FilledCaster<hagen::python::Simulation> {};
+template <>
+class type_caster<hagen::evaluation::ClassScore>
+    : public FilledCaster<hagen::evaluation::ClassScore> {};
+template <>
+class type_caster<hagen::evaluation::Scores> : public FilledCaster<hagen::evaluation::Scores> {};
+
+}  // namespace pybind11::detail
