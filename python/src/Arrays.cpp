@@ -14,14 +14,24 @@ std::string shapeText(const py::array& array) {
     return py::str(array.attr("shape")).cast<std::string>();
 }
 
+/// Makes an array of what a caller has given. What this raises is the cause of a ValueError with
+/// `text`; an interruption, and that there is no memory, stay what they are.
+template <class Array>
+Array converted(const py::object& values, const std::string& text) {
+    try {
+        return Array(values);
+    } catch (py::error_already_set& error) {
+        if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) throw;
+        py::raise_from(error, PyExc_ValueError, text.c_str());
+        throw py::error_already_set();
+    }
+}
+
 /// Any object as an array; throws ValueError if it is none of real numbers.
 py::array numbersFrom(const py::object& values, const std::string& expected) {
-    const py::array array = py::array::ensure(values);
-    if (!array) {
-        PyErr_Clear();
-        throw py::value_error("expected " + expected + ", not " +
-                              py::str(py::type::of(values)).cast<std::string>());
-    }
+    const auto array =
+        converted<py::array>(values, "expected " + expected + ", not " +
+                                         py::str(py::type::of(values)).cast<std::string>());
     if (std::strchr("fiub", array.dtype().kind()) == nullptr) {
         throw py::value_error("expected " + expected + ", not an array of dtype " +
                               py::str(array.dtype()).cast<std::string>());
@@ -44,9 +54,8 @@ py::array_t<float> pointsFrom(const py::object& points) {
                               " returns, more than the " + std::to_string(kMostReturns) +
                               " that it may have");
     }
-    auto floats = py::array_t<float, py::array::forcecast>::ensure(array);
-    if (!floats) throw py::error_already_set();
-    return floats;
+    return converted<py::array_t<float, py::array::forcecast>>(
+        array, "expected " + expected + ", not numbers that float32 cannot hold");
 }
 
 PointsView viewOf(const py::array_t<float>& points) {
@@ -91,8 +100,8 @@ std::vector<Label> labelsFrom(const py::object& labels, const std::string& what)
     const py::array array = numbersFrom(labels, expected);
     if (array.ndim() != 1)
         throw py::value_error("expected " + expected + ", not of shape " + shapeText(array));
-    const auto numbers = py::array_t<double, py::array::forcecast>::ensure(array);
-    if (!numbers) throw py::error_already_set();
+    const auto numbers = converted<py::array_t<double, py::array::forcecast>>(
+        array, "expected " + expected + ", not numbers that float64 cannot hold");
     const auto values = numbers.unchecked<1>();
     std::vector<Label> found(static_cast<std::size_t>(values.shape(0)));
     for (py::ssize_t i = 0; i < values.shape(0); ++i) {

@@ -1,6 +1,7 @@
 """hagen.Filter on arrays. Oracles: rawlog-segment on the same points, and geometry."""
 import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -264,6 +265,42 @@ def test_empty_scans_and_points_without_a_range():
 def test_wrong_points_are_refused(points, text):
     with pytest.raises(ValueError, match=text):
         hagen.Filter("vlp16").segment(points)
+
+
+def test_numbers_that_float32_cannot_hold_are_refused_where_numpy_raises():
+    far = np.full((3, 3), 1e300)
+    segmenter = hagen.Filter("vlp16")
+    with np.errstate(all="raise"), pytest.raises(ValueError, match="float32 cannot hold") as raised:
+        segmenter.segment(far)
+    assert isinstance(raised.value.__cause__, FloatingPointError)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(ValueError, match="float32 cannot hold"):
+            segmenter.segment(far)
+    with np.errstate(all="ignore"):  # they are infinite, and have no range
+        assert np.all(segmenter.segment(far).labels == hagen.UNCLASSIFIED)
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, SystemExit, MemoryError])
+def test_interruptions_while_an_array_is_made_are_passed_on(error):
+    class Interrupted:
+        def __array__(self, *_, **__):
+            raise error
+
+    with pytest.raises(error):
+        hagen.Filter("vlp16").segment(Interrupted())
+    with pytest.raises(error):
+        hagen.evaluate(Interrupted(), [1])
+
+
+def test_an_error_while_an_array_is_made_is_the_cause():
+    class Wrong:
+        def __array__(self, *_, **__):
+            raise ZeroDivisionError
+
+    with pytest.raises(ValueError, match=r"\(N, 3\).*Wrong") as raised:
+        hagen.Filter("vlp16").segment(Wrong())
+    assert isinstance(raised.value.__cause__, ZeroDivisionError)
 
 
 @pytest.mark.parametrize("attitude", [1.0, (1, 2, 3), "level", (np.nan, 0), (0, np.inf)])
