@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 namespace hagen::bags {
 namespace {
@@ -77,6 +78,36 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
     return files;
 }
 
+/// "'a_1.mcap', 'a_2.mcap' and 3 more".
+std::string textOf(const std::vector<fs::path>& files) {
+    constexpr std::size_t kMost = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) {
+        text += (i == 0 ? "'" : ", '") + files[i].filename().string() + "'";
+    }
+    if (files.size() > kMost) text += " and " + std::to_string(files.size() - kMost) + " more";
+    return text;
+}
+
+/// Takes out what a list has again, and returns it.
+std::vector<fs::path> takeRepeated(std::vector<fs::path>& files) {
+    std::set<fs::path> seen;
+    std::vector<fs::path> once, repeated;
+    for (const fs::path& file : files) (seen.insert(file).second ? once : repeated).push_back(file);
+    files = std::move(once);
+    return repeated;
+}
+
+/// The files of a folder that a list lacks.
+std::vector<fs::path> unlistedFiles(const fs::path& folder, const std::vector<fs::path>& listed) {
+    const std::set<fs::path> known(listed.begin(), listed.end());
+    std::vector<fs::path> unlisted;
+    for (const fs::path& file : foundFiles(folder)) {
+        if (known.count(file) == 0) unlisted.push_back(file);
+    }
+    return unlisted;
+}
+
 }  // namespace
 
 bool BagFolder::isOne(const fs::path& folder) {
@@ -92,6 +123,7 @@ BagFolder::BagFolder(const fs::path& folder) {
     if (files_.empty()) {
         throw BrokenBag(folder.string() + ": has no .mcap and no .db3 files");
     }
+    if (metadata.bag) checkList(folder);
     if (!metadata.why_none.empty()) {
         std::string& remark = remarks_.emplace_back(kMetadata);
         remark += " is not used (" + metadata.why_none +
@@ -105,8 +137,21 @@ BagFolder::BagFolder(const fs::path& folder) {
     openFile();
 }
 
+void BagFolder::checkList(const fs::path& folder) {
+    if (const auto repeated = takeRepeated(files_); !repeated.empty()) {
+        remarks_.push_back(std::string(kMetadata) + " lists files repeatedly: " + textOf(repeated) +
+                           "; each is read once");
+    }
+    if (const auto unlisted = unlistedFiles(folder, files_); !unlisted.empty()) {
+        remarks_.push_back(std::string(kMetadata) +
+                           " does not list files of the folder: " + textOf(unlisted) +
+                           "; they are not read ('ros2 bag reindex' makes a new list)");
+    }
+}
+
 void BagFolder::openFile() {
     open_ = openBag(files_[file_]);
+    open_->checkWhileReading([this] { check(); });
     topic_of_.clear();
 }
 

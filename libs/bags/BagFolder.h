@@ -19,6 +19,8 @@ class BagFolder : public BagFile {
     std::vector<std::string> remarks() const override { return remarks_; }
 
  private:
+    /// Takes out files that are listed again, and tells of these and of those that are not listed.
+    void checkList(const std::filesystem::path& folder);
     void openFile();
 
     std::vector<std::filesystem::path> files_;

@@ -431,6 +431,10 @@ CObservation::Ptr BagScans::next() {
     return nullptr;
 }
 
+void BagScans::checkWhileReading(const std::function<void()>& check) {
+    reader_->bag->checkWhileReading(check);
+}
+
 const BagPlan& BagScans::plan() const { return reader_->plan; }
 
 std::size_t BagScans::messagesRead() const { return reader_->messages; }

@@ -184,15 +184,19 @@ LidarKind lidarKindOf(const BagTopic& topic) {
 }
 
 BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool()>& keep_going) {
+    struct Ended {};
     const auto bag = openBag(file);
+    bag->checkWhileReading([&] {
+        if (!keep_going()) throw Ended();
+    });
     Surveyor surveyor;
     bool is_whole = true;
     std::string broken_because;
     try {
         BagMessage message;
-        while ((is_whole = keep_going()) && bag->next(message)) {
-            surveyor.see(message, bag->topics());
-        }
+        while (bag->next(message)) surveyor.see(message, bag->topics());
+    } catch (const Ended&) {
+        is_whole = false;
     } catch (const BrokenBag& e) {
         is_whole = false;  // who reads the scans reports the break
         broken_because = e.what();

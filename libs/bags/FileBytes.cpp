@@ -53,14 +53,17 @@ void FileBytes::read(std::uint64_t count, const std::string& what,
     if (count > 0) readInto(bytes.data(), bytes.size(), what);
 }
 
-void FileBytes::skip(std::uint64_t count, const std::string& what) {
+void FileBytes::beginSkip(std::uint64_t count, const std::string& what) {
     checkLeft(count, what);
-    std::uint8_t some[1 << 14];
-    while (count > 0) {
-        const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, sizeof some));
-        readInto(some, part, what);
-        count -= part;
-    }
+    to_skip_ = count;
+    skipped_ = what;
+}
+
+void FileBytes::skipSome() {
+    std::uint8_t some[1 << 16];
+    const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(to_skip_, sizeof some));
+    readInto(some, part, skipped_);
+    to_skip_ -= part;
 }
 
 }  // namespace hagen::bags

@@ -22,7 +22,11 @@ class FileBytes {
     /// Reads exactly so many bytes; nothing is allocated if the file has fewer. `what` is being
     /// read, for BrokenBag: "a chunk".
     void read(std::uint64_t count, const std::string& what, std::vector<std::uint8_t>& bytes);
-    void skip(std::uint64_t count, const std::string& what);
+    /// Skips bytes by parts, so that who reads can be interrupted: skipSome() until there are none.
+    /// They are read nevertheless, for the CRC.
+    void beginSkip(std::uint64_t count, const std::string& what);
+    bool isSkipping() const { return to_skip_ > 0; }
+    void skipSome();
 
     /// CRC-32 (as in zlib) of all bytes since the last restart.
     std::uint32_t crc() const { return crc_; }
@@ -41,7 +45,8 @@ class FileBytes {
     };
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
-    std::uint64_t size_ = 0, position_ = 0;
+    std::uint64_t size_ = 0, position_ = 0, to_skip_ = 0;
+    std::string skipped_;  ///< what is being skipped
     bool has_crc_;
     std::uint32_t crc_ = 0;
 };

@@ -10,6 +10,7 @@ namespace hagen::bags {
 namespace {
 
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
+constexpr std::uint64_t kMostFooter = 1 << 16;  // it has 20 bytes; later versions may add some
 enum Op : std::uint8_t {
     kFooter = 0x02,
     kSchema = 0x03,
@@ -42,6 +43,10 @@ bool isRead(std::uint8_t op) {
     return op == kSchema || op == kChannel || op == kMessage || op == kChunk || op == kDataEnd;
 }
 
+void checkKind(std::uint8_t op) {
+    if (op == 0) throw std::runtime_error("its kind is 0, which there is not");
+}
+
 void checkCrc(std::uint32_t due, std::uint32_t found, const std::string& of) {
     if (due == 0 || due == found) return;  // 0: there is none
     throw std::runtime_error("the CRC of " + of + " is wrong: the file was changed or damaged");
@@ -59,13 +64,18 @@ bool McapFile::isOne(const std::string& start) {
 }
 
 McapFile::McapFile(const std::filesystem::path& file) : file_(file, true) {
-    file_.skip(kMagic.size(), "the format's name");
+    file_.read(kMagic.size(), "the format's name", head_);
 }
 
 bool McapFile::next(BagMessage& message) {
     while (!is_at_end_) {
+        check();
         const bool is_in_chunk = in_chunk_.left() > 0;
         try {
+            if (file_.isSkipping()) {
+                file_.skipSome();
+                continue;
+            }
             if (is_in_chunk) {
                 if (readInChunk(message)) return true;
                 continue;
@@ -93,9 +103,9 @@ bool McapFile::readRecord(BagMessage& message) {
         readFooter(size);
         return false;
     }
-    if (op == 0) throw std::runtime_error("its kind is 0, which there is not");
+    checkKind(op);
     if (is_data_ended_ || !isRead(op)) {
-        file_.skip(size, nameOf(op));
+        file_.beginSkip(size, nameOf(op));
         return false;
     }
     if (size > kMostUnpacked) {
@@ -112,6 +122,7 @@ bool McapFile::readRecord(BagMessage& message) {
 
 bool McapFile::readInChunk(BagMessage& message) {
     const auto op = in_chunk_.number<std::uint8_t>();
+    checkKind(op);
     const auto size = in_chunk_.number<std::uint64_t>();
     if (size > in_chunk_.left()) {
         throw TooShort(nameOf(op) + " in it claims " + std::to_string(size) + " bytes, " +
@@ -193,6 +204,9 @@ void McapFile::checkDataCrc(FieldReader fields, std::uint32_t crc) {
 
 void McapFile::readFooter(std::uint64_t size) {
     if (size < 20) throw TooShort("the footer is too short");
+    if (size > kMostFooter) {
+        throw std::runtime_error("the footer claims " + std::to_string(size) + " bytes");
+    }
     if (!is_data_ended_) throw std::runtime_error("the footer comes before the end of the data");
     file_.read(16, "the footer", content_);
     const std::uint32_t crc = file_.crc();
@@ -201,7 +215,7 @@ void McapFile::readFooter(std::uint64_t size) {
     const auto due = FieldReader({content_.data(), 4}).number<std::uint32_t>();
     // Without a summary, the CRC begins with the footer; it then says nothing of the messages.
     if (summary_at == summary_at_) checkCrc(due, crc, "the summary");
-    file_.skip(size - 20, "the footer");
+    file_.read(size - 20, "the footer", content_);
     file_.read(kMagic.size(), "the format's name at the end", content_);
     if (std::string(content_.begin(), content_.end()) != kMagic) {
         throw std::runtime_error("the format's name is missing at the end");

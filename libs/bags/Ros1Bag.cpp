@@ -90,7 +90,12 @@ Ros1Bag::Ros1Bag(const std::filesystem::path& file) : file_(file) {
 bool Ros1Bag::next(BagMessage& message) {
     std::string what = "a record";
     while (true) {
+        check();
         try {
+            if (file_.isSkipping()) {
+                file_.skipSome();
+                continue;
+            }
             if (in_chunk_.left() > 0) {
                 if (readInChunk(message)) return true;
                 continue;
@@ -130,7 +135,7 @@ bool Ros1Bag::readRecord(BagMessage& message) {
         }
         file_.read(size, nameOf(op), data_);
     } else {
-        file_.skip(size, nameOf(op));
+        file_.beginSkip(size, nameOf(op));
     }
     const ByteView data{data_.data(), is_read ? data_.size() : 0};
     if (op == kBagHeader) readBagHeader(fields);

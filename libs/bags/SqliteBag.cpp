@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include "Unpack.h"
 
@@ -65,14 +66,20 @@ bool SqliteBag::isOne(const std::string& start) {
 SqliteBag::SqliteBag(const fs::path& file) : file_(file), cut_because_(whyCut(file)) {
     open();
     checkTables();
+    checkColumns();
     readTopics();
-    const Query range = prepare("SELECT min(id), max(id) FROM messages");
+    // Each by itself: both in one query read all messages.
+    const Query range =
+        prepare("SELECT (SELECT min(id) FROM messages), (SELECT max(id) FROM messages)");
     if (sqlite3_step(range.get()) == SQLITE_ROW) {  // not if the end is cut off
         first_row_ = sqlite3_column_int64(range.get(), 0);
         last_row_ = sqlite3_column_int64(range.get(), 1);
     }
     // By id, as they were recorded: this needs no index and no sorting.
     messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
+    // A step may sort all messages, or look through damaged ones.
+    constexpr int kInstructionsPerCheck = 100000;
+    sqlite3_progress_handler(database_.get(), kInstructionsPerCheck, checkDuringQuery, this);
 }
 
 SqliteBag::~SqliteBag() = default;
@@ -119,6 +126,7 @@ SqliteBag::Query SqliteBag::prepare(const std::string& sql) const {
 bool SqliteBag::step(const Query& query) const {
     const int state = sqlite3_step(query.get());
     if (state == SQLITE_ROW) return true;
+    if (interruption_) std::rethrow_exception(std::exchange(interruption_, nullptr));
     if (state == SQLITE_TOOBIG) {
         fail("a message has more than " + std::to_string(kMostUnpacked >> 20) + " MB");
     }
@@ -134,6 +142,28 @@ void SqliteBag::checkTables() const {
     fail("it has no tables 'topics' and 'messages': is it a database of something else?");
 }
 
+/// Columns that are computed run what the file says, for each message, as long as it likes.
+void SqliteBag::checkColumns() const {
+    const Query computed = prepare(
+        "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_xinfo(m.name) c "
+        "WHERE m.type = 'table' AND m.name IN ('topics', 'messages') AND c.hidden > 0");
+    if (!step(computed)) return;
+    fail("the column '" + textAt(computed.get(), 1) + "' of the table '" +
+         textAt(computed.get(), 0) + "' is computed, which bags have not");
+}
+
+/// Exceptions must not pass through SQLite.
+int SqliteBag::checkDuringQuery(void* bag) {
+    auto* const self = static_cast<SqliteBag*>(bag);
+    try {
+        self->check();
+        return 0;
+    } catch (...) {
+        self->interruption_ = std::current_exception();
+        return 1;
+    }
+}
+
 void SqliteBag::readTopics() {
     const Query topics = prepare("SELECT id, name, type, serialization_format FROM topics");
     while (step(topics)) {
@@ -145,6 +175,7 @@ void SqliteBag::readTopics() {
 
 bool SqliteBag::next(BagMessage& message) {
     if (!messages_) return false;
+    check();
     if (!step(messages_)) {
         if (!cut_because_.empty()) fail(cut_because_);
         messages_.reset();

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/bags/BagFile.h>
 
+#include <exception>
 #include <map>
 #include <memory>
 
@@ -30,16 +31,19 @@ class SqliteBag : public BagFile {
     };
     using Query = std::unique_ptr<sqlite3_stmt, Close>;
 
+    static int checkDuringQuery(void* bag);
     void open();
     Query prepare(const std::string& sql) const;
     bool step(const Query& query) const;
     void checkTables() const;
+    void checkColumns() const;
     void readTopics();
     [[noreturn]] void fail(const std::string& why) const;
 
     std::filesystem::path file_;
     std::unique_ptr<sqlite3, Close> database_;
     Query messages_;
+    mutable std::exception_ptr interruption_;  ///< thrown by the check during a query
     TopicList topics_;
     std::map<std::int64_t, std::size_t> topic_of_;  ///< by the topic's id
     std::size_t rows_ = 0;

@@ -38,8 +38,10 @@ bags::BagSurvey BagSource::surveyInAdvance() {
 }
 
 std::unique_ptr<bags::BagScans> BagSource::openScans() const {
-    return std::make_unique<bags::BagScans>(
+    auto scans = std::make_unique<bags::BagScans>(
         file_, survey_, bags::BagOptions{options_.topics, options_.sensor_json});
+    scans->checkWhileReading([this] { checkInterruption(); });
+    return scans;
 }
 
 std::optional<RecordedEntry> BagSource::nextEntry() {

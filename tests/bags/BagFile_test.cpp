@@ -47,6 +47,10 @@ Read readAll(const fs::path& file) {
     return read;
 }
 
+ByteString little64(std::uint64_t number) {
+    return {reinterpret_cast<const char*>(&number), sizeof number};
+}
+
 std::vector<test::SentMessage> someMessages() {
     std::vector<test::SentMessage> messages;
     for (int i = 0; i < 10; ++i) {
@@ -76,6 +80,20 @@ class BagFileTest : public testing::Test {
         const std::string why = readBytes(bytes).broken_because;
         EXPECT_THAT(why, HasSubstr((folder_ / "file").string() + ": "));
         EXPECT_THAT(why, HasSubstr(words));
+    }
+    /// Replaces the messages of a database by some without data.
+    static void writeMessagesTable(const fs::path& file, const std::string& columns,
+                                   int messages = 1) {
+        test::writeDb3(file, someMessages());
+        sqlite3* database = nullptr;
+        sqlite3_open(file.c_str(), &database);
+        const std::string sql =
+            "DROP TABLE messages; CREATE TABLE messages(" + columns +
+            "); WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT " +
+            std::to_string(messages) +
+            ") INSERT INTO messages (topic_id, timestamp) SELECT 1, i FROM n";
+        EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+        sqlite3_close(database);
     }
     test::TemporaryFolder folder_;
 };
@@ -333,23 +351,78 @@ TEST_F(BagFolderTest, ABreakInAFileIsReported) {
     EXPECT_THAT(read.broken_because, HasSubstr("bag_9.mcap: "));
 }
 
-TEST_F(BagFileTest, AMessageThatADatabaseMakesUpIsNotUnpacked) {
-    const fs::path file = folder_ / "large.db3";
-    test::writeDb3(file, someMessages());
-    sqlite3* database = nullptr;
-    sqlite3_open(file.c_str(), &database);
-    const int state = sqlite3_exec(
-        database,
-        "DROP TABLE messages; CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, "
-        "timestamp INTEGER, data BLOB GENERATED ALWAYS AS (zeroblob(900000000)));"
-        "INSERT INTO messages (topic_id, timestamp) VALUES (1, 1)",
-        nullptr, nullptr, nullptr);
-    sqlite3_close(database);
-    ASSERT_EQ(state, SQLITE_OK);
-    const Read read = readAll(file);
-    EXPECT_EQ(read.messages.size(), 0u);
-    EXPECT_THAT(read.broken_because,
-                HasSubstr("after 0 messages (id 0): a message has more than 512 MB"));
+TEST_F(BagFileTest, ADatabaseRunsNothingOfItsFile) {
+    const fs::path file = folder_ / "computed.db3";
+    for (const std::string column :
+         {"data BLOB GENERATED ALWAYS AS (zeroblob(900000000))", "data BLOB AS (x'00') STORED"}) {
+        writeMessagesTable(
+            file, "id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, " + column);
+        const Read read = readAll(file);
+        EXPECT_EQ(read.messages.size(), 0u);
+        EXPECT_THAT(read.broken_because, HasSubstr("at its start: the column 'data' of the table "
+                                                   "'messages' is computed, which bags have not"));
+    }
+}
+
+/// Counts the calls of a check, and ends the reading by its own exception after some.
+struct Ending {
+    struct Ended : std::runtime_error {
+        using std::runtime_error::runtime_error;
+    };
+    int calls = 0;
+
+    bool ends(const fs::path& file, int most_calls) {
+        const auto bag = openBag(file);
+        bag->checkWhileReading([&] {
+            if (++calls > most_calls) throw Ended("ended");
+        });
+        BagMessage message;
+        try {
+            while (bag->next(message)) {
+            }
+        } catch (const Ended&) {
+            return true;
+        }
+        return false;
+    }
+};
+
+TEST_F(BagFileTest, ReadingEndsWithinWhatIsNoMessage) {
+    const ByteString magic("\x89MCAP0\r\n", 8);
+    ByteString schemas;
+    for (int i = 0; i < 50; ++i) schemas += test::mcapRecord(3, ByteString(14, '\0'));
+    const ByteString chunk = ByteString(16, '\0') + little64(schemas.size()) + ByteString(8, '\0') +
+                             little64(schemas.size()) + schemas;
+    // Records of a file and of a chunk, an attachment, and sections of a bag of ROS 1.
+    const fs::path attachment =
+        test::writeBytes(folder_ / "a", magic + '\x09' + little64(4000000000u));
+    fs::resize_file(attachment, 4000000017u);  // sparse
+    const fs::path ros1 = test::writeBytes(
+        folder_ / "r",
+        "#ROSBAG V2.0\n" + test::ros1Record({{"op", "\x04"}}, ByteString(4000000, 'a')));
+    for (const fs::path& file :
+         {test::writeBytes(folder_ / "s", magic + schemas),
+          test::writeBytes(folder_ / "c", magic + test::mcapRecord(6, chunk)), attachment, ros1}) {
+        Ending ending;
+        EXPECT_TRUE(ending.ends(file, 20)) << file;
+        EXPECT_EQ(ending.calls, 21) << file;
+    }
+}
+
+TEST_F(BagFileTest, ReadingEndsWithinAQuery) {
+    // Without the key, the messages must be sorted before the first one.
+    const fs::path file = folder_ / "a.db3";
+    writeMessagesTable(file, "id INTEGER, topic_id INTEGER, timestamp INTEGER, data BLOB", 100000);
+    Ending ending;
+    EXPECT_TRUE(ending.ends(file, 2));
+    EXPECT_EQ(ending.calls, 3);
+}
+
+TEST_F(BagFileTest, AChunkOfZerosIsNoChunk) {
+    const ByteString chunk = ByteString(16, '\0') + little64(900) + ByteString(8, '\0') +
+                             little64(900) + ByteString(900, '\0');
+    expectBroken(ByteString("\x89MCAP0\r\n", 8) + test::mcapRecord(6, chunk),
+                 "the chunk at byte 8: its kind is 0");
 }
 
 TEST_F(BagFolderTest, MetadataThatAreOfNoBagAreIgnoredWithARemark) {
@@ -366,6 +439,19 @@ TEST_F(BagFolderTest, MetadataThatAreOfNoBagAreIgnoredWithARemark) {
     }
     writeMetadata();
     EXPECT_THAT(openBag(folder_ / "bag")->remarks(), testing::IsEmpty());
+}
+
+TEST_F(BagFolderTest, FilesThatAreNotListedOrListedAgainAreTold) {
+    writeMetadata("", "[bag_9.mcap]");
+    EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
+                testing::ElementsAre(HasSubstr("does not list files of the folder: 'bag_8.mcap', "
+                                               "'bag_10.mcap'; they are not read")));
+    writeMetadata("", "[bag_8.mcap, bag_8.mcap, bag_9.mcap, bag/bag_8.mcap, bag_10.mcap]");
+    EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));
+    EXPECT_THAT(
+        openBag(folder_ / "bag")->remarks(),
+        testing::ElementsAre(HasSubstr("lists files repeatedly: 'bag_8.mcap', 'bag_8.mcap'; "
+                                       "each is read once")));
 }
 
 TEST_F(BagFolderTest, AFolderWithoutFilesIsNamed) {

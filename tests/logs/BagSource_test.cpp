@@ -147,11 +147,27 @@ TEST_F(BagSourceTest, StopsWhenToldTo) {
     SourceOptions options;
     options.keep_going = [] { return false; };
     EXPECT_THROW(open(options), Interrupted);
-    int asked = 0;
-    options.keep_going = [&] { return ++asked <= 12; };
-    const auto source = open(options);  // 10 messages, and the end
+    bool goes_on = true;
+    options.keep_going = [&] { return goes_on; };
+    const auto source = open(options);
     EXPECT_TRUE(source->nextEntry());
+    goes_on = false;
     EXPECT_THROW(source->nextEntry(), Interrupted);
+}
+
+TEST_F(BagSourceTest, StopsWithinMessagesThatAreNoScans) {
+    std::vector<test::SentMessage> messages = messages_;
+    for (int i = 0; i < 100; ++i) messages.push_back(test::stringMessage("/text", 2e9, "a"));
+    const auto file = test::writeBytes(folder_ / "flight.mcap", test::mcapOf(messages));
+    bool goes_on = true;
+    int asked = 0;
+    SourceOptions options;
+    options.keep_going = [&] { return goes_on || ++asked <= 50; };
+    const auto source = openRecording(file, options);
+    for (int i = 0; i < 6; ++i) EXPECT_TRUE(source->nextEntry());
+    goes_on = false;
+    EXPECT_THROW(source->nextEntry(), Interrupted);
+    EXPECT_EQ(asked, 51);
 }
 
 }  // namespace

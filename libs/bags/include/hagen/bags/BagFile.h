@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -48,6 +49,17 @@ class BagFile {
     virtual double fractionRead() const = 0;
     /// What the user should know of how it is read.
     virtual std::vector<std::string> remarks() const { return {}; }
+    /// Calls `check` again and again while next() reads: what it throws ends next(), which may read
+    /// a whole file in search of a message. At most a chunk is read between two calls.
+    virtual void checkWhileReading(const std::function<void()>& check) { check_ = check; }
+
+ protected:
+    void check() const {
+        if (check_) check_();
+    }
+
+ private:
+    std::function<void()> check_;
 };
 
 /// Whether a file begins like a ROS 1 bag, an MCAP or an SQLite database, whatever its name; of a

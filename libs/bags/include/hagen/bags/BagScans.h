@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ class BagScans {
     /// breaks off, the turns in progress come first. Throws BrokenBag there, and at the end if not
     /// one scan could be read.
     mrpt::obs::CObservation::Ptr next();
+
+    /// Like BagFile::checkWhileReading(): what `check` throws ends next().
+    void checkWhileReading(const std::function<void()>& check);
 
     const BagPlan& plan() const;
     /// Messages of the bag read so far, of all topics.

@@ -78,8 +78,9 @@ struct BagSurvey {
     std::string broken_because;  ///< empty: it was read to its end, or ended by the caller
 };
 
-/// Reads a bag to its end, to where it breaks off, or until `keep_going` returns false (is_whole is
-/// then false). Throws BrokenBag naming the file if it cannot be opened.
+/// Reads a bag to its end, to where it breaks off, or until `keep_going` returns false, which is
+/// asked while it reads, too (is_whole is then false). Throws BrokenBag naming the file if it
+/// cannot be opened.
 BagSurvey surveyBag(
     const std::filesystem::path& file,
     const std::function<bool()>& keep_going = [] { return true; });
