@@ -4,15 +4,15 @@
 
 #include <cstring>
 
+#include "Texts.h"
+
 namespace hagen::python {
 
 namespace py = pybind11;
 
 namespace {
 
-std::string shapeText(const py::array& array) {
-    return py::str(array.attr("shape")).cast<std::string>();
-}
+std::string shapeText(const py::array& array) { return textOf(array.attr("shape")); }
 
 /// Makes an array of what a caller has given. What this raises is the cause of a ValueError with
 /// `text`; an interruption, and that there is no memory, stay what they are.
@@ -29,12 +29,11 @@ Array converted(const py::object& values, const std::string& text) {
 
 /// Any object as an array; throws ValueError if it is none of real numbers.
 py::array numbersFrom(const py::object& values, const std::string& expected) {
-    const auto array =
-        converted<py::array>(values, "expected " + expected + ", not " +
-                                         py::str(py::type::of(values)).cast<std::string>());
+    const auto array = converted<py::array>(
+        values, "expected " + expected + ", not " + textOf(py::type::of(values)));
     if (std::strchr("fiub", array.dtype().kind()) == nullptr) {
         throw py::value_error("expected " + expected + ", not an array of dtype " +
-                              py::str(array.dtype()).cast<std::string>());
+                              textOf(array.dtype()));
     }
     return array;
 }
@@ -107,9 +106,8 @@ std::vector<Label> labelsFrom(const py::object& labels, const std::string& what)
     for (py::ssize_t i = 0; i < values.shape(0); ++i) {
         const double value = values(i);
         if (value != 0 && value != 1 && value != 2) {
-            throw py::value_error("expected " + expected + ", not " +
-                                  py::str(array[py::int_(i)]).cast<std::string>() + " at " +
-                                  std::to_string(i));
+            throw py::value_error("expected " + expected + ", not " + textOf(array[py::int_(i)]) +
+                                  " at " + std::to_string(i));
         }
         found[static_cast<std::size_t>(i)] = static_cast<Label>(static_cast<int>(value));
     }

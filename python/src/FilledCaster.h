@@ -9,6 +9,7 @@
 #include "PythonScan.h"
 #include "Recording.h"
 #include "Simulation.h"
+#include "Texts.h"
 
 // Objects of Python that hold none of C++, as __new__() alone makes them, and as __init__() of a
 // class derived from ours has them until it calls that of ours. For these, pybind11 would make up
@@ -29,7 +30,7 @@ class FilledCaster : public type_caster_base<T> {
  public:
     bool load(handle source, bool convert) {
         if (source && isEmpty(source, typeid(T))) {
-            throw type_error(str(type::handle_of(source).attr("__name__")).cast<std::string>() +
+            throw type_error(hagen::python::textOf(type::handle_of(source).attr("__name__")) +
                              ": the object is empty, as its constructor has not run");
         }
         return type_caster_base<T>::load(source, convert);

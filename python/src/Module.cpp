@@ -23,25 +23,24 @@
 #include "OthersRun.h"
 #include "Recording.h"
 #include "Simulation.h"
+#include "Texts.h"
 
 namespace py = pybind11;
 
 namespace hagen::python {
 namespace {
 
-std::string textOf(const py::object& value) { return py::str(value).cast<std::string>(); }
-
 /// Settings as of the flags -c, and single options.
 Settings settingsFrom(const py::args& names, const py::kwargs& options) {
     Settings settings;
-    const py::object fspath = py::module_::import("os").attr("fspath");
+    const py::object fsencode = py::module_::import("os").attr("fsencode");
     for (const auto& name : names) {
-        mergeSettings(presetFile(fspath(name).cast<std::string>()), settings);
+        mergeSettings(presetFile(fsencode(name).cast<std::string>()), settings);
     }
     for (const auto& [key, value] : options) {
-        std::string text = textOf(py::reinterpret_borrow<py::object>(value));
+        std::string text = textOf(value);
         if (py::isinstance<py::bool_>(value)) text = value.cast<bool>() ? "true" : "false";
-        setOption(key.cast<std::string>(), text, settings);
+        setOption(textOf(key), text, settings);
     }
     return settings;
 }
@@ -49,11 +48,14 @@ Settings settingsFrom(const py::args& names, const py::kwargs& options) {
 std::optional<Attitude> attitudeFrom(const py::object& attitude) {
     if (attitude.is_none()) return std::nullopt;
     const auto wrong = [&] {
-        return py::value_error("attitude: expected (roll, pitch) [rad], not " + textOf(attitude));
+        return py::value_error("attitude: expected (roll, pitch) [rad], each within +-2 pi, not " +
+                               textOf(attitude));
     };
+    constexpr double kMost_rad = 6.2832;  // 2 pi, and what float32 makes of it
+    const auto isAngle = [](double angle_rad) { return std::abs(angle_rad) <= kMost_rad; };
     try {
         const auto [roll_rad, pitch_rad] = attitude.cast<std::pair<double, double>>();
-        if (!std::isfinite(roll_rad) || !std::isfinite(pitch_rad)) throw wrong();
+        if (!isAngle(roll_rad) || !isAngle(pitch_rad)) throw wrong();
         return Attitude{static_cast<float>(roll_rad), static_cast<float>(pitch_rad)};
     } catch (const py::cast_error&) {
         throw wrong();
@@ -174,10 +176,12 @@ scan's first firing [s]. None if it is unknown.)")
         .def_readonly("time", &PythonScan::time_s, "Time of the scan [s since 1970].")
         .def_property_readonly(
             "sensor_label",
-            [](const PythonScan& scan) { return scan.recorded.observation->sensorLabel; },
-            "The label of the LiDAR in the recording.")
+            [](const PythonScan& scan) {
+                return shownText(scan.recorded.observation->sensorLabel);
+            },
+            "The label of the LiDAR in the recording; bytes that are no UTF-8 are U+FFFD.")
         .def_property_readonly(
-            "sensor", [](const PythonScan& scan) { return scan.sensor.name; },
+            "sensor", [](const PythonScan& scan) { return shownText(scan.sensor.name); },
             R"(The model of the sensor, such as 'VLP-16'; 'recovered' if the beams are those that the
 clouds show.)")
         .def_property_readonly("pose", &poseOf,
@@ -189,10 +193,11 @@ horizon [rad]; None if they are unknown. See Filter.segment().)")
             "entry", [](const PythonScan& scan) { return scan.recorded.entry; },
             "The index of its entry in the recording.")
         .def_property_readonly(
-            "name", [](const PythonScan& scan) { return scan.recorded.name; },
+            "name", [](const PythonScan& scan) { return fileText(scan.recorded.name); },
             "The name of its file, without extension; empty for rawlogs, captures and bags.")
-        .def_readonly("remark", &PythonScan::remark,
-                      "What the user should know of this scan; may be empty.")
+        .def_property_readonly(
+            "remark", [](const PythonScan& scan) { return shownText(scan.remark); },
+            "What the user should know of this scan; may be empty.")
         .def_readonly("truth", &PythonScan::truth, R"((N,) uint8: true labels of a simulated scan:
 terrain and canopy are ROU, dust and the vehicle's own parts are unclassified, everything else is
 RoI at any range. Otherwise None.)")
@@ -207,9 +212,9 @@ simulated scene; 0: none. Otherwise None.)")
 of a simulated scene [m]; otherwise None.)")
         .def("__len__", [](const PythonScan& scan) { return scan.xyz.shape(0); })
         .def("__repr__", [](const PythonScan& scan) {
-            return "<hagen.Scan: " + std::to_string(scan.xyz.shape(0)) + " returns of '" +
-                   scan.recorded.observation->sensorLabel + "' (" + scan.sensor.name + "), entry " +
-                   std::to_string(scan.recorded.entry) + ">";
+            return shownText("<hagen.Scan: " + std::to_string(scan.xyz.shape(0)) + " returns of '" +
+                             scan.recorded.observation->sensorLabel + "' (" + scan.sensor.name +
+                             "), entry " + std::to_string(scan.recorded.entry) + ">");
         });
 }
 
@@ -258,10 +263,12 @@ labels           uint8, as for returns
 components       int32: obstacles, numbered from the nearest
 height_m         height above the ground surface; only if there is one
 tolerance_m      pixels up to this height are ground; only if there is a surface)")
-        .def_readonly("sensor", &Segmented::sensor,
-                      "The model of the sensor; 'recovered' if the scans have shown its beams.")
-        .def_readonly("remark", &Segmented::remark,
-                      "What the user should know of this scan; may be empty.")
+        .def_property_readonly(
+            "sensor", [](const Segmented& segmented) { return shownText(segmented.sensor); },
+            "The model of the sensor; 'recovered' if the scans have shown its beams.")
+        .def_property_readonly(
+            "remark", [](const Segmented& segmented) { return shownText(segmented.remark); },
+            "What the user should know of this scan; may be empty.")
         .def("__len__", [](const Segmented& segmented) { return segmented.scan.size(); })
         .def("__repr__", [](const Segmented& segmented) {
             const LabelledReturns& returns = segmented.result.returns;
@@ -300,16 +307,18 @@ hagen.simulate(), which comes with its own sensor, beams, tilt and mount, as in 
 attitude: (roll, pitch) of the sensor against the horizon [rad], if known: pitch about y, nose down
 positive, then roll about x, left side up positive. A sensor may be mounted at any angle if it is.
 
-Raises ValueError if the shape is another one. Other threads run meanwhile.)")
+Raises ValueError if the shape is another one, or an angle is beyond +-2 pi. Other threads run
+meanwhile.)")
         .def_property_readonly(
-            "sensor", [](const Filter& filter) { return filter.sensor().name; },
+            "sensor", [](const Filter& filter) { return shownText(filter.sensor().name); },
             "The model of the sensor; 'recovered' if the scans have shown its beams.")
         .def_property_readonly(
             "elevations_rad",
             [](const Filter& filter) { return copied(filter.sensor().elevations_rad); },
             "(rows,) float32: the elevation of each beam, from the lowest [rad].")
         .def_property_readonly(
-            "settings", [](const Filter& filter) { return dumpSettings(filter.settings()); },
+            "settings",
+            [](const Filter& filter) { return shownText(dumpSettings(filter.settings())); },
             "All settings as a settings file, with each key's unit and meaning in a comment.");
 }
 
@@ -341,13 +350,15 @@ void defineSources(py::module_& m) {
                  if (!scan) throw py::stop_iteration();
                  return std::move(*scan);
              })
-        .def_property_readonly("poses", &Recording::poseSource,
-                               "Where its poses are from; empty: there are none.")
-        .def_property_readonly("remarks", &Recording::remarks,
-                               R"(What the user should know of the recording as a whole, such as
+        .def_property_readonly(
+            "poses", [](const Recording& recording) { return shownText(recording.poseSource()); },
+            "Where its poses are from; empty: there are none.")
+        .def_property_readonly(
+            "remarks", [](const Recording& recording) { return shownTexts(recording.remarks()); },
+            R"(What the user should know of the recording as a whole, such as
 packets that are missing; complete after the last scan.)")
         .def("__repr__", [](const Recording& recording) {
-            return "<hagen.Recording: " + recording.file().string() + ">";
+            return shownText("<hagen.Recording: " + recording.file().string() + ">");
         });
 
     py::class_<Simulation>(m, "Simulation", "A simulated flight: an iterator of its scans.")
@@ -427,13 +438,20 @@ PYBIND11_MODULE(_hagen, m) {
     m.attr("ROU") = static_cast<int>(Label::Rou);
     m.attr("ROI") = static_cast<int>(Label::Roi);
     py::register_exception<SettingsError>(m, "SettingsError", PyExc_ValueError);
+    showErrorTexts();
     defineScan(m);
     defineResult(m);
     defineFilter(m);
     defineSources(m);
     defineScores(m);
     m.def(
-        "presets", [] { return presetNames(isSettingsFile); },
+        "presets",
+        [] {
+            py::list names;
+            for (const std::string& name : presetNames(isSettingsFile))
+                names.append(fileText(name));
+            return names;
+        },
         "The names of the presets that Filter() knows.");
     m.def("_times_without_python", &timesWithoutPython, py::arg("filter"), py::arg("xyz"),
           py::arg("runs"));

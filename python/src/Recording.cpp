@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "OthersRun.h"
+#include "Texts.h"
 
 namespace hagen::python {
 
@@ -40,7 +41,8 @@ Recording::Recording(const std::filesystem::path& file, logs::SourceOptions opti
     std::error_code error;
     for (const auto& needed : {file, poses}) {
         if (needed.empty() || std::filesystem::exists(needed, error)) continue;
-        PyErr_SetString(PyExc_FileNotFoundError, (needed.string() + ": no such file").c_str());
+        PyErr_SetObject(PyExc_FileNotFoundError,
+                        shownText(needed.string() + ": no such file").ptr());
         throw py::error_already_set();
     }
     options.keep_going = hasNoSignal;

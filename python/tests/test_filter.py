@@ -303,10 +303,22 @@ def test_an_error_while_an_array_is_made_is_the_cause():
     assert isinstance(raised.value.__cause__, ZeroDivisionError)
 
 
-@pytest.mark.parametrize("attitude", [1.0, (1, 2, 3), "level", (np.nan, 0), (0, np.inf)])
+@pytest.mark.parametrize(
+    "attitude",
+    [1.0, (1, 2, 3), "level", (np.nan, 0), (0, np.inf), (1e300, 0), (0, -1e39), (6.3, 0), (0, 90)],
+)
 def test_wrong_attitudes_are_refused(attitude):
-    with pytest.raises(ValueError, match=r"attitude: expected \(roll, pitch\) \[rad\]"):
+    with pytest.raises(ValueError, match=r"attitude: expected \(roll, pitch\) \[rad\].*\+-2 pi"):
         hagen.Filter("vlp16").segment(np.zeros((5, 3)), attitude=attitude)
+
+
+def test_a_whole_turn_is_an_attitude():
+    points, _ = ground_and_pillar()
+    segmenter = hagen.Filter("vlp16")
+    expected = segmenter.segment(points, attitude=(0, 0)).labels
+    for turn_rad in (2 * np.pi, np.float32(-2 * np.pi)):
+        found = segmenter.segment(points, attitude=(turn_rad, 0)).labels
+        assert np.mean(found == expected) > 0.99
 
 
 def test_wrong_settings_are_refused(tmp_path):
@@ -316,6 +328,10 @@ def test_wrong_settings_are_refused(tmp_path):
         hagen.Filter("vlp16", beta=7)
     with pytest.raises(hagen.SettingsError, match="zone_m"):
         hagen.Filter("vlp16", zone_m="far")
+    with pytest.raises(hagen.SettingsError, match="zone_m"):
+        hagen.Filter("vlp16", zone_m="\ud800")
+    with pytest.raises(hagen.SettingsError, match="zone"):
+        hagen.Filter("vlp16", **{"zone\ud800": 1})
     broken = tmp_path / "broken.yaml"
     broken.write_text("zone: 5\n")
     with pytest.raises(hagen.SettingsError, match="broken.yaml.*zone"):

@@ -90,6 +90,21 @@ def test_own_presets_go_first(tmp_path):
     assert "zone_m: 7 " in printed and "VLP-16" in printed
 
 
+def test_presets_may_have_names_that_are_no_utf_8(tmp_path):
+    (tmp_path / os.fsdecode(b"m\xffne.yaml")).write_text("zone_m: 7\n")
+    code = """
+import os, hagen
+name = os.fsdecode(b'm\\xffne')
+assert name in hagen.presets()
+print(hagen.Filter(name).settings)
+"""
+    environment = {**os.environ, "HAGEN_CONFIG_PATH": str(tmp_path)}
+    printed = subprocess.run(
+        [sys.executable, "-c", code], env=environment, check=True, capture_output=True, text=True
+    ).stdout
+    assert "zone_m: 7 " in printed
+
+
 @pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
 def test_examples_draw(example, tmp_path):
     pytest.importorskip("matplotlib")

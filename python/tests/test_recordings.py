@@ -1,4 +1,5 @@
 """hagen.open(). Oracle: rawlog-segment on the same recording."""
+import gzip
 import os
 import signal
 import struct
@@ -111,6 +112,39 @@ def test_what_cannot_be_read_is_named(tmp_path):
         hagen.open(POLES, topics=["/points"])
     with pytest.raises(TypeError):
         hagen.open(7)
+
+
+def test_texts_that_are_no_utf_8_are_shown(tmp_path):
+    """A sensor label, and a file name, from whoever made them."""
+    recording = tmp_path / os.fsdecode(b"fl\xffght.rawlog")
+    recording.write_bytes(gzip.decompress(POLES.read_bytes()).replace(b"lidar", b"lid\xffr"))
+    scans = hagen.open(recording)
+    scan = next(scans)
+    assert scan.sensor_label == "lid\ufffdr"
+    assert "lid\ufffdr" in repr(scan) and "fl\ufffdght.rawlog" in repr(scans)
+    assert isinstance(scans.remarks, list) and isinstance(scans.poses, str)
+    assert scan.remark == "" and hagen.Filter().segment(scan).remark == ""
+
+
+def test_names_of_files_that_are_no_utf_8_can_be_used_again(tmp_path):
+    name = os.fsdecode(b"cl\xffud")
+    np.save(tmp_path / f"{name}.npy", next(hagen.open(ORCHARD)).xyz)
+    for file in (tmp_path / f"{name}.npy", os.fsencode(tmp_path / f"{name}.npy")):
+        assert next(hagen.open(file)).name == name
+
+
+def test_errors_name_files_whose_names_are_no_utf_8(tmp_path):
+    folder = os.fsencode(tmp_path)
+    with pytest.raises(FileNotFoundError, match="none\ufffd.pcd: no such file"):
+        hagen.open(folder + b"/none\xff.pcd")
+    (tmp_path / os.fsdecode(b"bad\xff.pcd")).write_text("# .PCD v0.7\nFIELDS x\n")
+    with pytest.raises(RuntimeError, match="bad\ufffd.pcd: .+"):
+        next(hagen.open(folder + b"/bad\xff.pcd"))
+    (tmp_path / os.fsdecode(b"bad\xff.yaml")).write_text("zone: 5\n")
+    with pytest.raises(hagen.SettingsError, match="bad\ufffd.yaml.*zone"):
+        hagen.Filter(folder + b"/bad\xff.yaml")
+    with pytest.raises(hagen.SettingsError, match="none\ufffd.yaml"):
+        hagen.Filter(os.fsdecode(folder + b"/none\xff.yaml"))
 
 
 def test_a_broken_recording_ends_with_an_error_after_its_scans(tmp_path):
