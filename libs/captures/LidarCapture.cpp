@@ -11,25 +11,32 @@ namespace hagen::captures {
 namespace {
 
 /// Whether the first datagrams have points of a Livox. What cannot be read is reported later.
-bool isOfLivox(const std::filesystem::path& file) {
+bool isOfLivox(const std::filesystem::path& file, const std::function<void()>& check) {
     constexpr int kDatagrams = 1000;
+    constexpr std::size_t kMostFrames = 1000000;
+    struct TooManyFrames {};
     packets::CaptureFile capture(file);
+    // A search without end would be one for a datagram that is not there.
+    capture.checkWhileReading([&] {
+        if (check) check();
+        if (capture.counts().frames >= kMostFrames) throw TooManyFrames();
+    });
     packets::Datagram datagram;
     try {
         for (int i = 0; i < kDatagrams && capture.next(datagram); ++i) {
             if (packets::livoxPacketOf(datagram)) return true;
         }
     } catch (const packets::BrokenCapture&) {
+    } catch (const TooManyFrames&) {
     }
     return false;
 }
 
-}  // namespace
-
-std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
-                                          const std::filesystem::path& sensor_json,
-                                          const std::filesystem::path& calibration) {
-    const bool is_velodyne = sensor_json.empty() && !isOfLivox(file);
+std::unique_ptr<LidarCapture> openKind(const std::filesystem::path& file,
+                                       const std::filesystem::path& sensor_json,
+                                       const std::filesystem::path& calibration,
+                                       const std::function<void()>& check) {
+    const bool is_velodyne = sensor_json.empty() && !isOfLivox(file, check);
     if (!calibration.empty() && !is_velodyne) {
         throw std::runtime_error(file.string() + ": is read as a capture of " +
                                  (sensor_json.empty() ? "a Livox" : "an Ouster") + ", which " +
@@ -38,6 +45,17 @@ std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
     if (!sensor_json.empty()) return std::make_unique<OusterCapture>(file, sensor_json);
     if (!is_velodyne) return std::make_unique<LivoxCapture>(file);
     return std::make_unique<VelodyneCapture>(file, calibration);
+}
+
+}  // namespace
+
+std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
+                                          const std::filesystem::path& sensor_json,
+                                          const std::filesystem::path& calibration,
+                                          const std::function<void()>& check) {
+    auto capture = openKind(file, sensor_json, calibration, check);
+    if (check) capture->checkWhileReading(check);
+    return capture;
 }
 
 }  // namespace hagen::captures

@@ -139,11 +139,25 @@ PacketSource::Next UdpSource::next(Packet& packet) {
 }
 
 ReplaySource::ReplaySource(const std::filesystem::path& file, double speed)
-    : capture_(file), speed_(speed) {}
+    : capture_(file), speed_(speed) {
+    capture_.checkWhileReading([this] {
+        if (steadyNow_s() - search_start_s_ > kLongestWait_s) throw NoneYet();
+    });
+}
+
+/// Reads the next datagram; false at the end. Throws NoneYet if many frames are none.
+bool ReplaySource::readWaiting() {
+    search_start_s_ = steadyNow_s();
+    return capture_.next(waiting_);
+}
 
 PacketSource::Next ReplaySource::next(Packet& packet) {
     if (!has_waiting_) {
-        if (!capture_.next(waiting_)) return Next::End;
+        try {
+            if (!readWaiting()) return Next::End;
+        } catch (const NoneYet&) {
+            return Next::Nothing;
+        }
         has_waiting_ = true;
         if (!latest_ns_) start_s_ = steadyNow_s();
         const double pause_s =

@@ -9,9 +9,8 @@ namespace hagen::logs {
 CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
     : ScanSource(options),
       file_(capture),
-      capture_(captures::openCapture(capture, options.sensor_json, options.calibration)) {
-    capture_->checkWhileReading([this] { checkInterruption(); });
-}
+      capture_(captures::openCapture(capture, options.sensor_json, options.calibration,
+                                     [this] { checkInterruption(); })) {}
 
 std::optional<RecordedEntry> CaptureSource::nextEntry() {
     while (turns_ <= options_.last_entry) {
@@ -39,8 +38,8 @@ std::optional<RecordedEntry> CaptureSource::nextEntry() {
 RawlogSurvey CaptureSource::survey() {
     RawlogSurvey survey;
     std::size_t turns = 0;
-    const auto ahead = captures::openCapture(file_, options_.sensor_json, options_.calibration);
-    ahead->checkWhileReading([this] { checkInterruption(); });
+    const auto ahead = captures::openCapture(file_, options_.sensor_json, options_.calibration,
+                                             [this] { checkInterruption(); });
     try {
         while (const auto turn = ahead->nextScan()) {
             checkInterruption();

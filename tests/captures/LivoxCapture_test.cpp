@@ -5,6 +5,7 @@
 #include <hagen/observations/ObservationScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -67,6 +68,21 @@ class LivoxCaptureTest : public testing::Test {
     std::string broken_;
     std::vector<std::string> remarks_;
 };
+
+TEST_F(LivoxCaptureTest, TheKindOfACaptureIsNotSearchedForWithoutEnd) {
+    const auto file = CaptureWriter().write(folder_ / "a.pcap");
+    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without bytes
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_TRUE(openCapture(file));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+    struct Ended {};
+    int calls = 0;
+    const auto check = [&] {
+        if (++calls > 2) throw Ended();
+    };
+    EXPECT_THROW(openCapture(file, {}, {}, check), Ended);
+    EXPECT_EQ(calls, 3);
+}
 
 TEST_F(LivoxCaptureTest, PointsOfBothKindsOfData) {
     const std::vector<Point> points{{1500, -2500, 250, 51}, {0, 0, 0, 9}, {-3000, 4000, -20, 255}};

@@ -152,6 +152,20 @@ TEST(ReplaySource, PacketsComeAsTheyWereRecorded) {
     }
 }
 
+/// Whoever reads must be able to stop in a file of nothing but frames that are no datagrams.
+TEST(ReplaySource, LongSearchesGoOnWithTheNextCall) {
+    const test::TemporaryFolder folder;
+    const auto file = test::CaptureWriter().write(folder / "a.pcap");
+    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without bytes
+    ReplaySource source(file, 1);
+    Packet packet;
+    for (int i = 0; i < 2; ++i) {
+        const double start_s = steadyNow_s();
+        EXPECT_EQ(source.next(packet), Next::Nothing);
+        EXPECT_LT(steadyNow_s() - start_s, 2);
+    }
+}
+
 /// A clock that is set is no pause, nor are hours without a sensor.
 TEST(ReplaySource, PausesOfHoursAreNotWaitedFor) {
     const test::TemporaryFolder folder;

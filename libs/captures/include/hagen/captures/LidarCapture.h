@@ -32,9 +32,12 @@ class LidarCapture {
 
 /// Opens a capture of Velodyne sensors, or of the Ouster whose metadata file is given.
 /// `calibration` is of an HDL-64E. Throws std::runtime_error naming the file that cannot be opened
-/// or is none, and if a calibration is given for another kind of sensor.
+/// or is none, and if a calibration is given for another kind of sensor. The kind of sensor is
+/// known by the first packets: what `check` throws meanwhile ends it. The capture that is returned
+/// calls it, too, as by checkWhileReading().
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json = {},
-                                          const std::filesystem::path& calibration = {});
+                                          const std::filesystem::path& calibration = {},
+                                          const std::function<void()>& check = {});
 
 }  // namespace hagen::captures

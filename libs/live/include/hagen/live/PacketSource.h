@@ -66,10 +66,14 @@ class ReplaySource : public PacketSource {
     bool isLive() const override { return false; }
 
  private:
+    struct NoneYet {};
+    bool readWaiting();
+
     packets::CaptureFile capture_;
     double speed_;
     packets::Datagram waiting_;
     bool has_waiting_ = false;
+    double search_start_s_ = 0;
     std::optional<std::int64_t> latest_ns_;
     double start_s_ = 0, played_s_ = 0;  ///< of the capture, without its longest pauses
 };

@@ -55,7 +55,7 @@ class CaptureFile {
     bool next(Datagram& datagram);
 
     /// Calls `check` after each kFramesPerCheck frames: what it throws ends next(), which may read
-    /// a whole file in search of a datagram.
+    /// a whole file in search of a datagram, and can then be called again.
     void checkWhileReading(const std::function<void()>& check);
     static constexpr std::size_t kFramesPerCheck = 1024;
 
