@@ -8,10 +8,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <string>
 
+// Labels, frames and names are from the recording: they go to std::cout, which keepTerminalSafe()
+// guards, never to printf().
 namespace {
 
 using hagen::logs::Conversion;
@@ -53,14 +56,13 @@ void printEntries(const Conversion& conversion, const ConversionReport& report) 
     const std::size_t last = report.left_out_before + report.entries - 1;
     // A recording that ends before --to has no entries behind it.
     const bool is_cut = report.left_out_before > 0 || last == conversion.to;
-    std::printf("%s in %s%s, %zu returns:\n",
-                counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
-                counted(report.entries, "entry", "entries").c_str(),
-                is_cut ? (" (" + std::to_string(report.left_out_before) + " to " +
-                          std::to_string(last) + " of the input; others are skipped)")
-                             .c_str()
-                       : "",
-                report.returns);
+    std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " in "
+              << counted(report.entries, "entry", "entries");
+    if (is_cut) {
+        std::cout << " (" << report.left_out_before << " to " << last
+                  << " of the input; others are skipped)";
+    }
+    std::cout << ", " << report.returns << " returns:\n";
 }
 
 /// Why some scans have no attitude; empty if all have one.
@@ -82,7 +84,8 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         const double share = report.returns == 0 ? 0.0
                                                  : 100.0 * static_cast<double>(part) /
                                                        static_cast<double>(report.returns);
-        std::printf("  %9zu  %5.1f %%  %s\n", part, share, what.c_str());
+        std::cout << "  " << std::setw(9) << part << "  " << std::setw(5)
+                  << hagen::base::fixedText(share, 1) << " %  " << what << "\n";
     };
     char zone[32];
     std::snprintf(zone, sizeof zone, "%g", static_cast<double>(report.settings.options.zone_m));
@@ -93,33 +96,31 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         line(report.returns_masked, "  of these: the airframe, masked as the settings say");
     }
     if (report.unreadable_scans > 0) {
-        std::printf("%s could not be read, kept unchanged\n",
-                    counted(report.unreadable_scans, "scan", "scans").c_str());
+        std::cout << counted(report.unreadable_scans, "scan", "scans")
+                  << " could not be read, kept unchanged\n";
     }
     if (report.results_replaced > 0) {
-        std::printf("%s of an earlier run replaced\n",
-                    counted(report.results_replaced, "result", "results").c_str());
+        std::cout << counted(report.results_replaced, "result", "results")
+                  << " of an earlier run replaced\n";
     }
     for (const auto& [label, sensor] : report.sensors) {
-        std::cout << "sensor " << label << ": " << sensor
-                  << "\n";  // from the log: keepTerminalSafe()
+        std::cout << "sensor " << label << ": " << sensor << "\n";
     }
     if (!report.poses.empty()) {
-        std::printf("poses of %zu of %s: %s\n", report.scans_with_pose,
-                    counted(report.scans, "scan", "scans").c_str(), report.poses.c_str());
+        std::cout << "poses of " << report.scans_with_pose << " of "
+                  << counted(report.scans, "scan", "scans") << ": " << report.poses << "\n";
     }
     if (!conversion.octomaps.empty()) {
-        std::printf("in the OctoMap: %zu of %s\n", report.scans_in_map,
-                    counted(report.scans, "scan", "scans").c_str());
+        std::cout << "in the OctoMap: " << report.scans_in_map << " of "
+                  << counted(report.scans, "scan", "scans") << "\n";
     }
     if (report.scans_with_attitude > 0 && report.settings.options.level_by_attitude) {
-        std::printf("gravity-aligned by the vehicle's attitude: %zu of %s%s\n",
-                    report.scans_with_attitude, counted(report.scans, "scan", "scans").c_str(),
-                    whyNotAll(report).c_str());
+        std::cout << "gravity-aligned by the vehicle's attitude: " << report.scans_with_attitude
+                  << " of " << counted(report.scans, "scan", "scans") << whyNotAll(report) << "\n";
     }
     const auto output = [](const char* what, const std::filesystem::path& path) {
         if (path.empty()) return;
-        std::printf("%s: %s (%s)\n", what, path.c_str(), sizeText(path).c_str());
+        std::cout << what << ": " << path.string() << " (" << sizeText(path) << ")\n";
     };
     output("segmented rawlog", conversion.rawlog);
     if (report.scans > 0) {  // otherwise there are no folders
@@ -127,14 +128,15 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         output("pictures", conversion.pictures);
     }
     if (report.clouds > 0) {
-        std::printf("labelled clouds: %s (%s, %s, %zu points)\n", conversion.clouds.c_str(),
-                    sizeText(conversion.clouds).c_str(),
-                    counted(report.clouds, "file", "files").c_str(), report.cloud_points);
+        std::cout << "labelled clouds: " << conversion.clouds.string() << " ("
+                  << sizeText(conversion.clouds) << ", " << counted(report.clouds, "file", "files")
+                  << ", " << report.cloud_points << " points)\n";
     }
     if (report.mcap.scans > 0) {
-        std::printf("MCAP: %s (%s, %zu points, %s, %zu messages)\n", conversion.mcap.c_str(),
-                    counted(report.mcap.scans, "scan", "scans").c_str(), report.mcap.points,
-                    counted(report.mcap.boxes, "box", "boxes").c_str(), report.mcap.messages);
+        std::cout << "MCAP: " << conversion.mcap.string() << " ("
+                  << counted(report.mcap.scans, "scan", "scans") << ", " << report.mcap.points
+                  << " points, " << counted(report.mcap.boxes, "box", "boxes") << ", "
+                  << report.mcap.messages << " messages)\n";
     }
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);
@@ -142,28 +144,28 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
 
 void printAirframe(const hagen::logs::AirframeLearning& learning,
                    const hagen::logs::AirframeReport& report) {
-    std::printf("%s of '%s':\n", counted(report.scans, "LiDAR scan", "LiDAR scans").c_str(),
-                report.sensor_label.c_str());
-    std::printf("  %s masked: %.2f %% of the sphere, %.2f %% of the directions with returns\n",
-                counted(static_cast<std::size_t>(report.bins), "bin", "bins").c_str(),
-                100 * report.share_of_sphere, 100 * report.share_of_seen);
+    const auto percent = [](double share) { return hagen::base::fixedText(100 * share, 2) + " %"; };
+    std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " of '"
+              << report.sensor_label << "':\n  "
+              << counted(static_cast<std::size_t>(report.bins), "bin", "bins")
+              << " masked: " << percent(report.share_of_sphere) << " of the sphere, "
+              << percent(report.share_of_seen) << " of the directions with returns\n";
     if (report.unreadable_scans > 0) {
-        std::printf("%s could not be read and left out\n",
-                    counted(report.unreadable_scans, "scan", "scans").c_str());
+        std::cout << counted(report.unreadable_scans, "scan", "scans")
+                  << " could not be read and left out\n";
     }
-    std::printf("airframe: %s\npicture: %s\n", learning.file.c_str(), report.picture.c_str());
-    std::fflush(stdout);
-    const char* const input = learning.input.c_str();
+    std::cout << "airframe: " << learning.file.string() << "\npicture: " << report.picture.string()
+              << "\n"
+              << std::flush;
+    const std::string input = learning.input.string();
     if (report.bins == 0) {
-        std::fprintf(stderr, "%s: nothing near the sensor stays at its place: no mask is needed\n",
-                     input);
+        std::cerr << input << ": nothing near the sensor stays at its place: no mask is needed\n";
     }
     if (report.isSuspicious()) {
-        std::fprintf(stderr,
-                     "%s: WARNING: more than 20 %% is masked. A wall beside a standing vehicle "
-                     "looks like this: fly or turn, or skip the time on the ground with --from. "
-                     "Look at %s before you use it\n",
-                     input, report.picture.c_str());
+        std::cerr << input
+                  << ": WARNING: more than 20 % is masked. A wall beside a standing vehicle looks "
+                     "like this: fly or turn, or skip the time on the ground with --from. Look at "
+                  << report.picture.string() << " before you use it\n";
     }
 }
 
@@ -181,10 +183,9 @@ void printSettingsKeys() {
     }
     const auto print = [&](const Row& row, char fill) {
         for (std::size_t i = 0; i < row.size(); ++i) {
-            std::printf("| %s%s ", row[i].c_str(),
-                        std::string(widths[i] - row[i].size(), fill).c_str());
+            std::cout << "| " << row[i] << std::string(widths[i] - row[i].size(), fill) << " ";
         }
-        std::printf("|\n");
+        std::cout << "|\n";
     };
     print(rows[0], ' ');
     print({}, '-');

@@ -213,6 +213,21 @@ TEST_F(RawlogSegmentTrouble, LabelsSendNoControlCharactersBeyondAscii) {
     EXPECT_THAT(outcome.err, HasSubstr("Ö\xc2?2J?2J\u65e5"));
 }
 
+/// The summary of a sensor, and that of an airframe.
+TEST_F(RawlogSegmentTrouble, SummariesSendNothingToTheTerminal) {
+    const auto log = logOf(folder_, 12, [](int, CObservationVelodyneScan& scan) {
+        scan.sensorLabel =
+            "a\x1b]0;b\x07\xc2\x9b"
+            "c";
+    });
+    const auto segmented = run({"-i", log, "-o", path("out.rawlog")});
+    EXPECT_EQ(segmented.exit_code, 0) << segmented.err;
+    EXPECT_THAT(segmented.out, HasSubstr("sensor a?]0;b?\xc2?c: VLP-16"));
+    const auto learned = run({"-i", log, "--learn-airframe", path("air.yaml"), "-c", "vlp16"});
+    EXPECT_EQ(learned.exit_code, 0) << learned.err;
+    EXPECT_THAT(learned.out, HasSubstr("12 LiDAR scans of 'a?]0;b?\xc2?c':\n"));
+}
+
 /// To open a pipe may take forever, and a device may have no end.
 TEST_F(RawlogSegmentTrouble, PipesAndDevicesAreRefusedAsAnyInput) {
     ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
