@@ -67,6 +67,7 @@ class Planner {
         : file_(file), survey_(survey), options_(options), frames_(survey.frames) {}
 
     BagPlan plan() && {
+        if (options_.topics.empty()) checkNumberOfLidars();
         choosePoses();
         if (options_.topics.empty()) {
             chooseAll();
@@ -87,6 +88,16 @@ class Planner {
     }
 
     // Topics.
+
+    /// Each is compared with the others.
+    void checkNumberOfLidars() const {
+        const auto lidars = std::count_if(
+            survey_.topics.begin(), survey_.topics.end(),
+            [](const Topic& topic) { return topic.kind != LidarKind::None && topic.messages > 0; });
+        if (static_cast<std::size_t>(lidars) <= kMostLidarTopics) return;
+        fail("has " + std::to_string(lidars) + " topics of LiDARs, more than " +
+             std::to_string(kMostLidarTopics) + "; name those to read with --topic");
+    }
 
     static std::string textOfKnownTypes() {
         return "sensor_msgs/PointCloud2, velodyne_msgs/VelodyneScan, PacketMsg of an Ouster, "

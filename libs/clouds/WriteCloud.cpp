@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -64,25 +65,42 @@ NumberType typeIn(const Limits& limits, NumberType type) {
     return is_unknown ? NumberType::Float64 : type;
 }
 
+/// Names for fields of which several may have the same: "a", "a_", "a__", "a_3", "a_4"...
+class UniqueNames {
+ public:
+    std::string of(const std::string& name) {
+        std::string unique = name;
+        // Where it ended before: many fields of one name would take the square of their number.
+        for (std::size_t& again = times_[name]; !names_.insert(unique).second;) {
+            ++again;
+            unique = name + (again <= 2 ? std::string(again, '_') : "_" + std::to_string(again));
+        }
+        return unique;
+    }
+
+ private:
+    std::set<std::string> names_;
+    std::map<std::string, std::size_t> times_;  ///< that a name was changed
+};
+
 std::vector<WrittenField> fieldsOf(const Limits& limits, const PointTable& table) {
     std::vector<WrittenField> fields;
     std::vector<const PointField*> coordinates;
+    UniqueNames names;
     for (const char* const name : {"x", "y", "z"}) {
         const PointField* const field = findField(table, {name});
         if (field == nullptr) throw std::runtime_error(std::string("a cloud has no ") + name);
         coordinates.push_back(field);
-        fields.push_back({name, coordinateType(table, *field), 1, *field, 0});
+        fields.push_back({names.of(name), coordinateType(table, *field), 1, *field, 0});
     }
-    std::set<std::string> names{"x", "y", "z"};
     for (const PointField& field : table.fields) {
         if (std::find(coordinates.begin(), coordinates.end(), &field) != coordinates.end())
             continue;
         const bool is_split = !limits.has_arrays && field.count > 1;
         for (std::size_t k = 0; k < (is_split ? field.count : 1); ++k) {
-            std::string name = asWord(field.name) + (is_split ? "_" + std::to_string(k) : "");
-            while (!names.insert(name).second) name += "_";
+            const std::string name = asWord(field.name) + (is_split ? "_" + std::to_string(k) : "");
             fields.push_back(
-                {name, typeIn(limits, field.type), is_split ? 1 : field.count, field, k});
+                {names.of(name), typeIn(limits, field.type), is_split ? 1 : field.count, field, k});
         }
     }
     return fields;

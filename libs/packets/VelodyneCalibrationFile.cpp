@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 4 << 20;
 constexpr std::size_t kMostDepth = 32;
+constexpr std::size_t kMostName = 64;  // letters; a path is made of them for each element
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
@@ -60,7 +61,13 @@ class Elements {
                 names_.pop_back();
                 return true;
             }
-            names_.emplace_back(tag.substr(1, tag.find_first_of(" \t\r\n/>", 1) - 1));
+            const std::string_view name = tag.substr(1, tag.find_first_of(" \t\r\n/>", 1) - 1);
+            if (name.size() > kMostName) {
+                throw std::runtime_error("the name '" + std::string(name.substr(0, 40)) +
+                                         "...' of an element has more than " +
+                                         std::to_string(kMostName) + " letters");
+            }
+            names_.emplace_back(name);
             if (names_.size() > kMostDepth) throw std::runtime_error("it is nested too deeply");
             if (tag[tag.size() - 2] == '/') {
                 path = pathOf();

@@ -65,6 +65,24 @@ INSTANTIATE_TEST_SUITE_P(Files, Fixture,
                              return name;
                          });
 
+TEST(BagScans, AHundredLidarTopicsAreReadAndMoreMustBeNamed) {
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "many.mcap";
+    std::vector<SentMessage> messages;
+    for (std::size_t i = 0; i < kMostLidarTopics; ++i) {
+        const std::string name = "/points_" + std::to_string(i);
+        messages.push_back(test::cloudMessage(name, kStart_s, "lidar", {1, 2, 3, 4}));
+    }
+    test::writeBytes(file, test::mcapOf(messages));
+    EXPECT_EQ(readBag(file).labels().size(), kMostLidarTopics);
+    messages.push_back(test::cloudMessage("/another", kStart_s, "lidar", {1, 2, 3, 4}));
+    test::writeBytes(file, test::mcapOf(messages));
+    EXPECT_THAT(
+        readBag(file).failed_because,
+        HasSubstr("many.mcap: has 101 topics of LiDARs, more than 100; name those to read"));
+    EXPECT_EQ(readBag(file, {{"/another"}, {}}).of("another").size(), 1u);
+}
+
 TEST_P(Fixture, EachMessageOfEachTypeHasItsNumbers) {
     // Metadata that are none are an error only of who needs them.
     const BagOptions options{{"/cloud", "organised", "/livox", "/livox1", "/velodyne_packets"}, {}};

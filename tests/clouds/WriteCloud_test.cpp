@@ -3,9 +3,11 @@
 #include <hagen/clouds/CloudFile.h>
 #include <hagen/clouds/WriteCloud.h>
 
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "support/Program.h"
@@ -98,6 +100,31 @@ TEST_P(WriteCloudTest, NamesThatBecomeTheSameAreToldApart) {
     addColumn("my_ring", NumberType::UInt8, {3, 4}, table);
     const CloudFile cloud = writeAndRead(table);
     EXPECT_THAT(column(cloud, "my_ring_"), ElementsAre(3, 4));
+}
+
+TEST(WriteCloudNames, ManyThatBecomeTheSameAreToldApartInTime) {
+    PointTable table;
+    table.points = 1;
+    for (const char* const name : {"x", "y", "z", "a_4"}) {
+        addColumn(name, NumberType::UInt8, {1}, table);
+    }
+    constexpr std::size_t kFields = 10000;
+    for (std::size_t i = 0; i < kFields; ++i) {
+        table.fields.push_back({"a", NumberType::UInt8, 0, 1});
+    }
+    const std::clock_t start = std::clock();
+    const PointTable written = tableForPointCloud2(table);
+    // A twentieth of a second; a minute if each name is tried from its start.
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5);
+    std::vector<std::string> names;
+    std::set<std::string> different;
+    for (const auto& field : written.fields) {
+        names.push_back(field.name);
+        different.insert(field.name);
+    }
+    EXPECT_EQ(different.size(), kFields + 4);
+    names.resize(9);
+    EXPECT_THAT(names, ElementsAre("x", "y", "z", "a_4", "a", "a_", "a__", "a_3", "a_5"));
 }
 
 TEST_P(WriteCloudTest, NoPointsAreAFile) {

@@ -160,6 +160,13 @@ TEST(Hdl64, AWrongCalibrationIsNamedWithTheReason) {
     std::string deep;
     for (int i = 0; i < 100000; ++i) deep += "<a>";
     EXPECT_THAT(errorOf(deep), saysOf("nested too deeply"));
+    const std::string longest(64, 'a'), name(2000000, 'a');
+    EXPECT_THAT(errorOf("<" + longest + ">"), saysOf("ends within " + longest));
+    std::string within;
+    for (int i = 0; i < 250000; ++i) within += "<b/>";
+    const std::string error = errorOf("<" + name + ">" + within);
+    EXPECT_THAT(error, saysOf("aaa...' of an element has more than 64 letters"));
+    EXPECT_LT(error.size(), 400u);
     EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>8</id_>")),
                 saysOf("laser 8 is there twice"));
     EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_/>")), saysOf("no id_"));

@@ -3,6 +3,7 @@
 #include <hagen/packets/OusterSensor.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -34,6 +35,8 @@ struct BagPlan {
     std::vector<std::string> remarks;  ///< what is not read, and why
 };
 
+constexpr std::size_t kMostLidarTopics = 100;  ///< read without being named
+
 /// Plans what to read.
 ///
 /// Without BagOptions::topics, it is every LiDAR topic, but of a sensor that sent both packets and
@@ -49,7 +52,8 @@ struct BagPlan {
 /// without poses the frame on which a sensor hangs in the end.
 ///
 /// Throws std::runtime_error naming the file if a topic is not there or is not a LiDAR's, if none
-/// is, or if metadata of an Ouster are missing or wrong. `survey` must outlive the plan.
+/// is, if there are more than kMostLidarTopics and none is named, or if metadata of an Ouster are
+/// missing or wrong. `survey` must outlive the plan.
 BagPlan planOf(const std::filesystem::path& file, const BagSurvey& survey,
                const BagOptions& options);
 
