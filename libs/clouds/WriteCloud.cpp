@@ -1,12 +1,11 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/base/WriteFile.h>
+#include <hagen/clouds/UniqueNames.h>
 #include <hagen/clouds/WriteCloud.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -64,24 +63,6 @@ NumberType typeIn(const Limits& limits, NumberType type) {
         !limits.has_long_integers && (type == NumberType::Int64 || type == NumberType::UInt64);
     return is_unknown ? NumberType::Float64 : type;
 }
-
-/// Names for fields of which several may have the same: "a", "a_", "a__", "a_3", "a_4"...
-class UniqueNames {
- public:
-    std::string of(const std::string& name) {
-        std::string unique = name;
-        // Where it ended before: many fields of one name would take the square of their number.
-        for (std::size_t& again = times_[name]; !names_.insert(unique).second;) {
-            ++again;
-            unique = name + (again <= 2 ? std::string(again, '_') : "_" + std::to_string(again));
-        }
-        return unique;
-    }
-
- private:
-    std::set<std::string> names_;
-    std::map<std::string, std::size_t> times_;  ///< that a name was changed
-};
 
 std::vector<WrittenField> fieldsOf(const Limits& limits, const PointTable& table) {
     std::vector<WrittenField> fields;

@@ -35,8 +35,9 @@ CloudOutput::CloudOutput(const fs::path& folder, clouds::OutputFormat format, bo
 void CloudOutput::write(const std::string& name,
                         const observations::ObservationSegmenter::Output& segmented,
                         const mrpt::obs::CObservation& observation) {
-    const observations::PointTable table = labelledTable(segmented, observation);
-    changes_.add(renamedFields(table));
+    const LabelledTable labelled = labelledTable(segmented, observation);
+    const observations::PointTable& table = labelled.table;
+    changes_.add(labelled.remarks());
     changes_.add(changesWhenWritten(format_, table));
     const fs::path file =
         folders_.folderOf(observation.sensorLabel) / (name + extensionOf(format_));

@@ -1,5 +1,6 @@
 #include "LabelledTable.h"
 
+#include <hagen/clouds/UniqueNames.h>
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/ObservationScan.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
 
 namespace hagen::logs {
@@ -65,12 +67,30 @@ Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmente
     return points;
 }
 
-/// Adds label and obstacle; fields of the input with their names are renamed.
-PointTable labelled(const observations::ObservationSegmenter::Output& segmented, Unlabelled points,
-                    NumberType obstacle_type) {
-    for (observations::PointField& field : points.table.fields) {
-        if (field.name == kLabel || field.name == kObstacle) field.name = "input_" + field.name;
+/// Renames fields of the input whose names are `taken` to some that no other field has; the new
+/// names.
+std::vector<std::string> renameTaken(const std::vector<std::string>& taken, PointTable& table) {
+    const auto isTaken = [&](const observations::PointField& field) {
+        return std::find(taken.begin(), taken.end(), field.name) != taken.end();
+    };
+    clouds::UniqueNames names;
+    for (const observations::PointField& field : table.fields) {
+        if (!isTaken(field)) names.of(field.name);
     }
+    std::vector<std::string> renamed;
+    for (observations::PointField& field : table.fields) {
+        if (!isTaken(field)) continue;
+        field.name = names.of("input_" + field.name);
+        renamed.push_back(field.name);
+    }
+    return renamed;
+}
+
+/// Adds label and obstacle; fields of the input with their names are renamed.
+LabelledTable labelled(const observations::ObservationSegmenter::Output& segmented,
+                       Unlabelled points, NumberType obstacle_type) {
+    LabelledTable labelled;
+    labelled.renamed = renameTaken({kLabel, kObstacle}, points.table);
     const LabelledReturns& returns = segmented.result->returns;
     std::vector<double> labels(points.table.points, 0), obstacles(points.table.points, 0);
     for (std::size_t k = 0; k < points.point_of_return.size(); ++k) {
@@ -80,7 +100,8 @@ PointTable labelled(const observations::ObservationSegmenter::Output& segmented,
     }
     addColumn(kLabel, NumberType::UInt8, labels, points.table);
     addColumn(kObstacle, obstacle_type, obstacles, points.table);
-    return std::move(points.table);
+    labelled.table = std::move(points.table);
+    return labelled;
 }
 
 void rename(const std::string& from, const std::string& to, PointTable& table) {
@@ -104,34 +125,32 @@ mrpt::maps::CPointsMap::Ptr coloredCloudOf(const PointTable& table,
 
 }  // namespace
 
-PointTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
-                         const mrpt::obs::CObservation& observation) {
+LabelledTable labelledTable(const observations::ObservationSegmenter::Output& segmented,
+                            const mrpt::obs::CObservation& observation) {
     return labelled(segmented, unlabelled(segmented, observation), NumberType::UInt32);
 }
 
-std::vector<std::string> renamedFields(const PointTable& labelled) {
-    std::vector<std::string> renamed;
-    for (const char* const name : {"input_label", "input_obstacle"}) {
-        if (findField(labelled, {name}) == nullptr) continue;
-        renamed.push_back("a field of the input has the name of a field of labels: it is '" +
-                          std::string(name) + "'");
+std::vector<std::string> LabelledTable::remarks() const {
+    std::vector<std::string> remarks;
+    for (const std::string& name : renamed) {
+        remarks.push_back("a field of the input has the name of a field of labels: it is '" + name +
+                          "'");
     }
-    return renamed;
+    return remarks;
 }
 
 void useCloudsWithFields(const mrpt::obs::CObservation& observation,
                          observations::ObservationSegmenter::Output& segmented) {
     Unlabelled points = unlabelled(segmented, observation);
-    for (const char* const color : observations::kColorFields) {
-        rename(color, std::string("input_") + color, points.table);
-    }
+    renameTaken({std::begin(observations::kColorFields), std::end(observations::kColorFields)},
+                points.table);
     if (observations::tableCloudOf(observation) == nullptr &&
         findField(points.table, {"t"}) == nullptr) {
         rename("time", "t", points.table);
     }
     const std::vector<std::uint32_t> point_of_return = points.point_of_return;
     // The class has no uint32, and there are never so many obstacles.
-    const PointTable table = labelled(segmented, std::move(points), NumberType::UInt16);
+    const PointTable table = labelled(segmented, std::move(points), NumberType::UInt16).table;
     const auto pointsOfReturns = [&](const std::vector<std::uint32_t>& returns) {
         std::vector<std::uint32_t> of_returns;
         for (const std::uint32_t k : returns) of_returns.push_back(point_of_return[k]);

@@ -86,8 +86,9 @@ void McapOutput::write(const observations::ObservationSegmenter::Output& segment
     const auto at = static_cast<std::uint64_t>(time_ns);
 
     if (segmented.pose.sensor_pose) writePose(*segmented.pose.sensor_pose, time_ns, lidar);
-    const observations::PointTable table = labelledTable(segmented, observation);
-    changes_.add(renamedFields(table));
+    const LabelledTable labelled = labelledTable(segmented, observation);
+    const observations::PointTable& table = labelled.table;
+    changes_.add(labelled.remarks());
     changes_.add(clouds::changesInPointCloud2(table));
     writer_.write(lidar.points, at,
                   bags::pointCloud2Message(header, clouds::tableForPointCloud2(table)));

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
@@ -155,6 +156,44 @@ TEST_F(GenericClouds, FieldsOfAFileReachTheScanAndItsResults) {
     std::sort(of_results.begin(), of_results.end());
     EXPECT_EQ(std::adjacent_find(of_results.begin(), of_results.end()), of_results.end());
     EXPECT_GT(of_results.size(), numbers.size() / 2);
+}
+
+TEST_F(GenericClouds, EachFieldHasItsOwnName) {
+    observations::ObservedScan observed;
+    observations::readObservation(*test::poleScanFrom(0, "lidar"), {}, observed);
+    PointTable input = observations::tableOf(observed.scan);
+    double value = 60;
+    for (const char* const name :
+         {"label", "input_label", "obstacle", "input_obstacle", "color_r", "input_color_r"}) {
+        addColumn(name, NumberType::UInt8, std::vector<double>(input.points, ++value), input);
+    }
+    conversion_.input = folder_ / "17.pcd";
+    writeCloud(conversion_.input, clouds::OutputFormat::Pcd, input);
+    conversion_.clouds = folder_ / "labelled";
+    std::string remarks;
+    ConversionListener listener;
+    listener.remark = [&](const std::string&, const std::string& text) { remarks += text + "\n"; };
+    convert(conversion_, listener);
+    const PointTable labelled = clouds::readCloud(folder_ / "labelled/17.ply").table;
+    const auto entries = entriesOf(conversion_.rawlog);
+    ASSERT_EQ(entries.size(), 3u);
+    const PointTable& result = fieldsOf(*asCloud(entries[1]));
+    const std::set<std::string> names = [&] {
+        std::set<std::string> different;
+        for (const auto& field : result.fields) different.insert(field.name);
+        return different;
+    }();
+    EXPECT_EQ(names.size(), result.fields.size()) << namesOf(result);
+    for (const PointTable* const table : {&result, &labelled}) {
+        EXPECT_THAT(column(*table, "input_label_"), Each(61));
+        EXPECT_THAT(column(*table, "input_label"), Each(62));
+        EXPECT_THAT(column(*table, "input_obstacle_"), Each(63));
+        EXPECT_THAT(column(*table, "input_obstacle"), Each(64));
+    }
+    EXPECT_THAT(column(result, "input_color_r_"), Each(65));
+    EXPECT_THAT(column(result, "input_color_r"), Each(66));
+    EXPECT_THAT(remarks, HasSubstr("it is 'input_label_'"));
+    EXPECT_THAT(remarks, testing::Not(HasSubstr("it is 'input_label'")));
 }
 
 TEST_F(GenericClouds, WithoutThemTheFieldsAreOnlyInTheOtherOutputs) {
