@@ -19,10 +19,11 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
 }
 
 std::string scriptText(std::string json) {
-    // "</script>" in a string would end the element.
-    for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3) {
-        json.replace(at, 2, "<\\/");
-    }
+    // "</script>" in a string would end the element, and after "<!--<script>" that of the page no
+    // longer would. Only strings of JSON have a '<'.
+    const std::string escaped = "\\u003c";
+    for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += escaped.size())
+        json.replace(at, 1, escaped);
     return json;
 }
 

@@ -38,6 +38,16 @@ std::string htmlField(const std::string& field) {
            "</small>";
 }
 
+/// A text that stays in its field, whatever bars and line ends it has.
+std::string markdownField(const std::string& field) {
+    std::string escaped;
+    for (const char c : field) {
+        if (c == '|' || c == '\\') escaped += '\\';
+        escaped += c == '\n' || c == '\r' ? ' ' : c;
+    }
+    return escaped;
+}
+
 }  // namespace
 
 std::string htmlOf(const Table& table) {
@@ -57,12 +67,12 @@ std::string htmlOf(const Table& table) {
 
 std::string markdownOf(const Table& table) {
     std::string text = "|";
-    for (const std::string& name : table.header) text += " " + name + " |";
+    for (const std::string& name : table.header) text += " " + markdownField(name) + " |";
     text += "\n|---|";
     for (std::size_t c = 1; c < table.header.size(); ++c) text += "--:|";
     for (const auto& row : table.rows) {
         text += "\n|";
-        for (const std::string& field : row) text += " " + field + " |";
+        for (const std::string& field : row) text += " " + markdownField(field) + " |";
     }
     return text + "\n";
 }

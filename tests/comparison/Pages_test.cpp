@@ -110,12 +110,15 @@ TEST(WorstRuns, AreCollisionsThenTimeoutsThenByClearanceOneOfAKind) {
 TEST(Pages, FillTheirPlacesAndEscapeWhatTheyAreTold) {
     EXPECT_EQ(pages::filled("a{{x}}b{{y}}", {{"x", "{{y}}"}, {"y", "2"}}), "a{{y}}b2");
     EXPECT_THROW(pages::filled("{{z}}", {}), std::logic_error);
-    EXPECT_EQ(pages::scriptText("\"</script>\""), "\"<\\/script>\"");
+    EXPECT_EQ(pages::scriptText("\"</script>\""), "\"\\u003c/script>\"");
+    EXPECT_EQ(pages::scriptText("\"<!--<script>\""), "\"\\u003c!--\\u003cscript>\"");
+    EXPECT_EQ(nlohmann::json::parse(pages::scriptText("\"<<!--\"")), "<<!--");
     EXPECT_EQ(pages::htmlText("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
     EXPECT_EQ(pages::figure(-0.001, 2), "0.00");
     EXPECT_EQ(pages::figure(NAN, 2), "-");
     EXPECT_EQ(reports::percentOf(0, 200), "0.0 (0.0 to 1.9)");
     EXPECT_EQ(pages::markdownOf({{"a", "b"}, {{"1", "2"}}}), "| a | b |\n|---|--:|\n| 1 | 2 |\n");
+    EXPECT_EQ(pages::markdownOf({{"a|b"}, {{"c\\|d\ne"}}}), "| a\\|b |\n|---|\n| c\\\\\\|d e |\n");
 }
 
 }  // namespace
