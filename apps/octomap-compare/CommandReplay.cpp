@@ -2,6 +2,7 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
+#include <hagen/command_line/Interrupt.h>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -31,6 +32,10 @@ trials::Run chosen(const fs::path& folder, const replays::RunWanted& wanted) {
     }
 }
 
+void endIfInterrupted() {
+    if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+}
+
 int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     const fs::path into = flags.output.empty() ? folder : fs::path(flags.output);
@@ -41,9 +46,12 @@ int run(const Flags& flags) {
     base::OutputPath page(into / (name + ".html"), base::kFile, flags.overwrite);
     base::OutputPath scene(into / (name + ".3Dscene"), base::kFile, flags.overwrite);
 
+    endIfInterrupted();
     const replays::Recording recording = replays::record(wanted, profile);
+    endIfInterrupted();
     base::writeText(replays::replayPage(recording), page.temporary(), page.path());
     replays::writeReplayScene(recording, scene.temporary(), scene.path());
+    endIfInterrupted();
     page.commit();
     scene.commit();
     std::cout << replays::choiceOf(wanted, {wanted}) << "\n"

@@ -1,7 +1,9 @@
 // octomap-compare report: reports on the runs of a folder.
+#include <hagen/command_line/Interrupt.h>
 #include <hagen/reports/WriteReport.h>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 #include "Commands.h"
 
@@ -10,6 +12,9 @@ namespace {
 
 int run(reports::ReportRequest request) {
     request.doing = [](const std::string& what) { std::cerr << what << "\n"; };
+    request.continuing = [] {
+        if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+    };
     for (const std::string& line : reports::writeReport(request)) std::cout << line << "\n";
     return 0;
 }

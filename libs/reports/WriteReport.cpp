@@ -73,6 +73,7 @@ void addWorst(const ReportRequest& request, Report& report) {
     }
     for (const trials::Run& run : replays::worstRuns(report.flown.runs, request.worst)) {
         const std::string course = run.scenario + ", seed " + std::to_string(run.seed);
+        request.continuing();
         request.doing("flying again: " + course + ", " + avoidance::displayName(run.setup.model));
         try {
             report.worst.push_back(replays::viewFromAbove(run, *report.profile));
@@ -102,6 +103,7 @@ std::vector<std::string> writeReport(const ReportRequest& request) {
     Report report = readReport(request);
     checkOutputs(request);
     addWorst(request, report);
+    request.continuing();
     writeOutputs(request, report);
 
     std::vector<std::string> lines;

@@ -11,7 +11,10 @@
 #include <thread>
 
 #include <hagen/replays/ChooseRun.h>
+#include <hagen/reports/WriteReport.h>
+#include <hagen/trials/Calibration.h>
 #include <hagen/trials/FlownRuns.h>
+#include <hagen/trials/LatencyProfile.h>
 #include "SampleRuns.h"
 #include "support/ProgramTest.h"
 
@@ -198,6 +201,26 @@ TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
     folder_.write("measured.csv", "model,peak_model_bytes\n");
     folder_.write("profile.json", "{");
     expectFailure({"report", folder()}, 1, "profile.json");
+}
+
+TEST_F(ReportCommand, CanBeEndedBeforeEachRunAndBeforeItWrites) {
+    writeRuns({test::runOf("nowhere", 1, "W-RoI", "astar", kHit),
+               test::runOf("no such", 2, "W-RoI", "astar", kHit)});
+    trials::writeLatencyProfile(trials::constantProfile(1), folder_ / "profile.json");
+    reports::ReportRequest request;
+    request.folder = folder_.path();
+    int asked = 0, last = 0;
+    request.continuing = [&] {
+        if (++asked > last) throw std::runtime_error("interrupted");
+    };
+    for (last = 0; last < 3; ++last) {
+        asked = 0;
+        EXPECT_EQ(test::messageOf([&] { reports::writeReport(request); }), "interrupted");
+        EXPECT_FALSE(fs::exists(path("report.html")));
+    }
+    asked = 0;
+    EXPECT_EQ(test::messageOf([&] { reports::writeReport(request); }), "");
+    EXPECT_TRUE(fs::exists(path("report.html")));
 }
 
 TEST_F(ReportCommand, SaysWhereItCannotWrite) {

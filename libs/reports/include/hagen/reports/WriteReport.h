@@ -15,6 +15,8 @@ struct ReportRequest {
     bool overwrite = false;          ///< replace existing outputs
     /// Called before each run that is flown again.
     std::function<void(const std::string& what)> doing = [](const auto&) {};
+    /// Called before each such run, and before anything is written. What it throws ends the report.
+    std::function<void()> continuing = [] {};
 };
 
 /// Writes report.html, summary.json and summary.csv into the folder, and the Markdown. Returns the
