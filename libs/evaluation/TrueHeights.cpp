@@ -45,7 +45,7 @@ class GroundCells {
         std::vector<std::vector<float>> heights_m;
         std::vector<Eigen::Vector2f> centres_m;
         for (std::size_t i = 0; i < truth.size(); ++i) {
-            if (truth[i] != Label::Rou || std::isnan(points_m[i].z())) continue;
+            if (truth[i] != Label::Rou || !points_m[i].allFinite()) continue;
             const Cell cell(points_m[i]);
             const auto [at, is_new] = index.try_emplace(cell.key(), heights_m.size());
             if (is_new) {
@@ -104,6 +104,7 @@ std::vector<float> heightsAboveTrueGround(const GroundTruthScan& scan,
     std::vector<float> heights_m(points_m.size(), std::nanf(""));
     for (std::size_t i = 0; i < points_m.size(); ++i) {
         if (scan.truth[i] != Label::Roi || !(scan.input.scan.range_m[i] <= max_range_m)) continue;
+        if (!points_m[i].allFinite()) continue;  // in no cell
         const Cell cell(points_m[i]);
         const auto [at, is_new] = ground_of_cell.try_emplace(cell.key(), 0.0f);
         if (is_new) at->second = ground.groundOf(cell);

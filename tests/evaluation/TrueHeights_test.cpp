@@ -113,6 +113,14 @@ TEST(TrueHeights, AreOfObstaclesInRangeOnly) {
     EXPECT_TRUE(std::isnan(heights_m[2]));
 }
 
+// They have no level point, so no cell: to number it is undefined, which the sanitizers see.
+TEST(TrueHeights, AreNoneWhereNoLidarSees) {
+    const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {20000, 0, 0}, {20000, 0, -2}}, {G, O, O, G});
+    const std::vector<float> heights_m = heightsOf(scan, 1e6f);
+    EXPECT_FLOAT_EQ(heights_m[1], 2.0f);
+    EXPECT_TRUE(std::isnan(heights_m[2]));
+}
+
 // The same scene for a level and for a tilted sensor that knows its attitude, or whose is known to
 // the scorer only.
 TEST(TrueHeights, AreAboutTheHorizonOfATiltedSensor) {
