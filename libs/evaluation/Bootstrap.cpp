@@ -25,6 +25,7 @@ std::vector<Scores> bootstrapResamples(const std::vector<Scores>& scans,
     std::mt19937_64 random(options.seed);  // same numbers on every machine
     std::vector<Scores> resamples(static_cast<std::size_t>(options.resamples));
     for (Scores& sum : resamples) {
+        options.continuing();
         for (std::size_t i = 0; i < scans.size(); ++i) sum += scans[random() % scans.size()];
     }
     return resamples;

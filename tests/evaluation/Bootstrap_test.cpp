@@ -2,6 +2,7 @@
 #include <hagen/evaluation/Bootstrap.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace hagen::evaluation {
 namespace {
@@ -50,6 +51,17 @@ TEST(Bootstrap, SaysTheSameForTheSameSeedAndMoreForAnother) {
     EXPECT_EQ(first.roi.f1.low, again.roi.f1.low);
     EXPECT_EQ(first.roi.f1.high, again.roi.f1.high);
     EXPECT_NE(first.roi.f1.low, other.roi.f1.low);
+}
+
+TEST(Bootstrap, CanBeEndedBeforeEachResample) {
+    BootstrapOptions options;
+    options.resamples = 1000000;
+    int asked = 0;
+    options.continuing = [&] {
+        if (++asked == 10) throw std::runtime_error("interrupted");
+    };
+    EXPECT_THROW(bootstrapIntervals(everySecondFound(4), options), std::runtime_error);
+    EXPECT_EQ(asked, 10);
 }
 
 TEST(Bootstrap, NoIntervalOfNothing) {

@@ -2,6 +2,7 @@
 #include <hagen/evaluation/Scores.h>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace hagen::evaluation {
@@ -15,6 +16,8 @@ struct BootstrapOptions {
     int resamples = 1000;  ///< 0: no intervals
     std::uint64_t seed = 1;
     double level = 0.95;  ///< confidence level
+    /// Called before each resample. What it throws ends the bootstrap.
+    std::function<void()> continuing = [] {};
 };
 
 /// Confidence intervals of the ratios of Scores.
