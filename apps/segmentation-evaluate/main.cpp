@@ -93,6 +93,15 @@ auto fromFlag(const std::string& name, Read read) -> std::optional<decltype(read
     }
 }
 
+/// Pictures of several rows have a folder by each row's name, within that of --overlay.
+void checkNames(const std::vector<labelled_scans::LabelRow>& rows) {
+    for (const labelled_scans::LabelRow& row : rows) {
+        if (row.name != "." && row.name != "..") continue;
+        throw SettingsError("--labels: '" + row.name +
+                            "' cannot be the name of a row; choose another name");
+    }
+}
+
 /// The outputs. None appears before all are complete.
 struct Outputs {
     Outputs(const Flags& flags, const labelled_scans::MethodSet& rows,
@@ -130,6 +139,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     rows.filter = labelled_scans::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
     labelled_scans::addLabelRows(flags.labels, rows);
+    checkNames(rows.labels);
     const labelled_scans::LabelledInputs inputs{
         flags.folders, rows, fromFlag(flags.label_map, evaluation::readLabelMap)};
     evaluation::EvaluationOptions options;
@@ -171,6 +181,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     summary.label_map = flags.label_map;
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
+    summary.bootstrap.continuing = endIfInterrupted;
     labelled_scans::addScores(methods, rows.filter, summary);
     labelled_scans::addHardSets(hard_sets, summary);
     if (outputs.json) labelled_scans::writeJson(outputs.json->temporary(), summary);

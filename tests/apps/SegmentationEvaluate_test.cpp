@@ -249,6 +249,10 @@ TEST_F(SegmentationEvaluate, RefusesLabelsOfAnotherProgramThatItCannotUse) {
     expectFailure({"-i", pole, "--labels", "hagen=" + theirs}, 2, "already a row 'hagen'");
     expectFailure({"-i", pole, "--baselines", "--labels", "zermas tuned=" + theirs}, 2,
                   "already a row 'zermas tuned'");
+    for (const std::string name : {".", ".."}) {  // would be folders beyond that of --overlay
+        expectFailure({"-i", pole, "--labels", name + "=" + theirs}, 2,
+                      "'" + name + "' cannot be the name of a row");
+    }
     expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1, "theirs/000000.label: no such file");
     auto labels = logs::readLabels(folder_ / "pole/labels/000000.label");
     labels[6] = 3;
