@@ -300,7 +300,8 @@ int caught(const std::function<int()>& program) noexcept {
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "%s: out of memory\n", program_invocation_short_name);
     } catch (const std::exception& e) {
-        std::fprintf(stderr, "%s: %s\n", program_invocation_short_name, e.what());
+        // Perhaps with a text of the input, so by the stream that keeps terminals safe.
+        std::cerr << program_invocation_short_name << ": " << e.what() << std::endl;
     } catch (...) {
         std::fprintf(stderr, "%s: ended by an unknown error\n", program_invocation_short_name);
     }

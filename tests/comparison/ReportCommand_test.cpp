@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/MeasuredTable.h>
+#include <sys/inotify.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -124,11 +126,17 @@ TEST(FlownRuns, AreReadAnewWhereTheCampaignEndsMeanwhile) {
     const test::TemporaryFolder folder;
     const Row run = test::runOf("gap", 1, "W-RoI", "astar", kWon);
     fs::create_directory(folder / "journal");
-    // A pipe holds the reader up between its list of journals and the second of them.
-    ASSERT_EQ(mkfifo((folder / "journal/0.csv").c_str(), 0600), 0);
+    // A long one holds the reader up between its list of journals and the second of them.
+    std::string lines;
+    for (int line = 0; line < 20000; ++line) lines += lineOf(run, 0);
+    folder.write("journal/0.csv", lines);
     folder.write("journal/1.csv", lineOf(run, 0));
+    const int opened = inotify_init1(IN_CLOEXEC);
+    ASSERT_GE(inotify_add_watch(opened, (folder / "journal/0.csv").c_str(), IN_OPEN), 0);
     std::thread campaign([&] {
-        const std::ofstream pipe(folder / "journal/0.csv");  // waits for the reader
+        char event[4096];
+        EXPECT_GT(read(opened, event, sizeof event), 0);  // waits for the reader
+        close(opened);
         folder.write("runs.csv", trials::runHeader() + "\n" + trials::rowOf(run) + "\n");
         fs::remove_all(folder / "journal");
     });
