@@ -84,15 +84,13 @@ const std::uint8_t* bytesAt(const std::string& bytes) {
     return reinterpret_cast<const std::uint8_t*>(bytes.data());
 }
 
-struct AnyVelodyne : AnyStream {
-    AnyVelodyne(const char* name, std::uint8_t model_number,
-                std::unique_ptr<SectorChecker>& checker)
-        : number(model_number), stream(packets::velodyneModel(name), fewColumns(), into(checker)) {
+/// What all streams have. `made_of`: what its constructor takes before the function.
+template <class Stream>
+struct StreamOf : AnyStream {
+    template <class... Part>
+    explicit StreamOf(std::unique_ptr<SectorChecker>& checker, const Part&... made_of)
+        : stream(made_of..., into(checker)) {
         checker = std::make_unique<SectorChecker>(stream.segmenter().sensor());
-    }
-    std::string packet(std::size_t n) override { return velodynePacket(n, number); }
-    void add(const std::string& bytes, double time_s) override {
-        stream.add(bytesAt(bytes), bytes.size(), time_s);
     }
     void flush() override { stream.flush(); }
     void move(const std::optional<Attitude>& tilt,
@@ -100,13 +98,24 @@ struct AnyVelodyne : AnyStream {
         stream.setAttitude(tilt);
         stream.setPose(pose);
     }
+
+    Stream stream;
+};
+
+struct AnyVelodyne : StreamOf<streaming::VelodyneStream> {
+    AnyVelodyne(const char* name, std::uint8_t model_number,
+                std::unique_ptr<SectorChecker>& checker)
+        : StreamOf(checker, packets::velodyneModel(name), fewColumns()), number(model_number) {}
+    std::string packet(std::size_t n) override { return velodynePacket(n, number); }
+    void add(const std::string& bytes, double time_s) override {
+        stream.add(bytesAt(bytes), bytes.size(), time_s);
+    }
     std::size_t counted() const override {
         const auto& c = stream.counts();
         return c.packets + c.wrong_size + c.other_model + c.repeated + c.unsound;
     }
 
     std::uint8_t number;
-    streaming::VelodyneStream stream;
 };
 
 Settings settingsOfFourBeams() {
@@ -116,12 +125,9 @@ Settings settingsOfFourBeams() {
     return settings;
 }
 
-struct AnyOuster : AnyStream {
-    explicit AnyOuster(std::unique_ptr<SectorChecker>& checker)
-        : sensor(packets::ousterSensorOf(test::ousterJson(), "made")),
-          stream(sensor, settingsOfFourBeams(), into(checker)) {
-        checker = std::make_unique<SectorChecker>(stream.segmenter().sensor());
-    }
+struct AnyOuster : StreamOf<streaming::OusterStream> {
+    AnyOuster(const packets::OusterSensor& made, std::unique_ptr<SectorChecker>& checker)
+        : StreamOf(checker, made, settingsOfFourBeams()), sensor(made) {}
     std::string packet(std::size_t n) override {
         if (n / 4 != frame || packets.empty()) {
             frame = n / 4;
@@ -134,12 +140,6 @@ struct AnyOuster : AnyStream {
         stream.add(bytesAt(bytes), bytes.size(), time_s, static_cast<std::int64_t>(1e9 * time_s));
         stream.complete().clear();
     }
-    void flush() override { stream.flush(); }
-    void move(const std::optional<Attitude>& tilt,
-              const std::optional<Eigen::Isometry3d>& pose) override {
-        stream.setAttitude(tilt);
-        stream.setPose(pose);
-    }
     std::size_t counted() const override {
         const auto& c = stream.counts();
         return c.packets + c.wrong_size + c.other_sensor + c.imu + c.repeated + c.unsound +
@@ -147,38 +147,29 @@ struct AnyOuster : AnyStream {
     }
 
     packets::OusterSensor sensor;
-    streaming::OusterStream stream;
     std::size_t frame = 0;
     std::vector<std::string> packets;
 };
 
-struct AnyLivox : AnyStream {
-    explicit AnyLivox(std::unique_ptr<SectorChecker>& checker)
-        : stream(fewColumns(), into(checker)) {
-        checker = std::make_unique<SectorChecker>(stream.segmenter().sensor());
-    }
+struct AnyLivox : StreamOf<streaming::LivoxStream> {
+    explicit AnyLivox(std::unique_ptr<SectorChecker>& checker) : StreamOf(checker, fewColumns()) {}
     std::string packet(std::size_t n) override { return livoxPacket(n); }
     void add(const std::string& bytes, double time_s) override {
         stream.add(bytesAt(bytes), bytes.size(), time_s);
-    }
-    void flush() override { stream.flush(); }
-    void move(const std::optional<Attitude>& tilt,
-              const std::optional<Eigen::Isometry3d>& pose) override {
-        stream.setAttitude(tilt);
-        stream.setPose(pose);
     }
     std::size_t counted() const override {
         const auto& c = stream.counts();
         return c.packets + c.imu + c.foreign + c.repeated;
     }
-
-    streaming::LivoxStream stream;
 };
 
 std::unique_ptr<AnyStream> anyStream(std::size_t kind, std::unique_ptr<SectorChecker>& checker) {
     if (kind == 0) return std::make_unique<AnyVelodyne>("VLP-16", 0x22, checker);
     if (kind == 1) return std::make_unique<AnyVelodyne>("HDL-32E", 0x21, checker);
-    if (kind == 2) return std::make_unique<AnyOuster>(checker);
+    if (kind == 2) {
+        return std::make_unique<AnyOuster>(packets::ousterSensorOf(test::ousterJson(), "made"),
+                                           checker);
+    }
     return std::make_unique<AnyLivox>(checker);
 }
 
