@@ -1,12 +1,12 @@
 #include "RawlogTrial.h"
 
 #include <fcntl.h>
+#include <hagen/base/ProcessCost.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <optional>
 #include <stdexcept>
 
 #include "EntryReader.h"
@@ -63,16 +62,6 @@ std::uint64_t dataBytes() {
     const bool is_read = std::fscanf(file, "%*u %*u %*u %*u %*u %llu", &pages) == 1;
     std::fclose(file);
     return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
-}
-
-/// CPU time of a process; none if unknown.
-std::optional<std::int64_t> cpuTimeOf_ns(pid_t process) {
-    clockid_t clock{};
-    timespec time{};
-    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) {
-        return std::nullopt;
-    }
-    return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
 /// What a process does now, by two files of /proc. For what it waits, only those are told who may
@@ -202,9 +191,9 @@ void RawlogTrial::stop() {
 /// Waits until the process sends something or ends (false), or stands still.
 bool RawlogTrial::standsStill() const {
     for (int still = 0;;) {
-        const auto before_ns = cpuTimeOf_ns(process_);
+        const auto before = base::cpuTimeOf(process_);
         if (hasSomething(verdicts_, patience_)) return false;
-        const bool is_still = before_ns && cpuTimeOf_ns(process_) == before_ns;
+        const bool is_still = before && base::cpuTimeOf(process_) == before;
         const Doing doing = is_still ? doingOf(process_) : Doing::Work;
         still = doing == Doing::WaitForAnything ? still + 1 : 0;
         if (doing == Doing::WaitForLock || still == kPatienceWithAnything) return true;

@@ -22,7 +22,8 @@ struct EntryVerdict {
 ///
 /// The process starts as a copy of the program without its other threads: a lock that one of these
 /// holds at that moment is never released there. If the process waits for a lock and does nothing
-/// else for kPatience, another one takes its place, up to kMostStarts in all.
+/// else for kPatience, another one takes its place, up to kMostStarts in all. Where the system does
+/// not tell for what it waits, it has ten times as long.
 class RawlogTrial {
  public:
     static constexpr std::chrono::milliseconds kPatience{3000};

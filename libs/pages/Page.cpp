@@ -19,8 +19,8 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
 }
 
 std::string scriptText(std::string json) {
-    // "</script>" in a string would end the element, and after "<!--<script>" that of the page no
-    // longer would. Only strings of JSON have a '<'.
+    // In a string, "</script>" would end the element, and "<!--<script>" would hide its end. JSON
+    // has a '<' only in strings.
     const std::string escaped = "\\u003c";
     for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += escaped.size())
         json.replace(at, 1, escaped);

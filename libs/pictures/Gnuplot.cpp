@@ -1,10 +1,10 @@
 #include <fcntl.h>
+#include <hagen/base/ProcessCost.h>
 #include <hagen/pictures/Gnuplot.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 #include <cerrno>
 #include <chrono>
@@ -43,10 +43,8 @@ constexpr double kPatience_s = 5;  ///< for a start without CPU time
 constexpr double kLeastLoad = 0.02;
 
 double cpuTimeOf_s(pid_t process) {
-    clockid_t clock{};
-    timespec time{};
-    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    const auto used = base::cpuTimeOf(process).value_or(std::chrono::nanoseconds(0));
+    return std::chrono::duration<double>(used).count();
 }
 
 /// Waits for gnuplot, and ends it with all that it started: if it hangs, or fills the disk. It
