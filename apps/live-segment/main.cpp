@@ -203,9 +203,11 @@ int run(const Program& program, Flags& flags) {
         line.clear();
         if (!flags.is_quiet) printSummary(report);
         if (!flags.is_quiet && link) printLink(*link);
-        if (!report.recorded.failure.empty()) {
-            return program.fail(kFailed, report.recorded.failure);
+        std::string failure = report.recorded.failure;
+        if (!report.stats_failure.empty()) {
+            failure += (failure.empty() ? "" : "; ") + report.stats_failure;
         }
+        if (!failure.empty()) return program.fail(kFailed, failure);
         if (report.packets > 0) return kDone;
         const std::string sensor = flags.live.model.empty()
                                        ? "the Ouster of " + flags.live.sensor_json.string()

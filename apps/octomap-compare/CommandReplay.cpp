@@ -1,6 +1,6 @@
 // octomap-compare replay: flies a run again and shows it in 3D.
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/base/OutputPath.h>
+#include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/command_line/Interrupt.h>
 #include <iostream>
@@ -47,13 +47,18 @@ int run(const Flags& flags) {
     base::OutputPath scene(into / (name + ".3Dscene"), base::kFile, flags.overwrite);
 
     endIfInterrupted();
-    const replays::Recording recording = replays::record(wanted, profile);
+    const replays::Recording recording = replays::record(wanted, profile, {}, endIfInterrupted);
     endIfInterrupted();
-    base::writeText(replays::replayPage(recording), page.temporary(), page.path());
-    replays::writeReplayScene(recording, scene.temporary(), scene.path());
+    base::OutputSet outputs;
+    outputs.add(page);
+    outputs.add(scene);
+    outputs.write(page, [&] {
+        base::writeText(replays::replayPage(recording), page.temporary(), page.path());
+    });
+    outputs.write(scene,
+                  [&] { replays::writeReplayScene(recording, scene.temporary(), scene.path()); });
     endIfInterrupted();
-    page.commit();
-    scene.commit();
+    outputs.commit();
     std::cout << replays::choiceOf(wanted, {wanted}) << "\n"
               << recording.ending << "\n"
               << page.path().string() << "\n"

@@ -1,8 +1,9 @@
 // Scores the filter on labelled scan folders, with one set of settings or a sweep.
-#include <hagen/base/OutputPath.h>
+#include <hagen/base/OutputSet.h>
 #include <hagen/evaluation/Evaluation.h>
 #include <hagen/settings/Presets.h>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -102,7 +103,7 @@ void checkNames(const std::vector<labelled_scans::LabelRow>& rows) {
     }
 }
 
-/// The outputs. None appears before all are complete.
+/// The outputs. None appears before the end; one that fails does not cost the others.
 struct Outputs {
     Outputs(const Flags& flags, const labelled_scans::MethodSet& rows,
             std::vector<fs::path> inputs) {
@@ -114,17 +115,20 @@ struct Outputs {
             if (path.empty()) return;
             output.emplace(path, kind, flags.overwrite);
             if (kind.holds != nullptr) fs::create_directory(output->temporary());
+            all.add(*output);
         };
         open(flags.json, base::kFile, json);
         open(flags.charts, labelled_scans::kCharts, charts);
         open(flags.overlay, labelled_scans::kOverlays, overlay);
     }
-    void commit() {
-        for (std::optional<base::OutputPath>* output : {&json, &charts, &overlay}) {
-            if (output->has_value()) (*output)->commit();
-        }
+    /// Writes an output, or a part of it, if it was asked for.
+    void write(const std::optional<base::OutputPath>& output,
+               const std::function<void(const fs::path&)>& step) {
+        if (output) all.write(*output, [&] { step(output->temporary()); });
     }
+
     std::optional<base::OutputPath> json, charts, overlay;
+    base::OutputSet all;
 };
 
 void endIfInterrupted() {
@@ -160,9 +164,9 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
         methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
             endIfInterrupted();
             progress.show(view);
-            if (!outputs.overlay) return;
-            labelled_scans::drawOverlay(outputs.overlay->temporary(), sources[view.source]->name(),
-                                        view, options);
+            outputs.write(outputs.overlay, [&](const fs::path& folder) {
+                labelled_scans::drawOverlay(folder, sources[view.source]->name(), view, options);
+            });
         });
         hard_sets = labelled_scans::scoreHardSets(
             inputs, degradations, options.range,
@@ -184,11 +188,13 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     summary.bootstrap.continuing = endIfInterrupted;
     labelled_scans::addScores(methods, rows.filter, summary);
     labelled_scans::addHardSets(hard_sets, summary);
-    if (outputs.json) labelled_scans::writeJson(outputs.json->temporary(), summary);
-    if (outputs.charts) labelled_scans::drawCharts(outputs.charts->temporary(), summary);
+    outputs.write(outputs.json,
+                  [&](const fs::path& file) { labelled_scans::writeJson(file, summary); });
+    outputs.write(outputs.charts,
+                  [&](const fs::path& folder) { labelled_scans::drawCharts(folder, summary); });
     endIfInterrupted();
-    outputs.commit();
-    std::cout << reportOf(summary);
+    std::cout << reportOf(summary) << std::flush;
+    outputs.all.commit();
     return 0;
 }
 

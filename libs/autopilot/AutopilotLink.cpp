@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <new>
 #include <thread>
 
 namespace hagen::autopilot {
@@ -88,6 +89,7 @@ class AutopilotLink::Work {
                 {"heartbeat", sent_heartbeat_},
                 {"all_unknown", all_unknown_},
                 {"not_sent", not_sent_},
+                {"out_of_memory", out_of_memory_},
                 {"stalls", stalls_},
                 {"peer_troubles", troubles_},
                 {"received", c.messages},
@@ -112,13 +114,24 @@ class AutopilotLink::Work {
     void work() {
         double next_s = start_s_;
         for (std::size_t period = 0; !is_at_end_; ++period) {
-            sendPeriod(period);
+            attempt([&] { sendPeriod(period); });
             next_s = std::max(next_s + kPeriod_s, now_s() - kMostBehind_s);
-            while (!is_at_end_ && now_s() < next_s) receive(next_s - now_s());
-            tellPeer();
-            tellAttitude();
+            while (!is_at_end_ && now_s() < next_s) attempt([&] { receive(next_s - now_s()); });
+            attempt([&] { tellPeer(); });
+            attempt([&] { tellAttitude(); });
         }
-        send(obstacleDistance({}, limits_, now_s()), sent_distance_);
+        attempt([&] { send(obstacleDistance({}, limits_, now_s()), sent_distance_); });
+    }
+
+    /// A step without memory is left out and counted: the next ones may have some, and until then
+    /// the autopilot notices that nothing arrives.
+    template <class Step>
+    void attempt(const Step& step) {
+        try {
+            step();
+        } catch (const std::bad_alloc&) {
+            count(out_of_memory_);
+        }
     }
 
     void sendPeriod(std::size_t period) {
@@ -263,6 +276,7 @@ class AutopilotLink::Work {
     double below_s_ = -std::numeric_limits<double>::infinity();
     std::size_t sent_distance_ = 0, sent_3d_ = 0, sent_below_ = 0, sent_heartbeat_ = 0;
     std::size_t all_unknown_ = 0, not_sent_ = 0, stalls_ = 0, troubles_ = 0;
+    std::size_t out_of_memory_ = 0;
     std::size_t attitudes_ = 0, places_ = 0, others_ = 0, foreign_ = 0, refused_ = 0;
 
     std::atomic<bool> is_at_end_ = false;

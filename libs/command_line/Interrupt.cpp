@@ -20,7 +20,7 @@ void interrupt(int signal) {
     std::time_t before = 0;
     if (interrupted_at.compare_exchange_strong(before, now)) {
         is_interrupted = true;
-    } else if (now > before + 1) {
+    } else if (now > before + 1 && signal != SIGXCPU) {  // which comes each second
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
@@ -33,7 +33,7 @@ void ignoreWriteSignals() {
 }
 
 void catchSignals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);
         if (action.sa_handler == SIG_IGN) continue;  // set by nohup

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <locale>
+#include <stdexcept>
 #include <string>
 
 namespace hagen::labelled_scans {
@@ -31,10 +32,10 @@ Outcome outcomeOf(Label truth, Label found) {
     return found == Label::Roi ? FalseAlarm : RouFound;
 }
 
-/// Makes a name usable in a file name.
+/// Makes a name that of one file or folder.
 std::string fileName(std::string name) {
     std::replace(name.begin(), name.end(), '/', '_');
-    return name;
+    return name == "." || name == ".." ? "_" : name;
 }
 
 void draw(const fs::path& picture, const std::string& title, const evaluation::MethodOutput& view,
@@ -93,8 +94,12 @@ void drawOverlay(const fs::path& folder, const std::string& source,
     const fs::path own = view.methods == 1 ? folder : folder / fileName(view.method_name);
     fs::create_directories(own);
     const std::string scan = fs::path(view.truth.name).stem().string();
-    draw(own / (fileName(source) + "_" + scan + "_overlay.png"),
-         source + ", scan " + scan + ", " + view.method_name, view, *options.camera,
+    const fs::path picture = own / (fileName(source) + "_" + scan + "_overlay.png");
+    if (fs::exists(picture)) {
+        throw std::runtime_error("two pictures would be " + fs::relative(picture, folder).string() +
+                                 "; give the rows and folders names that differ by more than '/'");
+    }
+    draw(picture, source + ", scan " + scan + ", " + view.method_name, view, *options.camera,
          options.range.max_range_m);
 }
 

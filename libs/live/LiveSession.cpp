@@ -293,8 +293,17 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     session.report().dropped = dropped + (source.isLive() ? queue.size() : 0);
     LiveReport report = session.finish(cpu_s);
     report.process_cpu_s = processCpu_s() - process_s;
-    if (stats) writeStats(report, options, listener, *stats);
-    if (failure) std::rethrow_exception(failure);
+    if (stats) {
+        try {
+            writeStats(report, options, listener, *stats);
+        } catch (const std::runtime_error& e) {  // the session has been flown all the same
+            report.stats_failure = e.what();
+        }
+    }
+    if (failure) {
+        if (!report.stats_failure.empty()) listener.remark(report.stats_failure);
+        std::rethrow_exception(failure);
+    }
     return report;
 }
 

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -123,8 +124,14 @@ RecorderProcess::RecorderProcess(const LiveOptions& options, bool waits)
         patience.tv_usec = static_cast<suseconds_t>(1e6 * (patience_s_ - std::floor(patience_s_)));
         setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     }
-    sender_ = std::thread([this] { send(); });
-    listener_ = std::thread([this] { listen(); });
+    try {
+        sender_ = std::thread([this] { send(); });
+        listener_ = std::thread([this] { listen(); });
+    } catch (const std::system_error& e) {
+        finish();
+        throw std::runtime_error(file_ +
+                                 ": cannot be recorded: a thread cannot be started: " + e.what());
+    }
 }
 
 RecorderProcess::~RecorderProcess() {

@@ -2,7 +2,7 @@
 #include <hagen/observations/TimeStamp.h>
 
 #include <hagen/base/NumberText.h>
-#include <hagen/base/OutputPath.h>
+#include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/MrptMessage.h>
@@ -88,12 +88,19 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
     report.share_of_sphere = learned.share_of_sphere;
     report.share_of_seen = learned.share_of_seen;
 
-    base::writeText(airframeBinsText(learned.bin_range_m, origin), file.temporary(), file.path());
-    const fs::path folder = fs::absolute(picture.temporary()).parent_path();
-    pictures::drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
-                           picture.temporary().filename().string());
-    picture.commit();
-    file.commit();
+    base::OutputSet outputs;
+    outputs.add(picture);
+    outputs.add(file);
+    outputs.write(file, [&] {
+        base::writeText(airframeBinsText(learned.bin_range_m, origin), file.temporary(),
+                        file.path());
+    });
+    outputs.write(picture, [&] {
+        const fs::path folder = fs::absolute(picture.temporary()).parent_path();
+        pictures::drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
+                               picture.temporary().filename().string());
+    });
+    outputs.commit();
     return report;
 }
 

@@ -1,6 +1,7 @@
 #include <hagen/openloop/OpenLoopFiles.h>
 
 #include <hagen/base/Json.h>
+#include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/evaluation/Latency.h>
 #include <cmath>
@@ -212,7 +213,9 @@ void OpenLoopFiles::finish(const OpenLoop& open_loop, const OpenLoopResult& resu
 
 void OpenLoopFiles::commit(const OpenLoop& open_loop, const OpenLoopResult& result) {
     finish(open_loop, result);
-    for (const auto& file : files_) file->path.commit();
+    base::OutputSet outputs;
+    for (const auto& file : files_) outputs.add(file->path);
+    outputs.commit();
     for (const auto& file : files_) removePartsOf(file->path.path());
 }
 

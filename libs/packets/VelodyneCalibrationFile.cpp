@@ -118,7 +118,7 @@ double correctionOf(const Laser& laser, int id, const std::string& name, double 
 }
 
 VelodyneLaser laserOf(const Laser& laser, int id) {
-    constexpr double kMost_cm = 1000;
+    constexpr double kMost_cm = 100 * kMostCorrection_m;
     VelodyneLaser corrected;
     corrected.azimuth_deg = correctionOf(laser, id, "rotCorrection_", 180);
     corrected.elevation_deg = correctionOf(laser, id, "vertCorrection_", 90);

@@ -103,17 +103,23 @@ bool areOfHdl64(const VelodynePackets& packets) {
 }
 
 /// Returns a scan's own calibration. Throws std::runtime_error if it is none: a laser that points
-/// nowhere would place returns nowhere.
+/// nowhere, or far offsets, would place returns nowhere.
 const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
     const auto& lasers = calibration.lasers;
     for (std::size_t i = 0; i < lasers.size(); ++i) {
         const auto& laser = lasers[i];
         const double length = std::hypot(laser.elevation_sine, laser.elevation_cosine);
-        const double others = laser.azimuth_deg + laser.distance_m + laser.vertical_offset_m +
-                              laser.horizontal_offset_m;
-        if (std::abs(length - 1) < 0.01 && std::isfinite(others)) continue;
+        const auto isOffset = [](double offset_m) {
+            return std::abs(offset_m) <= kMostCorrection_m;
+        };
+        if (std::abs(length - 1) < 0.01 && std::isfinite(laser.azimuth_deg) &&
+            isOffset(laser.distance_m) && isOffset(laser.vertical_offset_m) &&
+            isOffset(laser.horizontal_offset_m)) {
+            continue;
+        }
         throw std::runtime_error("the scan's own calibration is corrupt: laser " +
-                                 std::to_string(i) + " has no direction or no finite offsets");
+                                 std::to_string(i) + " has no direction, or offsets beyond " +
+                                 std::to_string(std::lround(kMostCorrection_m)) + " m");
     }
     return calibration;
 }

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -125,7 +126,9 @@ void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
         segmenter_.process(*turn, output_);
         logs::serialise(*output_.roi, entries_);
         logs::serialise(*output_.non_roi, entries_);
-    } catch (const std::runtime_error&) {  // as rawlog-segment: kept, not segmented
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // as rawlog-segment: kept, not segmented
         ++recorded_.unreadable;
     }
     writer_->gather(entries_, member_);

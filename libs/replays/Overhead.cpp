@@ -109,12 +109,14 @@ std::string legendItem(const std::string& mark, const std::string& words) {
 
 }  // namespace
 
-OverheadView viewFromAbove(const trials::Run& run, const trials::LatencyProfile& profile) {
+OverheadView viewFromAbove(const trials::Run& run, const trials::LatencyProfile& profile,
+                           const std::function<void()>& continuing) {
     OverheadView view{run, false, {}, {}, {}, {}, {}};
     const trials::Course course = trials::makeCourse(run.scenario, run.seed);
     std::set<std::pair<int, int>> cells;  // y, x: sorted by rows
     trials::TrialListener listener;
     listener.step = [&](const trials::TrialStep& step) {
+        continuing();
         addObstacles(step.scan, course.scene.terrain(), cells);
         if (step.plan.is_emergency) view.stops_m.push_back(step.true_state.position_m.head<2>());
     };

@@ -123,7 +123,7 @@ void addTruth(const Reflown& again, Recording& recording) {
 }  // namespace
 
 Recording record(const trials::Run& run, const trials::LatencyProfile& profile,
-                 const RecordingLimits& limits) {
+                 const RecordingLimits& limits, const std::function<void()>& continuing) {
     Recording recording;
     recording.run = run;
     ModelHistory model(limits);
@@ -131,6 +131,7 @@ Recording record(const trials::Run& run, const trials::LatencyProfile& profile,
     trials::TrialListener listener;
     listener.keeps_candidates = true;
     listener.step = [&](const trials::TrialStep& step) {
+        continuing();
         model.add(step.world.obstacles(), static_cast<int>(recording.steps.size()));
         recording.steps.push_back(recorded(step, limits));
     };

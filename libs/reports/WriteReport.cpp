@@ -1,29 +1,19 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Folder.h>
-#include <hagen/base/OutputPath.h>
+#include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/reports/Report.h>
 #include <hagen/reports/ReportSentences.h>
 #include <hagen/reports/SummaryFiles.h>
 #include <hagen/reports/Verdict.h>
 #include <hagen/reports/WriteReport.h>
-#include <memory>
+#include <deque>
 #include <stdexcept>
 
 namespace hagen::reports {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A text file that appears together with others.
-struct TextOutput {
-    TextOutput(const fs::path& path, bool overwrite, std::string content)
-        : place(path, base::kFile, overwrite), text(std::move(content)) {
-        base::writeText(text, place.temporary(), path);
-    }
-    base::OutputPath place;
-    std::string text;
-};
 
 /// Everything except the worst runs.
 Report readReport(const ReportRequest& request) {
@@ -76,8 +66,10 @@ void addWorst(const ReportRequest& request, Report& report) {
         request.continuing();
         request.doing("flying again: " + course + ", " + avoidance::displayName(run.setup.model));
         try {
-            report.worst.push_back(replays::viewFromAbove(run, *report.profile));
+            report.worst.push_back(
+                replays::viewFromAbove(run, *report.profile, request.continuing));
         } catch (const std::exception& e) {
+            request.continuing();  // throws if that was the reason
             report.worst_missing.push_back(course + ", " + nameOf(trials::contenderOf(run)) + ", " +
                                            nameOf(trials::conditionOf(run)) +
                                            ", cannot be flown again: " + e.what());
@@ -86,15 +78,18 @@ void addWorst(const ReportRequest& request, Report& report) {
 }
 
 void writeOutputs(const ReportRequest& request, const Report& report) {
-    std::vector<std::unique_ptr<TextOutput>> outputs;
-    const auto write = [&](const fs::path& path, std::string text) {
-        outputs.push_back(std::make_unique<TextOutput>(path, request.overwrite, std::move(text)));
+    std::deque<base::OutputPath> places;
+    base::OutputSet outputs;
+    const auto write = [&](const fs::path& path, const std::string& text) {
+        base::OutputPath& place = places.emplace_back(path, base::kFile, request.overwrite);
+        outputs.add(place);
+        outputs.write(place, [&] { base::writeText(text, place.temporary(), path); });
     };
     write(request.folder / "report.html", reportPage(report));
     write(request.folder / "summary.json", summaryJson(report.summary, report.flown));
     write(request.folder / "summary.csv", summaryCsv(report.summary));
     if (!request.markdown.empty()) write(request.markdown, reportMarkdown(report));
-    for (const auto& output : outputs) output->place.commit();
+    outputs.commit();
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <hagen/simulated_logs/SimulatedLog.h>
 
+#include <hagen/base/OutputSet.h>
 #include <hagen/logs/RawlogWriter.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/VelodyneDecoder.h>
@@ -48,15 +49,18 @@ class PoseOutput {
 /// The requested outputs.
 class Outputs {
  public:
-    Outputs(const SimulatedLog& log, const Attitude& mount) {
+    Outputs(const SimulatedLog& log, const Attitude& mount)
+        : rawlog_(log.rawlog), folder_(log.folder), poses_(log.poses) {
         if (!log.rawlog.empty()) rawlog.emplace(log.rawlog, log.overwrite);
         if (!log.folder.empty()) folder.emplace(log.folder, log.overwrite, mount);
         if (!log.poses.empty()) poses.emplace(log.poses, log.overwrite);
     }
     void commit() {
-        if (folder) folder->commit();
-        if (poses) poses->commit();
-        if (rawlog) rawlog->commit();
+        base::OutputSet outputs;
+        if (folder) outputs.add(folder_, *folder);
+        if (poses) outputs.add(poses_, *poses);
+        if (rawlog) outputs.add(rawlog_, *rawlog);
+        outputs.commit();
     }
     std::string keepPartial() {
         std::string names;
@@ -69,6 +73,9 @@ class Outputs {
     std::optional<logs::RawlogWriter> rawlog;
     std::optional<GroundTruthFolder> folder;
     std::optional<PoseOutput> poses;
+
+ private:
+    fs::path rawlog_, folder_, poses_;
 };
 
 mrpt::Clock::time_point timePoint(double time_s) { return mrpt::Clock::fromDouble(time_s); }

@@ -171,6 +171,18 @@ TEST_F(LiveSegment, ARecordingThatCannotBeWrittenCostsNoStatistics) {
     EXPECT_GT(stats()["packets"]["taken"], 0);
 }
 
+TEST_F(LiveSegment, StatisticsThatCannotBeWrittenCostNothingElse) {
+    const auto outcome =
+        test::run("/bin/bash", {"-c", "(ulimit -f 0; exec \"" + std::string(HAGEN_LIVE_SEGMENT) +
+                                          "\" --model VLP-16 --speed 50 --replay \"" + capture() +
+                                          "\" --stats \"" + path("stats.json") +
+                                          "\") 2>&1 | cat; exit ${PIPESTATUS[0]}"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.out, HasSubstr("packets"));  // of the summary
+    EXPECT_THAT(outcome.out, HasSubstr("stats.json: cannot be written"));
+    EXPECT_FALSE(fs::exists(path("stats.json")));
+}
+
 TEST_F(LiveSegment, ReceivesFromTheNetwork) {
     const std::uint16_t port = freePort();
     std::vector<std::string> packets;

@@ -448,6 +448,24 @@ TEST_F(SegmentationEvaluate, CameraScoresPixelsAndDrawsThem) {
     EXPECT_TRUE(fs::exists(folder_ / "overlays/pole_000000_overlay.png"));
 }
 
+/// An evaluation may take hours.
+TEST_F(SegmentationEvaluate, PicturesThatCannotBeDrawnCostNoScores) {
+    fs::permissions(folder_.write("gnuplot", "#!/bin/sh\nexit 3\n"), fs::perms::owner_all);
+    const auto outcome = test::run(
+        "/bin/bash",
+        {"-c", "PATH=\"" + folder_.path().string() + ":$PATH\" exec \"" +
+                   std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" + labelledPole() +
+                   "\" --camera \"" + kCamera + "\" --json \"" + path("a.json") + "\" --charts \"" +
+                   path("charts") + "\" --overlay \"" + path("overlay") + "\""});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(path("charts") + "/by_range.svg could not be written"));
+    EXPECT_THAT(outcome.err, HasSubstr(path("overlay") + "/pole_000000_overlay.png could"));
+    EXPECT_EQ(row(outcome.out, "hagen"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
+    EXPECT_EQ(nlohmann::json::parse(test::readFile(path("a.json")))["methods"].size(), 1u);
+    EXPECT_FALSE(fs::exists(path("charts")));
+    EXPECT_FALSE(fs::exists(path("overlay")));
+}
+
 TEST_F(SegmentationEvaluate, ChartsShowPartsAndSweeps) {
     const std::string charts = (folder_ / "charts").string();
     const auto outcome = run({"-i", poleWithKinds(), "--charts", charts, "--sweep",

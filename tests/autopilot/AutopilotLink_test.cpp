@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <new>
 #include <thread>
 
 #include "autopilot/Vehicle.h"
@@ -158,6 +159,22 @@ TEST_F(AutopilotLinkTest, AFilterThatStallsIsToldAndNothingIsFree) {
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(
         [](const auto& m) { return m.distances[0] == 600 && m.distances[36] == 2001; }));
     EXPECT_THAT(remarks(), Contains(HasSubstr("known again")));
+}
+
+/// A remark that finds no memory stands for any step that finds none.
+TEST_F(AutopilotLinkTest, WithoutMemoryAStepIsLeftOutAndTheNextOnesFollow) {
+    Autopilot autopilot;
+    settings_.peer = autopilot.address();
+    link_ = std::make_unique<AutopilotLink>(settings_,
+                                            [](const std::string&) { throw std::bad_alloc(); });
+    link_->begin(sensor_, {20, 0});
+    takeTurn();
+    ASSERT_TRUE(autopilot.receiveUntil<mavlink::ObstacleDistance>(
+        [](const auto& m) { return !isAllUnknown(m); }));
+    // Nobody labels any longer, which is told.
+    ASSERT_TRUE(autopilot.receiveUntil<mavlink::Heartbeat>(
+        [](const auto& m) { return m.system_status == mavlink::kStateCritical; }));
+    EXPECT_EQ(count("out_of_memory"), 1u);
 }
 
 TEST_F(AutopilotLinkTest, TheFiveNearestObstaclesAreSentOneByOne) {

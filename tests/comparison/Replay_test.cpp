@@ -4,7 +4,9 @@
 
 #include <hagen/mrpt_scene/MrptScene.h>
 #include <hagen/replays/Ending.h>
+#include <hagen/replays/Overhead.h>
 #include <hagen/replays/Replay.h>
+#include <hagen/trials/Calibration.h>
 #include "SampleRuns.h"
 #include "support/Program.h"
 
@@ -42,6 +44,19 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
     EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // not free
     EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, OctoMap 0.4 m, A*, 4.0 m/s: success</title>"));
     EXPECT_THAT(replays::replayPage(replays::Recording{}), HasSubstr("\"steps\":[]"));
+}
+
+TEST(Replay, CanBeEndedWhileItFlies) {
+    struct Interrupted {};
+    const trials::Run run = test::runOf("gap", 1, "W-RoI", "straight", test::kWon);
+    const auto profile = trials::constantProfile(1);
+    int steps = 0;
+    const auto endAtTheThird = [&] {
+        if (++steps == 3) throw Interrupted();
+    };
+    EXPECT_THROW(replays::record(run, profile, {}, endAtTheThird), Interrupted);
+    steps = 0;
+    EXPECT_THROW(replays::viewFromAbove(run, profile, endAtTheThird), Interrupted);
 }
 
 TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/labelled_scans/Overlay.h>
 
@@ -28,6 +29,19 @@ TEST(Overlay, OfSeveralMethodsEachHasAFolder) {
     }
     EXPECT_TRUE(std::filesystem::exists(folder / "pictures/x_00_000007_overlay.png"));
     EXPECT_TRUE(std::filesystem::exists(folder / "pictures/beta_5/x_00_000007_overlay.png"));
+
+    const std::string same = "beta_5", above = "..";
+    const auto errorOf = [&](const std::string& method, const std::string& source) {
+        return test::messageOf([&] {
+            drawOverlay(folder / "pictures", source,
+                        {0, 0, 0, 2, method, truth, truth.truth, pixels}, options);
+        });
+    };
+    const std::string twice = "two pictures would be beta_5/x_00_000007_overlay.png";
+    EXPECT_THAT(errorOf(same, "x/00"), testing::HasSubstr(twice));
+    EXPECT_THAT(errorOf(name, "x_00"), testing::HasSubstr(twice));
+    EXPECT_EQ(errorOf(above, "x/00"), "");
+    EXPECT_TRUE(std::filesystem::exists(folder / "pictures/_/x_00_000007_overlay.png"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "support/Captures.h"
 #include "support/InstructionSets.h"
@@ -364,6 +365,29 @@ TEST(VelodyneDecoder, APacketOfAnotherOrUnknownModelIsRefusedByItsNumber) {
             EXPECT_EQ(scan.size(), 0u);
         }
     }
+}
+
+/// Finite as doubles, but no floats: their differences would be no coordinates.
+TEST(VelodyneDecoder, CorrectionsThatNoLaserHasAreRefused) {
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(64, model, 24, 0.0));
+    auto& laser = observation->calibration.laser_corrections.at(5);
+    for (double* const correction : {&laser.distanceCorrection, &laser.verticalOffsetCorrection,
+                                     &laser.horizontalOffsetCorrection}) {
+        for (const double wild : {1e300, -1e300, 1e30, 10.1}) {
+            const double before = std::exchange(*correction, wild);
+            Scan scan;
+            try {
+                decodePackets(*observation, scan);
+                ADD_FAILURE() << wild;
+            } catch (const std::runtime_error& e) {
+                EXPECT_THAT(e.what(), HasSubstr("calibration is corrupt: laser 5"));
+            }
+            *correction = before;
+        }
+    }
+    Scan scan;
+    EXPECT_NO_THROW(decodePackets(*observation, scan));
 }
 
 TEST(VelodyneDecoder, NoPacketsGiveNoReturns) {

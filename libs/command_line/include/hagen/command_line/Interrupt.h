@@ -2,8 +2,8 @@
 
 namespace hagen::command_line {
 
-/// Shuts a program down cleanly: after SIGINT, SIGTERM or SIGHUP (unless ignored) isInterrupted()
-/// returns true; a later signal ends the program at once.
+/// Shuts a program down cleanly: after SIGINT, SIGTERM, SIGHUP or SIGXCPU (a limit of CPU time),
+/// unless ignored, isInterrupted() returns true. A later signal ends the program at once.
 void catchSignals();
 
 /// Ignores SIGPIPE and SIGXFSZ, so that the failed write reports the error. Each Program does.

@@ -63,10 +63,11 @@ struct LiveReport {
     /// sectors; infinity: none.
     std::array<float, streaming::SectorDistances::kSectors> nearest_m{};
     std::array<streaming::SectorDistances::Sector, streaming::SectorDistances::kSectors> latest{};
-    double seconds = 0;        ///< that it ran
-    double filter_cpu_s = 0;   ///< CPU time of the thread that labels
-    double process_cpu_s = 0;  ///< of all threads, without the recorder
-    Recorded recorded;         ///< if it was
+    double seconds = 0;         ///< that it ran
+    double filter_cpu_s = 0;    ///< CPU time of the thread that labels
+    double process_cpu_s = 0;   ///< of all threads, without the recorder
+    std::string stats_failure;  ///< why LiveOptions::stats could not be written
+    Recorded recorded;          ///< if it was
 };
 
 /// The last second.

@@ -2,6 +2,7 @@
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/RunTable.h>
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +22,10 @@ struct OverheadView {
 };
 
 /// Flies the run again. Obstacles are cells with returns between 0.5 and 4.5 m above the ground.
-/// Throws like flyAgain().
-OverheadView viewFromAbove(const trials::Run& run, const trials::LatencyProfile& profile);
+/// Throws like flyAgain(), and whatever `continuing` throws: it is called at each planning step.
+OverheadView viewFromAbove(
+    const trials::Run& run, const trials::LatencyProfile& profile,
+    const std::function<void()>& continuing = [] {});
 
 /// The worst runs: collisions first, then timeouts, by clearance; one per scenario and contender.
 /// Runs of the oracle are left out.

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -65,8 +66,10 @@ struct RecordingLimits {
     float reach_m = 25;            ///< of the returns that are kept
 };
 
-/// Flies the run again and records it. Throws like flyAgain().
-Recording record(const trials::Run& run, const trials::LatencyProfile& profile,
-                 const RecordingLimits& limits = {});
+/// Flies the run again and records it. Throws like flyAgain(), and whatever `continuing` throws: it
+/// is called at each planning step.
+Recording record(
+    const trials::Run& run, const trials::LatencyProfile& profile,
+    const RecordingLimits& limits = {}, const std::function<void()>& continuing = [] {});
 
 }  // namespace hagen::replays
