@@ -1,7 +1,7 @@
 // octomap-compare distances: measures how far off the clearances of world models are.
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/NumberText.h>
-#include <hagen/base/OutputPath.h>
+#include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/trials/ClearanceErrors.h>
 #include <hagen/trials/Distance.h>
@@ -68,9 +68,13 @@ int run(const Flags& flags) {
     if (!csv) return 0;
     base::writeText(trials::clearanceCsv(errors), csv->temporary(), csv->path());
     base::writeText(table, markdown->temporary(), markdown->path());
-    csv->commit();
-    markdown->commit();
+    base::OutputSet outputs;
+    outputs.add(*csv);
+    outputs.add(*markdown);
+    outputs.commit();
     std::cout << "\n" << csv->path().string() << "\n" << markdown->path().string() << "\n";
+    const std::string left = base::leftBehind({csv->path(), markdown->path()});
+    if (!left.empty()) std::cerr << left << "\n";
     return 0;
 }
 

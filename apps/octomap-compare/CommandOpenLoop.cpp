@@ -3,6 +3,7 @@
 #include <hagen/settings/Presets.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -62,7 +63,10 @@ int run(Flags flags) {
     for (const std::string& config : flags.configs) {
         mergeSettings(presetFile(config), open_loop.source.settings);
     }
-    openloop::OpenLoopFiles files(flags.folder, flags.overwrites);
+    std::vector<std::filesystem::path> inputs = open_loop.source.settings.files;
+    inputs.insert(inputs.end(),
+                  {open_loop.source.log, open_loop.source.poses, open_loop.source.sensor_json});
+    openloop::OpenLoopFiles files(flags.folder, flags.overwrites, inputs);
     ProgressLine progress("scan");
     openloop::OpenLoopListener listener;
     listener.row = [&](const openloop::OpenLoopRow& row, const openloop::OpenLoopCost& cost) {

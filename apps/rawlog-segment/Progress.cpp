@@ -10,7 +10,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMostRemarks = 10;  // one per scan would hide everything else
+constexpr std::size_t kMostRemarks = 10;  // of a kind; one per scan would hide everything else
 constexpr Seconds kBetweenLines{0.1}, kBeforeRate{1.0};
 
 std::string clockOf(double seconds) {
@@ -23,6 +23,18 @@ std::string clockOf(double seconds) {
         std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
     }
     return text;
+}
+
+/// What remarks have in common that differ by their numbers and names.
+std::string kindOf(const std::string& remark) {
+    std::string kind;
+    bool is_quoted = false;
+    for (const char c : remark) {
+        if (c == '\'') is_quoted = !is_quoted;
+        if (is_quoted || (c >= '0' && c <= '9')) continue;
+        kind += c;
+    }
+    return kind;
 }
 
 }  // namespace
@@ -54,11 +66,17 @@ void Progress::tell(const std::string& entry, const std::string& what) {
 }
 
 void Progress::remark(const std::string& entry, const std::string& remark) {
-    if (is_quiet_ || remarks_[remark]++ > 0) return;
-    if (remarks_.size() > kMostRemarks) {
-        ++untold_;
-    } else {
+    if (is_quiet_) return;
+    Remark& known = remarks_[remark];
+    if (known.times++ > 0) return;
+    Kind& kind = kinds_[kindOf(remark)];
+    known.is_told = kind.told < kMostRemarks;
+    if (known.is_told) {
+        ++kind.told;
         tell(entry, remark);
+    } else {
+        ++kind.untold;
+        kind.last = remark;
     }
 }
 
@@ -81,9 +99,12 @@ void Progress::show(const hagen::logs::ConversionReport& report) {
 
 void Progress::finish() {
     if (is_on_terminal_) std::cerr << hagen::command_line::clearLine;
-    for (const auto& [remark, times] : remarks_) {
-        if (times < 2) continue;
-        std::cerr << input_ << ": the same for " << times - 1 << " more: " << remark << "\n";
+    for (const auto& [text, remark] : remarks_) {
+        if (remark.times < 2 || !remark.is_told) continue;
+        std::cerr << input_ << ": the same for " << remark.times - 1 << " more: " << text << "\n";
     }
-    if (untold_ > 0) std::cerr << input_ << ": and " << untold_ << " more warnings\n";
+    for (const auto& [text, kind] : kinds_) {
+        if (kind.untold == 0) continue;
+        std::cerr << input_ << ": and " << kind.untold << " more like this: " << kind.last << "\n";
+    }
 }

@@ -23,7 +23,15 @@ class Progress {
 
     std::string input_;
     bool is_quiet_, is_on_terminal_;
-    std::map<std::string, std::size_t> remarks_;  ///< number of occurrences
-    std::size_t untold_ = 0;
+    struct Remark {
+        std::size_t times = 0;
+        bool is_told = false;
+    };
+    struct Kind {
+        std::size_t told = 0, untold = 0;
+        std::string last;  ///< that was not told
+    };
+    std::map<std::string, Remark> remarks_;  ///< by their texts
+    std::map<std::string, Kind> kinds_;      ///< of remarks that differ in numbers and names only
     std::chrono::steady_clock::time_point start_, shown_;
 };

@@ -1,4 +1,5 @@
 // Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
+#include <hagen/base/OutputPath.h>
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/LearnAirframe.h>
 #include <hagen/logs/ScanSource.h>
@@ -275,6 +276,8 @@ void learn(const Flags& flags) {
     };
     const logs::AirframeReport report = logs::learnAirframe(learning, listener);
     if (!flags.is_quiet) printAirframe(learning, report);
+    const std::string left = base::leftBehind({learning.file, report.picture});
+    if (!flags.is_quiet && !left.empty()) std::cerr << left << "\n";
 }
 
 int run(const Program& program, Flags& flags) {

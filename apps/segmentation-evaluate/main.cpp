@@ -195,6 +195,8 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     endIfInterrupted();
     std::cout << reportOf(summary) << std::flush;
     outputs.all.commit();
+    const std::string left = base::leftBehind({flags.json, flags.charts, flags.overlay});
+    if (!left.empty()) std::cerr << left << "\n";
     return 0;
 }
 

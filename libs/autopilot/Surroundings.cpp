@@ -47,6 +47,9 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
         if (sector.label[i] != Label::Roi) continue;
         seen.roi_m.emplace_back(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
     }
+    if (!sector.sweep) {
+        seen.is_all_around = frames_.add(sector.first_time_s, sector.measured_s);
+    }
     const bool went_back = !seen_.empty() && sector.first_time_s < seen_.back()->first_time_s;
     if (went_back) seen_.clear();
     latest_s_ = went_back ? sector.last_time_s : std::max(latest_s_, sector.last_time_s);
@@ -61,23 +64,29 @@ bool Surroundings::isFresh(const Seen& seen, double now_s) const {
     return age_s >= 0 && age_s <= longest_s;
 }
 
-/// Whether it looked in a direction of the sensor's frame.
-bool Surroundings::covers(const Seen& seen, const Eigen::Vector3d& ahead) const {
-    if (ahead.z() < lowest_ || ahead.z() > highest_) return false;
-    if (seen.sweeps.empty()) return true;
+/// How it looked in a direction of the sensor's frame. The gap before a packet is passed with it;
+/// the direction just behind it is near enough to be seen, but not passed.
+Surroundings::Look Surroundings::lookOf(const Seen& seen, const Eigen::Vector3d& ahead) const {
+    if (ahead.z() < lowest_ || ahead.z() > highest_) return Look::None;
+    if (seen.sweeps.empty()) return seen.is_all_around ? Look::Passed : Look::None;
     const double clockwise_rad = -std::atan2(ahead.y(), ahead.x());
-    return std::any_of(seen.sweeps.begin(), seen.sweeps.end(), [&](const streaming::Sweep& sweep) {
+    Look look = Look::None;
+    for (const streaming::Sweep& sweep : seen.sweeps) {
         const double into_rad = clockwise_rad - sweep.from_rad + kTolerance_rad;
         const double turned_rad = into_rad - kTurn_rad * std::floor(into_rad / kTurn_rad);
-        return turned_rad <= sweep.to_rad - sweep.from_rad + 2 * kTolerance_rad;
-    });
+        const double width_rad = sweep.to_rad - sweep.from_rad + kTolerance_rad;
+        if (turned_rad <= width_rad) return Look::Passed;
+        if (turned_rad <= width_rad + kTolerance_rad) look = Look::Near;
+    }
+    return look;
 }
 
 Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
-    // How far the sensor had turned when it swept each part last.
-    std::array<double, kBins> swept_rad;
-    swept_rad.fill(-kNone);
-    std::array<bool, kBins> is_swept{};
+    // Of the edges between bins: whether the sensor looked there, and how far it had turned when it
+    // passed them last.
+    std::array<bool, kBins> is_seen{}, is_passed{};
+    std::array<double, kBins> passed_rad;
+    passed_rad.fill(-kNone);
     Directions directions;
     const std::optional<VehiclePose> now = motion.at(now_s);
     constexpr double kPart_rad = kTurn_rad / kBins, kHalf_rad = kTurn_rad / 72 / 2;
@@ -86,18 +95,20 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         const Seen* const seen = each->get();
         if (!isFresh(*seen, now_s)) continue;
         // All was swept again, by a later turn.
-        const double least_rad = *std::min_element(swept_rad.begin(), swept_rad.end());
+        const double least_rad = *std::min_element(passed_rad.begin(), passed_rad.end());
         if (least_rad - seen->to_rad > kPi) continue;
         const auto then = motion.at((seen->first_time_s + seen->last_time_s) / 2);
         const Eigen::Isometry3d level = levelFromSensor(settings_.vehicle_from_sensor, then, now);
         const Eigen::Matrix3d sensor_from_level = level.linear().transpose();
-        for (int bin = 0; bin < kBins; ++bin) {
-            if (is_swept[bin]) continue;
-            const double clockwise_rad = (bin + 0.5) * kPart_rad - kHalf_rad;
+        for (int edge = 0; edge < kBins; ++edge) {
+            if (is_passed[edge]) continue;
+            const double clockwise_rad = edge * kPart_rad - kHalf_rad;
             const Eigen::Vector3d ahead(std::cos(clockwise_rad), -std::sin(clockwise_rad), 0);
-            if (!covers(*seen, sensor_from_level * ahead)) continue;
-            is_swept[bin] = true;
-            swept_rad[bin] = seen->to_rad;
+            const Look look = lookOf(*seen, sensor_from_level * ahead);
+            is_seen[edge] = is_seen[edge] || look != Look::None;
+            if (look != Look::Passed) continue;
+            is_passed[edge] = true;
+            passed_rad[edge] = seen->to_rad;
         }
         const Eigen::Isometry3f move = level.cast<float>();
         for (const Eigen::Vector3f& roi_m : seen->roi_m) {
@@ -106,8 +117,9 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
             double clockwise_rad = kHalf_rad - static_cast<double>(std::atan2(at_m.y(), at_m.x()));
             clockwise_rad -= kTurn_rad * std::floor(clockwise_rad / kTurn_rad);
             const int bin = std::min(static_cast<int>(clockwise_rad / kPart_rad), kBins - 1);
-            // The next turn has swept it since, without this.
-            if (swept_rad[bin] - seen->to_rad > kPi) continue;
+            // The next turn has passed all of the bin since, without this.
+            const double since_rad = std::min(passed_rad[bin], passed_rad[(bin + 1) % kBins]);
+            if (since_rad - seen->to_rad > kPi) continue;
             Direction& direction = directions[bin / kParts];
             const float distance_m = at_m.head<2>().norm();
             if (direction.distance_m <= distance_m) continue;
@@ -115,8 +127,10 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         }
     }
     for (int k = 0; k < 72; ++k) {
-        const auto first = is_swept.begin() + k * kParts;
-        const bool is_all = std::all_of(first, first + kParts, [](bool is) { return is; });
+        bool is_all = true;
+        for (int edge = k * kParts; edge <= (k + 1) * kParts; ++edge) {
+            is_all = is_all && is_seen[edge % kBins];
+        }
         Direction& direction = directions[k];
         if (direction.state == Direction::State::Unknown && is_all) {
             direction.state = Direction::State::SeenNothing;

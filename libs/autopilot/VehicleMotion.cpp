@@ -94,7 +94,9 @@ void VehicleMotion::add(Place place) {
         const double passed_s = place.time_s - last.time_s;
         if (passed_s <= 0) return;
         const Eigen::Vector3d jump_m = place.place_m - last.place_m - passed_s * last.speed_m_s;
-        if (passed_s <= kStale_s && jump_m.norm() > kJump_m) {
+        if (passed_s > kStale_s) {
+            places_.clear();  // whether the estimate jumped meanwhile cannot be told
+        } else if (jump_m.norm() > kJump_m) {
             origin_m_ -= jump_m;
             place.place_m -= jump_m;
         }

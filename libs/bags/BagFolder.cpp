@@ -66,7 +66,7 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const fs::path& file : base::entriesOf(folder)) {
         const fs::path ending = file.extension();
-        if (fs::is_regular_file(file) && (ending == ".mcap" || ending == ".db3")) {
+        if (!fs::is_directory(file) && (ending == ".mcap" || ending == ".db3")) {
             files.push_back(file);
         }
     }

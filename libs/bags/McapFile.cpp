@@ -104,6 +104,9 @@ bool McapFile::readRecord(BagMessage& message) {
         return false;
     }
     checkKind(op);
+    if (is_data_ended_ && (op == kMessage || op == kChunk)) {
+        throw std::runtime_error(nameOf(op) + " comes after the end of the data");
+    }
     if (is_data_ended_ || !isRead(op)) {
         file_.beginSkip(size, nameOf(op));
         return false;
@@ -123,13 +126,14 @@ bool McapFile::readRecord(BagMessage& message) {
 bool McapFile::readInChunk(BagMessage& message) {
     const auto op = in_chunk_.number<std::uint8_t>();
     checkKind(op);
+    if (op == kChunk) throw std::runtime_error("a chunk is within it");
     const auto size = in_chunk_.number<std::uint64_t>();
     if (size > in_chunk_.left()) {
         throw TooShort(nameOf(op) + " in it claims " + std::to_string(size) + " bytes, " +
                        std::to_string(in_chunk_.left()) + " are left");
     }
     const ByteView content = in_chunk_.take(static_cast<std::size_t>(size));
-    return op != kChunk && takeRecord(op, content, message);
+    return takeRecord(op, content, message);
 }
 
 bool McapFile::takeRecord(std::uint8_t op, ByteView content, BagMessage& message) {
@@ -219,6 +223,10 @@ void McapFile::readFooter(std::uint64_t size) {
     file_.read(kMagic.size(), "the format's name at the end", content_);
     if (std::string(content_.begin(), content_.end()) != kMagic) {
         throw std::runtime_error("the format's name is missing at the end");
+    }
+    if (file_.left() > 0) {
+        throw std::runtime_error("the file goes on for " + std::to_string(file_.left()) +
+                                 " bytes after its end; was another one appended?");
     }
     is_at_end_ = true;
 }

@@ -16,7 +16,7 @@ void limitMemory(std::uint64_t bytes) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     rlimit limit{};
     if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-    limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
+    limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_cur);
     setrlimit(RLIMIT_DATA, &limit);
 #else
     static_cast<void>(bytes);

@@ -32,6 +32,10 @@ fs::path foreignPart(const fs::path& folder, const fs::path& output, const Outpu
 }
 
 void checkReplaceable(const fs::path& path, const OutputKind& kind) {
+    if (fs::is_symlink(path)) {  // such as /dev/stdout
+        throw std::runtime_error(path.string() +
+                                 ": a link, so it is not replaced; give the path of what it means");
+    }
     if (kind.holds == nullptr) {
         if (!fs::is_regular_file(path)) {
             throw std::runtime_error(path.string() +
@@ -111,7 +115,11 @@ bool isLeftBehind(const std::string& name, const std::string& output) {
         name.substr(start.size(), name.find('-', start.size()) - start.size());
     if (process.empty() || process.find_first_not_of("0123456789") != std::string::npos)
         return false;
-    return process.size() < 10 && kill(std::stoi(process), 0) != 0 && errno == ESRCH;
+    if (process.size() >= 10) return false;
+    // In a container each run may have the same number. Outputs of this one have their names by
+    // now.
+    const int number = std::stoi(process);
+    return number == getpid() || (kill(number, 0) != 0 && errno == ESRCH);
 }
 
 /// True if `inner` is `outer` or lies in it.
@@ -149,22 +157,43 @@ void OutputPath::checkFree() const {
     checkReplaceable(path_, kind_);
 }
 
+/// False if the name is taken, by someone else since the constructor's check.
+bool OutputPath::renameToFreeName() const {
+    if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0) {
+        return true;
+    }
+    if (errno == EEXIST) return false;
+    if (fs::exists(fs::symlink_status(path_))) return false;
+    fs::rename(temporary_, path_);  // some file systems do not know that flag
+    return true;
+}
+
 void OutputPath::commit() {
+    const bool is_folder = fs::is_directory(temporary_);
+    if (is_folder) {
+        syncFolder(temporary_, path_);
+    } else {
+        syncFile(temporary_, path_);
+    }
+    // Both take time.
+    std::string taken;
     try {
         checkFree();
-    } catch (
-        const std::runtime_error& e) {  // created by someone else since the constructor's check
-        throw std::runtime_error(std::string(e.what()) + "; this run's output is " +
-                                 keepPartial().string());
+        if (!overwrites_ && !renameToFreeName()) taken = path_.string() + " exists now";
+    } catch (const fs::filesystem_error&) {
+        throw;
+    } catch (const std::runtime_error& e) {
+        taken = e.what();
     }
-    const fs::path folder = fs::absolute(path_).parent_path();
-    if (!fs::is_directory(temporary_)) {
-        syncFile(temporary_, path_);
-        fs::rename(temporary_, path_);
-        syncFile(folder, path_);
+    if (!taken.empty()) {
+        throw std::runtime_error(taken + "; this run's output is " + keepPartial().string());
+    }
+    if (!is_folder) {
+        if (overwrites_) fs::rename(temporary_, path_);
+        syncFile(fs::absolute(path_).parent_path(), path_);
         return;
     }
-    syncFolder(temporary_, path_);
+    if (!overwrites_) return;
     if (!fs::is_directory(path_)) {
         fs::rename(temporary_, path_);
         return;
@@ -187,12 +216,13 @@ void OutputPath::commit() {
 }
 
 fs::path OutputPath::keepPartial() {
+    if (!kept_.empty()) return kept_;
     const bool is_folder = fs::is_directory(temporary_);
     fs::path stem = path_;
     if (!is_folder) stem.replace_extension();
     fs::path name = freeName(stem, ".partial", is_folder ? fs::path() : path_.extension());
     fs::rename(temporary_, name);
-    return name;
+    return kept_ = name;
 }
 
 RenamingNote::RenamingNote(const std::vector<fs::path>& outputs) {
@@ -205,9 +235,11 @@ RenamingNote::RenamingNote(const std::vector<fs::path>& outputs) {
     for (const fs::path& output : outputs) text += output.string() + "\n";
     fs::path first = outputs.front();
     if (!first.has_filename()) first = first.parent_path();
-    file_ = secretName(first, ".unfinished-");
     try {
+        file_ = secretName(first, ".unfinished-");
         std::ofstream(file_) << text;
+    } catch (const fs::filesystem_error&) {  // a name too long
+        file_.clear();
     } catch (const std::bad_alloc&) {  // for its buffer, once the file is there
         std::error_code ignored;
         fs::remove(file_, ignored);
@@ -248,13 +280,31 @@ std::vector<fs::path> partialOutputs(const fs::path& path) {
     return found;
 }
 
+std::string leftBehind(const std::vector<fs::path>& outputs) {
+    std::string names;
+    for (const fs::path& output : outputs) {
+        for (const fs::path& left : partialOutputs(output)) {
+            names += (names.empty() ? "" : ", ") + left.string();
+        }
+    }
+    if (names.empty()) return "";
+    return "earlier runs that broke off left " + names + "; delete what you do not need";
+}
+
 void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->empty()) continue;
         for (const fs::path& input : inputs) {
-            if (input.empty() || !isWithin(input, *output)) continue;
-            throw std::runtime_error(output->string() +
-                                     ": is or contains the input; choose another output");
+            if (input.empty()) continue;
+            if (isWithin(input, *output)) {
+                throw std::runtime_error(output->string() +
+                                         ": is or contains the input; choose another output");
+            }
+            if (fs::exists(*output) && isWithin(*output, input)) {
+                throw std::runtime_error(output->string() + ": is in the input " + input.string() +
+                                         " and may be a part of it, so it is not replaced; choose "
+                                         "another output");
+            }
         }
         for (auto other = output + 1; other != outputs.end(); ++other) {
             if (other->empty()) continue;

@@ -3,6 +3,7 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/base/ReadFile.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -62,7 +63,9 @@ Bytes readBytes(const std::filesystem::path& file) {
 }
 
 void failAt(const std::filesystem::path& file, const std::string& place, const std::string& what) {
-    throw BrokenCloud(file.string() + ": " + place + ": " + what);
+    std::string text = file.string() + ": " + place + ": " + what;
+    std::replace(text.begin(), text.end(), '\0', '?');  // what() would end there
+    throw BrokenCloud(text);
 }
 
 std::optional<std::string_view> TextLines::next() {

@@ -33,7 +33,8 @@ void ignoreWriteSignals() {
 }
 
 void catchSignals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM,
+                             SIGVTALRM, SIGPWR}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);
         if (action.sa_handler == SIG_IGN) continue;  // set by nohup

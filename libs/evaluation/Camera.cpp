@@ -20,6 +20,7 @@ double numberOf(const YAML::Node& node, const std::string& key) {
 }
 
 constexpr int kMostPixels = 20000;  // per side; more is a typo
+constexpr double kMostPixelsInAll = 50e6;
 
 int checkImageSize(double value, const std::string& key) {
     if (!(value >= 1 && value <= kMostPixels) || value != std::floor(value)) {
@@ -61,6 +62,9 @@ PinholeCamera readCamera(const std::filesystem::path& file) {
     PinholeCamera camera;
     camera.width_px = checkImageSize(values["width"], "width");
     camera.height_px = checkImageSize(values["height"], "height");
+    if (static_cast<double>(camera.width_px) * camera.height_px > kMostPixelsInAll) {
+        throw std::runtime_error(file.string() + ": has more than 50 million pixels");
+    }
     camera.fx_px = values["fx"];
     camera.fy_px = values["fy"];
     camera.cx_px = values["cx"];

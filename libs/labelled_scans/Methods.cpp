@@ -113,6 +113,8 @@ std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
     std::vector<evaluation::Method> methods;
     for (const SweepPoint& row : rows.filter) {
         Settings settings = settingsFor(row.settings, sensor_file);
+        if (!row.sweep_key.empty())
+            setOption(row.sweep_key, row.sweep_value, settings);  // not that of the folder
         settings.options = settings.optionsFor(beams.get());
         methods.push_back(filterMethod(row.name, sensorOf(settings), settings));
     }

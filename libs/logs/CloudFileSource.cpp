@@ -64,7 +64,7 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
     : ScanSource(options) {
     if (fs::is_directory(file_or_folder)) {
         for (const fs::path& entry : base::entriesOf(file_or_folder)) {
-            if (!fs::is_regular_file(entry)) continue;
+            if (fs::is_directory(entry)) continue;
             if (clouds::hasCloudName(entry)) {
                 files_.push_back(entry);
             } else {
@@ -94,7 +94,7 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
 bool CloudFileSource::hasClouds(const fs::path& folder) {
     const std::vector<fs::path> entries = base::entriesOf(folder);
     return std::any_of(entries.begin(), entries.end(), [](const fs::path& entry) {
-        return fs::is_regular_file(entry) && clouds::hasCloudName(entry);
+        return !fs::is_directory(entry) && clouds::hasCloudName(entry);
     });
 }
 

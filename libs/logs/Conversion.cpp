@@ -22,7 +22,8 @@ fs::path externalsOf(const fs::path& rawlog) {
 /// Tells MRPT where the input's external files are, and the user where the output expects them.
 void useExternals(const Conversion& conversion, const ConversionListener& listener) {
     const fs::path folder = externalsOf(conversion.input);
-    if (fs::is_directory(conversion.input) || !fs::is_directory(folder)) return;
+    std::error_code no_such;  // a name with the ending may be too long
+    if (fs::is_directory(conversion.input) || !fs::is_directory(folder, no_such)) return;
     mrpt::io::setLazyLoadPathBase(folder.string() + "/");
     mrpt::img::CImage::setImagesPathBase(folder.string() + "/");
     if (conversion.rawlog.empty() || externalsOf(conversion.rawlog) == folder) return;

@@ -188,15 +188,22 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
 }
 
 void ConversionOutputs::finishFolders() {
+    if (are_folders_finished_) return;
     for (const auto& [label, writer] : folder_writers_) {
         writer.finish();
         markAsPredictions(folders_->folderOf(label));
     }
+    are_folders_finished_ = true;
 }
 
 void ConversionOutputs::finish(const ConversionReport& report) {
     attempt(kFolders, [&] { finishFolders(); });
-    if (mcap_) attempt(kMcap, [&] { mcap_->finish(); });
+    if (mcap_) {
+        attempt(kMcap, [&] {
+            mcap_->finish();
+            is_mcap_finished_ = true;
+        });
+    }
     if (map_) attempt(kMap, [&] { map_->write(); });
     if (stats_) {
         attempt(kStats, [&] { writeStatistics(stats_->temporary(), conversion_, report); });
@@ -209,7 +216,8 @@ bool ConversionOutputs::hasWholeParts(Part part) const {
         return std::any_of(folder_writers_.begin(), folder_writers_.end(),
                            [](const auto& writer) { return writer.second.scans() > 0; });
     }
-    return part == kRawlog || (part == kClouds && clouds_->files() > 0);
+    return part == kRawlog || (part == kMcap && is_mcap_finished_) ||
+           (part == kClouds && clouds_->files() > 0);
 }
 
 /// What was given up, why, and what of it is kept.

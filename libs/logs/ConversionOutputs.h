@@ -82,6 +82,7 @@ class ConversionOutputs {
     void finish(const ConversionReport& report);
     const std::filesystem::path& pathOf(Part part) const;
     bool hasWholeParts(Part part) const;
+    bool are_folders_finished_ = false, is_mcap_finished_ = false;
     std::string whatFailed();
 
     const Conversion& conversion_;

@@ -404,15 +404,8 @@ ConversionReport Converter::finish() {
 
 /// Outputs of runs that broke off have names of their own, so that this one does not replace them.
 void Converter::remarkOnPartialOutputs() {
-    for (const fs::path& output : outputsOf(conversion_)) {
-        std::string names;
-        for (const fs::path& partial : base::partialOutputs(output)) {
-            names += (names.empty() ? "" : ", ") + partial.string();
-        }
-        if (names.empty()) continue;
-        listener_.remark("the outputs", "earlier runs that broke off left " + names +
-                                            "; delete what you do not need");
-    }
+    const std::string left = base::leftBehind(outputsOf(conversion_));
+    if (!left.empty()) listener_.remark("the outputs", left);
 }
 
 void Converter::finishSensorCheck() {
@@ -462,7 +455,11 @@ void Converter::remarkOnRecording() {
 /// Keeps what was converted before the recording or the conversion ended early, whatever the
 /// reason, and adds its location to the error.
 void Converter::keepWhatThereIs() {
-    remarkOnRecording();
+    try {
+        remarkOnRecording();
+    } catch (const std::exception& e) {
+        listener_.remark("the recording", e.what());
+    }
     const std::string unit = fs::is_directory(conversion_.input) ? "scans" : "entries";
     const std::string kept = "; the " + std::to_string(report_.entries) + " " + unit +
                              " before it are in" + outputs_.keepPartial(report_);

@@ -107,7 +107,11 @@ std::string MapOutput::keepPartial() {
     std::string names;
     for (base::OutputPath& file : files_) {
         if (given_up_.count(&file) > 0) continue;
-        names += (names.empty() ? "" : " ") + file.keepPartial().string();
+        try {
+            names += (names.empty() ? "" : " ") + file.keepPartial().string();
+        } catch (const std::exception& e) {
+            giveUp(file, e.what());
+        }
     }
     throwFailures();
     return names;

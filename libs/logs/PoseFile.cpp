@@ -32,7 +32,7 @@ CPose3D poseOfMatrix(const fs::path& file, const NumberLine& line) {
     for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = line.numbers[i];
     const auto rotation = matrix.asEigen().topLeftCorner<3, 3>();
     const double skew = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-    if (skew > kRotationTolerance || rotation.determinant() < 0) {
+    if (!(skew <= kRotationTolerance) || !(rotation.determinant() > 0)) {  // NaN, too
         fail(file, line, "the matrix is not a rigid transformation");
     }
     return CPose3D(matrix);

@@ -62,6 +62,10 @@ std::vector<std::string> RawlogSource::remarks() const {
         remarks.push_back("its sensory frames have " + std::to_string(null_objects_) +
                           " null objects, which MRPT cannot write: they are left out");
     }
+    if (poses_not_finite_ > 0) {
+        remarks.push_back("poses that are not finite are left out: " +
+                          std::to_string(poses_not_finite_));
+    }
     if (has_scans_ || has_.empty()) return remarks;
     std::string found;
     for (const auto& [name, count] : has_) {
@@ -93,6 +97,7 @@ LogPoses RawlogSource::readPoses(const std::filesystem::path& file) {
         return posesOfRawlog(RawlogSurvey(), file);
     }
     survey();
+    poses_not_finite_ = survey_->not_finite;
     RawlogSurvey all = std::move(*survey_);  // a long trajectory is not kept twice
     survey_.reset();
     const auto isKept = [this](const std::string& label) { return isSelected(label); };

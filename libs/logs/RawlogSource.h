@@ -30,7 +30,8 @@ class RawlogSource : public ScanSource {
     bool has_scans_ = false;                  ///< among the selected entries
     std::map<std::string, std::size_t> has_;  ///< number of objects of each class among them
     std::unique_ptr<RawlogReader> ahead_;     ///< of showClouds(); made on demand
-    std::optional<RawlogSurvey> survey_;      ///< made on demand
+    std::size_t poses_not_finite_ = 0;
+    std::optional<RawlogSurvey> survey_;  ///< made on demand
 };
 
 }  // namespace hagen::logs

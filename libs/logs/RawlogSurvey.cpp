@@ -26,6 +26,10 @@ using mrpt::poses::CPose3D;
 class SummedMovement {
  public:
     void move(mrpt::Clock::time_point time, const CPose3D& increment) {
+        if (!observations::isFinite(increment)) {
+            ++trajectory_.not_finite;
+            return;
+        }
         pose_ = pose_ + increment;
         is_placed_ = time != INVALID_TIMESTAMP;
         has_moved_ = true;
@@ -38,7 +42,10 @@ class SummedMovement {
     }
     /// The summed trajectory; empty without movement.
     observations::Trajectory trajectory() const {
-        return has_moved_ ? trajectory_ : observations::Trajectory();
+        if (has_moved_) return trajectory_;
+        observations::Trajectory none;
+        none.not_finite = trajectory_.not_finite;
+        return none;
     }
 
  private:
@@ -96,6 +103,9 @@ class Surveyor {
              {"CActionRobotMovement3D", &summed_3d},
              {"CObservationOdometry", &odometry_},
              {"CActionRobotMovement2D", &summed_2d}}};
+        for (const auto& [kind, trajectories] : sources) {
+            for (const auto& [label, one] : *trajectories) survey.not_finite += one.not_finite;
+        }
         for (const auto& [kind, trajectories] : sources) {
             for (const auto& [label, trajectory] : *trajectories) {
                 if (trajectory.size() <= survey.trajectory.size()) continue;

@@ -154,7 +154,7 @@ void readPoints(const fs::path& file, Scan& scan) {
 
 }  // namespace
 
-void readScan(const fs::path& file, Scan& scan) {
+std::size_t readScan(const fs::path& file, Scan& scan) {
     try {
         const clouds::BinStart start = clouds::startOfBin(file);
         if (!start.other_kind.empty()) {
@@ -165,8 +165,13 @@ void readScan(const fs::path& file, Scan& scan) {
         } else {
             readPoints<4>(file, scan);
         }
+        return start.floats_per_point;
     } catch (const std::bad_alloc&) {
         throw BrokenScan(file.string() + ": does not fit into memory");
+    } catch (const BrokenScan&) {
+        throw;
+    } catch (const std::runtime_error& e) {  // a file that cannot be opened
+        throw BrokenScan(e.what());
     }
 }
 

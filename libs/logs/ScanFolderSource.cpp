@@ -20,7 +20,7 @@ std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
         const std::size_t i = next_++;
         checkInterruption();
         if (skips(i)) continue;
-        readScan(folder_.scanFile(i), scan_);
+        has_rings_ = readScan(folder_.scanFile(i), scan_) == 5;
         const auto time = mrpt::Clock::fromDouble(times_s_[i]);
         RecordedEntry entry;
         entry.number = i;
@@ -63,7 +63,7 @@ std::map<std::string, std::vector<mrpt::Clock::time_point>> ScanFolderSource::sc
 }
 
 std::vector<std::string> ScanFolderSource::remarks() const {
-    if (clouds::startOfBin(folder_.scanFile(0)).floats_per_point == 4) return {};
+    if (!has_rings_) return {};
     return {"the rings of its points (nuScenes) are not used; as a folder of point clouds, " +
             (folder_.path() / "velodyne").string() + ", they are"};
 }

@@ -26,6 +26,7 @@ class ScanFolderSource : public ScanSource {
     std::size_t next_ = 0;
     std::size_t next_shown_ = 0;  ///< of showClouds()
     Scan scan_;
+    bool has_rings_ = false;  ///< of the points that were read
 };
 
 }  // namespace hagen::logs

@@ -39,17 +39,21 @@ const fs::path& SensorFolders::folderOf(const std::string& sensor_label) {
 
 /// With only one sensor, its folder becomes the whole output.
 void SensorFolders::unwrapOnlyFolder() {
-    if (folders_.size() != 1) return;
+    if (folders_.size() != 1 || is_unwrapped_) return;
+    const fs::path only = folders_.begin()->second;
     fs::path lifted = path_.temporary();
     lifted += ".one";
+    fs::rename(only, lifted);
     try {
-        fs::rename(folders_.begin()->second, lifted);
         fs::remove(path_.temporary());
         fs::rename(lifted, path_.temporary());
-    } catch (const fs::filesystem_error&) {
-        base::removeAll(lifted);
+    } catch (const fs::filesystem_error&) {  // as it was, for keepPartial()
+        std::error_code ignored;
+        fs::create_directory(path_.temporary(), ignored);
+        fs::rename(lifted, only, ignored);
         throw;
     }
+    is_unwrapped_ = true;
 }
 
 void SensorFolders::commit() {

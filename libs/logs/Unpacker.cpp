@@ -11,6 +11,8 @@
 namespace hagen::logs {
 namespace {
 
+constexpr std::uint64_t kMostZeros = 256 << 20;  // more are no filling, and take their time
+
 /// Gzip members, one after the other.
 class GzipUnpacker : public Unpacker {
  public:
@@ -28,6 +30,7 @@ class GzipUnpacker : public Unpacker {
             while (step.in_size > 0 && *step.in == 0) {
                 ++step.in;
                 --step.in_size;
+                if (++zeros_ > kMostZeros) return false;
             }
             if (step.in_size == 0) return true;
         }
@@ -55,6 +58,7 @@ class GzipUnpacker : public Unpacker {
  private:
     z_stream inflater_{};
     bool has_member_ = false;
+    std::uint64_t zeros_ = 0;  ///< after members
 };
 
 /// Zstandard frames, one after the other.

@@ -1,5 +1,6 @@
 #include <hagen/observations/Horizon.h>
 #include <hagen/observations/TimeStamp.h>
+#include <hagen/observations/Trajectory.h>
 #include <mrpt/math/CQuaternion.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -42,16 +43,16 @@ std::optional<CPose3D> rotationOf(const CObservationIMU& imu) {
 
 void Horizon::see(const mrpt::obs::CObservation& observation) {
     if (!isTime(observation.timestamp)) return;
-    const CPose3D sensor_on_vehicle(observation.sensorPose());
+    std::optional<CPose3D> sensor;
     if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
-        vehicle_ = pose->pose.mean + (-sensor_on_vehicle);
+        sensor = pose->pose.mean;
     } else if (const auto* imu = dynamic_cast<const CObservationIMU*>(&observation)) {
-        const auto rotation = rotationOf(*imu);
-        if (!rotation) return;
-        vehicle_ = *rotation + (-sensor_on_vehicle);
-    } else {
-        return;
+        sensor = rotationOf(*imu);
     }
+    if (!sensor) return;
+    const CPose3D vehicle = *sensor + (-CPose3D(observation.sensorPose()));
+    if (!isFinite(vehicle)) return;
+    vehicle_ = vehicle;
     time_ = observation.timestamp;
 }
 

@@ -7,6 +7,7 @@ using mrpt::poses::CPose3D;
 ScanPose scanPoseOf(const mrpt::obs::CObservation& scan, const Trajectory& vehicle,
                     const Horizon& horizon) {
     const CPose3D sensor_on_vehicle(scan.sensorPose());
+    if (!isFinite(sensor_on_vehicle)) return {};
     ScanPose pose;
     pose.sensor_pose = vehicle.at(scan.timestamp);
     if (pose.sensor_pose) *pose.sensor_pose += sensor_on_vehicle;

@@ -2,8 +2,14 @@
 #include <hagen/observations/Trajectory.h>
 
 #include <chrono>
+#include <cmath>
 
 namespace hagen::observations {
+
+bool isFinite(const mrpt::poses::CPose3D& pose) {
+    return std::isfinite(pose.x()) && std::isfinite(pose.y()) && std::isfinite(pose.z()) &&
+           pose.getRotationMatrix().asEigen().allFinite();
+}
 
 Trajectory::Trajectory() {
     poses_.setInterpolationMethod(mrpt::poses::imLinear2Neig);
@@ -11,7 +17,11 @@ Trajectory::Trajectory() {
 }
 
 void Trajectory::add(mrpt::Clock::time_point time, const mrpt::poses::CPose3D& vehicle_pose) {
-    if (isTime(time)) poses_.insert(time, vehicle_pose);
+    if (!isFinite(vehicle_pose)) {
+        ++not_finite;
+    } else if (isTime(time)) {
+        poses_.insert(time, vehicle_pose);
+    }
 }
 
 std::optional<mrpt::poses::CPose3D> Trajectory::at(mrpt::Clock::time_point time) const {

@@ -140,16 +140,6 @@ Json summaryOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
     return report;
 }
 
-/// Removes partial files of earlier runs: x.partial.csv, x.partial-2.csv, ...
-void removePartsOf(const fs::path& file) {
-    for (int number = 1;; ++number) {
-        fs::path part = file.parent_path() / file.stem();
-        part += number == 1 ? ".partial" : ".partial-" + std::to_string(number);
-        part += file.extension();
-        if (!fs::remove(part)) return;
-    }
-}
-
 }  // namespace
 
 std::string truthOf(const OpenLoop& open_loop) {
@@ -158,8 +148,15 @@ std::string truthOf(const OpenLoop& open_loop) {
            std::to_string(open_loop.scene->seed);
 }
 
-OpenLoopFiles::OpenLoopFiles(const fs::path& folder, bool overwrite)
+OpenLoopFiles::OpenLoopFiles(const fs::path& folder, bool overwrite,
+                             const std::vector<fs::path>& inputs)
     : folder_(folder), is_own_folder_(!fs::exists(folder)) {
+    std::vector<fs::path> outputs;
+    for (const char* name : {"openloop.csv", "scans.csv", "agreement.csv", "summary.json",
+                             "openloop_measured.csv", "scans_measured.csv"}) {
+        outputs.push_back(folder / name);
+    }
+    base::checkApart(outputs, inputs);
     fs::create_directories(folder);
     models_ = &open("openloop.csv", overwrite);
     scans_ = &open("scans.csv", overwrite);
@@ -216,7 +213,11 @@ void OpenLoopFiles::commit(const OpenLoop& open_loop, const OpenLoopResult& resu
     base::OutputSet outputs;
     for (const auto& file : files_) outputs.add(file->path);
     outputs.commit();
-    for (const auto& file : files_) removePartsOf(file->path.path());
+    for (const auto& file : files_) {
+        for (const fs::path& part : base::partialOutputs(file->path.path())) {
+            if (part.filename().string().find(".partial") != std::string::npos) fs::remove(part);
+        }
+    }
 }
 
 void OpenLoopFiles::keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result) {

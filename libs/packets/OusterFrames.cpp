@@ -6,6 +6,7 @@ namespace hagen::packets {
 namespace {
 
 constexpr std::size_t kMostOpen = 2;
+constexpr std::size_t kMostLateInARow = 16;  // packets
 constexpr int kLargestStep = 600;  // frames: a minute at ten per second; more: another recording
 
 template <class Number>
@@ -50,8 +51,10 @@ const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t ti
     OusterFrame* const frame = frameOf(frameIdOf(packet, sensor_), time_ns);
     if (frame == nullptr) {
         ++counts_.late_packets;
+        if (++late_in_a_row_ >= kMostLateInARow) restart();
         return nullptr;
     }
+    late_in_a_row_ = 0;
     const std::uint8_t* const first = packet + (is_legacy ? 0 : kPacketHeader);
     for (std::size_t c = 0; c < sensor_.columns_per_packet; ++c) {
         std::size_t number = 0;
@@ -65,10 +68,7 @@ const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t ti
 OusterFrame* OusterFrames::frameOf(std::uint16_t id, std::int64_t time_ns) {
     const std::uint16_t newest = open_.empty() ? last_id_ : open_.back().id;
     const bool has_newest = has_last_ || !open_.empty();
-    if (has_newest && std::abs(stepOf(newest, id)) > kLargestStep) {
-        finish();  // the sensor was started again
-        has_last_ = false;
-    }
+    if (has_newest && std::abs(stepOf(newest, id)) > kLargestStep) restart();
     for (OusterFrame& frame : open_) {
         if (frame.id == id) return &frame;
     }
@@ -134,6 +134,13 @@ void OusterFrames::completeFirst() {
 
 void OusterFrames::finish() {
     while (!open_.empty()) completeFirst();
+}
+
+/// The sensor was started again.
+void OusterFrames::restart() {
+    finish();
+    has_last_ = false;
+    late_in_a_row_ = 0;
 }
 
 }  // namespace hagen::packets

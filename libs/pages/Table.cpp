@@ -42,7 +42,7 @@ std::string htmlField(const std::string& field) {
 std::string markdownField(const std::string& field) {
     std::string escaped;
     for (const char c : field) {
-        if (c == '|' || c == '\\') escaped += '\\';
+        if (c == '|' || c == '\\' || c == '<') escaped += '\\';
         escaped += c == '\n' || c == '\r' ? ' ' : c;
     }
     return escaped;

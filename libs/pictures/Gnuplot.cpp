@@ -3,6 +3,7 @@
 #include <hagen/pictures/Gnuplot.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace hagen::pictures {
 namespace {
@@ -25,16 +27,28 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Opens an anonymous file that vanishes when closed. A file instead of a pipe avoids deadlocks:
+/// Opens a file in memory that vanishes when closed. A file instead of a pipe avoids deadlocks:
 /// gnuplot may read and print at any pace.
 File scratchFile(const std::string& content) {
-    File file(std::tmpfile());
+    const int memory = memfd_create("gnuplot", MFD_CLOEXEC);
+    File file(memory >= 0 ? fdopen(memory, "w+") : nullptr);
+    if (!file && memory >= 0) close(memory);
     if (!file || std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
         std::fflush(file.get()) != 0 || std::fseek(file.get(), 0, SEEK_SET) != 0) {
         throw std::runtime_error(std::string("no temporary file for gnuplot: ") +
                                  std::strerror(errno));
     }
     return file;
+}
+
+/// The environment without the user's terminal, which gnuplot would start with.
+std::vector<char*> withoutTerminal() {
+    std::vector<char*> kept;
+    for (char** word = environ; *word != nullptr; ++word) {
+        if (std::strncmp(*word, "GNUTERM=", 8) != 0) kept.push_back(*word);
+    }
+    kept.push_back(nullptr);
+    return kept;
 }
 
 // A picture takes about a second of CPU time, and less than a megabyte.
@@ -147,7 +161,9 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     char script_file[] = "/dev/stdin";  // by name: gnuplot reads standard input byte by byte
     char* const arguments[] = {program, no_settings_of_the_users, script_file, nullptr};
     pid_t child = 0;
-    const int error = posix_spawnp(&child, program, &actions, &attributes, arguments, environ);
+    std::vector<char*> environment = withoutTerminal();
+    const int error =
+        posix_spawnp(&child, program, &actions, &attributes, arguments, environment.data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error == ENOENT) {

@@ -10,12 +10,17 @@ void throwError(void*, RTCError, const char* message) {
     throw std::runtime_error(std::string("Embree: ") + message);
 }
 
+RTCDevice newDevice() {
+    const RTCDevice device = rtcNewDevice("threads=1,isa=avx2");
+    if (device == nullptr) throw std::runtime_error("Embree does not start");
+    rtcSetDeviceErrorFunction(device, throwError, nullptr);
+    return device;
+}
+
 }  // namespace
 
-DevicePtr makeEmbreeDevice() {
-    DevicePtr device(rtcNewDevice("threads=1,isa=avx2"));
-    if (!device) throw std::runtime_error("Embree does not start");
-    rtcSetDeviceErrorFunction(device.get(), throwError, nullptr);
+RTCDevice embreeDevice() {
+    static const RTCDevice device = newDevice();
     return device;
 }
 

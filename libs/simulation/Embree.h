@@ -5,18 +5,15 @@
 
 namespace hagen::simulation {
 
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
 struct ReleaseScene {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
-using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
 using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
-/// Returns the device: one thread and one instruction set, so that a seed gives the same result on
-/// every machine. Errors throw std::runtime_error.
-DevicePtr makeEmbreeDevice();
+/// Returns the process's device: one thread and one instruction set, so that a seed gives the same
+/// result on every machine. Errors throw std::runtime_error. It is never released: oneTBB would
+/// start its threads then, and end the process where there can be none.
+RTCDevice embreeDevice();
 
 /// Attaches a geometry and transfers its ownership to the scene.
 void attach(RTCScene scene, RTCGeometry geometry);

@@ -147,19 +147,18 @@ Eigen::Affine3f poseOf(const MovingObstacle& mover, const Terrain& terrain, doub
 }
 
 struct Scene::World {
-    explicit World(SceneContent made) : content(std::move(made)), device(makeEmbreeDevice()) {
-        for (const Shape& shape : content.shapes) shapes.push_back(buildShape(device.get(), shape));
-        scene.reset(rtcNewScene(device.get()));
+    explicit World(SceneContent made) : content(std::move(made)), device(embreeDevice()) {
+        for (const Shape& shape : content.shapes) shapes.push_back(buildShape(device, shape));
+        scene.reset(rtcNewScene(device));
         for (const SceneObject& object : content.objects) {
-            attach(scene.get(),
-                   instanceOf(device.get(), shapes.at(object.shape).get(), {object.pose}));
+            attach(scene.get(), instanceOf(device, shapes.at(object.shape).get(), {object.pose}));
             instances.push_back(instanceOf(object.kind, object.number, object.pose));
         }
         rtcCommitScene(scene.get());
     }
 
     SceneContent content;
-    DevicePtr device;
+    RTCDevice device;
     std::vector<ScenePtr> shapes;
     ScenePtr scene;
     std::vector<Instance> instances;  ///< indexed by Embree's instance number
@@ -185,7 +184,7 @@ Scene::Snapshot Scene::snapshotOver(double start_s, double duration_s) const {
     snapshot.world_ = world_;
     if (content().movers.empty()) return snapshot;
     auto movers = std::make_shared<Snapshot::Movers>();
-    RTCDevice device = world_->device.get();
+    RTCDevice device = world_->device;
     movers->scene.reset(rtcNewScene(device));
     for (const MovingObstacle& mover : content().movers) {
         const Eigen::Affine3f from = poseOf(mover, terrain(), start_s);

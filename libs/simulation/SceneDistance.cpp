@@ -195,7 +195,7 @@ bool isNear(const MovingObstacle& mover, const Vector3f& point, double time_s, d
 
 struct SceneDistance::World {
     World(const Scene& from, const Eigen::AlignedBox3d& bounds_m, double farthest_m)
-        : scene(from), device(makeEmbreeDevice()), reach_m(static_cast<float>(farthest_m)) {
+        : scene(from), device(embreeDevice()), reach_m(static_cast<float>(farthest_m)) {
         const SceneContent& content = scene.content();
         const Eigen::Vector3d wider = Eigen::Vector3d::Constant(farthest_m);
         const Eigen::AlignedBox3f box(Vector3f((bounds_m.min() - wider).cast<float>()),
@@ -205,7 +205,7 @@ struct SceneDistance::World {
             if (object.kind == ObjectClass::Canopy) continue;
             addWithin(box, content.shapes.at(object.shape), object.pose, surfaces);
         }
-        standing = std::make_unique<SearchTree>(device.get(), std::move(surfaces));
+        standing = std::make_unique<SearchTree>(device, std::move(surfaces));
 
         const float far = std::numeric_limits<float>::infinity();
         const Eigen::AlignedBox3f everywhere(Vector3f::Constant(-far), Vector3f::Constant(far));
@@ -214,12 +214,12 @@ struct SceneDistance::World {
             addWithin(everywhere, content.shapes.at(mover.shape), Eigen::Affine3f::Identity(), own);
             const float radius_m = radiusOf(own);
             moving.push_back(
-                {mover, std::make_unique<SearchTree>(device.get(), std::move(own)), radius_m});
+                {mover, std::make_unique<SearchTree>(device, std::move(own)), radius_m});
         }
     }
 
     Scene scene;
-    DevicePtr device;
+    RTCDevice device;
     float reach_m;
     std::unique_ptr<SearchTree> standing;
     std::vector<Moving> moving;

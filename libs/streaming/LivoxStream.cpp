@@ -9,6 +9,7 @@ namespace hagen::streaming {
 namespace {
 
 constexpr std::uint64_t kInterruption_ns = 1000000000;
+constexpr double kPointInterval_s = 5e-6;   // of a Mid-360, where a packet does not say it
 constexpr std::size_t kMostPackets = 1000;  // of a frame, whatever the clock says; usual are 42
 
 }  // namespace
@@ -87,7 +88,10 @@ LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size,
     ++packets_of_frame_;
     last_arrival_s_ = arrival_s;
     appendPoints(*packet, start_ns_, frame_, tags_);
-    const double packet_s = packet->point_interval_s * static_cast<double>(packet->count);
+    const double interval_s =
+        packet->point_interval_s > 0 ? packet->point_interval_s : kPointInterval_s;
+    const double packet_s = interval_s * static_cast<double>(packet->count);
+    measured_s_ += packet_s;
     const bool is_whole =
         last_ns_ >= start_ns_ &&
         1e-9 * static_cast<double>(last_ns_ - start_ns_) + 1.5 * packet_s > frame_s_;
@@ -101,7 +105,7 @@ void LivoxStream::flush() {
     packets_of_frame_ = 0;
     locateBeams(segmenter_->sensor(), frame_);
     counts_.returns_masked += maskAirframe(settings_.airframe.parts, frame_);
-    segmenter_->addFrame(frame_, last_arrival_s_);
+    segmenter_->addFrame(frame_, last_arrival_s_, std::exchange(measured_s_, 0));
     frame_.clear();
     tags_.clear();
 }

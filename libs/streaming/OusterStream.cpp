@@ -3,8 +3,10 @@
 #include <hagen/range_image/Angle.h>
 #include <hagen/streaming/OusterStream.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -93,6 +95,15 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         ++(is_repeated ? counts_.repeated : counts_.unsound);
         return is_repeated ? Taken::Repeated : Taken::Unsound;
     }
+    // Where the sensor says that a column is invalid, it has not looked.
+    const auto isInvalid = [&](std::size_t column) {
+        return frame->state[column] != packets::OusterFrame::Column::Valid;
+    };
+    columns_.erase(std::remove_if(columns_.begin(), columns_.end(), isInvalid), columns_.end());
+    if (columns_.empty()) {
+        ++counts_.unsound;
+        return Taken::Unsound;
+    }
     const auto columns = static_cast<long long>(sensor_.columns_per_frame);
     const auto of_packet = static_cast<long long>(sensor_.columns_per_packet);
     const long long turn = has_last_ ? turn_ + step : 0;
@@ -110,13 +121,26 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         turn_ = turn;
         last_at_ = at;
     }
-    packets::scanColumns(*frame, sensor_, columns_, returns_);
-    counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
-    const double column_rad = 2 * kPi / static_cast<double>(columns);
-    const double from_rad = ahead_rad_ + column_rad * static_cast<double>(at);
-    segmenter_->add(returns_, {from_rad, from_rad + column_rad * static_cast<double>(of_packet)},
-                    arrival_s);
+    addRuns(*frame, turn, arrival_s);
     return Taken::Yes;
+}
+
+/// Each run of columns that follow each other is a sweep.
+void OusterStream::addRuns(const packets::OusterFrame& frame, long long turn, double arrival_s) {
+    const double column_rad = 2 * kPi / static_cast<double>(sensor_.columns_per_frame);
+    const double turned_rad = ahead_rad_ + 2 * kPi * static_cast<double>(turn);
+    for (auto first = columns_.begin(); first != columns_.end();) {
+        auto end = std::next(first);
+        while (end != columns_.end() && *end == *std::prev(end) + 1) ++end;
+        run_.assign(first, end);
+        packets::scanColumns(frame, sensor_, run_, returns_);
+        counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
+        segmenter_->add(returns_,
+                        {turned_rad + column_rad * static_cast<double>(run_.front()),
+                         turned_rad + column_rad * static_cast<double>(run_.back() + 1)},
+                        arrival_s);
+        first = end;
+    }
 }
 
 }  // namespace hagen::streaming

@@ -23,12 +23,13 @@ class Swept {
  public:
     explicit Swept(const Sweep& sweep)
         : from_rad_(withinTurn(sweep.from_rad - kTolerance_rad)),
-          width_rad_(sweep.to_rad - sweep.from_rad + 2 * kTolerance_rad) {}
+          width_rad_(sweep.to_rad - sweep.from_rad + kTolerance_rad) {}
 
-    /// `direction_rad` from 0 up to a turn; false for NaN.
-    bool has(double direction_rad) const {
+    /// `direction_rad` from 0 up to a turn; false for NaN. The gap before a packet counts as swept:
+    /// the sensor has passed it. Those up to a tolerance behind it have not been passed.
+    bool has(double direction_rad, double tolerance_rad) const {
         const double into_rad = direction_rad - from_rad_;
-        return (into_rad < 0 ? into_rad + kTurn_rad : into_rad) <= width_rad_;
+        return (into_rad < 0 ? into_rad + kTurn_rad : into_rad) <= width_rad_ + tolerance_rad;
     }
 
  private:
@@ -44,7 +45,7 @@ SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& sett
     const Eigen::Matrix3d sensor_from_body =
         settings.body_from_sensor.linear().cast<double>().transpose();
     for (int bin = 0; bin < kBins; ++bin) {
-        const double clockwise_rad = (bin + 0.5) * kTurn_rad / kBins;
+        const double clockwise_rad = bin * kTurn_rad / kBins;
         const Eigen::Vector3d ahead =
             sensor_from_body *
             Eigen::Vector3d(std::cos(clockwise_rad), -std::sin(clockwise_rad), 0);
@@ -59,31 +60,30 @@ void SectorDistances::beginFrame(double time_s) {
     const double since_s = time_s - period_start_s_;
     if (since_s >= 0 && since_s < kPeriod_s) return;
     period_start_s_ = time_s;
-    for (Bin& bin : bins_) {
-        bin.earlier_roi_m = bin.roi_m;
-        if (since_s < 0 || since_s >= 2 * kPeriod_s) bin.earlier_roi_m = kNothing;
-        bin.roi_m = kNothing;
-    }
+    const bool is_next = since_s >= 0 && since_s < 2 * kPeriod_s;
+    for (Bin& bin : bins_) bin = {{}, is_next ? bin.latest : Found()};
 }
 
-/// A bin counts as swept with the packet that has its centre: what a lost packet would have seen is
-/// not known.
+/// What a lost packet would have seen is not known.
 void SectorDistances::noteSwept(const LabelledSector& sector) {
-    const auto note = [&](int bin) {
-        bins_[bin].swept_s = sector.first_time_s;
-        bins_[bin].swept_rad = sector.sweep ? sector.sweep->to_rad : 0;
-    };
+    if (!sector.sweep) {
+        if (!frames_.add(sector.first_time_s, sector.measured_s)) return;
+        for (int e = 0; e < kBins; ++e) {
+            if (!std::isnan(sensor_rad_[e])) edges_[e].swept_s = sector.first_time_s;
+        }
+        return;
+    }
     const auto noteSweep = [&](const Sweep& sweep) {
         const Swept swept(sweep);
-        for (int bin = 0; bin < kBins; ++bin) {
-            if (swept.has(sensor_rad_[bin])) note(bin);
+        for (int e = 0; e < kBins; ++e) {
+            if (!swept.has(sensor_rad_[e], kTolerance_rad)) continue;
+            edges_[e].swept_s = sector.first_time_s;
+            if (!swept.has(sensor_rad_[e], 0)) continue;
+            edges_[e].passed_s = sector.first_time_s;
+            edges_[e].passed_rad = sector.sweep->to_rad;
         }
     };
-    if (!sector.sweep) {
-        for (int bin = 0; bin < kBins; ++bin) {
-            if (!std::isnan(sensor_rad_[bin])) note(bin);
-        }
-    } else if (sector.packets == nullptr) {
+    if (sector.packets == nullptr) {
         noteSweep(*sector.sweep);
     } else {
         for (const Sweep& packet : *sector.packets) noteSweep(packet);
@@ -92,7 +92,10 @@ void SectorDistances::noteSwept(const LabelledSector& sector) {
 
 void SectorDistances::take(const LabelledSector& sector) {
     const double now_rad = sector.sweep ? sector.sweep->to_rad : 0;
-    if (sector.first_time_s < latest_s_) bins_.fill({});
+    if (sector.first_time_s < latest_s_) {
+        bins_.fill({});
+        edges_.fill({});
+    }
     latest_s_ = sector.first_time_s;
     if (!sector.sweep) beginFrame(sector.first_time_s);
     noteSwept(sector);
@@ -105,14 +108,18 @@ void SectorDistances::take(const LabelledSector& sector) {
         const double clockwise_rad = -static_cast<double>(std::atan2(at.y(), at.x()));
         const double turned_rad = clockwise_rad < 0 ? clockwise_rad + kTurn_rad : clockwise_rad;
         Bin& bin = bins_[std::min(static_cast<int>(turned_rad / kTurn_rad * kBins), kBins - 1)];
-        // What an earlier turn saw is replaced. The sectors on both sides of a bin's centre are of
-        // the same turn.
-        const bool is_replaced = std::abs(now_rad - bin.roi_rad) > kPi;
+        // The sectors on both sides of a bin's middle are of the same turn.
+        if (std::abs(now_rad - bin.latest.turned_rad) > kPi) bin = {{}, bin.latest};
         const float distance_m = at.head<2>().norm();
-        bin.roi_m = is_replaced ? distance_m : std::min(bin.roi_m, distance_m);
-        bin.roi_s = sector.first_time_s;
-        bin.roi_rad = now_rad;
+        bin.latest = {sector.first_time_s, now_rad, std::min(bin.latest.distance_m, distance_m)};
     }
+}
+
+/// An obstacle is gone once a later turn has passed all of its bin.
+bool SectorDistances::isGone(const Found& found, int bin) const {
+    const Edge &begin = edges_[bin], &end = edges_[(bin + 1) % kBins];
+    const Edge& first = begin.passed_rad < end.passed_rad ? begin : end;
+    return std::abs(first.passed_rad - found.turned_rad) > kPi && first.passed_s > found.time_s;
 }
 
 std::array<SectorDistances::Sector, SectorDistances::kSectors> SectorDistances::at(
@@ -124,19 +131,20 @@ std::array<SectorDistances::Sector, SectorDistances::kSectors> SectorDistances::
     };
     for (int k = 0; k < kSectors; ++k) {
         Sector& sector = sectors[k];
-        bool is_swept = true;
         double oldest_s = now_s, nearest_m = std::numeric_limits<double>::infinity();
         for (int bin = k * kParts; bin < (k + 1) * kParts; ++bin) {
-            const Bin& b = bins_[bin];
-            // An obstacle is gone once the bin was swept again without it, or when it is stale.
-            const float roi_m = std::min(b.roi_m, b.earlier_roi_m);
-            const bool is_gone = std::abs(b.swept_rad - b.roi_rad) > kPi && b.swept_s > b.roi_s;
-            if (isFresh(b.roi_s) && !is_gone && std::isfinite(roi_m)) {
-                nearest_m = std::min(nearest_m, static_cast<double>(roi_m));
-                oldest_s = std::min(oldest_s, b.roi_s);
+            for (const Found* const found : {&bins_[bin].latest, &bins_[bin].earlier}) {
+                const bool is_there = isFresh(found->time_s) && !isGone(*found, bin);
+                if (!is_there || !std::isfinite(found->distance_m)) continue;
+                nearest_m = std::min(nearest_m, static_cast<double>(found->distance_m));
+                oldest_s = std::min(oldest_s, found->time_s);
             }
-            is_swept = is_swept && isFresh(b.swept_s);
-            if (isFresh(b.swept_s)) oldest_s = std::min(oldest_s, b.swept_s);
+        }
+        bool is_swept = true;
+        for (int e = k * kParts; e <= (k + 1) * kParts; ++e) {
+            const double swept_s = edges_[e % kBins].swept_s;
+            is_swept = is_swept && isFresh(swept_s);
+            if (isFresh(swept_s)) oldest_s = std::min(oldest_s, swept_s);
         }
         if (std::isfinite(nearest_m)) {
             sector = {State::Obstacle, static_cast<float>(nearest_m), oldest_s};

@@ -251,9 +251,12 @@ void StreamingSegmenter::add(const Scan& returns, const Sweep& sweep, double tim
     }
 }
 
-void StreamingSegmenter::addFrame(const Scan& returns, double time_s) {
+void StreamingSegmenter::addFrame(const Scan& returns, double time_s, double measured_s) {
     checkTime(time_s);
-    push(returns, time_s);
+    if (!(measured_s >= 0)) {
+        throw std::invalid_argument("streaming: a frame was measured for less than no time");
+    }
+    push(returns, time_s).measured_s = measured_s;
     label(false);
 }
 
@@ -352,7 +355,10 @@ bool StreamingSegmenter::knowsEnough() const {
         if (packet.sweep) known_rad += packet.sweep->to_rad - packet.sweep->from_rad;
     }
     if (!packets_.back().sweep) {
-        const double known_s = packets_.back().time_s - packets_.front().time_s;
+        double measured_s = 0;
+        for (const Packet& packet : packets_) measured_s += packet.measured_s;
+        const double known_s =
+            std::min(measured_s, packets_.back().time_s - packets_.front().time_s);
         known_rad = kTurn_rad * known_s / streaming_.context_s;
     }
     return known_rad >= streaming_.least_known_rad - kRounding_rad;
@@ -462,7 +468,7 @@ void StreamingSegmenter::label(bool is_cut) {
     ++sectors_;
     open_ = 0;
     take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt, first.time_s,
-           last.time_s, has_turn, is_doubtful, is_cut, result, &sweeps_});
+           last.time_s, has_turn, is_doubtful, is_cut, result, &sweeps_, last.measured_s});
 }
 
 }  // namespace hagen::streaming

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "TextFile.h"
+#include "Words.h"
 
 namespace hagen::trials {
 namespace {
@@ -31,7 +32,7 @@ CampaignPlan planFrom(const Json& noted) {
         plan.pose_errors.push_back(poseErrorFrom(error));
     }
     plan.latency_scales = noted.at("latency_scales").numbers();
-    plan.brakes_in_known_space = noted.at("unknown").text() == "brake_known";
+    plan.brakes_in_known_space = wordFrom<int>(noted.at("unknown").text(), kUnknowns) == 1;
     // Plans without these entries are older.
     plan.airs = {Air::Clear};
     if (const Json* airs = noted.find("airs")) {

@@ -138,18 +138,23 @@ void CampaignFolder::readJournals() {
     }
 }
 
-void CampaignFolder::add(const CampaignFolder& other) {
+void CampaignFolder::checkJoins(const CampaignFolder& other) const {
     if (other.settingsHash() != settingsHash()) {
         throw std::runtime_error(other.folder_.string() + ": has other settings than " +
                                  folder_.string() + "; only parts of one campaign can be joined");
     }
     for (const auto& [key, row] : other.rows_) {
-        try {
-            keep(row.text, row.measured, other.folder_.string());
-        } catch (const std::runtime_error& e) {
-            throw std::runtime_error(other.folder_.string() + ": " + e.what());
-        }
+        const auto own = rows_.find(key);
+        if (own == rows_.end() || own->second.text == row.text) continue;
+        throw std::runtime_error(other.folder_.string() + ": " + row.text +
+                                 " contradicts the result of the same run in " + folder_.string() +
+                                 ": " + own->second.text);
     }
+}
+
+void CampaignFolder::add(const CampaignFolder& other) {
+    checkJoins(other);
+    for (const auto& [key, row] : other.rows_) rows_.try_emplace(key, row);
     for (const std::string& plan : other.campaign_.plans) addPlan(plan);
     writeCampaignFile(campaign_, profile_, folder_);
 }

@@ -45,6 +45,7 @@ void checkUpdates(const CampaignPlan& plan) {
     }
 }
 
+constexpr double kLeastSpeed_m_s = 0.1;
 /// The flights of all seeds are listed in memory.
 constexpr std::uint64_t kMostSeeds = 1'000'000;
 
@@ -57,6 +58,11 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     checkNames("planner", plan.planners, avoidance::plannerNames(),
                joined(avoidance::plannerNames()));
     checkPositive("speed", plan.speeds_m_s);
+    for (const double speed_m_s : plan.speeds_m_s) {
+        if (speed_m_s < kLeastSpeed_m_s) {  // a flight would not end
+            throw std::invalid_argument("a speed must be at least 0.1 m/s");
+        }
+    }
     checkPositive("latency scale", plan.latency_scales);
     if (plan.airs.empty()) throw std::invalid_argument("no air is given");
     if (plan.distances.empty()) throw std::invalid_argument("no distance is given");

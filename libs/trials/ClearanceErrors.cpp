@@ -273,6 +273,7 @@ std::vector<ClearanceErrors> measureClearances(const ClearanceMeasurement& measu
         for (std::size_t o = 0; o < obstacles().size(); ++o) {
             Passing(obstacles()[o], seed, measurement, &by_obstacle[o * count]).fly();
         }
+        if (seed == measurement.last_seed) break;  // it may be the greatest number
     }
     std::vector<ClearanceErrors> all;
     for (std::size_t m = 0; m < count; ++m) {

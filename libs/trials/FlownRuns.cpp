@@ -5,7 +5,6 @@
 #include <hagen/trials/MeasuredTable.h>
 #include <algorithm>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -14,13 +13,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void addJournal(const fs::path& journal, std::set<std::string>& keys, FlownRuns& flown) {
+/// The rows of runs by their keys.
+using Rows = std::map<std::string, std::string>;
+
+void addJournal(const fs::path& journal, Rows& rows, FlownRuns& flown) {
     int line = 0;
     for (const JournalLine& written : readJournal(journal)) {
         ++line;
         try {
             const Run run = runOf(written.run);
-            if (!keys.insert(keyOf(run)).second) continue;
+            const auto [known, is_new] = rows.try_emplace(keyOf(run), rowOf(run));
+            if (!is_new && known->second != rowOf(run)) {
+                throw std::runtime_error("contradicts another result of the same run: " +
+                                         known->second);
+            }
+            if (!is_new) continue;
             flown.runs.push_back(run);
             addMeasured(fullMeasuredHeader(), fullMeasuredRowOf(written.measured), flown.measured);
         } catch (const std::runtime_error& e) {
@@ -52,7 +59,7 @@ std::map<std::string, Run> plannedRuns(const fs::path& folder) {
     return planned;
 }
 
-void compareWithPlan(const fs::path& folder, const std::set<std::string>& keys, FlownRuns& flown) {
+void compareWithPlan(const fs::path& folder, const Rows& rows, FlownRuns& flown) {
     std::map<std::pair<Condition, Contender>, Shortfall> by_contender;
     for (const auto& [key, run] : plannedRuns(folder)) {
         const Condition condition = conditionOf(run);
@@ -60,7 +67,7 @@ void compareWithPlan(const fs::path& folder, const std::set<std::string>& keys, 
         Shortfall& one =
             by_contender.try_emplace({condition, contender}, Shortfall{condition, contender, 0, 0})
                 .first->second;
-        const bool is_there = keys.count(key) > 0;
+        const bool is_there = rows.count(key) > 0;
         one.flown += is_there ? 1 : 0;
         ++one.planned;
         flown.missing += is_there ? 0 : 1;
@@ -81,11 +88,15 @@ FlownRuns readWith(const std::vector<fs::path>& journals, const fs::path& folder
     }
     if (has_table) flown.runs = readRuns(folder / "runs.csv");
     if (fs::exists(folder / "measured.csv")) flown.measured = readMeasured(folder / "measured.csv");
-    std::set<std::string> keys;
-    for (const Run& run : flown.runs) keys.insert(keyOf(run));
-    for (const fs::path& journal : journals) addJournal(journal, keys, flown);
+    Rows rows;
+    for (std::size_t i = 0; i < flown.runs.size(); ++i) {
+        if (rows.try_emplace(keyOf(flown.runs[i]), rowOf(flown.runs[i])).second) continue;
+        throw std::runtime_error((folder / "runs.csv").string() + ":" + std::to_string(i + 2) +
+                                 ": a run that an earlier line has; remove one of them");
+    }
+    for (const fs::path& journal : journals) addJournal(journal, rows, flown);
     sortRuns(flown.runs);
-    if (fs::exists(folder / "campaign.json")) compareWithPlan(folder, keys, flown);
+    if (fs::exists(folder / "campaign.json")) compareWithPlan(folder, rows, flown);
     return flown;
 }
 

@@ -1,3 +1,4 @@
+#include <hagen/base/NumberText.h>
 #include <hagen/base/ReadFile.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/trials/Calibration.h>
@@ -10,12 +11,24 @@ namespace hagen::trials {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+const std::string kHeader = "model,path_m,bytes";
+
+double measureFrom(const std::string& text) {
+    const auto value = base::numberFrom<double>(text);
+    if (!value || !(*value >= 0 && std::isfinite(*value))) throw std::invalid_argument(text);
+    return *value;
+}
+
+}  // namespace
+
 void writeHeapCurves(const std::vector<std::string>& models, double path_m,
                      const std::function<void(const std::string& model)>& begin,
                      const std::function<void()>& continuing, const fs::path& place,
                      const fs::path& file) {
     std::ofstream out = base::openToWrite(place, file);
-    out << "model,path_m,bytes\n";
+    out << kHeader << "\n";
     for (const std::string& model : models) {
         begin(model);
         for (const HeapSample& sample : heapAlongFlight(model, path_m, continuing)) {
@@ -31,18 +44,19 @@ std::vector<HeapCurve> readHeapCurves(const fs::path& file) {
     std::ifstream in = base::openToRead(file);
     std::string text;
     for (int line = 1; base::nextLine(in, text, file); ++line) {
-        if (line == 1) continue;
+        if (!text.empty() && text.back() == '\r') text.pop_back();
+        if (line == 1 && text == kHeader) continue;
         const std::size_t first = text.find(','), second = text.find(',', first + 1);
         try {
             if (second == std::string::npos) throw std::invalid_argument(text);
             const std::string model = text.substr(0, first);
-            const double path_m = std::stod(text.substr(first + 1));
-            const double bytes = std::stod(text.substr(second + 1));
+            const double path_m = measureFrom(text.substr(first + 1, second - first - 1));
+            const double bytes = measureFrom(text.substr(second + 1));
             if (curves.empty() || curves.back().model != model) curves.push_back({model, {}});
             curves.back().bytes_by_path_m.emplace_back(path_m, bytes);
         } catch (const std::logic_error&) {
-            throw std::runtime_error(file.string() + ":" + std::to_string(line) +
-                                     ": not model,path_m,bytes: " + text);
+            throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": not " +
+                                     kHeader + ": " + text);
         }
     }
     if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");

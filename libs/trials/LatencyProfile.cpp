@@ -21,16 +21,17 @@ using base::Json;
 double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
 
 std::vector<double> quantilesFrom(const Json& value) {
-    const std::string rule = "must be numbers of at least 0 [ms] that do not fall, one or more";
+    constexpr double kMost_ms = 60000;  // a flight waits for them, step by step
+    const std::string rule = "must be numbers from 0 to 60000 [ms] that do not fall, one or more";
     if (!value.isArray() || value.items().empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
     for (const Json& entry : value.items()) {
         if (!entry.isNumber()) throw std::runtime_error(rule);
         quantiles.push_back(toMicroseconds(entry.number()));
     }
-    const bool is_finite = std::all_of(quantiles.begin(), quantiles.end(),
-                                       [](double q) { return std::isfinite(q) && q >= 0; });
-    if (!is_finite || !std::is_sorted(quantiles.begin(), quantiles.end())) {
+    const bool are_latencies = std::all_of(quantiles.begin(), quantiles.end(),
+                                           [](double q) { return q >= 0 && q <= kMost_ms; });
+    if (!are_latencies || !std::is_sorted(quantiles.begin(), quantiles.end())) {
         throw std::runtime_error(rule);
     }
     return quantiles;

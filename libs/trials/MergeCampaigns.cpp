@@ -1,6 +1,9 @@
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/MergeCampaigns.h>
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace hagen::trials {
 
@@ -20,10 +23,20 @@ std::size_t mergeCampaigns(const std::vector<fs::path>& folders, const fs::path&
     const auto profileOf = [](const fs::path& folder) {
         return readLatencyProfile(folder / "profile.json");
     };
-    CampaignFolder merged(into, profileOf(folders.front()), overwrite);
+    // What does not belong together is found before the output is touched.
+    std::vector<CampaignFolder> parts;
     for (const fs::path& folder : folders) {
-        merged.add(CampaignFolder(folder, profileOf(folder), false));
+        const bool is_known = std::any_of(parts.begin(), parts.end(), [&](const auto& part) {
+            return fs::equivalent(part.path(), folder);
+        });
+        if (is_known) continue;
+        CampaignFolder part(folder, profileOf(folder), false);
+        for (const CampaignFolder& earlier : parts) earlier.checkJoins(part);
+        parts.push_back(std::move(part));
     }
+    CampaignFolder merged(into, profileOf(folders.front()), overwrite);
+    for (const CampaignFolder& part : parts) merged.checkJoins(part);
+    for (const CampaignFolder& part : parts) merged.add(part);
     merged.finish();
     return merged.size();
 }

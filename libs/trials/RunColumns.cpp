@@ -10,7 +10,10 @@ namespace hagen::trials {
 namespace {
 
 double measureFrom(const std::string& text) {
-    return text.empty() ? NAN : parsedNumber<double>(text);
+    if (text.empty()) return NAN;
+    const auto value = parsedNumber<double>(text);
+    if (!std::isfinite(value)) throw std::runtime_error("\"" + text + "\" is not finite");
+    return value;
 }
 
 RunColumn key(RunColumn column, const std::string& before = "") {
@@ -38,13 +41,14 @@ RunColumn count(const char* name, int TrialResult::*field) {
 
 constexpr double kMostSetting = 100;  // as of a plan; an absurd flight takes for ever
 
-RunColumn setting(const char* name, double TrialSetup::*field) {
+RunColumn setting(const char* name, double TrialSetup::*field, double least = 0) {
     return {name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
             [=](const std::string& text, Run& run) {
                 const auto value = parsedNumber<double>(text);
                 if (!(value > 0 && value <= kMostSetting)) {
                     throw std::runtime_error("\"" + text + "\" is not above 0 and at most 100");
                 }
+                if (value < least) throw std::runtime_error("\"" + text + "\" is too little");
                 run.setup.*field = value;
             }};
 }
@@ -70,7 +74,7 @@ const std::vector<RunColumn>& runColumns() {
              }}),
         key(setting("model", &TrialSetup::model)),
         key(setting("guidance", &TrialSetup::guidance)),
-        key(setting("speed", &TrialSetup::speed_m_s)),
+        key(setting("speed", &TrialSetup::speed_m_s, 0.1)),
         {"outcome", [](const Run& run) { return nameOf(run.result.outcome); },
          [](const std::string& text, Run& run) {
              run.result.outcome = wordFrom<Outcome>(text, kOutcomes);

@@ -426,7 +426,30 @@ Raises ValueError for other shapes and labels, and for a max_range_m that is not
 }  // namespace
 }  // namespace hagen::python
 
+namespace {
+
+newfunc new_object = nullptr;
+
+/// pybind11 throws a C++ exception through Python where its base class itself is called, as pickle
+/// does with old protocols.
+PyObject* newObject(PyTypeObject* type, PyObject* args, PyObject* words) {
+    PyObject* const base = py::detail::get_internals().instance_base;
+    if (reinterpret_cast<PyObject*>(type) != base) return new_object(type, args, words);
+    PyErr_SetString(PyExc_TypeError, "cannot be made, nor be pickled");
+    return nullptr;
+}
+
+void refuseObjectsOfNoClass() {
+    auto* const base = reinterpret_cast<PyTypeObject*>(py::detail::get_internals().instance_base);
+    if (base->tp_new == newObject) return;
+    new_object = base->tp_new;
+    base->tp_new = newObject;
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_hagen, m) {
+    refuseObjectsOfNoClass();
     // pybind11 looks NumPy up when it makes the first array. Two threads that do so at once wait
     // for each other: one for the GIL, the other for the first one's result.
     py::dtype::of<float>();

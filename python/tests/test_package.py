@@ -2,6 +2,7 @@
 import ast
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 
@@ -144,3 +145,11 @@ def test_examples_name_what_they_cannot_read(example, tmp_path):
     )
     assert run.returncode == 1
     assert "no_such.pcap" in run.stderr and "Traceback" not in run.stderr
+
+
+def test_what_cannot_be_pickled_says_so():
+    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+        with pytest.raises(TypeError):
+            pickle.dumps(hagen.Filter(), protocol)
+    with pytest.raises(TypeError):
+        hagen.Filter.__base__()

@@ -5,6 +5,7 @@
 #include <hagen/logs/RawlogWriter.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
@@ -408,6 +409,34 @@ TEST_F(RawlogSegmentTrouble, AnInterruptionWhilePicturesAreDrawnKeepsTheRawlog) 
     EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << outcome.err;
 }
 
+/// A scan folder whose first scan cannot be opened, but is not asked for.
+TEST_F(RawlogSegmentTrouble, AScanThatIsSkippedMayBeMissing) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    fs::remove(path("scans/velodyne/000000.bin"));
+    fs::create_symlink("nowhere", path("scans/velodyne/000000.bin"));
+    const auto outcome =
+        run({"-i", path("scans"), "--from", "1", "--to", "4", "-o", path("out.rawlog")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(path("out.rawlog")));
+    // Asked for, it costs what comes after it: nothing is before it.
+    const auto all = run({"-i", path("scans"), "-o", path("all.rawlog")});
+    EXPECT_EQ(all.exit_code, 1);
+    EXPECT_THAT(all.err, HasSubstr("000000.bin"));
+}
+
+/// As on a disk that is unplugged: what was converted before is kept.
+TEST_F(RawlogSegmentTrouble, ScansThatVanishMeanwhileKeepThoseBefore) {
+    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+    fs::remove(path("scans/velodyne/000005.bin"));
+    fs::create_symlink("nowhere", path("scans/velodyne/000005.bin"));
+    fs::remove(path("scans/poses.txt"));
+    const auto outcome = run({"-i", path("scans"), "-o", path("out.rawlog")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("000005.bin"));
+    EXPECT_THAT(outcome.err, HasSubstr("the 5 scans before it are in"));
+    EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << outcome.err;
+}
+
 /// A laser of a scan's own calibration that points nowhere.
 TEST_F(RawlogSegmentTrouble, ACorruptCalibrationCostsItsScan) {
     logs::RawlogReader recording(kRecording);
@@ -426,6 +455,31 @@ TEST_F(RawlogSegmentTrouble, ACorruptCalibrationCostsItsScan) {
                               path("map.bt"), "--poses", still(scansOfRecording())});
     EXPECT_EQ(outcome.exit_code, scans > 1 ? 0 : 1) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("calibration is corrupt: laser 3"));
+}
+
+/// One bad sample of an estimator.
+TEST_F(RawlogSegmentTrouble, APoseThatIsNotFiniteIsToldAndUsedForNothing) {
+    logs::RawlogReader recording(kRecording);
+    logs::RawlogWriter writer(path("in.rawlog"), false);
+    int scans = 0;
+    while (const auto entry = recording.next()) {
+        const auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(entry);
+        if (scan) {
+            mrpt::obs::CObservationRobotPose pose;
+            pose.sensorLabel = "pose";
+            pose.timestamp = scan->timestamp;
+            pose.pose.mean = {scans == 2 ? std::nan("") : 0.1, 0, 0, 0, 0, 0};
+            writer.write(pose);
+            ++scans;
+        }
+        writer.write(*entry);
+    }
+    writer.commit();
+    const auto outcome = run({"-i", path("in.rawlog"), "--to", "9", "--kitti", path("scans")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("poses that are not finite are left out: 1"));
+    EXPECT_THAT(test::readFile(path("scans/poses.tum")), Not(HasSubstr("nan")));
+    EXPECT_EQ(run({"-i", path("scans"), "--kitti", path("again")}).exit_code, 0);
 }
 
 }  // namespace

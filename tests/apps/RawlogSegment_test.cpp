@@ -599,7 +599,7 @@ TEST_F(RawlogSegment, FailsToReplaceItsInputOrAnythingThatHoldsIt) {
     expectFailure({"-i", path("scans"), "--kitti", path("scans"), "--overwrite"}, 1,
                   "is or contains the input");
     expectFailure({"-i", path("scans"), "--kitti", path("scans/velodyne"), "--overwrite"}, 1,
-                  "not part of a scan folder");
+                  "is in the input");
 }
 
 TEST_F(RawlogSegment, FailsToReplaceWhatIsNotItsOwn) {

@@ -354,6 +354,49 @@ TEST_F(SurroundingsTest, WhatIsFarAboveOrBelowIsNoObstacleIfAsked) {
     EXPECT_NEAR(surroundings.at(1.1, {})[0].distance_m, 8, 1e-5);
 }
 
+/// Degrees begin at 0.5: a packet ends within that of the obstacle, which it has not reached yet.
+TEST_F(SurroundingsTest, AnObstacleStaysUntilALaterTurnHasPassedIt) {
+    for (const double end_deg : {11.6, 11.9, 12.2, 12.4}) {
+        Surroundings surroundings(sensorModel("VLP-16"), {});
+        SegmentationResult result;
+        Scan none, pole;
+        pole.x_m = {static_cast<float>(5 * std::cos(radians(12.45)))};
+        pole.y_m = {static_cast<float>(-5 * std::sin(radians(12.45)))};
+        pole.z_m = {0};
+        const std::vector<Label> roi{Label::Roi};
+        const auto take = [&](const Scan& scan, double from_deg, double to_deg, double time_s) {
+            surroundings.take({scan, scan.size() > 0 ? roi : std::vector<Label>(),
+                               streaming::Sweep{radians(from_deg), radians(to_deg)}, time_s,
+                               time_s + 0.001, true, false, false, result});
+        };
+        take(pole, 0, 180, 1);
+        take(none, 180, 360, 1.05);
+        take(none, 360, 360 + end_deg, 1.1);
+        EXPECT_EQ(surroundings.at(1.11, {})[2].state, Direction::State::Obstacle) << end_deg;
+        take(none, 360 + end_deg, 360 + 2 * end_deg, 1.11);
+        EXPECT_EQ(surroundings.at(1.12, {})[2].state, Direction::State::SeenNothing) << end_deg;
+    }
+}
+
+TEST_F(SurroundingsTest, OfASensorWithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
+    const auto stateAfter = [](double measured_s, int frames) {
+        Surroundings surroundings(sensorModel("Mid-360"), {});
+        const SegmentationResult result;
+        const Scan scan;
+        const std::vector<Label> labels;
+        for (int k = 0; k < frames; ++k) {
+            const double time_s = 1 + 0.02 * k;
+            surroundings.take({scan, labels, std::nullopt, time_s, time_s, true, false, false,
+                               result, nullptr, measured_s});
+        }
+        return surroundings.at(1 + 0.02 * frames, {})[9].state;
+    };
+    EXPECT_EQ(stateAfter(0.02, 3), Direction::State::Unknown);  // not all around yet
+    EXPECT_EQ(stateAfter(0.02, 5), Direction::State::SeenNothing);
+    EXPECT_EQ(stateAfter(0.018, 50), Direction::State::SeenNothing);
+    EXPECT_EQ(stateAfter(0.0005, 50), Direction::State::Unknown);  // one packet of 42
+}
+
 TEST_F(SurroundingsTest, ASensorWithoutTurnsSeesAllAroundFor200Ms) {
     Surroundings surroundings(sensorModel("Mid-360"), {});
     Scan scan;

@@ -101,6 +101,33 @@ TEST(VehicleMotion, AJumpOfTheEstimatedPlaceMovesNothing) {
     }
 }
 
+/// Nobody knows whether the estimate jumped within a gap: no place of before compares.
+TEST(VehicleMotion, AJumpWithinAGapMovesNothing) {
+    VehicleMotion motion;
+    Vehicle vehicle;
+    for (int i = 0; i < 200; ++i) {
+        const double t = 0.01 * i;
+        motion.take(vehicle.attitude(t), t);
+        if (i == 100) vehicle.ned_m = {10, 0, 0};  // the estimator was reset
+        if (i % 60 == 0) motion.take(vehicle.place(t), t);
+        const auto now = motion.at(t);
+        for (double before_s = 0; before_s <= 0.3; before_s += 0.05) {
+            const auto then = motion.at(t - before_s);
+            if (!now || !then) continue;
+            EXPECT_LT(levelBetween(*then, *now).translation().norm(), 0.01) << t << " " << before_s;
+        }
+    }
+    VehicleMotion slow;
+    for (const double t : {0.0, 1.0}) {
+        slow.take(vehicle.attitude(t), t);
+        slow.take(vehicle.place(t), t);
+        vehicle.ned_m.x() += 10;
+    }
+    EXPECT_TRUE(slow.at(1.0)->place_m);
+    const auto between = slow.at(0.4);
+    EXPECT_FALSE(between && between->place_m);
+}
+
 TEST(VehicleMotion, WhatIsNoMotionIsRefused) {
     VehicleMotion motion;
     Vehicle vehicle;

@@ -165,6 +165,17 @@ TEST_F(McapWriterTest, ChangedBytesAreFoundByTheCrcs) {
     EXPECT_THAT(why(whole.rfind("/a/pose")), HasSubstr("the CRC of the summary is wrong"));
 }
 
+TEST_F(McapWriterTest, WhatFollowsTheEndIsTold) {
+    write("a.mcap");
+    const std::string whole = bytesOf("a.mcap");
+    for (const std::string& more : {whole, std::string("x"), std::string(1000, '\0')}) {
+        const fs::path file = test::writeBytes(folder_ / "b.mcap", whole + more);
+        EXPECT_THAT(test::messageOf([&] { readAll(file); }),
+                    HasSubstr("the file goes on for " + std::to_string(more.size()) +
+                              " bytes after its end"));
+    }
+}
+
 TEST_F(McapWriterTest, AFileThatCannotBeWrittenIsNamed) {
     EXPECT_THAT(test::messageOf([&] { McapWriter(folder_ / "none/a.mcap", "out.mcap"); }),
                 StartsWith("out.mcap: cannot be written"));

@@ -118,6 +118,52 @@ TEST(OutputPath, PartsOfEarlierRunsAreFoundByTheirNames) {
                 testing::ElementsAre(folder / "out.v2.partial", folder / "out.v2.partial-2"));
 }
 
+/// Such as /dev/stdout.
+TEST(OutputPath, ALinkIsNotReplaced) {
+    const test::TemporaryFolder folder;
+    folder.write("file", "old");
+    fs::create_symlink("file", folder / "link");
+    fs::create_symlink("nowhere", folder / "dangling");
+    for (const char* name : {"link", "dangling"}) {
+        EXPECT_THAT(test::messageOf([&] { OutputPath(folder / name, kFile, true); }),
+                    HasSubstr("a link, so it is not replaced"));
+        EXPECT_TRUE(fs::is_symlink(folder / name));
+    }
+}
+
+TEST(OutputPath, AFolderThatAppearsMeanwhileIsNotReplaced) {
+    const test::TemporaryFolder folder;
+    OutputPath output(folder / "scans", {"a folder", [](const fs::path&) { return true; }}, false);
+    fs::create_directory(output.temporary());
+    std::ofstream(output.temporary() / "new");
+    fs::create_directory(folder / "scans");
+    folder.write("scans/precious", "theirs");
+    EXPECT_THAT(test::messageOf([&] { output.commit(); }), HasSubstr("scans.partial"));
+    EXPECT_EQ(test::readFile(folder / "scans/precious"), "theirs");
+    EXPECT_TRUE(fs::exists(folder / "scans.partial/new"));
+    EXPECT_EQ(output.keepPartial(), folder / "scans.partial");  // already
+}
+
+TEST(OutputPath, WhatIsInAnInputIsNotReplaced) {
+    const test::TemporaryFolder folder;
+    fs::create_directories(folder / "in/velodyne");
+    folder.write("in/velodyne/000000.bin", "scan");
+    const auto refusal = [&](const std::string& output) {
+        return test::messageOf([&] { checkApart({folder / output}, {folder / "in"}); });
+    };
+    EXPECT_THAT(refusal("in/velodyne/000000.bin"), HasSubstr("may be a part of it"));
+    EXPECT_THAT(refusal("in/velodyne"), HasSubstr("may be a part of it"));
+    EXPECT_THAT(refusal("in"), HasSubstr("is or contains the input"));
+    EXPECT_EQ(refusal("in/scores.json"), "");
+    EXPECT_EQ(refusal("inside"), "");
+}
+
+TEST(RenamingNote, IsDoneWithoutWhereItsNameIsTooLong) {
+    const test::TemporaryFolder folder;
+    const fs::path longest = folder / std::string(250, 'x');
+    EXPECT_NO_THROW(RenamingNote({longest, folder / "b"}));
+}
+
 TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {
     const test::TemporaryFolder folder;
     OutputPath output(folder / "a.rawlog", kFile, false);

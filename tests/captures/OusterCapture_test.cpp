@@ -243,6 +243,17 @@ TEST_F(OusterCaptureTest, ASensorThatStartsAgainLosesNothing) {
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
 
+/// Its ids may be near to those of before: packets that are late in a row are not late.
+TEST_F(OusterCaptureTest, ASensorThatStartsAgainSoonLosesSixteenPackets) {
+    const packets::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
+    auto packets = packetsOfFrames(sensor, 20, 300);
+    const auto again = packetsOfFrames(sensor, 30, 0);
+    packets.insert(packets.end(), again.begin(), again.end());
+    EXPECT_EQ(read(captureOf(packets).bytes()).size(), 46u);  // of four packets each
+    EXPECT_THAT(remarks_[0], HasSubstr("16 packets more than a turn late, left out"));
+    EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
+}
+
 TEST_F(OusterCaptureTest, EverythingElseIsCounted) {
     const packets::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 1);

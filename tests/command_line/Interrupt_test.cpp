@@ -9,7 +9,7 @@ namespace {
 
 /// Each in a process of its own, which a signal that is not caught would end.
 TEST(Interrupt, TheSignalsThatEndAProgramAreCaught) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT, SIGUSR1}) {
         const auto wait = [&] {
             catchSignals();
             if (isInterrupted()) std::_Exit(1);

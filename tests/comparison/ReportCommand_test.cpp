@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -200,6 +201,14 @@ TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
     folder_.write("runs.csv",
                   trials::runHeader() + "\n" + trials::rowOf(threeContenders()[0]) + "\ngap,1\n");
     expectFailure({"report", folder()}, 1, "runs.csv:3: 2 fields, not 26");
+    Row again = threeContenders()[0];
+    again.result.outcome = kHit;
+    writeRuns({threeContenders()[0], threeContenders()[1], again});
+    expectFailure({"report", folder()}, 1, "runs.csv:4: a run that an earlier line has");
+    again.result.min_clearance_m = std::numeric_limits<double>::infinity();
+    writeRuns({again});
+    expectFailure({"report", folder()}, 1,
+                  "runs.csv:2: column min_clearance_m: \"inf\" is not finite");
     writeRuns(threeContenders());
     folder_.write("memory.csv", "model,path_m,bytes\nW-RoI,far,1\n");
     expectFailure({"report", folder()}, 1, "memory.csv:2: not model,path_m,bytes");

@@ -122,6 +122,7 @@ TEST(CameraFile, NamesWhatIsWrong) {
     expect("fx: 4", "fx: 0", "fx must be above 0");
     expect("width: 9", "width: 9.5", "width must be a whole number");
     expect("height: 7", "height: 0", "height must be");
+    expect("width: 9\nheight: 7", "width: 10000\nheight: 10000", "more than 50 million pixels");
     expect("fx: 4", "focal: 4", "unknown key 'focal'");
     expect("fx: 4", "cx: 4", "'cx' occurs twice");
 }

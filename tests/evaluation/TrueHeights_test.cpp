@@ -106,6 +106,14 @@ TEST(TrueHeights, WithoutGroundAreInfinite) {
     EXPECT_TRUE(heightsOf(scanOf({}, {})).empty());
 }
 
+/// As floats, such squared distances are whole numbers.
+TEST(TrueHeights, GroundMayBeFarAway) {
+    for (const float far_m : {1000.0f, 1500.0f, 2000.0f, 5000.0f, 9999.0f}) {
+        const auto heights = heightsOf(scanOf({{far_m, 0, -1}, {10, 0, 0}}, {G, O}));
+        EXPECT_NEAR(heights[1], 1, 1e-5) << far_m;
+    }
+}
+
 TEST(TrueHeights, AreOfObstaclesInRangeOnly) {
     const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {7, 0, 0}}, {G, O, O});
     const std::vector<float> heights_m = heightsOf(scan, 6);

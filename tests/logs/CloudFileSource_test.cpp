@@ -208,6 +208,15 @@ TEST_F(CloudFileSourceTest, ABrokenFileIsNamedAndThoseBeforeItAreRead) {
     }
 }
 
+/// As of a drive that is not there.
+TEST_F(CloudFileSourceTest, ALinkToNowhereIsNoCloudLess) {
+    const fs::path folder = folderOf({"1.bin", "3.bin"});
+    fs::create_symlink("nowhere", folder / "2.bin");
+    const auto source = openRecording(folder);
+    EXPECT_TRUE(source->nextScan());
+    EXPECT_THAT(test::messageOf([&] { source->nextScan(); }), HasSubstr("2.bin"));
+}
+
 TEST_F(CloudFileSourceTest, AFileThatIsTooLargeIsNamedBeforeItIsRead) {
     const fs::path folder = folderOf({"1.bin", "2.bin"});
     fs::resize_file(folder / "2.bin", std::uintmax_t{8} << 30);  // holes take no room on the disk

@@ -97,6 +97,7 @@ TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
     expectRefused(std::string("0 0 0 0 0 0 0 1\0002\n", 18), ":1: there is a NUL byte");
     expectRefused("1 0 0 0 0 2 0 0 0 0 1 0\n", ":1: the matrix is not a rigid");
     expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is not a rigid");
+    expectRefused("1e200 -1e200 0 100 1e200 1e200 0 50 0 0 1 5\n", ":1: the matrix is not a rigid");
     EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_ / "none"); }), HasSubstr("none"));
     EXPECT_THAT(test::messageOf([&] { readTumPoses(folder_.path()); }),
                 HasSubstr("is a folder, not a file"));

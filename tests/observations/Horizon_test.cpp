@@ -57,6 +57,20 @@ TEST(Horizon, WhatHasNoTimeTellsNothing) {
     EXPECT_TRUE(horizon.at(kTime));
 }
 
+TEST(Horizon, WhatIsNotFiniteTellsNothing) {
+    const double nan = std::nan("");
+    Horizon horizon;
+    horizon.see(poseOf({0, 0, 0, 0, nan, 0}));
+    EXPECT_FALSE(horizon.at(kTime));
+    horizon.see(poseOf({0, 0, 0, 0, 0.1, 0}));
+    horizon.see(poseOf({nan, 0, 0, 0, 0.2, 0}));
+    auto displaced = poseOf({0, 0, 0, 0, 0.3, 0});
+    displaced.sensorPose = CPose3D(0, nan, 0, 0, 0, 0);
+    horizon.see(displaced);
+    ASSERT_TRUE(horizon.at(kTime));
+    EXPECT_NEAR(horizon.at(kTime)->pitch(), 0.1, 1e-9);
+}
+
 TEST(Horizon, TheLastOneSeenCounts) {
     Horizon horizon;
     horizon.see(poseOf({0, 0, 0, 0, 0.1, 0}));

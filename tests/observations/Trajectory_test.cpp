@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <hagen/observations/Trajectory.h>
 
+#include <cmath>
+#include <limits>
+
 namespace hagen::observations {
 namespace {
 
@@ -38,6 +41,19 @@ TEST(Trajectory, IsNotKnownBeyondItsEndsNorInItsGaps) {
     EXPECT_FALSE(trajectory.at(at(5.01)));
     EXPECT_FALSE(trajectory.at(at(2.0)));
     EXPECT_TRUE(trajectory.at(at(0.05)));
+}
+
+TEST(Trajectory, APoseThatIsNotFiniteIsLeftOutAndCounted) {
+    const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+    Trajectory trajectory;
+    trajectory.add(at(0.0), CPose3D(1, 0, 0, 0, 0, 0));
+    trajectory.add(at(0.05), CPose3D(nan, 0, 0, 0, 0, 0));
+    trajectory.add(at(0.05), CPose3D(0, 0, infinite, 0, 0, 0));
+    trajectory.add(at(0.05), CPose3D(0, 0, 0, 0, nan, 0));
+    trajectory.add(at(0.1), CPose3D(2, 0, 0, 0, 0, 0));
+    EXPECT_NEAR(trajectory.at(at(0.05)).value().x(), 1.5, 1e-4);
+    EXPECT_EQ(trajectory.size(), 2u);
+    EXPECT_EQ(trajectory.not_finite, 3u);
 }
 
 TEST(Trajectory, AGapOfMoreThanAFifthOfASecondIsNotBridged) {

@@ -91,6 +91,33 @@ TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
     EXPECT_EQ(counts.packets, 9u);
 }
 
+/// What is near may be an obstacle, as long as little is known around.
+TEST_F(LivoxStreamTest, WhereMostPacketsAreLostNothingIsGround) {
+    double measured_s = 0;
+    std::size_t sectors = 0, doubtful = 0;
+    const auto fly = [&](int every) {
+        measured_s = 0;
+        sectors = doubtful = 0;
+        LivoxStream stream({}, [&](const LabelledSector& sector) {
+            measured_s += sector.measured_s;
+            ++sectors;
+            doubtful += sector.is_doubtful;
+        });
+        for (int i = 0; i < 2000; i += every) {
+            const std::string packet = packetOf(i, 1000000000 + kPacket_ns * i);
+            stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                       1e-9 * kPacket_ns * i);
+        }
+    };
+    fly(1);
+    EXPECT_NEAR(measured_s, 1e-9 * kPacket_ns * 2000, 0.021);
+    EXPECT_GT(sectors, 40u);
+    EXPECT_LT(doubtful, 6u);
+    fly(42);
+    EXPECT_NEAR(measured_s, 1e-9 * kPacket_ns * 2000 / 42, 0.001);
+    EXPECT_EQ(doubtful, sectors);
+}
+
 TEST_F(LivoxStreamTest, ForeignDatagramsAreRefused) {
     EXPECT_EQ(add("", 0), Taken::Foreign);
     EXPECT_EQ(add(std::string(1206, 'x'), 0), Taken::Foreign);

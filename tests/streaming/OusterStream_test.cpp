@@ -6,6 +6,7 @@
 #include <hagen/streaming/OusterStream.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/OusterPackets.h"
@@ -129,6 +130,45 @@ TEST_F(OusterStreamTest, LossesRepetitionsAndLatePacketsAreCounted) {
     EXPECT_EQ(stream_.counts().lost, 1u);
     EXPECT_EQ(add(second[3]), Taken::Late);  // its turn is complete
     EXPECT_EQ(stream_.counts().too_late, 1u);
+}
+
+/// Where the sensor says that a column is invalid, it has not looked: that is no part of a sweep.
+TEST_F(OusterStreamTest, InvalidColumnsAreNotSwept) {
+    frames_.push_back(test::randomFrame(sensor_, 1));
+    OusterFrame& frame = frames_.back();
+    for (std::size_t column = 10; column < 40; ++column) {
+        if (column != 12) frame.state[column] = OusterFrame::Column::Invalid;
+    }
+    const auto packets = test::packetsOf(sensor_, frame);
+    const std::vector<Taken> expected{Taken::Yes, Taken::Unsound, Taken::Yes, Taken::Yes};
+    for (std::size_t p = 0; p < packets.size(); ++p) EXPECT_EQ(add(packets[p]), expected[p]) << p;
+    stream_.flush();
+    const std::vector<std::pair<double, double>> columns{{0, 10}, {12, 13}, {40, 48}, {48, 64}};
+    ASSERT_EQ(swept_.size(), columns.size());
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const double column_rad = 2 * kPi / 64, first_rad = swept_[0].from_rad;
+        EXPECT_NEAR((swept_[i].from_rad - first_rad) / column_rad, columns[i].first, 1e-9) << i;
+        EXPECT_NEAR((swept_[i].to_rad - first_rad) / column_rad, columns[i].second, 1e-9) << i;
+    }
+    EXPECT_EQ(returns_, packets::scanOf(frame, sensor_).size());
+    EXPECT_EQ(stream_.counts().packets, 3u);
+    EXPECT_EQ(stream_.counts().unsound, 1u);
+}
+
+TEST_F(OusterStreamTest, ASensorThatStartsAgainIsLabelledAgain) {
+    for (int id = 300; id < 310; ++id) {
+        for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) add(packet);
+    }
+    int late = 0, taken = 0;
+    for (int id = 0; id < 10; ++id) {
+        for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) {
+            const Taken one = add(packet);
+            late += one == Taken::Late;
+            taken += one == Taken::Yes;
+        }
+    }
+    EXPECT_EQ(late, 16);
+    EXPECT_EQ(taken, 24);
 }
 
 TEST_F(OusterStreamTest, AJumpOfTheTurnsEndsTheContext) {

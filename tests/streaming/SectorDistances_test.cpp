@@ -195,6 +195,42 @@ TEST_F(SectorDistancesTest, WhereATiltedSensorDoesNotSeeTheHorizonNothingIsFree)
     EXPECT_EQ(at[18].state, State::SeenNothing);  // beside, they are level
 }
 
+/// The packet ends within the degree of the obstacle, which it has not reached yet.
+TEST_F(SectorDistancesTest, AnObstacleStaysUntilALaterTurnHasPassedIt) {
+    for (const double end_deg : {11.0, 11.25, 11.6, 11.9}) {
+        SectorDistances distances(sensor_);
+        turn(0, 0.1, {{11.95, 5}}, distances);
+        take(360, 360 + end_deg, 0.1, {{11.0, 10}}, distances);
+        EXPECT_EQ(distances.at(0.11)[2].state, State::Obstacle) << end_deg;
+        EXPECT_NEAR(distances.at(0.11)[2].distance_m, 5, 1e-4) << end_deg;
+        take(360 + end_deg, 360 + 2 * end_deg, 0.11, {}, distances);
+        EXPECT_NEAR(distances.at(0.12)[2].distance_m, 10, 1e-4) << end_deg;
+    }
+}
+
+TEST_F(SectorDistancesTest, WithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
+    const auto takeFrames = [&](double measured_s, int frames, SectorDistances& distances) {
+        const Scan scan;
+        const std::vector<Label> labels;
+        for (int k = 0; k < frames; ++k) {
+            const double time_s = 1 + 0.02 * k;
+            distances.take({scan, labels, std::nullopt, time_s, time_s, true, false, false, result_,
+                            nullptr, measured_s});
+        }
+    };
+    const auto stateAfter = [&](double measured_s, int frames) {
+        SectorDistances distances(sensorModel("Mid-360"));
+        takeFrames(measured_s, frames, distances);
+        return distances.at(1 + 0.02 * frames)[9].state;
+    };
+    EXPECT_EQ(stateAfter(0.02, 3), State::Unknown);  // not all around yet
+    EXPECT_EQ(stateAfter(0.02, 5), State::SeenNothing);
+    EXPECT_EQ(stateAfter(0.018, 50), State::SeenNothing);
+    EXPECT_EQ(stateAfter(0.012, 50), State::Unknown);
+    EXPECT_EQ(stateAfter(0.0005, 50), State::Unknown);  // one packet of 42
+    EXPECT_EQ(stateAfter(0, 50), State::Unknown);
+}
+
 TEST_F(SectorDistancesTest, WithoutTurnsWhatWasSeenHoldsForATenthOfASecond) {
     SectorDistances distances(sensorModel("Mid-360"));
     take(std::nullopt, 1.00, {{2, 4}}, distances);

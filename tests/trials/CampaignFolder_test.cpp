@@ -255,6 +255,19 @@ TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {
                     mergeCampaigns({place / "a", place / "b"}, place / "p", false);
                 }),
                 HasSubstr("contradicts"));
+    // The output is as it was.
+    EXPECT_FALSE(fs::exists(place / "p"));
+    const std::string before = readFile(place / "m/runs.csv");
+    const std::string plans = readFile(place / "m/campaign.json");
+    for (const bool overwrites : {false, true}) {
+        EXPECT_NE(messageOf([&] {
+                      mergeCampaigns({place / "a", place / "b"}, place / "m", overwrites);
+                  }),
+                  "");
+        EXPECT_EQ(readFile(place / "m/runs.csv"), before);
+        EXPECT_EQ(readFile(place / "m/campaign.json"), plans);
+    }
+    EXPECT_EQ(mergeCampaigns({place / "a", place / "a/"}, place / "q", false), 2u);
 }
 
 }  // namespace

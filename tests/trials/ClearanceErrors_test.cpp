@@ -4,7 +4,10 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/trials/ClearanceErrors.h>
 
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace hagen::trials {
 namespace {
@@ -77,6 +80,20 @@ TEST(ClearanceErrors, QuantilesAreThoseOfAllObstaclesTogether) {
     EXPECT_NEAR(pole.p05_m, 0.005, 1e-12);
     EXPECT_NEAR(pole.median_m, 0.05, 1e-12);
     EXPECT_NEAR(pole.p95_m, 0.095, 1e-12);
+}
+
+TEST(ClearanceErrors, TheGreatestSeedIsTheLast) {
+    struct Enough {};
+    const std::uint64_t greatest = std::numeric_limits<std::uint64_t>::max();
+    std::vector<std::uint64_t> seeds;
+    ClearanceMeasurement measurement{{"W-RoI"}, greatest, greatest, ModelDistance::AsStored,
+                                     false,     {}};
+    measurement.doing = [&](std::uint64_t seed) {
+        seeds.push_back(seed);
+        if (seeds.size() > 1) throw Enough();
+    };
+    EXPECT_NO_THROW(measureClearances(measurement));
+    EXPECT_EQ(seeds, std::vector<std::uint64_t>{greatest});
 }
 
 TEST(ClearanceErrors, ModelsThatCannotBeMeasuredAreNamed) {

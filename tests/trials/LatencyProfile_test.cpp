@@ -79,6 +79,7 @@ TEST(LatencyProfile, BrokenFilesAreNamedWithTheirKey) {
     EXPECT_TRUE(has(messageFor(R"({"quantiles_ms": {"filter": [2, 1]}})"), "filter"));
     EXPECT_TRUE(has(messageFor(R"({"quantiles_ms": {"filter": [-1]}})"), "filter"));
     EXPECT_TRUE(has(messageFor(R"({"quantiles_ms": {"filter": ["1"]}})"), "filter"));
+    EXPECT_TRUE(has(messageFor(R"({"quantiles_ms": {"filter": [1e12]}})"), "from 0 to 60000"));
     EXPECT_TRUE(has(messageFor(R"({"machine": 3, "quantiles_ms": {}})"), "machine"));
     EXPECT_NE(messageOf([&] { readLatencyProfile(folder / "none.json"); }), "");
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/autopilot/VehicleMotion.h>
 #include <hagen/range_image/SensorModel.h>
+#include <hagen/streaming/FrameCoverage.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 #include <Eigen/Geometry>
 
@@ -30,8 +31,8 @@ using Directions = std::array<Direction, 72>;
 /// What a sector saw is turned and moved by the vehicle's motion since. Directions are level: a
 /// vehicle that rolls sees an obstacle on its right on its right. **Stale is never free**: what was
 /// not swept within 0.3 s is unknown, and so is a direction in which the sensor, as it was tilted
-/// then, has no beam at the horizon. An obstacle is forgotten when its direction was swept again,
-/// a turn later, or after 0.3 s. (streaming::SectorDistances is the same for a sensor that stays.)
+/// then, has no beam at the horizon. An obstacle is forgotten when a later turn has passed all of
+/// its degree, or after 0.3 s. (streaming::SectorDistances is the same for a sensor that stays.)
 ///
 /// A copy is cheap: it shares what sectors saw, which does not change.
 class Surroundings {
@@ -60,15 +61,18 @@ class Surroundings {
     struct Seen {
         double first_time_s = 0, last_time_s = 0;
         std::vector<streaming::Sweep> sweeps;  ///< of its packets; none: of a sensor without turns
+        bool is_all_around = false;            ///< such a one, and FrameCoverage says so
         double to_rad = 0;                     ///< how far the sensor has turned
         std::vector<Eigen::Vector3f> roi_m;    ///< in the sensor's frame
     };
     bool isFresh(const Seen& seen, double now_s) const;
-    bool covers(const Seen& seen, const Eigen::Vector3d& ahead) const;
+    enum class Look { None, Near, Passed };
+    Look lookOf(const Seen& seen, const Eigen::Vector3d& ahead) const;
 
     Settings settings_;
     double lowest_, highest_;                       ///< sines of the elevations of its beams
     std::deque<std::shared_ptr<const Seen>> seen_;  ///< in the order in which they came
+    streaming::FrameCoverage frames_;
     double latest_s_ = -std::numeric_limits<double>::infinity();
 };
 

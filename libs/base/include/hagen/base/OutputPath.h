@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace hagen::base {
@@ -45,8 +46,9 @@ class OutputPath {
 
  private:
     void checkFree() const;
+    bool renameToFreeName() const;
 
-    std::filesystem::path path_, temporary_;
+    std::filesystem::path path_, temporary_, kept_;
     OutputKind kind_;
     bool overwrites_;
 };
@@ -66,12 +68,15 @@ class RenamingNote {
 };
 
 /// What earlier runs left of an output, sorted by name: all partial names of its path that there
-/// are (keepPartial()), and the temporary names of processes that do not run any more. Empty for an
-/// empty path.
+/// are (keepPartial()), and the temporary names of processes that do not run any more, or that had
+/// this one's number. Empty for an empty path.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& path);
 
-/// Throws std::runtime_error if an output is an input, contains an input, or lies in another
-/// output; the message names both. Empty paths are ignored.
+/// The same for several outputs, as a sentence for the user; "" if there is nothing.
+std::string leftBehind(const std::vector<std::filesystem::path>& outputs);
+
+/// Throws std::runtime_error if an output is an input, contains an input, exists within an input,
+/// or lies in another output; the message names both. Empty paths are ignored.
 void checkApart(const std::vector<std::filesystem::path>& outputs,
                 const std::vector<std::filesystem::path>& inputs);
 

@@ -2,8 +2,9 @@
 
 namespace hagen::command_line {
 
-/// Shuts a program down cleanly: after SIGINT, SIGTERM, SIGHUP or SIGXCPU (a limit of CPU time),
-/// unless ignored, isInterrupted() returns true. A later signal ends the program at once.
+/// Shuts a program down cleanly: after SIGINT, SIGTERM, SIGHUP, SIGXCPU (a limit of CPU time) or
+/// another signal that would end it, unless ignored, isInterrupted() returns true. A later signal
+/// ends the program at once.
 void catchSignals();
 
 /// Ignores SIGPIPE and SIGXFSZ, so that the failed write reports the error. Each Program does.

@@ -20,7 +20,8 @@ struct RawlogSurvey {
     /// Sources are not mixed, as each has its own map frame. Among several sensor labels, the one
     /// with the most poses wins.
     observations::Trajectory trajectory;
-    std::string source;  ///< such as "CObservationRobotPose 'gps'"; empty: no poses
+    std::size_t not_finite = 0;  ///< poses of all sources that were left out
+    std::string source;          ///< such as "CObservationRobotPose 'gps'"; empty: no poses
 
     /// Time and sensor pose on the vehicle of each LiDAR scan, by sensor label.
     struct ScanPlace {

@@ -78,8 +78,9 @@ void markAsPredictions(const std::filesystem::path& folder);
 
 /// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Of
 /// points with a ring, as of nuScenes (clouds::BinStart), the ring is left out and intensities are
-/// scaled to 0..1. Throws BrokenScan, also if the file is known to be something else.
-void readScan(const std::filesystem::path& file, Scan& scan);
+/// scaled to 0..1. Returns how many numbers a point has, 4 or 5. Throws BrokenScan, also if the
+/// file is known to be something else.
+std::size_t readScan(const std::filesystem::path& file, Scan& scan);
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 
 /// The highest component number that a label file can store; higher ones are stored as this one.

@@ -29,6 +29,7 @@ class SensorFolders {
     const char* marker_;  ///< of the kind; null: none
     base::OutputPath path_;
     std::map<std::string, std::filesystem::path> folders_;  ///< by sensor label
+    bool is_unwrapped_ = false;  ///< the only sensor's folder is the output
 };
 
 }  // namespace hagen::logs

@@ -8,11 +8,15 @@
 
 namespace hagen::observations {
 
+/// Whether its place and its rotation are numbers.
+bool isFinite(const mrpt::poses::CPose3D& pose);
+
 /// The vehicle's trajectory: its poses in the map over time.
 class Trajectory {
  public:
     Trajectory();
 
+    /// A pose that is not finite, or has no time (isTime()), is left out; the former are counted.
     void add(mrpt::Clock::time_point time, const mrpt::poses::CPose3D& vehicle_pose);
 
     /// Returns the pose at a time, interpolated between the two poses around it; nullopt unless
@@ -23,6 +27,7 @@ class Trajectory {
     /// vehicle's attitude. False if poses are integrated from odometry increments or relative to
     /// the first one.
     bool has_horizon = true;
+    std::size_t not_finite = 0;  ///< poses left out
 
     /// The recorded poses, one per time.
     std::size_t size() const { return poses_.size(); }

@@ -22,9 +22,10 @@ namespace hagen::openloop {
 /// complete.
 class OpenLoopFiles {
  public:
-    /// Throws std::runtime_error, naming it, if a file exists and `overwrite` is not set, or if the
-    /// folder cannot be made.
-    OpenLoopFiles(const std::filesystem::path& folder, bool overwrite);
+    /// Throws std::runtime_error, naming it, if a file exists and `overwrite` is not set or it is
+    /// one of the inputs, or if the folder cannot be made.
+    OpenLoopFiles(const std::filesystem::path& folder, bool overwrite,
+                  const std::vector<std::filesystem::path>& inputs = {});
     ~OpenLoopFiles();
 
     /// Throws std::runtime_error, naming the file, if it cannot be written.

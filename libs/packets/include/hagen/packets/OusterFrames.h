@@ -28,7 +28,8 @@ struct OusterFrame {
 };
 
 /// Puts the packets of one sensor together into frames. Two are open at a time, so that packets may
-/// be late by up to a turn.
+/// be late by up to a turn. Where sixteen in a row are late by more, the sensor was started again:
+/// its ids are less than before.
 class OusterFrames {
  public:
     struct Counts {
@@ -57,12 +58,14 @@ class OusterFrames {
     const Counts& counts() const { return counts_; }
 
  private:
+    void restart();
     OusterFrame* frameOf(std::uint16_t id, std::int64_t time_ns);
     bool readColumn(const std::uint8_t* column, std::size_t& number, OusterFrame& frame);
     void completeFirst();
 
     const OusterSensor& sensor_;
     std::deque<OusterFrame> open_;  ///< by their ids
+    std::size_t late_in_a_row_ = 0;
     bool has_last_ = false;
     std::uint16_t last_id_ = 0;  ///< of the last frame completed
     std::deque<OusterFrame> complete_;

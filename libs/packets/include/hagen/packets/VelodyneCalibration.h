@@ -9,7 +9,8 @@
 
 namespace hagen::packets {
 
-/// Of a laser's range, and of where its light leaves the sensor. With more, a calibration is corrupt.
+/// Of a laser's range, and of where its light leaves the sensor. With more, a calibration is
+/// corrupt.
 inline constexpr double kMostCorrection_m = 10;
 
 /// Where a laser of a Velodyne points, and what is added to its ranges.

@@ -49,7 +49,7 @@ struct DecoderWorkspace {
 /// HDL-64E nor 0xDDFF) or an invalid azimuth. Throws std::runtime_error for a packet of an unknown
 /// model or of another model than the first packet; the message names the packet, and `scan` is
 /// unchanged. Reuses the memory of `scan`.
-std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& calibration,
+std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
                           Scan& scan, DecoderWorkspace& work);
 
 }  // namespace hagen::packets

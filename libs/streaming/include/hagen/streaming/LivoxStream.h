@@ -53,6 +53,7 @@ class LivoxStream {
     std::uint16_t last_number_ = 0;
     std::size_t packets_of_frame_ = 0;
     double last_arrival_s_ = 0;
+    double measured_s_ = 0;  ///< by the packets of the frame
     Scan frame_;
     std::vector<std::uint8_t> tags_;
     Counts counts_;

@@ -26,7 +26,7 @@ class OusterStream {
         std::size_t other_sensor = 0;    ///< with another serial number
         std::size_t imu = 0;             ///< packets of the IMU, left out
         std::size_t repeated = 0;        ///< came again, left out
-        std::size_t unsound = 0;         ///< without a column that there is, left out
+        std::size_t unsound = 0;         ///< without a valid column, left out
         std::size_t late = 0;            ///< came after a later one
         std::size_t too_late = 0;        ///< of these: by more than sixteen packets; no label
         std::size_t lost = 0;            ///< missing in turns that are complete, but for the first
@@ -61,6 +61,7 @@ class OusterStream {
 
  private:
     void countLosses();
+    void addRuns(const packets::OusterFrame& frame, long long turn, double arrival_s);
 
     const packets::OusterSensor sensor_;
     Settings settings_;
@@ -72,7 +73,7 @@ class OusterStream {
     long long turn_ = 0;         ///< likewise, counted on
     long long last_at_ = 0;      ///< its first column, counted on
     std::size_t missing_of_first_ = 0;
-    std::vector<std::size_t> columns_;
+    std::vector<std::size_t> columns_, run_;
     Scan returns_;
     Counts counts_;
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/streaming/FrameCoverage.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 #include <Eigen/Geometry>
 #include <array>
@@ -11,8 +12,10 @@ namespace hagen::streaming {
 ///
 /// **Stale is never free.** A direction that was not swept for 0.3 s is unknown, and so is one that
 /// was swept in part. "Seen nothing" means that the sensor swept all of it, at the horizon of the
-/// body, and that none of the returns is RoI. A sensor that does not turn is taken to look all
-/// around within each tenth of a second; what it saw in a direction holds for one to two of these.
+/// body, and that none of the returns is RoI. What an earlier turn saw in a degree is forgotten
+/// once a later one has passed all of it. A sensor that does not turn is taken to look all around
+/// within each tenth of a second, if few of its packets are lost (FrameCoverage); what it saw in a
+/// direction holds for one to two of these.
 class SectorDistances {
  public:
     static constexpr int kSectors = 72;
@@ -53,20 +56,31 @@ class SectorDistances {
     static constexpr int kBins = kSectors * kParts;
     static constexpr double kNever = -std::numeric_limits<double>::infinity();
     static constexpr float kNothing = std::numeric_limits<float>::infinity();
+    /// Between two bins.
+    struct Edge {
+        double swept_s = kNever;  ///< when a packet swept it last, or ended just before it
+        double passed_s = kNever, passed_rad = kNever;  ///< and swept it; how far it had turned
+    };
+    /// The nearest RoI return of a turn, or of a period.
+    struct Found {
+        double time_s = kNever, turned_rad = kNever;
+        float distance_m = kNothing;
+    };
     struct Bin {
-        double swept_s = kNever, swept_rad = kNever;  ///< when last, and how far it had turned then
-        double roi_s = kNever, roi_rad = kNever;      ///< likewise, of the nearest RoI return
-        float roi_m = kNothing;
-        float earlier_roi_m = kNothing;  ///< without turns: of the period before
+        Found latest, earlier;  ///< of the turn in which it was swept last, and of the one before
     };
 
     void beginFrame(double time_s);
     void noteSwept(const LabelledSector& sector);
+    bool isGone(const Found& found, int bin) const;
 
     Settings settings_;
-    /// Where the sensor sees the bin, clockwise from 0 up to a turn; NaN: not.
+    /// Where the sensor sees the edge at which a bin begins, clockwise from 0 up to a turn; NaN:
+    /// not.
     std::array<double, kBins> sensor_rad_{};
+    std::array<Edge, kBins> edges_{};  ///< the bin's own, at which it begins
     std::array<Bin, kBins> bins_{};
+    FrameCoverage frames_;
     double latest_s_ = kNever;
     double period_start_s_ = kNever;  ///< without turns
 };

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -65,6 +66,8 @@ struct LabelledSector {
     const SegmentationResult& result;
     /// What each of its packets swept; less than `sweep`, if one is lost. Null: not known.
     const std::vector<Sweep>* packets = nullptr;
+    /// Of a sensor that does not turn: for how long it measured. Infinity: it looked all around.
+    double measured_s = std::numeric_limits<double>::infinity();
 };
 
 /// Labels the returns of a LiDAR sector by sector, while it turns.
@@ -106,8 +109,10 @@ class StreamingSegmenter {
     /// `sweep` of packets that come late may be before that of others: their returns are labelled
     /// with the sector in progress. Calls the function if that ends a sector.
     void add(const Scan& returns, const Sweep& sweep, double time_s);
-    /// The same for a frame of a sensor that does not turn, which is a sector.
-    void addFrame(const Scan& returns, double time_s);
+    /// The same for a frame of a sensor that does not turn, which is a sector. `measured_s` is for
+    /// how long its packets measured, if some may be lost.
+    void addFrame(const Scan& returns, double time_s,
+                  double measured_s = std::numeric_limits<double>::infinity());
     /// Labels the sector in progress: no packet followed for some time.
     void flush();
     /// Forgets the context: packets that follow are of another place or sensor mode. The sector in
@@ -137,6 +142,7 @@ class StreamingSegmenter {
         double time_s = 0;
         std::optional<Eigen::Isometry3d> pose;  ///< of the sensor; its rotation only: without place
         bool has_place = false;
+        double measured_s = 0;  ///< without a sweep
     };
 
     Packet& push(const Scan& returns, double time_s);

@@ -44,8 +44,10 @@ class CampaignFolder {
     /// Takes in the journals' runs. A partial last line is left out: its run is flown again. Throws
     /// std::runtime_error, naming file and line, for any other line that cannot be read.
     void readJournals();
-    /// Takes in the runs of another folder. Throws std::runtime_error if it has other settings, or
-    /// another result for the same run.
+    /// Throws std::runtime_error if another folder has other settings, or another result for the
+    /// same run.
+    void checkJoins(const CampaignFolder& other) const;
+    /// Takes in the runs of another folder. Throws like checkJoins().
     void add(const CampaignFolder& other);
 
     /// Writes runs.csv and measured.csv, and removes the journals.

@@ -1,0 +1,14 @@
+#include <hagen/streaming/FrameCoverage.h>
+
+namespace hagen::streaming {
+
+bool FrameCoverage::add(double time_s, double measured_s) {
+    if (!frames_.empty() && time_s < frames_.back().time_s) frames_.clear();
+    frames_.push_back({time_s, measured_s});
+    while (time_s - frames_.front().time_s >= kPeriod_s) frames_.pop_front();
+    double all_s = 0;
+    for (const Frame& frame : frames_) all_s += frame.measured_s;
+    return all_s >= kLeastMeasured_s;
+}
+
+}  // namespace hagen::streaming
