@@ -1,5 +1,6 @@
 #include <hagen/observations/TimeStamp.h>
 #include <hagen/observations/Trajectory.h>
+#include <Eigen/Core>
 
 #include <chrono>
 #include <cmath>
