@@ -139,9 +139,9 @@ void printSummary(const live::LiveReport& r) {
     std::printf("%zu packets in %zu turns, %zu lost, %zu late, %zu repeated, %zu dropped\n",
                 r.packets, r.scans, r.lost, r.late, r.repeated, r.dropped);
     std::printf(
-        "left out: %zu datagrams of another size, %zu of other sensors, %zu of position "
-        "or IMU\n",
-        r.wrong_size, r.foreign, r.position);
+        "left out: %zu datagrams of another size, %zu of other sensors, %zu of position or IMU, "
+        "%zu without valid data\n",
+        r.wrong_size, r.foreign, r.position, r.unsound);
     std::printf("%zu sectors, %zu returns, %zu RoI\n", r.sectors, r.returns, r.roi);
     if (r.latency.count() > 0) {
         std::printf(

@@ -168,9 +168,9 @@ void Session::tellSilence(double now_s) {
     is_silent_ = true;
     ++report_.silences;
     copyCounts();
-    listener_.remark(report_.packets > 0
-                         ? "no packets of the sensor for " + base::fixedText(kSilence_s, 0) + " s"
-                         : "no packet of " + nameOf(options_) + " has come yet");
+    listener_.remark(report_.packets > 0 ? "no valid packets of the sensor for " +
+                                               base::fixedText(kSilence_s, 0) + " s"
+                                         : "no packet of " + nameOf(options_) + " has come yet");
 }
 
 void Session::look(bool is_idle) {

@@ -152,7 +152,7 @@ TEST_F(LiveSessionTest, ASensorThatFallsSilentAndComesBackIsTold) {
     EXPECT_EQ(report.packets, 75u);
     EXPECT_EQ(report.foreign, 0u);
     EXPECT_EQ(report.sectors_cut, 2u);  // at the silence and at the end
-    EXPECT_THAT(remarks_, Contains(HasSubstr("no packets of the sensor for 1 s")));
+    EXPECT_THAT(remarks_, Contains(HasSubstr("no valid packets of the sensor for 1 s")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("the sensor is now at 10.0.0.102")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("packets come again")));
 }
