@@ -1,14 +1,20 @@
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <hagen/base/Folder.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <optional>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -107,8 +113,42 @@ void removeOld(const fs::path& path) {
     if (error) throw fs::filesystem_error("cannot be removed", path, error);
 }
 
-/// Whether a temporary name is that of a process that does not run any more.
-bool isLeftBehind(const std::string& name, const std::string& output) {
+/// When a process began, in seconds since 1970; none if /proc does not tell.
+std::optional<double> startOf_s(pid_t process) {
+    std::ifstream in("/proc/" + std::to_string(process) + "/stat");
+    std::string text;
+    std::getline(in, text);
+    const std::size_t name_end = text.rfind(')');  // the name may hold anything
+    if (name_end == std::string::npos) return std::nullopt;
+    std::istringstream fields(text.substr(name_end + 1));
+    std::string field;
+    for (int number = 3; number <= 22; ++number) fields >> field;  // proc(5)
+    const auto ticks = numberFrom<double>(field);
+    timespec now{}, up{};
+    if (!ticks || clock_gettime(CLOCK_REALTIME, &now) != 0 ||
+        clock_gettime(CLOCK_BOOTTIME, &up) != 0) {
+        return std::nullopt;
+    }
+    const auto seconds = [](const timespec& time) {
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    };
+    return seconds(now) - seconds(up) + *ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// Whether a process with this number runs that began before a file was written last: another one
+/// may have got the number since.
+bool mayWrite(pid_t process, const fs::path& file) {
+    if (kill(process, 0) != 0 && errno == ESRCH) return false;
+    const std::optional<double> start_s = startOf_s(process);
+    struct stat written {};
+    if (!start_s || stat(file.c_str(), &written) != 0) return true;
+    constexpr double kRounding_s = 1;
+    return *start_s <= static_cast<double>(written.st_mtim.tv_sec) + kRounding_s;
+}
+
+/// Whether a temporary file is of a process that does not run any more.
+bool isLeftBehind(const fs::path& file, const std::string& output) {
+    const std::string name = file.filename().string();
     const std::string start = output + kTemporaryMark;
     if (name.rfind(start, 0) != 0) return false;
     const std::string process =
@@ -119,7 +159,7 @@ bool isLeftBehind(const std::string& name, const std::string& output) {
     // In a container each run may have the same number. Outputs of this one have their names by
     // now.
     const int number = std::stoi(process);
-    return number == getpid() || (kill(number, 0) != 0 && errno == ESRCH);
+    return number == getpid() || !mayWrite(number, file);
 }
 
 /// True if `inner` is `outer` or lies in it.
@@ -262,7 +302,7 @@ std::vector<fs::path> partialOutputs(const fs::path& path) {
     std::error_code unreadable;
     for (const fs::path& entry : entriesOf(folder, unreadable)) {
         const std::string name = entry.filename().string();
-        if (isLeftBehind(name, path.filename().string())) {
+        if (isLeftBehind(entry, path.filename().string())) {
             found.push_back(path.parent_path() / name);
             continue;
         }

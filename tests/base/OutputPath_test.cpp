@@ -3,6 +3,7 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
 
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
 
@@ -162,6 +163,18 @@ TEST(RenamingNote, IsDoneWithoutWhereItsNameIsTooLong) {
     const test::TemporaryFolder folder;
     const fs::path longest = folder / std::string(250, 'x');
     EXPECT_NO_THROW(RenamingNote({longest, folder / "b"}));
+}
+
+/// The first process has a number that another one had before.
+TEST(OutputPath, ATemporaryFileOfBeforeItsProcessBeganIsLeftBehind) {
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "a.rawlog", left = folder / "a.rawlog.tmp-1-0123456789abcdef";
+    folder.write(left.filename().string(), "half");
+    EXPECT_TRUE(partialOutputs(file).empty());  // it runs
+    fs::last_write_time(left, fs::file_time_type::clock::now() - std::chrono::hours(24 * 365 * 20));
+    EXPECT_THAT(partialOutputs(file), testing::ElementsAre(left));
+    EXPECT_THAT(leftBehind({file, folder / "b"}), HasSubstr(left.string()));
+    EXPECT_EQ(leftBehind({folder / "b"}), "");
 }
 
 TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {
