@@ -384,10 +384,13 @@ ConversionReport Converter::finish() {
     checkLabels();
     finishSensorCheck();
     if (outputs_.wantsMap() && report_.scans > 0 && report_.scans_in_map == 0) {
-        outputs_.giveUpMap(report_.poses + ": has no pose near any of the " +
-                           std::to_string(report_.scans) + " scans of " +
-                           conversion_.input.string() +
-                           "; are its times from another clock? No map is written");
+        const std::string scans =
+            std::to_string(report_.scans) + " scans of " + conversion_.input.string();
+        outputs_.giveUpMap(report_.scans_with_pose == 0
+                               ? report_.poses + ": has no pose near any of the " + scans +
+                                     "; are its times from another clock? No map is written"
+                               : report_.poses + ": its poses place none of the " + scans +
+                                     " within an OctoMap; no map is written");
     }
     const Settings::AirframeMask& airframe = settings_.airframe;
     if (!airframe.parts.isEmpty() && report_.scans > 0 && report_.returns_masked == 0) {

@@ -20,11 +20,12 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets beg
 
 }  // namespace
 
-std::vector<NumberLine> readNumberTable(const std::filesystem::path& file) {
+std::vector<NumberLine> readNumberTable(const std::filesystem::path& file,
+                                        std::size_t most_lines) {
     std::ifstream in = base::openToRead(file);
     std::vector<NumberLine> table;
     std::size_t line = 0;
-    for (std::string text; base::nextLine(in, text, file);) {
+    for (std::string text; table.size() < most_lines && base::nextLine(in, text, file);) {
         ++line;
         if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
         std::istringstream words(text);

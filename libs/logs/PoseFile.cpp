@@ -47,7 +47,7 @@ std::ofstream openForWriting(const fs::path& file, int digits) {
 }  // namespace
 
 PoseFileKind kindOfPoseFile(const fs::path& file) {
-    const std::vector<NumberLine> table = readNumberTable(file);
+    const std::vector<NumberLine> table = readNumberTable(file, 1);
     if (table.empty()) throw std::runtime_error(file.string() + ": contains no poses");
     if (table.front().numbers.size() == 12) return PoseFileKind::Kitti;
     checkColumns(file, table.front(), 8,
