@@ -20,8 +20,7 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets beg
 
 }  // namespace
 
-std::vector<NumberLine> readNumberTable(const std::filesystem::path& file,
-                                        std::size_t most_lines) {
+std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::size_t most_lines) {
     std::ifstream in = base::openToRead(file);
     std::vector<NumberLine> table;
     std::size_t line = 0;
