@@ -5,6 +5,7 @@
 #include <hagen/logs/ScanFolderWriter.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -103,6 +104,17 @@ TEST_F(SegmentationEvaluate, APoleOnFlatGroundIsFoundWhole) {
     const auto outcome = run({"-i", labelledPole()});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(row(outcome.out, "hagen"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
+}
+
+TEST_F(SegmentationEvaluate, ASweepWinsOverTheFoldersSettings) {
+    const std::string pole = labelledPole();  // at 12 m
+    std::ofstream(folder_ / "pole/sensor.yaml", std::ios::app) << "zone_m: 3\n";
+    const auto f1 = [](const nlohmann::json& report, int row) {
+        return report["methods"][row]["returns"]["all"]["roi"]["f1"].get<double>();
+    };
+    const auto report = json({"-i", pole, "--sweep", "zone_m=5,20"});
+    EXPECT_LT(f1(report, 0), 0.5);
+    EXPECT_EQ(f1(report, 1), 1);
 }
 
 TEST_F(SegmentationEvaluate, RecoversASensorThatNobodyNamed) {

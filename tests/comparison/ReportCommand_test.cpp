@@ -82,6 +82,15 @@ TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
     EXPECT_THAT(text, HasSubstr("| occupancy grid 0.2 m | 1 | 0.00 | 0.00 | - | 14.00 |"));
 }
 
+TEST_F(ReportCommand, NamesTheLineThatContradictsAnother) {
+    writeRuns({test::runOf("gap", 1, "W-RoI", "astar", kWon)});
+    fs::create_directory(path("journal"));
+    folder_.write("journal/1.csv", lineOf(test::runOf("gap", 1, "W-RoI", "astar", kWon), 1));
+    EXPECT_EQ(run({"report", folder()}).exit_code, 0);
+    folder_.write("journal/1.csv", lineOf(test::runOf("gap", 1, "W-RoI", "astar", kHit), 1));
+    expectFailure({"report", folder(), "--overwrite"}, 1, "journal/1.csv:1: contradicts another");
+}
+
 TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     // Planned: 2 models, 10 seeds. One is in the table, others in a journal whose end is torn.
     fs::create_directory(path("journal"));

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <hagen/pictures/Gnuplot.h>
 
+#include <cstdlib>
+
 #include "support/Program.h"
 
 namespace hagen::pictures {
@@ -22,6 +24,12 @@ TEST(Gnuplot, TakesAnyTextLiterally) {
     EXPECT_THAT(drawn("beta_deg=5, Peter's \\n `date` @x {a}"),
                 HasSubstr("beta_deg=5, Peter's \\n `date` @x {a}"));
     EXPECT_THAT(drawn("one\nset output 'other.svg'"), HasSubstr("one set output 'other.svg'"));
+}
+
+TEST(Gnuplot, TheUsersTerminalIsNotAsked) {
+    setenv("GNUTERM", "none such", 1);
+    EXPECT_THAT(drawn("text"), HasSubstr("text"));
+    unsetenv("GNUTERM");
 }
 
 TEST(Gnuplot, AnSvgThatBreaksOffIsNamed) {
