@@ -195,6 +195,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     packet.all.found.resize(returns.size());
     packet.thinned_first = packet.thinned_end = 0;
     packet.sweep.reset();
+    packet.measured_s = 0;
     packet.time_s = time_s;
     packet.pose = pose_;
     packet.has_place = pose_.has_value();
