@@ -1,5 +1,4 @@
 // Labels the packets of a LiDAR while they come: near obstacles (RoI) and everything else (ROU).
-#include <hagen/base/OutputPath.h>
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Presets.h>
 
@@ -204,8 +203,7 @@ int run(const Program& program, Flags& flags) {
         line.clear();
         if (!flags.is_quiet) printSummary(report);
         if (!flags.is_quiet && link) printLink(*link);
-        const std::string left = base::leftBehind({flags.live.recording.file, flags.live.stats});
-        if (!flags.is_quiet && !left.empty()) std::cerr << left << "\n";
+        if (!flags.is_quiet) tellLeftBehind({flags.live.recording.file, flags.live.stats});
         std::string failure = report.recorded.failure;
         if (!report.stats_failure.empty()) {
             failure += (failure.empty() ? "" : "; ") + report.stats_failure;

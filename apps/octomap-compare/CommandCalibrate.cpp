@@ -83,8 +83,7 @@ int run(const Flags& flags, bool has_output) {
                                 flags.memory);
         memory_file->commit();
     }
-    const std::string left = base::leftBehind({flags.file, flags.memory});
-    if (!left.empty()) std::cerr << left << "\n";
+    tellLeftBehind({flags.file, flags.memory});
     return 0;
 }
 

@@ -73,8 +73,7 @@ int run(const Flags& flags) {
     outputs.add(*markdown);
     outputs.commit();
     std::cout << "\n" << csv->path().string() << "\n" << markdown->path().string() << "\n";
-    const std::string left = base::leftBehind({csv->path(), markdown->path()});
-    if (!left.empty()) std::cerr << left << "\n";
+    tellLeftBehind({csv->path(), markdown->path()});
     return 0;
 }
 

@@ -63,8 +63,7 @@ int run(const Flags& flags) {
               << recording.ending << "\n"
               << page.path().string() << "\n"
               << scene.path().string() << "\n";
-    const std::string left = base::leftBehind({page.path(), scene.path()});
-    if (!left.empty()) std::cerr << left << "\n";
+    tellLeftBehind({page.path(), scene.path()});
     if (recording.is_same) return 0;
     std::cerr << "octomap-compare: flown again, the result differs from the table; was it flown by "
                  "another version (this is "

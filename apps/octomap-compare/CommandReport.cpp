@@ -1,5 +1,4 @@
 // octomap-compare report: reports on the runs of a folder.
-#include <hagen/base/OutputPath.h>
 #include <hagen/command_line/Interrupt.h>
 #include <hagen/reports/WriteReport.h>
 #include <iostream>
@@ -17,10 +16,8 @@ int run(reports::ReportRequest request) {
         if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
     };
     for (const std::string& line : reports::writeReport(request)) std::cout << line << "\n";
-    const std::string left =
-        base::leftBehind({request.folder / "report.html", request.folder / "summary.json",
-                          request.folder / "summary.csv", request.markdown});
-    if (!left.empty()) std::cerr << left << "\n";
+    tellLeftBehind({request.folder / "report.html", request.folder / "summary.json",
+                    request.folder / "summary.csv", request.markdown});
     return 0;
 }
 

@@ -1,5 +1,4 @@
 // Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
-#include <hagen/base/OutputPath.h>
 #include <hagen/logs/Conversion.h>
 #include <hagen/logs/LearnAirframe.h>
 #include <hagen/logs/ScanSource.h>
@@ -276,8 +275,7 @@ void learn(const Flags& flags) {
     };
     const logs::AirframeReport report = logs::learnAirframe(learning, listener);
     if (!flags.is_quiet) printAirframe(learning, report);
-    const std::string left = base::leftBehind({learning.file, report.picture});
-    if (!flags.is_quiet && !left.empty()) std::cerr << left << "\n";
+    if (!flags.is_quiet) tellLeftBehind({learning.file, report.picture});
 }
 
 int run(const Program& program, Flags& flags) {

@@ -1,5 +1,4 @@
 // Simulates a flight with a LiDAR over a scene, and writes the scans with ground truth.
-#include <hagen/base/OutputPath.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 
@@ -131,8 +130,7 @@ int run(const simulated_logs::SimulatedLog& log, bool is_quiet) {
     };
     const simulated_logs::SimulationReport report = simulated_logs::simulateLog(log, keep_going);
     if (!is_quiet) printSummary(log, report);
-    const std::string left = base::leftBehind({log.rawlog, log.folder, log.poses});
-    if (!is_quiet && !left.empty()) std::cerr << left << "\n";
+    if (!is_quiet) tellLeftBehind({log.rawlog, log.folder, log.poses});
     return kDone;
 }
 

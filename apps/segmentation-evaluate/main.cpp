@@ -195,8 +195,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     endIfInterrupted();
     std::cout << reportOf(summary) << std::flush;
     outputs.all.commit();
-    const std::string left = base::leftBehind({flags.json, flags.charts, flags.overlay});
-    if (!left.empty()) std::cerr << left << "\n";
+    tellLeftBehind({flags.json, flags.charts, flags.overlay});
     return 0;
 }
 

@@ -16,6 +16,7 @@
 
 #include <hagen/base/MemoryLimit.h>
 #include <hagen/base/NumberText.h>
+#include <hagen/base/OutputPath.h>
 #include <hagen/command_line/Interrupt.h>
 #include <hagen/command_line/Terminal.h>
 #include "Manual.h"
@@ -403,6 +404,11 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     } catch (const std::exception& e) {
         return fail(kFailed, e.what());
     }
+}
+
+void tellLeftBehind(const std::vector<std::filesystem::path>& outputs) {
+    const std::string left = base::leftBehind(outputs);
+    if (!left.empty()) std::cerr << left << "\n";
 }
 
 }  // namespace hagen::command_line

@@ -129,4 +129,7 @@ class Program : public Command {
     std::string name_, printed_ = "summary", help_ = "text";
 };
 
+/// Tells on standard error what earlier runs left of these outputs (base::leftBehind()).
+void tellLeftBehind(const std::vector<std::filesystem::path>& outputs);
+
 }  // namespace hagen::command_line
