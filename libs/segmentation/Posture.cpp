@@ -67,6 +67,8 @@ void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const Sen
         turned.z_m[i] = point_m.z();
     }
     locateBeams(rows_of, turned);
+    // A turn changes no range; what has none, as the airframe, gets none.
+    turned.range_m = scan.range_m;
 }
 
 }  // namespace

@@ -78,11 +78,26 @@ TEST(Posture, ATurnedScanIsTheRotatedScanWithRowsOfItsOwn) {
             EXPECT_NEAR(turned.x_m[i], expected_m.x(), 1e-4f);
             EXPECT_NEAR(turned.y_m[i], expected_m.y(), 1e-4f);
             EXPECT_NEAR(turned.z_m[i], expected_m.z(), 1e-4f);
-            EXPECT_NEAR(turned.range_m[i], scan.range_m[i], 1e-4f);
+            EXPECT_EQ(turned.range_m[i], scan.range_m[i]);
             EXPECT_EQ(turned.row[i],
                       rows.nearestRow(std::asin(expected_m.z() / turned.range_m[i])));
         }
         EXPECT_NO_THROW(checkLocated(turned, rows));
+    }
+}
+
+TEST(Posture, WhatHasNoRangeGetsNoneByATurn) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    Scan scan = test::scanOf(sensor, {{5, 1, 0}, {4, 0, 0.5f}, {0, 2.65e-23f, 0}, {0, 0, 0}});
+    scan.range_m[1] = kNoValue;     // the airframe
+    EXPECT_GT(scan.range_m[2], 0);  // so close that the square of a part of it is 0
+    EXPECT_TRUE(std::isnan(scan.range_m[3]));
+    for (const Attitude& attitude : {tilt(180), tilt(90), tilt(40, -20)}) {
+        HagenFilter filter(sensor, {});
+        const std::vector<Label>& label = filter.segment(scan, attitude).returns.label;
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            EXPECT_EQ(label[i] == Label::Unclassified, std::isnan(scan.range_m[i])) << i;
+        }
     }
 }
 
