@@ -66,11 +66,14 @@ int run(const Flags& flags) {
     std::cout << table << "\nBiases, for libs/avoidance/DistanceBias.cpp:\n\n"
               << trials::biasTable(errors);
     if (!csv) return 0;
-    base::writeText(trials::clearanceCsv(errors), csv->temporary(), csv->path());
-    base::writeText(table, markdown->temporary(), markdown->path());
     base::OutputSet outputs;
     outputs.add(*csv);
     outputs.add(*markdown);
+    outputs.write(*csv, [&] {
+        base::writeText(trials::clearanceCsv(errors), csv->temporary(), csv->path());
+    });
+    outputs.write(*markdown,
+                  [&] { base::writeText(table, markdown->temporary(), markdown->path()); });
     outputs.commit();
     std::cout << "\n" << csv->path().string() << "\n" << markdown->path().string() << "\n";
     tellLeftBehind({csv->path(), markdown->path()});

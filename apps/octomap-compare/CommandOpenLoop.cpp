@@ -76,19 +76,20 @@ int run(Flags flags) {
     if (!flags.is_quiet) {
         listener.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
+    // First of all, as files may fail.
+    const auto show = [&](const openloop::OpenLoopResult& result) {
+        if (flags.is_quiet) return;
+        printRemarks(result);
+        std::cout << openloop::tableOf(open_loop, result) << std::flush;
+    };
     try {
         const openloop::OpenLoopResult result = openloop::runOpenLoop(open_loop, listener);
+        show(result);
         files.commit(open_loop, result);
-        if (flags.is_quiet) return 0;
-        printRemarks(result);
-        std::cout << openloop::tableOf(open_loop, result);
         return 0;
     } catch (const openloop::OpenLoopEnded& ended) {
+        show(ended.result);
         files.keepPartial(open_loop, ended.result);
-        if (!flags.is_quiet) {
-            printRemarks(ended.result);
-            std::cout << openloop::tableOf(open_loop, ended.result);
-        }
         throw std::runtime_error(std::string(ended.what()) + "; figures of the " +
                                  std::to_string(ended.result.scans) + " scans before that are in " +
                                  flags.folder + "/*.partial*");

@@ -1,4 +1,5 @@
 #include <hagen/base/OutputSet.h>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -8,14 +9,17 @@ namespace hagen::base {
 
 void OutputSet::write(const OutputPath& output, const std::function<void()>& step) {
     for (Member& member : members_) {
-        if (member.path != output.path()) continue;
-        return attempt(member, step, output.temporary().string());
+        if (member.path == output.path()) return attempt(member, step);
     }
     throw std::logic_error(output.path().string() + ": is no output of this set");
 }
 
-void OutputSet::attempt(Member& member, const std::function<void()>& step,
-                        const std::string& temporary) {
+bool OutputSet::areAllGivenUp() const {
+    return std::all_of(members_.begin(), members_.end(),
+                       [](const Member& member) { return member.is_given_up; });
+}
+
+void OutputSet::attempt(Member& member, const std::function<void()>& step) {
     if (member.is_given_up) return;
     std::string why;
     try {
@@ -26,8 +30,8 @@ void OutputSet::attempt(Member& member, const std::function<void()>& step,
         why = e.what();
     }
     member.is_given_up = true;
-    const std::string name = member.path.string();
-    for (std::size_t at = why.find(temporary); !temporary.empty() && at != std::string::npos;
+    const std::string name = member.path.string(), temporary = member.temporary.string();
+    for (std::size_t at = why.find(temporary); at != std::string::npos;
          at = why.find(temporary, at + name.size())) {
         why.replace(at, temporary.size(), name);
     }

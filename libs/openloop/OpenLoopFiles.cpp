@@ -1,7 +1,6 @@
 #include <hagen/openloop/OpenLoopFiles.h>
 
 #include <hagen/base/Json.h>
-#include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
 #include <hagen/evaluation/Latency.h>
 #include <cmath>
@@ -178,6 +177,7 @@ OpenLoopFiles::~OpenLoopFiles() {
 
 OpenLoopFiles::File& OpenLoopFiles::open(const std::string& name, bool overwrite) {
     files_.push_back(std::make_unique<File>(folder_ / name, overwrite));
+    all_.add(files_.back()->path);
     File& file = *files_.back();
     file.out = base::openToWrite(file.path.temporary(), file.path.path());
     file.out.imbue(std::locale::classic());
@@ -195,7 +195,9 @@ void OpenLoopFiles::add(const OpenLoopRow& row, const OpenLoopCost& cost) {
                          << Fixed{cost.update_ms, 3} << "," << Fixed{cost.queries_ms, 3} << ","
                          << Fixed{cost.heap_bytes, 0} << "\n";
     for (File* file : {scans_, scans_measured_}) {
-        if (!file->out) base::closeWritten(file->out, file->path.path());  // throws
+        all_.write(file->path, [&] {
+            if (!file->out) base::closeWritten(file->out, file->path.path());  // throws
+        });
     }
 }
 
@@ -205,14 +207,14 @@ void OpenLoopFiles::finish(const OpenLoop& open_loop, const OpenLoopResult& resu
     writeAgreement(agreement_->out, result);
     // File names may not be UTF-8, JSON must be.
     summary_->out << summaryOf(open_loop, result).dump(2, Json::NotUtf8::Replace) << "\n";
-    for (const auto& file : files_) base::closeWritten(file->out, file->path.path());
+    for (const auto& file : files_) {
+        all_.write(file->path, [&] { base::closeWritten(file->out, file->path.path()); });
+    }
 }
 
 void OpenLoopFiles::commit(const OpenLoop& open_loop, const OpenLoopResult& result) {
     finish(open_loop, result);
-    base::OutputSet outputs;
-    for (const auto& file : files_) outputs.add(file->path);
-    outputs.commit();
+    all_.commit();
     for (const auto& file : files_) {
         for (const fs::path& part : base::partialOutputs(file->path.path())) {
             if (part.filename().string().find(".partial") != std::string::npos) fs::remove(part);
@@ -222,7 +224,8 @@ void OpenLoopFiles::commit(const OpenLoop& open_loop, const OpenLoopResult& resu
 
 void OpenLoopFiles::keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result) {
     finish(open_loop, result);
-    for (const auto& file : files_) file->path.keepPartial();
+    for (const auto& file : files_) all_.write(file->path, [&] { file->path.keepPartial(); });
+    if (!all_.failures().empty()) throw std::runtime_error(all_.failures());
 }
 
 }  // namespace hagen::openloop

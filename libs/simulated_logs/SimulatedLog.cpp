@@ -31,6 +31,7 @@ class PoseOutput {
  public:
     PoseOutput(const fs::path& file, bool overwrite) : path_(file, base::kFile, overwrite) {}
 
+    const base::OutputPath& place() const { return path_; }
     void add(double time_s, const mrpt::poses::CPose3D& pose) { poses_.push_back({time_s, pose}); }
     void commit() {
         logs::writeTumPoses(path_.temporary(), poses_);
@@ -46,48 +47,64 @@ class PoseOutput {
     std::vector<logs::TimedPose> poses_;
 };
 
-/// The requested outputs.
+/// The requested outputs. One that cannot be written costs no other one.
 class Outputs {
  public:
-    Outputs(const SimulatedLog& log, const Attitude& mount)
-        : rawlog_(log.rawlog), folder_(log.folder), poses_(log.poses) {
-        if (!log.rawlog.empty()) rawlog.emplace(log.rawlog, log.overwrite);
-        if (!log.folder.empty()) folder.emplace(log.folder, log.overwrite, mount);
-        if (!log.poses.empty()) poses.emplace(log.poses, log.overwrite);
+    Outputs(const SimulatedLog& log, const Attitude& mount) {
+        if (!log.rawlog.empty()) rawlog_.emplace(log.rawlog, log.overwrite);
+        if (!log.folder.empty()) folder_.emplace(log.folder, log.overwrite, mount);
+        if (!log.poses.empty()) poses_.emplace(log.poses, log.overwrite);
+        if (folder_) all_.add(folder_->place(), *folder_);
+        if (poses_) all_.add(poses_->place(), *poses_);
+        if (rawlog_) all_.add(rawlog_->place(), *rawlog_);
     }
-    void commit() {
-        base::OutputSet outputs;
-        if (folder) outputs.add(folder_, *folder);
-        if (poses) outputs.add(poses_, *poses);
-        if (rawlog) outputs.add(rawlog_, *rawlog);
-        outputs.commit();
+
+    bool hasRawlog() const { return rawlog_.has_value(); }
+    void write(const mrpt::serialization::CSerializable& entry) {
+        if (rawlog_) all_.write(rawlog_->place(), [&] { rawlog_->write(entry); });
     }
+    void writePose(double time_s, const mrpt::poses::CPose3D& pose) {
+        if (poses_) all_.write(poses_->place(), [&] { poses_->add(time_s, pose); });
+    }
+    /// `step` is called with the folder.
+    template <class Step>
+    void writeScan(const Step& step) {
+        if (folder_) all_.write(folder_->place(), [&] { step(*folder_); });
+    }
+
+    bool areAllGivenUp() const { return all_.areAllGivenUp(); }
+    void commit() { all_.commit(); }
+    /// Says what is kept where, and what is not, and why.
     std::string keepPartial() {
         std::string names;
-        if (folder) names += " " + folder->keepPartial().string();
-        if (poses) names += " " + poses->keepPartial().string();
-        if (rawlog) names += " " + rawlog->keepPartial().string();
-        return names;
+        const auto keep = [&](auto& output) {
+            if (!output) return;
+            all_.write(output->place(), [&] { names += " " + output->keepPartial().string(); });
+        };
+        keep(folder_);
+        keep(poses_);
+        keep(rawlog_);
+        const std::string& failures = all_.failures();
+        return (names.empty() ? " no output" : names) + (failures.empty() ? "" : "; " + failures);
     }
 
-    std::optional<logs::RawlogWriter> rawlog;
-    std::optional<GroundTruthFolder> folder;
-    std::optional<PoseOutput> poses;
-
  private:
-    fs::path rawlog_, folder_, poses_;
+    std::optional<logs::RawlogWriter> rawlog_;
+    std::optional<GroundTruthFolder> folder_;
+    std::optional<PoseOutput> poses_;
+    base::OutputSet all_;
 };
 
 mrpt::Clock::time_point timePoint(double time_s) { return mrpt::Clock::fromDouble(time_s); }
 
 void writePose(double time_s, const simulation::SensorPose& pose, Outputs& outputs) {
-    if (outputs.poses) outputs.poses->add(kStart_s + time_s, mrptPose(pose));
-    if (!outputs.rawlog) return;
+    outputs.writePose(kStart_s + time_s, mrptPose(pose));
+    if (!outputs.hasRawlog()) return;
     mrpt::obs::CObservationRobotPose entry;
     entry.sensorLabel = "pose";
     entry.timestamp = timePoint(kStart_s + time_s);
     entry.pose.mean = mrptPose(pose);
-    outputs.rawlog->write(entry);
+    outputs.write(entry);
 }
 
 bool hasPackets(const SensorModel& sensor) {
@@ -105,11 +122,11 @@ struct Measured {
 
 Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel& sensor,
                         const mrpt::poses::CPose3D& mount, double time_s, Outputs& outputs) {
-    if (hasClouds(sensor) && outputs.rawlog) {
+    if (hasClouds(sensor) && outputs.hasRawlog()) {
         const auto observation =
             observations::observationOf(made.scan, kLidarLabel, timePoint(kStart_s + time_s));
         observation->sensorPose = mount;
-        outputs.rawlog->write(*observation);
+        outputs.write(*observation);
     }
     if (!hasPackets(sensor)) return {made.scan, sensor};
     const auto observation = encodeSimulatedScan(made, sensor, std::fmod(time_s, 3600.0));
@@ -122,7 +139,7 @@ Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel
     if (measured.scan.size() != made.size()) {
         throw std::logic_error("the packets contain other returns than were simulated");
     }
-    if (outputs.rawlog) outputs.rawlog->write(*observation);
+    outputs.write(*observation);
     return measured;
 }
 
@@ -188,10 +205,11 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
             if (!is_last && pose_s > next_s - 0.5 * kPoseStep_s) break;
             writePose(pose_s, flight.at(pose_s), outputs);
         }
-        if (outputs.folder) {
-            outputs.folder->write(measured.scan, {made.kind, made.object}, measured.sensor,
-                                  kStart_s + time_s, mrptPose(made.pose), made.altitude_m);
-        }
+        outputs.writeScan([&](GroundTruthFolder& folder) {
+            folder.write(measured.scan, {made.kind, made.object}, measured.sensor,
+                         kStart_s + time_s, mrptPose(made.pose), made.altitude_m);
+        });
+        if (outputs.areAllGivenUp()) break;
         count(made.kind, report);
     }
     outputs.commit();

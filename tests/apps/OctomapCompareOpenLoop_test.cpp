@@ -190,15 +190,27 @@ TEST_F(OpenLoopCommand, SaysInPlainLinesHowFarItIsWhereThereIsNoTerminal) {
     EXPECT_EQ(run(with(gap("quiet"), {"-q"})).err, "");
 }
 
-TEST_F(OpenLoopCommand, SaysWhenTheDiskIsFull) {
-    // Limits files to one kilobyte.
-    const std::string command = std::string("ulimit -f 1; exec ") + HAGEN_OCTOMAP_COMPARE +
-                                " openloop -i " + kOrchard + " --models W-RoI,W-Full -o " +
-                                path("full");
-    const auto outcome = test::run("/bin/bash", {"-c", command});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("cannot be written: File too large"));
-    EXPECT_FALSE(fs::exists(path("full")));
+TEST_F(OpenLoopCommand, AFileThatCannotBeWrittenCostsNoOther) {
+    const auto writing = [&](const std::string& limit_kib) {
+        const std::string command = "ulimit -f " + limit_kib + "; exec " HAGEN_OCTOMAP_COMPARE +
+                                    " openloop -i " + kOrchard + " --models W-RoI,W-Full -o " +
+                                    path("full" + limit_kib);
+        return test::run("/bin/bash", {"-c", command});
+    };
+    const auto some = writing("1");
+    EXPECT_EQ(some.exit_code, 1);
+    EXPECT_THAT(some.out, HasSubstr("full window"));  // the table
+    for (const char* large : {"scans.csv", "scans_measured.csv", "summary.json"}) {
+        EXPECT_THAT(some.err, HasSubstr(path("full1/") + large + ": cannot be written: File too large"));
+        EXPECT_FALSE(fs::exists(path("full1/") + large));
+    }
+    for (const char* small : {"openloop.csv", "agreement.csv", "openloop_measured.csv"}) {
+        EXPECT_THAT(some.err, Not(HasSubstr(small)));
+        EXPECT_TRUE(fs::exists(path("full1/") + small));
+    }
+
+    EXPECT_EQ(writing("0").exit_code, 1);
+    EXPECT_FALSE(fs::exists(path("full0")));
 }
 
 }  // namespace

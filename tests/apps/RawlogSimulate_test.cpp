@@ -362,6 +362,27 @@ TEST_F(RawlogSimulate, SaysWhenTheDiskIsFull) {
     expectFailure(with(wires_, {"-o", "/dev/full", "--overwrite"}), 1, "/dev/full");
 }
 
+TEST_F(RawlogSimulate, AnOutputThatCannotBeWrittenCostsNoOther) {
+    const std::vector<std::string> all =
+        with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")});
+    ASSERT_EQ(run(all).exit_code, 0);
+    const std::uintmax_t poses = fs::file_size(path("a.tum")),
+                         kinds = fs::file_size(path("a/kinds.yaml"));
+    ASSERT_LT(poses, fs::file_size(path("a.rawlog")));
+    ASSERT_LT(kinds, 1024u);
+    for (const char* name : {"a.rawlog", "a", "a.tum"}) fs::remove_all(path(name));
+
+    std::string command = "ulimit -f \"$0\"; exec " HAGEN_RAWLOG_SIMULATE;
+    for (const std::string& word : all) command += " '" + word + "'";
+    const auto some = test::run("/bin/bash", {"-c", command, std::to_string(poses / 1024 + 1)});
+    EXPECT_EQ(some.exit_code, 1);
+    EXPECT_THAT(some.err, HasSubstr(path("a.rawlog") + ":"));
+    EXPECT_THAT(some.err, HasSubstr(path("a") + "/velodyne/000000.bin:"));
+    EXPECT_THAT(some.err, Not(HasSubstr("a.tum")));
+    EXPECT_EQ(fs::file_size(path("a.tum")), poses);
+    EXPECT_FALSE(fs::exists(path("a.rawlog")) || fs::exists(path("a")));
+}
+
 class EachPacketSensor : public testing::TestWithParam<const char*> {};
 
 TEST_P(EachPacketSensor, PacketsGiveTheSimulatedReturnsInTheirOrder) {

@@ -61,6 +61,15 @@ TEST_F(OutputSetTest, OneThatCannotBeWrittenDoesNotCostTheOthers) {
     EXPECT_EQ(test::readFile(folder_ / "a"), "new");
 }
 
+TEST_F(OutputSetTest, TellsWhenAllAreGivenUp) {
+    for (const OutputPath* const output : {&first_, &second_, &third_}) {
+        EXPECT_FALSE(set_.areAllGivenUp());
+        set_.write(*output, [] { throw std::runtime_error("no"); });
+    }
+    EXPECT_TRUE(set_.areAllGivenUp());
+    EXPECT_THAT(set_.failures(), HasSubstr(second_.path().string() + ": no; "));
+}
+
 TEST_F(OutputSetTest, ANameThatIsTakenMeanwhileDoesNotCostTheOthers) {
     for (const OutputPath* const output : {&first_, &second_, &third_}) write(*output);
     folder_.write("a", "theirs");
@@ -85,7 +94,8 @@ TEST_F(OutputSetTest, ANoteTellsWhichNamesAreComingAndGoesWithTheLast) {
                 note = test::readFile(folder_ / name);
         }
     }};
-    set_.add(folder_ / "d", last);
+    const OutputPath fourth(folder_ / "d", kFile, false);
+    set_.add(fourth, last);
     for (const OutputPath* const output : {&first_, &second_, &third_}) write(*output);
     set_.commit();
     for (const char* name : {"/a\n", "/b\n", "/c\n", "/d\n"}) {

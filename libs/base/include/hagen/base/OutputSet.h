@@ -12,16 +12,21 @@ namespace hagen::base {
 /// reason, and the others go on.
 class OutputSet {
  public:
-    void add(OutputPath& output) { add(output.path(), output); }
-    /// Any other output that has a commit(), by its path. Each is to live as long as the set.
+    void add(OutputPath& output) { add(output, output); }
+    /// Any other output that has a commit(), by its place. Each is to live as long as the set.
     template <class Output>
-    void add(const std::filesystem::path& path, Output& output) {
-        members_.push_back({path, [&output] { output.commit(); }});
+    void add(const OutputPath& place, Output& output) {
+        members_.push_back({place.path(), place.temporary(), [&output] { output.commit(); }});
     }
 
     /// Calls what writes an output, or a part of it, to its temporary place, unless the output was
     /// given up. The output is one that was added.
     void write(const OutputPath& output, const std::function<void()>& step);
+
+    /// Whether no output is left to write.
+    bool areAllGivenUp() const;
+    /// Why outputs were given up; "" if none was.
+    const std::string& failures() const { return failures_; }
 
     /// Has the outputs that are left get their names, in the order in which they were added and
     /// with a RenamingNote. Throws std::runtime_error with each reason if any was given up.
@@ -29,14 +34,13 @@ class OutputSet {
 
  private:
     struct Member {
-        std::filesystem::path path;
+        std::filesystem::path path, temporary;
         std::function<void()> commit;
         bool is_given_up = false;
     };
 
     /// Messages name the output, not its temporary place.
-    void attempt(Member& member, const std::function<void()>& step,
-                 const std::string& temporary = "");
+    void attempt(Member& member, const std::function<void()>& step);
 
     std::deque<Member> members_;
     std::string failures_;

@@ -18,6 +18,7 @@ class RawlogWriter {
     /// Throws std::runtime_error naming the file; see OutputPath.
     RawlogWriter(const std::filesystem::path& file, bool overwrite);
 
+    const base::OutputPath& place() const { return path_; }
     /// Throws std::runtime_error naming the file if the entry cannot be written. A full disk may be
     /// reported some entries late, or only by commit().
     void write(const mrpt::serialization::CSerializable& entry);

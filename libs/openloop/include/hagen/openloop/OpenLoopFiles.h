@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/base/OutputPath.h>
+#include <hagen/base/OutputSet.h>
 #include <hagen/openloop/OpenLoop.h>
 #include <filesystem>
 #include <fstream>
@@ -28,11 +29,12 @@ class OpenLoopFiles {
                   const std::vector<std::filesystem::path>& inputs = {});
     ~OpenLoopFiles();
 
-    /// Throws std::runtime_error, naming the file, if it cannot be written.
     void add(const OpenLoopRow& row, const OpenLoopCost& cost);
-    /// Completes the files and removes partial files of earlier runs.
+    /// Completes the files and removes partial files of earlier runs. Throws std::runtime_error,
+    /// naming them, if some could not be written; the others are complete.
     void commit(const OpenLoop& open_loop, const OpenLoopResult& result);
-    /// Keeps the results of a log that ended early as scans.partial.csv and so on.
+    /// Keeps the results of a log that ended early as scans.partial.csv and so on. Throws like
+    /// commit().
     void keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result);
 
  private:
@@ -48,6 +50,7 @@ class OpenLoopFiles {
     std::filesystem::path folder_;
     bool is_own_folder_;
     std::vector<std::unique_ptr<File>> files_;
+    base::OutputSet all_;
     File *models_, *scans_, *agreement_, *summary_, *models_measured_, *scans_measured_;
 };
 

@@ -27,6 +27,7 @@ class GroundTruthFolder {
     GroundTruthFolder(const std::filesystem::path& folder, bool overwrite,
                       const Attitude& mount = {});
 
+    const base::OutputPath& place() const { return path_; }
     void write(const Scan& scan, const GroundTruthLabels& truth, const SensorModel& sensor,
                double time_s, const mrpt::poses::CPose3D& sensor_pose, double altitude_m);
     /// Completes the folder and renames it into place.
