@@ -201,7 +201,8 @@ TEST_F(OpenLoopCommand, AFileThatCannotBeWrittenCostsNoOther) {
     EXPECT_EQ(some.exit_code, 1);
     EXPECT_THAT(some.out, HasSubstr("full window"));  // the table
     for (const char* large : {"scans.csv", "scans_measured.csv", "summary.json"}) {
-        EXPECT_THAT(some.err, HasSubstr(path("full1/") + large + ": cannot be written: File too large"));
+        EXPECT_THAT(some.err,
+                    HasSubstr(path("full1/") + large + ": cannot be written: File too large"));
         EXPECT_FALSE(fs::exists(path("full1/") + large));
     }
     for (const char* small : {"openloop.csv", "agreement.csv", "openloop_measured.csv"}) {
