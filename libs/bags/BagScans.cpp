@@ -470,9 +470,13 @@ std::vector<std::string> BagScans::remarks() const {
                                 "tf/tfMessage"};
     for (const BagSurvey::Topic& topic : r.survey.topics) {
         const std::string& name = topic.topic.name;
-        const bool is_used = r.states.count(name) > 0 || name == r.plan.imu_topic ||
-                             types.count(topic.topic.type) > 0 ||
-                             r.survey.ouster_metadata.count(name) > 0;
+        const std::string& type = topic.topic.type;
+        const auto state = r.states.find(name);  // a name may have several types
+        const bool is_scans = state != r.states.end() && topic.kind == state->second.sensor->kind;
+        const bool is_imu = name == r.plan.imu_topic && type == "sensor_msgs/Imu";
+        const bool is_used =
+            is_scans || is_imu || types.count(type) > 0 ||
+            (topic.kind == LidarKind::None && r.survey.ouster_metadata.count(name) > 0);
         if (!is_used) others.topics.push_back(topic);
     }
     if (!others.topics.empty()) {

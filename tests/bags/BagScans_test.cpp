@@ -83,6 +83,23 @@ TEST(BagScans, AHundredLidarTopicsAreReadAndMoreMustBeNamed) {
     EXPECT_EQ(readBag(file, {{"/another"}, {}}).of("another").size(), 1u);
 }
 
+TEST(BagScans, MessagesOfAnotherTypeUnderTheNameOfATopicThatIsReadAreTold) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"mixed.mcap", "mixed.bag"}) {
+        const std::vector<SentMessage> messages{
+            test::cloudMessage("/points", kStart_s, "lidar", {1, 2, 3, 4}),
+            test::odometryMessage("/points", kStart_s + 0.1, "odom", "base", 1, 2, 3),
+            test::stringMessage("/points", kStart_s + 0.2, "none")};
+        const fs::path file = folder / name;
+        test::writeBytes(
+            file, file.extension() == ".bag" ? test::ros1BagOf(messages) : test::mcapOf(messages));
+        const ReadBag read = readBag(file);
+        EXPECT_EQ(read.of("points").size(), 1u);
+        EXPECT_THAT(read.scans->remarks(),
+                    Contains(HasSubstr("not used: /points (std_msgs/String, 1 message)")));
+    }
+}
+
 TEST_P(Fixture, EachMessageOfEachTypeHasItsNumbers) {
     // Metadata that are none are an error only of who needs them.
     const BagOptions options{{"/cloud", "organised", "/livox", "/livox1", "/velodyne_packets"}, {}};
