@@ -112,7 +112,7 @@ const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
         const auto isOffset = [](double offset_m) {
             return std::abs(offset_m) <= kMostCorrection_m;
         };
-        if (std::abs(length - 1) < 0.01 && std::isfinite(laser.azimuth_deg) &&
+        if (std::abs(length - 1) < 0.01 && std::abs(laser.azimuth_deg) <= 360 &&
             isOffset(laser.distance_m) && isOffset(laser.vertical_offset_m) &&
             isOffset(laser.horizontal_offset_m)) {
             continue;
