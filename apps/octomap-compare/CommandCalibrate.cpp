@@ -1,6 +1,8 @@
 // octomap-compare calibrate: measures the latency of each stage on this machine.
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
+#include <hagen/base/OutputSet.h>
+#include <hagen/base/WriteFile.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/HeapCurves.h>
 
@@ -54,6 +56,9 @@ int run(const Flags& flags, bool has_output) {
     if (!flags.memory.empty()) {
         memory_file.emplace(flags.memory, base::kFile, flags.overwrites);
     }
+    base::OutputSet outputs;  // each gets its name when it is complete: measuring takes minutes
+    if (profile_file) outputs.add(*profile_file);
+    if (memory_file) outputs.add(*memory_file);
     warnIfBusy();
     if (profile_file) {
         trials::CalibrationOptions options;
@@ -66,9 +71,11 @@ int run(const Flags& flags, bool has_output) {
             if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
         };
         const trials::LatencyProfile profile = trials::calibrate(options);
-        trials::writeLatencyProfile(profile, profile_file->temporary());
-        profile_file->commit();
         printProfile(profile);
+        outputs.write(*profile_file, [&] {
+            base::writeText(textOf(profile), profile_file->temporary(), profile_file->path());
+            profile_file->commit();
+        });
     }
     if (memory_file) {
         const auto begin = [](const std::string& model) {
@@ -79,10 +86,13 @@ int run(const Flags& flags, bool has_output) {
                 throw std::runtime_error("interrupted; " + flags.memory + " was not written");
             }
         };
-        trials::writeHeapCurves(models, flags.path_m, begin, continuing, memory_file->temporary(),
-                                flags.memory);
-        memory_file->commit();
+        outputs.write(*memory_file, [&] {
+            trials::writeHeapCurves(models, flags.path_m, begin, continuing,
+                                    memory_file->temporary(), flags.memory);
+            memory_file->commit();
+        });
     }
+    if (!outputs.failures().empty()) throw std::runtime_error(outputs.failures());
     tellLeftBehind({flags.file, flags.memory});
     return 0;
 }

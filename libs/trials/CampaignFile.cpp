@@ -95,8 +95,7 @@ CampaignFile readCampaignFile(const fs::path& folder) {
     return campaign;
 }
 
-void writeCampaignFile(const CampaignFile& campaign, const LatencyProfile& profile,
-                       const fs::path& folder) {
+std::string textOf(const CampaignFile& campaign, const LatencyProfile& profile) {
     Json root;
     root["program"] = "octomap-compare";
     root["version"] = HAGEN_VERSION;
@@ -110,7 +109,7 @@ void writeCampaignFile(const CampaignFile& campaign, const LatencyProfile& profi
     for (const std::string& plan : campaign.plans) {
         root["flown"].push_back(Json::parse(plan));
     }
-    writeWhole(folder / kFileName, root.dump(2) + "\n");
+    return root.dump(2) + "\n";
 }
 
 std::vector<CampaignPlan> readPlans(const fs::path& folder) {

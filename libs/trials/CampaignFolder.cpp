@@ -1,14 +1,17 @@
 #include <hagen/base/Folder.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/ReadFile.h>
+#include <hagen/base/WriteFile.h>
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/Journal.h>
+#include <hagen/trials/Measured.h>
 #include <hagen/trials/MeasuredTable.h>
 #include <hagen/trials/SettingsHash.h>
 
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <utility>
 
 #include "FolderLock.h"
 #include "TextFile.h"
@@ -20,7 +23,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostJournals = 1000000000;  // numbers beyond are no journals of ours
-/// The one that tells a campaign's folder is the last: it is removed last.
 constexpr const char* kFiles[] = {"profile.json", "runs.csv", "measured.csv", "campaign.json"};
 
 /// But for outputs that did not get their names, as of a run that failed while it made the folder.
@@ -29,6 +31,17 @@ bool holdsNothing(const fs::path& folder) {
     for (const char* name : kFiles) partial += base::partialOutputs(folder / name).size();
     return base::entriesOf(folder).size() == partial;
 }
+
+/// What measured.csv would have of a run must be readable there.
+void checkMeasured(const Run& run, const std::string& row) {
+    if (row.empty()) return;
+    MeasuredByModel ignored;
+    addMeasured(fullMeasuredHeader(), fullMeasuredRowOf(row), ignored);
+    if (keyOfMeasuredRow(row) != keyOf(run)) {
+        throw std::runtime_error("what was measured is of another run");
+    }
+}
+
 }  // namespace
 
 CampaignFolder::CampaignFolder(fs::path folder, const LatencyProfile& profile, bool overwrite)
@@ -45,8 +58,9 @@ void CampaignFolder::open(bool overwrite) {
         throw std::runtime_error(folder_.string() +
                                  ": exists and contains no campaign; choose another folder");
     }
-    if (overwrite) removeAll();
-    if (is_new || overwrite) return begin();
+    replaces_ = overwrite && !is_new;
+    if (replaces_) return;  // only when what replaces it is written
+    if (is_new) return begin();
     CampaignFile found = readCampaignFile(folder_);
     if (found.settings_hash != settingsHash()) {
         throw std::runtime_error(
@@ -55,20 +69,27 @@ void CampaignFolder::open(bool overwrite) {
             "another folder, give the profile of this one, or use --overwrite");
     }
     campaign_ = std::move(found);
-    if (!fs::exists(profileFile())) writeProfile();  // begin() was stopped in between
+    if (!fs::exists(profileFile())) begin();  // it was stopped in between
     readTables();
     readJournals();
 }
 
 void CampaignFolder::begin() {
-    writeCampaignFile(campaign_, profile_, folder_);
-    writeProfile();
+    write({{"profile.json", textOf(profile_)}, {"campaign.json", textOf(campaign_, profile_)}});
 }
 
-void CampaignFolder::writeProfile() const {
-    base::OutputPath profile(profileFile(), base::kFile, true);
-    writeLatencyProfile(profile_, profile.temporary());
-    profile.commit();
+void CampaignFolder::write(const std::map<std::string, std::string>& texts) {
+    std::vector<std::unique_ptr<base::OutputPath>> outputs;
+    std::vector<fs::path> names;
+    for (const auto& [name, text] : texts) {
+        const fs::path file = folder_ / name;
+        outputs.push_back(std::make_unique<base::OutputPath>(file, base::kFile, true));
+        base::writeText(text, outputs.back()->temporary(), file);
+        names.push_back(file);
+    }
+    if (std::exchange(replaces_, false)) removeOld(texts);
+    const base::RenamingNote note(names);
+    for (const auto& output : outputs) output->commit();
 }
 
 void CampaignFolder::removeUnfinished() const {
@@ -79,10 +100,16 @@ void CampaignFolder::removeUnfinished() const {
     }
 }
 
-void CampaignFolder::removeAll() const {
+void CampaignFolder::removeJournals() const {
     const std::error_code error = base::removeAll(folder_ / "journal");
     if (error) throw fs::filesystem_error("cannot be removed", folder_ / "journal", error);
-    for (const char* name : kFiles) fs::remove(folder_ / name);
+}
+
+void CampaignFolder::removeOld(const std::map<std::string, std::string>& replaced) const {
+    removeJournals();
+    for (const char* name : kFiles) {
+        if (replaced.count(name) == 0) fs::remove(folder_ / name);
+    }
 }
 
 void CampaignFolder::addPlan(const std::string& plan) {
@@ -94,13 +121,14 @@ void CampaignFolder::addPlan(const std::string& plan) {
 void CampaignFolder::note(const CampaignPlan& plan) {
     const std::vector<std::string> before = campaign_.plans;
     addPlan(textOf(plan));
-    if (campaign_.plans != before) writeCampaignFile(campaign_, profile_, folder_);
+    if (replaces_ || campaign_.plans != before) begin();
 }
 
 void CampaignFolder::keep(const std::string& text, const std::string& measured,
                           const std::string& from) {
     const Run run = runOf(text);
     if (run.settings_hash != settingsHash()) throw std::runtime_error("a run with other settings");
+    checkMeasured(run, measured);
     const auto [row, is_new] = rows_.try_emplace(keyOf(run), Row{run, text, measured});
     if (!is_new && row->second.text != text) {
         throw std::runtime_error("contradicts another result of the same run (" + from +
@@ -114,6 +142,7 @@ void CampaignFolder::readTables() {
     std::map<std::string, std::string> measured;
     base::checkIsFile(costs);
     if (fs::exists(costs)) {
+        readMeasured(costs);  // throws, naming the line
         for (const std::string& line : linesOf(costs)) measured[keyOfMeasuredRow(line)] = line;
     }
     for (const Run& run : readRuns(runs)) {
@@ -156,10 +185,11 @@ void CampaignFolder::add(const CampaignFolder& other) {
     checkJoins(other);
     for (const auto& [key, row] : other.rows_) rows_.try_emplace(key, row);
     for (const std::string& plan : other.campaign_.plans) addPlan(plan);
-    writeCampaignFile(campaign_, profile_, folder_);
+    has_new_plans_ = true;
 }
 
 fs::path CampaignFolder::newJournal() {
+    if (replaces_) begin();
     fs::create_directories(folder_ / "journal");
     return folder_ / "journal" / (std::to_string(next_journal_++) + ".csv");
 }
@@ -182,10 +212,13 @@ void CampaignFolder::finish() {
         if (row.measured.empty()) continue;
         measured += (is_full ? fullMeasuredRowOf(row.measured) : row.measured) + "\n";
     }
-    writeWhole(folder_ / "measured.csv", measured);
-    writeWhole(folder_ / "runs.csv", table);
-    const std::error_code error = base::removeAll(folder_ / "journal");
-    if (error) throw fs::filesystem_error("cannot be removed", folder_ / "journal", error);
+    std::map<std::string, std::string> texts{{"measured.csv", measured}, {"runs.csv", table}};
+    if (replaces_ || has_new_plans_) {
+        texts["profile.json"] = textOf(profile_);
+        texts["campaign.json"] = textOf(campaign_, profile_);
+    }
+    write(texts);
+    removeJournals();
 }
 
 }  // namespace hagen::trials

@@ -117,8 +117,4 @@ LatencyProfile readLatencyProfile(const std::filesystem::path& file) {
     }
 }
 
-void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file) {
-    base::writeText(textOf(profile), file, file);
-}
-
 }  // namespace hagen::trials

@@ -232,7 +232,7 @@ TEST_F(ReportCommand, NamesTheLineThatIsBroken) {
 TEST_F(ReportCommand, CanBeEndedBeforeEachRunAndBeforeItWrites) {
     writeRuns({test::runOf("nowhere", 1, "W-RoI", "astar", kHit),
                test::runOf("no such", 2, "W-RoI", "astar", kHit)});
-    trials::writeLatencyProfile(trials::constantProfile(1), folder_ / "profile.json");
+    folder_.write("profile.json", textOf(trials::constantProfile(1)));
     reports::ReportRequest request;
     request.folder = folder_.path();
     int asked = 0, last = 0;

@@ -7,8 +7,6 @@
 #include <hagen/trials/Measured.h>
 #include <hagen/trials/RunTable.h>
 
-#include <fstream>
-
 #include "fuzz/Target.h"
 
 namespace hagen::fuzz {
@@ -49,24 +47,16 @@ void readCampaign(std::string_view input) {
     mayRefuse([&] { trials::readHeapCurves(file.path()); });
 }
 
-std::string textOfFile(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 Seeds campaignFiles() {
     trials::Run run{"forest-0.10", 7, {}, {}, 40.5, "0123456789abcdef", "1.0"};
     trials::LatencyProfile profile = trials::standardLatencyProfile();
     for (auto& [stage, quantiles] : profile.quantiles_ms) quantiles.resize(3);
     trials::CampaignPlan plan;
-    const auto folder = scratch() / "campaign";
-    std::filesystem::create_directories(folder);
-    trials::writeCampaignFile({"0123456789abcdef", {trials::textOf(plan)}}, profile, folder);
     const std::string measured =
         "scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown,air,distance,"
         "peak_model_bytes,filter_p50_ms\nforest-0.10,7,W-RoI,straight,10,primitives,none,1,"
         "optimistic,dusty,unbiased,1000,0.5\n";
-    return {textOfFile(folder / "campaign.json"),
+    return {textOf({"0123456789abcdef", {trials::textOf(plan)}}, profile),
             trials::textOf(profile),
             trials::runHeader() + "\n" + trials::rowOf(run) + "\n",
             trials::fullRunHeader() + "\n" + trials::fullRowOf(run) + "\n",

@@ -372,9 +372,9 @@ TEST(VelodyneDecoder, CorrectionsThatNoLaserHasAreRefused) {
     const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(64, model, 24, 0.0));
     auto& laser = observation->calibration.laser_corrections.at(5);
-    for (double* const correction : {&laser.azimuthCorrection, &laser.distanceCorrection,
-                                     &laser.verticalOffsetCorrection,
-                                     &laser.horizontalOffsetCorrection}) {
+    for (double* const correction :
+         {&laser.azimuthCorrection, &laser.distanceCorrection, &laser.verticalOffsetCorrection,
+          &laser.horizontalOffsetCorrection}) {
         const bool is_angle = correction == &laser.azimuthCorrection;
         for (const double wild : {1e307, -1e307, 1e30, is_angle ? 360.1 : 10.1}) {
             const double before = std::exchange(*correction, wild);

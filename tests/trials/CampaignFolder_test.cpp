@@ -7,10 +7,13 @@
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/Measured.h>
 #include <hagen/trials/MergeCampaigns.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
+#include <map>
 
 #include "support/Program.h"
 
@@ -165,6 +168,35 @@ TEST(CampaignFolder, ATornLastLineIsFlownAgainAndAnyOtherIsNamed) {
     EXPECT_EQ(message.find((place / "c/journal/1.csv").string() + ":1: "), 0u) << message;
 }
 
+TEST(CampaignFolder, WhatWasMeasuredIsCheckedBeforeItGoesIntoTheTable) {
+    const TemporaryFolder place;
+    std::string whole;
+    {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        journal(folder, {1});
+        whole = readFile(place / "c/journal/1.csv");
+    }
+    const std::size_t tab = whole.find('\t'), last = whole.rfind(',');
+    const auto spoilt = [&](std::size_t at, std::size_t count, const std::string& with) {
+        std::string line = whole;
+        return line.replace(at, count, with);
+    };
+    for (const std::string& line :
+         {spoilt(last + 1, 0, "0.8x4"), spoilt(last, whole.size() - last, ";\n"),
+          spoilt(last + 1, 0, std::string(1, '\0')), spoilt(tab + 1, 3, "saw")}) {
+        std::ofstream(place / "c/journal/1.csv", std::ios::binary) << line;
+        EXPECT_THAT(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }),
+                    HasSubstr((place / "c/journal/1.csv").string() + ":1: "));
+    }
+    std::ofstream(place / "c/journal/1.csv", std::ios::binary) << whole;
+    CampaignFolder(place / "c", constantProfile(1), false).finish();
+    std::string table = readFile(place / "c/measured.csv");
+    std::ofstream(place / "c/measured.csv", std::ios::binary)
+        << table.insert(table.size() - 1, "x");
+    EXPECT_THAT(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }),
+                HasSubstr((place / "c/measured.csv").string() + ":2: "));
+}
+
 TEST(CampaignFolder, OneThatWasStoppedWhileItWasMadeIsMadeWhole) {
     const TemporaryFolder place;
     { CampaignFolder folder(place / "c", constantProfile(1), false); }
@@ -188,10 +220,55 @@ TEST(CampaignFolder, OneThatCannotBeRemovedRemainsACampaign) {
     const TemporaryFolder place;
     { CampaignFolder folder(place / "c", constantProfile(1), false); }
     fs::create_directories(place / "c/runs.csv/full");
-    EXPECT_THAT(messageOf([&] { CampaignFolder(place / "c", constantProfile(2), true); }),
-                HasSubstr("runs.csv"));
+    EXPECT_THAT(
+        messageOf([&] { CampaignFolder(place / "c", constantProfile(2), true).newJournal(); }),
+        HasSubstr("runs.csv"));
     fs::remove_all(place / "c/runs.csv");
     EXPECT_EQ(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }), "");
+}
+
+TEST(CampaignFolder, WhatIsOverwrittenStaysUntilWhatReplacesItIsWritten) {
+    const TemporaryFolder place;
+    const auto textsOf = [&](const std::string& name) {
+        std::map<std::string, std::string> texts;
+        for (const auto& entry : fs::recursive_directory_iterator(place / name)) {
+            const bool is_file = entry.is_regular_file();
+            texts[entry.path().filename()] = is_file ? readFile(entry.path()) : "";
+        }
+        return texts;
+    };
+    {
+        CampaignFolder folder(place / "c", constantProfile(1), false);
+        journal(folder, {1, 2});
+        folder.readJournals();
+        folder.finish();
+        journal(folder, {3});
+    }
+    const auto before = textsOf("c");
+    EXPECT_EQ(before.size(), 6u);  // with the journal and its folder
+    const CampaignPlan plan;
+    const auto failing = [&](const auto& action) {
+        rlimit before_limit{};
+        getrlimit(RLIMIT_FSIZE, &before_limit);
+        const rlimit none{0, before_limit.rlim_max};
+        const auto before_signal = std::signal(SIGXFSZ, SIG_IGN);
+        setrlimit(RLIMIT_FSIZE, &none);
+        const std::string told = messageOf(action);
+        setrlimit(RLIMIT_FSIZE, &before_limit);
+        std::signal(SIGXFSZ, before_signal);
+        EXPECT_THAT(told, HasSubstr("cannot be written"));
+        EXPECT_EQ(textsOf("c"), before);
+    };
+    failing([&] { CampaignFolder(place / "c", constantProfile(2), true).note(plan); });
+    failing([&] { CampaignFolder(place / "c", constantProfile(2), true).newJournal(); });
+    failing([&] { CampaignFolder(place / "c", constantProfile(2), true).finish(); });
+
+    CampaignFolder folder(place / "c", constantProfile(2), true);
+    EXPECT_EQ(textsOf("c"), before);
+    folder.note(plan);
+    const auto after = textsOf("c");
+    EXPECT_EQ(after.size(), 2u);
+    EXPECT_EQ(after.at("profile.json"), textOf(constantProfile(2)));
 }
 
 TEST(CampaignFolder, OtherSettingsAreRefusedUnlessItBeginsAnew) {
@@ -204,6 +281,7 @@ TEST(CampaignFolder, OtherSettingsAreRefusedUnlessItBeginsAnew) {
                 HasSubstr("other settings"));
     EXPECT_EQ(CampaignFolder(place / "c", constantProfile(1), false).size(), 1u);
     EXPECT_EQ(CampaignFolder(place / "c", constantProfile(2), true).size(), 0u);
+    EXPECT_EQ(CampaignFolder(place / "c", constantProfile(1), false).size(), 1u);  // as it was
 }
 
 TEST(CampaignFolder, AFolderOfOthersIsLeftAlone) {
@@ -268,6 +346,11 @@ TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {
         EXPECT_EQ(readFile(place / "m/campaign.json"), plans);
     }
     EXPECT_EQ(mergeCampaigns({place / "a", place / "a/"}, place / "q", false), 2u);
+    // Another one is overwritten whole.
+    EXPECT_EQ(mergeCampaigns({place / "other"}, place / "m", true), 1u);
+    for (const char* file : {"campaign.json", "profile.json", "runs.csv", "measured.csv"}) {
+        EXPECT_EQ(readFile(place / "m" / file), readFile(place / "other" / file));
+    }
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(LatencyProfile, IsReadBackAsItWasWritten) {
     LatencyProfile profile = constantProfile(1.25);
     profile.machine = "a \"machine\"";
     profile.quantiles_ms["filter"] = {0, 0.001, 12.5};
-    writeLatencyProfile(profile, folder / "p.json");
+    folder.write("p.json", textOf(profile));
     const LatencyProfile read = readLatencyProfile(folder / "p.json");
     EXPECT_EQ(read.quantiles_ms, profile.quantiles_ms);
     EXPECT_EQ(read.machine, profile.machine);

@@ -17,9 +17,8 @@ std::string textOf(const CampaignPlan& plan);
 
 /// Throws std::runtime_error, naming the file.
 CampaignFile readCampaignFile(const std::filesystem::path& folder);
-/// Notes what else holds for all runs, too: version, profile, vehicle and filter.
-void writeCampaignFile(const CampaignFile& campaign, const LatencyProfile& profile,
-                       const std::filesystem::path& folder);
+/// Its text, with what else holds for all runs: version, profile, vehicle and filter.
+std::string textOf(const CampaignFile& campaign, const LatencyProfile& profile);
 
 /// The plans that a folder's campaign.json notes. Throws std::runtime_error, naming the file.
 std::vector<CampaignPlan> readPlans(const std::filesystem::path& folder);

@@ -23,7 +23,8 @@ class CampaignFolder {
  public:
     /// Opens a folder or makes it, and locks it. Throws std::runtime_error, naming it, if it holds
     /// anything but a campaign, a campaign with other settings (unless `overwrite`, which begins
-    /// anew), or if another program is writing to it.
+    /// anew), or if another program is writing to it. What is overwritten stays until the first
+    /// files that replace it are complete.
     CampaignFolder(std::filesystem::path folder, const LatencyProfile& profile, bool overwrite);
 
     const std::filesystem::path& path() const { return folder_; }
@@ -36,7 +37,7 @@ class CampaignFolder {
     /// All runs, sorted.
     std::vector<Run> runs() const;
 
-    /// Notes in campaign.json what is about to be flown.
+    /// Notes in campaign.json what is about to be flown; begins anew if it overwrites.
     void note(const CampaignPlan& plan);
 
     /// A file for a new journal.
@@ -47,10 +48,10 @@ class CampaignFolder {
     /// Throws std::runtime_error if another folder has other settings, or another result for the
     /// same run.
     void checkJoins(const CampaignFolder& other) const;
-    /// Takes in the runs of another folder. Throws like checkJoins().
+    /// Takes in the runs and plans of another folder, for finish(). Throws like checkJoins().
     void add(const CampaignFolder& other);
 
-    /// Writes runs.csv and measured.csv, and removes the journals.
+    /// Writes all files, and removes the journals.
     void finish();
 
  private:
@@ -60,10 +61,13 @@ class CampaignFolder {
     };
     void open(bool overwrite);
     void begin();
-    void writeProfile() const;
+    /// Writes files with these texts, by name. None gets its name before all are complete.
+    void write(const std::map<std::string, std::string>& texts);
     /// Removes temporary files of a command that was killed.
     void removeUnfinished() const;
-    void removeAll() const;
+    void removeJournals() const;
+    /// Removes what is not replaced by new files.
+    void removeOld(const std::map<std::string, std::string>& replaced) const;
     void readTables();
     void keep(const std::string& text, const std::string& measured, const std::string& from);
     void addPlan(const std::string& plan);
@@ -73,6 +77,8 @@ class CampaignFolder {
     LatencyProfile profile_;
     CampaignFile campaign_;
     std::map<std::string, Row> rows_;  ///< by their keys
+    bool replaces_ = false;            ///< an older campaign is in the folder, and is to go
+    bool has_new_plans_ = false;       ///< that campaign.json does not have yet
     int next_journal_ = 1;
 };
 

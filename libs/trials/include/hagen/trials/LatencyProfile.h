@@ -32,9 +32,8 @@ std::string textOf(const LatencyProfile& profile);
 /// The inverse of textOf(). Throws std::runtime_error, naming the key.
 LatencyProfile latencyProfileFrom(const std::string& text);
 
-/// Files as textOf() makes them. Throw std::runtime_error, naming the file and the key.
+/// Reads a file as textOf() makes it. Throws std::runtime_error, naming the file and the key.
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
-void writeLatencyProfile(const LatencyProfile& profile, const std::filesystem::path& file);
 
 /// The profile of config/campaign/profile.json when the program was built.
 LatencyProfile standardLatencyProfile();
