@@ -27,9 +27,9 @@ int main(int argc, char** argv) try {
         hagen::observations::ObservationSegmenter::Output out;
         if (!observation || !segmenter.process(*observation, out, vehicle)) continue;
         // Places each return with the pose at its own time; none without a pose.
-        const auto mapped = hagen::logs::placeInMap(out, *observation, vehicle);
-        if (!mapped) continue;
-        map.insert(*mapped);
+        const auto placed = hagen::logs::placeInMap(out, *observation, vehicle);
+        if (!placed) continue;
+        map.insert(placed->mapped);
         ++scans;
         hits += out.result->returns.roi.size();
     }

@@ -53,8 +53,10 @@ int run(const Flags& flags) {
     measurement.has_specks = flags.has_specks;
     ProgressLine progress("seed");
     measurement.doing = [&](std::uint64_t seed) {
-        if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
         progress.show(seed - seeds->first, seeds->second - seeds->first + 1);
+    };
+    measurement.continuing = [] {
+        if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
     };
     std::vector<trials::ClearanceErrors> errors;
     try {

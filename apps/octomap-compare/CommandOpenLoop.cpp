@@ -86,6 +86,7 @@ int run(Flags flags) {
         const openloop::OpenLoopResult result = openloop::runOpenLoop(open_loop, listener);
         show(result);
         files.commit(open_loop, result);
+        tellLeftBehind(files.paths());
         return 0;
     } catch (const openloop::OpenLoopEnded& ended) {
         show(ended.result);

@@ -75,9 +75,11 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing outputs");
 }
 
-/// Reads a file or preset named by a flag. A file that cannot be used is wrong usage.
+/// Reads a file or preset named by a flag, and adds it to those that were read. A file that cannot
+/// be used is wrong usage.
 template <class Read>
-auto fromFlag(const std::string& name, Read read) -> std::optional<decltype(read(name))> {
+auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
+    -> std::optional<decltype(read(name))> {
     if (name.empty()) return std::nullopt;
     const auto is_usable = [&](const fs::path& file) {
         try {
@@ -88,7 +90,8 @@ auto fromFlag(const std::string& name, Read read) -> std::optional<decltype(read
         }
     };
     try {
-        return read(presetFile(name, is_usable).string());
+        files.push_back(presetFile(name, is_usable));
+        return read(files.back().string());
     } catch (const std::runtime_error& e) {
         throw SettingsError(e.what());
     }
@@ -144,17 +147,16 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     if (flags.with_baselines) rows.baselines = summary.settings;
     labelled_scans::addLabelRows(flags.labels, rows);
     checkNames(rows.labels);
+    std::vector<fs::path> settings_files = summary.settings.files;
     const labelled_scans::LabelledInputs inputs{
-        flags.folders, rows, fromFlag(flags.label_map, evaluation::readLabelMap)};
+        flags.folders, rows, fromFlag(flags.label_map, evaluation::readLabelMap, settings_files)};
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
-    options.camera = fromFlag(flags.camera, evaluation::readCamera);
+    options.camera = fromFlag(flags.camera, evaluation::readCamera, settings_files);
     const evaluation::LabelledScanSources sources =
         labelled_scans::sourcesOf(inputs.folders, inputs.rows, inputs.label_map);
     const std::vector<evaluation::Degradation> degradations =
         labelled_scans::degradationsOf(flags.degradations, flags.with_hard_sets, inputs);
-    std::vector<fs::path> settings_files = summary.settings.files;
-    settings_files.insert(settings_files.end(), {flags.label_map, flags.camera});
     Outputs outputs(flags, rows, std::move(settings_files));
 
     std::vector<evaluation::MethodScores> methods;

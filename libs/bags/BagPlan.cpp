@@ -376,6 +376,7 @@ class Planner {
             const auto pose = onVehicle(frame);
             if (pose) sensor.on_vehicle = *pose;
             if (pose || plan_.poses == nullptr) continue;
+            sensor.has_its_own_poses = true;
             plan_.remarks.push_back(
                 "no static transform leads from the frame " +
                 (frame.empty() ? "of " + topic : "'" + frame + "' of " + topic) + " to " +

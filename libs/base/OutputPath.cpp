@@ -291,9 +291,10 @@ RenamingNote::~RenamingNote() {
     if (!file_.empty()) fs::remove(file_, ignored);
 }
 
-std::vector<fs::path> partialOutputs(const fs::path& path) {
+std::vector<fs::path> partialOutputs(const fs::path& output) {
     std::vector<fs::path> found;
-    if (path.empty()) return found;
+    if (output.empty()) return found;
+    const fs::path path = output.has_filename() ? output : output.parent_path();  // "folder/"
     const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
     // As keepPartial() names them.
     const std::string start =

@@ -90,7 +90,11 @@ RawlogSurvey BagSource::surveyScans() {
 LogPoses BagSource::readPoses(const std::filesystem::path& file) {
     if (file.empty()) {
         const bags::PoseSeries* const poses = scans_->plan().poses;
-        return posesOfRawlog(poses == nullptr ? RawlogSurvey() : posesOf(*poses), file);
+        LogPoses found = posesOfRawlog(poses == nullptr ? RawlogSurvey() : posesOf(*poses), file);
+        for (const auto& [topic, sensor] : scans_->plan().sensors) {
+            if (sensor.has_its_own_poses) found.of_sensors.insert(sensor.label);
+        }
+        return found;
     }
     if (kindOfPoseFile(file) == PoseFileKind::Tum) return posesOfRawlog(RawlogSurvey(), file);
     const auto isKept = [this](const std::string& label) { return isSelected(label); };

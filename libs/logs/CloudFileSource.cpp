@@ -47,15 +47,13 @@ std::string stemOf(const fs::path& file) {
     return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
 }
 
-/// By number if all names have one, otherwise by name, as they are.
-void sortByNumber(std::vector<fs::path>& files) {
-    const bool are_numbered = std::all_of(files.begin(), files.end(), [](const fs::path& file) {
-        return numberOfName(stemOf(file)) >= 0;
-    });
-    if (!are_numbered) return;
-    std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        return numberOfName(stemOf(a)) < numberOfName(stemOf(b));
-    });
+/// In the order in which they were taken.
+std::vector<fs::path> inOrder(const std::vector<fs::path>& files) {
+    std::vector<std::string> stems;
+    for (const fs::path& file : files) stems.push_back(stemOf(file));
+    std::vector<fs::path> ordered;
+    for (const std::size_t i : orderOfNames(stems)) ordered.push_back(files[i]);
+    return ordered;
 }
 
 }  // namespace
@@ -74,7 +72,7 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
         if (files_.empty()) {
             throw std::runtime_error(file_or_folder.string() + ": contains no point cloud files");
         }
-        sortByNumber(files_);
+        files_ = inOrder(files_);
     } else {
         files_ = {file_or_folder};
     }
@@ -148,7 +146,6 @@ std::optional<RecordedEntry> CloudFileSource::nextEntry() {
         entry.fraction_read = static_cast<double>(i + 1) / static_cast<double>(files_.size());
         entry.object = objectOf(observation, options_.folder_objects);
         addIfScan(observation, names_[i], entry);
-        for (RecordedScan& scan : entry.scans) scan.pose.is_of_sensor = true;
         return entry;
     }
     const std::string missed = missedAhead(next_);
@@ -167,7 +164,9 @@ LogPoses CloudFileSource::readPoses(const fs::path& file) {
     for (const double time_s : times_s_) {
         survey.scans[kCloudLabel].push_back({mrpt::Clock::fromDouble(time_s), {}});
     }
-    return posesOfRawlog(survey, file);
+    LogPoses poses = posesOfRawlog(survey, file);
+    poses.are_of_sensor = true;
+    return poses;
 }
 
 bool CloudFileSource::showClouds(observations::CloudSensors& sensors) {

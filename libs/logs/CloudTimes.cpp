@@ -4,7 +4,9 @@
 #include <hagen/observations/TimeStamp.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace hagen::logs {
@@ -102,10 +104,24 @@ bool ascend(const std::vector<double>& numbers) {
 
 }  // namespace
 
-double numberOfName(const std::string& name) {
-    const NameNumber number = numberIn(name);
-    if (const auto time_s = timeOf(number)) return *time_s;
-    return valueOf(number);
+std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
+    std::vector<std::size_t> order(names.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
+    std::vector<double> numbers;
+    std::set<std::string_view> before;
+    for (const std::string& name : names) {
+        const NameNumber number = numberIn(name);
+        numbers.push_back(timeOf(number).value_or(valueOf(number)));
+        before.insert(std::string_view(name).substr(
+            0, static_cast<std::size_t>(number.whole.data() - name.data())));
+        if (numbers.back() < 0) return order;
+    }
+    if (before.size() > 1) return order;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+    return order;
 }
 
 CloudTimes timesOfNames(const std::vector<std::string>& names) {

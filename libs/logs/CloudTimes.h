@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct CloudTimes {
 /// "000042", else one after the other.
 CloudTimes timesOfNames(const std::vector<std::string>& names);
 
-/// The number at the end of a name, for sorting: "cloud_12" is 12; -1 if there is none.
-double numberOfName(const std::string& name);
+/// The order in which scans with these names were taken: by the numbers at their ends, as the names
+/// that go before "cloud_12" differ in nothing else; otherwise by name, as text.
+std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names);
 
 }  // namespace hagen::logs

@@ -230,20 +230,33 @@ void Converter::reportRemarks(const ScanInConversion& scan) {
         return;
     }
     if (!scan.segmented.remark.empty()) listener_.remark(title, scan.segmented.remark);
-    if (!conversion_.folder.empty() && !report_.poses.empty() && !scan.recorded.pose.sensor_pose) {
-        listener_.remark(title,
-                         "no pose near its time: it is missing from poses.tum, and "
-                         "poses.txt is not written");
+    if (!observations::isTime(scan.recorded.observation->timestamp)) {
+        listener_.remark(title, "its time stamp is no time");
+    } else if (!conversion_.folder.empty() && !report_.poses.empty() &&
+               !scan.recorded.pose.sensor_pose) {
+        listener_.remark(
+            title, source_->poses().vehicle.has_horizon
+                       ? "no pose near its time: it is missing from poses.tum, and poses.txt is "
+                         "not written"
+                       : "no pose near its time: no file of poses is written, because poses "
+                         "without a horizon go into poses.txt, which needs one for each scan");
     }
 }
 
 void Converter::insertIntoMap(const ScanInConversion& scan) {
-    const auto mapped =
+    const auto placed =
         placeInMap(scan.segmented, *scan.recorded.observation, source_->poses().vehicle);
     std::string why = "no pose near its time";
-    if (mapped) {
+    if (placed) {
+        const bool has_times = !scan.segmented.scan->time_s.empty();
+        if (placed->is_by_one_pose && has_times && scan.segmented.scan->size() > 0) {
+            const std::lock_guard lock(listener_mutex_);
+            listener_.remark(titleOf(scan.recorded),
+                             "the poses end before it does, or leave a gap in it: in the map, all "
+                             "its returns are placed with one pose");
+        }
         try {
-            outputs_.insertIntoMap(*mapped);
+            outputs_.insertIntoMap(placed->mapped);
             ++report_.scans_in_map;
             return;
         } catch (const std::runtime_error& e) {
@@ -300,6 +313,10 @@ void Converter::accountInOrder(EntryInConversion& entry) {
 
 void Converter::account(EntryInConversion& entry) {
     if (entry.failure) std::rethrow_exception(entry.failure);
+    if (outputs_.wantsMap()) {  // what was read ahead may take seconds each to insert
+        const std::lock_guard lock(listener_mutex_);
+        if (!listener_.keep_going()) throw Interrupted("interrupted");
+    }
     for (ScanInConversion& scan : entry.scans) {
         const CObservation& observation = *scan.recorded.observation;
         if (scan.is_segmented) last_segmented_[observation.sensorLabel] = observation.timestamp;

@@ -37,8 +37,10 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
     std::optional<double> first_s;
     while (const auto scan = source->nextScan()) {
         const double time_s = observations::secondsOf(scan->observation->timestamp);
-        if (!first_s) first_s = time_s;
-        if (time_s - *first_s >= learning.seconds) break;
+        if (observations::isTime(time_s)) {
+            if (!first_s) first_s = time_s;
+            if (time_s - *first_s >= learning.seconds) break;
+        }
         const std::string& label = scan->observation->sensorLabel;
         if (report.scans + report.unreadable_scans == 0) report.sensor_label = label;
         if (label != report.sensor_label) {

@@ -1,6 +1,7 @@
 #include <hagen/logs/LogPoses.h>
 #include <hagen/logs/PoseFile.h>
 
+#include <map>
 #include <stdexcept>
 
 namespace hagen::logs {
@@ -29,7 +30,15 @@ observations::Trajectory trajectoryOfKitti(const fs::path& file,
     }
     observations::Trajectory trajectory;
     trajectory.has_horizon = false;  // relative to the first scan, which may be tilted
+    std::map<mrpt::Clock::time_point, std::size_t> scan_at;
     for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto [earlier, is_new] = scan_at.try_emplace(scans[i].time, i);
+        if (!is_new && sensor_poses[i] != sensor_poses[earlier->second]) {
+            throw std::runtime_error(file.string() + ": scans " + std::to_string(earlier->second) +
+                                     " and " + std::to_string(i) +
+                                     " have different poses, but the same time; their times must "
+                                     "tell them apart");
+        }
         trajectory.add(scans[i].time, sensor_poses[i] + (-scans[i].sensor_on_vehicle));
     }
     return trajectory;
@@ -65,20 +74,20 @@ LogPoses posesOfRawlog(const RawlogSurvey& survey, const fs::path& file) {
     const ScanPlaces none;
     return {trajectoryOf(file, survey.scans.empty() ? none : survey.scans.begin()->second,
                          survey.is_whole),
-            file.string()};
+            file.string(), kindOfPoseFile(file) == PoseFileKind::Kitti};
 }
 
 LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& times_s,
                            const fs::path& file) {
     ScanPlaces scans;
     for (const double time_s : times_s) scans.push_back({mrpt::Clock::fromDouble(time_s), {}});
-    if (!file.empty()) return {trajectoryOf(file, scans, true), file.string()};
+    if (!file.empty()) return {trajectoryOf(file, scans, true), file.string(), true};
     if (fs::exists(folder.tumFile())) {
-        return {trajectoryOfTum(folder.tumFile()), folder.tumFile().string()};
+        return {trajectoryOfTum(folder.tumFile()), folder.tumFile().string(), true};
     }
     if (!fs::exists(folder.kittiPosesFile())) return {};
     return {trajectoryOfKitti(folder.kittiPosesFile(), ownKittiPoses(folder), scans),
-            folder.kittiPosesFile().string()};
+            folder.kittiPosesFile().string(), true};
 }
 
 }  // namespace hagen::logs

@@ -32,11 +32,11 @@ mrpt::Clock::time_point later(mrpt::Clock::time_point time, double by_s) {
 
 }  // namespace
 
-std::optional<mapping::MappedScan> placeInMap(
-    const observations::ObservationSegmenter::Output& segmented,
-    const mrpt::obs::CObservation& observation, const observations::Trajectory& vehicle) {
+std::optional<PlacedScan> placeInMap(const observations::ObservationSegmenter::Output& segmented,
+                                     const mrpt::obs::CObservation& observation,
+                                     const observations::Trajectory& vehicle) {
     if (!segmented.pose.sensor_pose) return std::nullopt;
-    const CPose3D sensor_on_vehicle(observation.sensorPose());
+    const CPose3D& sensor_on_vehicle = segmented.pose.sensor_on_vehicle;
     Scan scan = *segmented.scan;
     const bool moves =
         !scan.time_s.empty() && observations::deskew(vehicle, observation.timestamp,
@@ -45,7 +45,8 @@ std::optional<mapping::MappedScan> placeInMap(
     const auto middle =
         moves ? vehicle.at(later(observation.timestamp, duration_s / 2)) : std::nullopt;
 
-    mapping::MappedScan mapped;
+    PlacedScan placed{{}, !moves};
+    mapping::MappedScan& mapped = placed.mapped;
     mapped.time_s = observations::secondsOf(observation.timestamp) + duration_s;
     mapped.origin_m = isometryOf(middle ? *middle + sensor_on_vehicle : *segmented.pose.sensor_pose)
                           .translation()
@@ -58,7 +59,7 @@ std::optional<mapping::MappedScan> placeInMap(
         mapped.points_m.push_back((to_map * seen).cast<float>());
         mapped.labels.push_back(label);
     }
-    return mapped;
+    return placed;
 }
 
 MapOutput::MapOutput(const std::vector<std::filesystem::path>& files,

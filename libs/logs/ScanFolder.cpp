@@ -13,6 +13,7 @@
 
 #include <hagen/base/Folder.h>
 #include <hagen/base/WriteFile.h>
+#include "CloudTimes.h"
 
 namespace hagen::logs {
 namespace {
@@ -92,10 +93,17 @@ ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
                                  ": not a scan folder (no subfolder 'velodyne' with .bin files)");
     }
     for (const fs::path& file : base::entriesOf(scans)) {
-        if (file.extension() == ".bin") names_.push_back(file.stem().string());
+        if (file.extension() == ".bin") {
+            names_.push_back(file.stem().string());
+        } else {
+            others_.push_back(file.filename().string());
+        }
     }
     if (names_.empty()) throw std::runtime_error(scans.string() + ": contains no .bin files");
-    std::sort(names_.begin(), names_.end());
+    std::vector<std::string> ordered;
+    for (const std::size_t i : orderOfNames(names_)) ordered.push_back(std::move(names_[i]));
+    names_ = std::move(ordered);
+    std::sort(others_.begin(), others_.end());
 }
 
 fs::path ScanFolder::scanFile(std::size_t scan) const {
@@ -114,7 +122,7 @@ std::vector<double> ScanFolder::times() const {
     const fs::path file = folder_ / "times.txt";
     std::vector<double> times_s = readNumberPerScan(file, "seconds", size());
     for (const double time_s : times_s) {
-        if (observations::isTime(time_s)) continue;
+        if (observations::isTime(time_s) || time_s == observations::kNoTime_s) continue;
         throw std::runtime_error(file.string() + ": " + std::to_string(time_s) +
                                  " s is no time that a recording can have");
     }

@@ -30,7 +30,6 @@ std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
                 observations::observationOf(scan_, kFolderLabel, time, *options_.folder_objects);
         }
         addIfScan(observations::observationOf(scan_, kFolderLabel, time), folder_.name(i), entry);
-        for (RecordedScan& scan : entry.scans) scan.pose.is_of_sensor = true;
         return entry;
     }
     const std::string missed = missedAhead(next_);
@@ -63,9 +62,20 @@ std::map<std::string, std::vector<mrpt::Clock::time_point>> ScanFolderSource::sc
 }
 
 std::vector<std::string> ScanFolderSource::remarks() const {
-    if (!has_rings_) return {};
-    return {"the rings of its points (nuScenes) are not used; as a folder of point clouds, " +
-            (folder_.path() / "velodyne").string() + ", they are"};
+    std::vector<std::string> remarks;
+    const std::string scans = (folder_.path() / "velodyne").string();
+    if (has_rings_) {
+        remarks.push_back(
+            "the rings of its points (nuScenes) are not used; as a folder of point clouds, " +
+            scans + ", they are");
+    }
+    const std::vector<std::string>& others = folder_.otherFiles();
+    if (!others.empty()) {
+        remarks.push_back(std::to_string(others.size()) + " of the files in " + scans +
+                          " have no name with .bin, such as " + others.front() +
+                          ": they are not read");
+    }
+    return remarks;
 }
 
 Settings ScanFolderSource::settingsFor(const Settings& settings) const {

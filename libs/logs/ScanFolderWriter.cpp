@@ -1,5 +1,6 @@
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
+#include <hagen/observations/TimeStamp.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/settings/Settings.h>
 #include <cstdio>
@@ -80,7 +81,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
         fs::remove(labels, ignored);
         throw;
     }
-    times_s_.push_back(time_s);
+    times_s_.push_back(observations::isTime(time_s) ? time_s : observations::kNoTime_s);
     if (sensor_pose) poses_.push_back({times_s_.back(), *sensor_pose});
     have_horizon_ = have_horizon_ && pose_has_horizon;
 }

@@ -92,9 +92,10 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
                              ": the recording has more than " + std::to_string(kMostLabels) +
                              " LiDARs by their labels; convert some of them (--sensor-label)");
     }
-    entry.scans.push_back({observation,
-                           observations::scanPoseOf(*observation, poses_.vehicle, horizon_),
-                           entry.number, name, nullptr});
+    observations::ScanPose pose = observations::scanPoseOf(*observation, poses_.vehicle, horizon_);
+    pose.is_of_sensor =
+        poses_.are_of_sensor || poses_.of_sensors.count(observation->sensorLabel) > 0;
+    entry.scans.push_back({observation, pose, entry.number, name, nullptr});
     if (recovers_beams_ && observations::isCloud(*observation)) {
         entry.scans.back().beams = beamsOf(observation->sensorLabel);
     }
@@ -117,6 +118,13 @@ std::vector<fs::path> recordingsIn(const fs::path& folder) {
     return found;
 }
 
+bool isScanFolder(const fs::path& folder) {
+    std::error_code unreadable;
+    const std::vector<fs::path> scans = base::entriesOf(folder / "velodyne", unreadable);
+    return std::any_of(scans.begin(), scans.end(),
+                       [](const fs::path& file) { return file.extension() == ".bin"; });
+}
+
 /// The first folder with scans in a folder, up to two levels deep; empty if there is none. Folders
 /// that may not be read are none.
 fs::path scansWithin(const fs::path& folder, int depth = 2) {
@@ -124,7 +132,7 @@ fs::path scansWithin(const fs::path& folder, int depth = 2) {
     for (const fs::path& within : base::entriesOf(folder, unreadable)) {
         if (!fs::is_directory(within, unreadable)) continue;
         if (base::entriesOf(within, unreadable).empty() || unreadable) continue;
-        if (fs::is_directory(within / "velodyne") || CloudFileSource::hasClouds(within)) {
+        if (isScanFolder(within) || CloudFileSource::hasClouds(within)) {
             return within;
         }
         const fs::path deeper = depth > 1 ? scansWithin(within, depth - 1) : fs::path();
@@ -146,7 +154,8 @@ std::string whyNoFolder(const fs::path& folder) {
                recordings[0].string();
     }
     const fs::path scans = scansWithin(folder);
-    return "not a scan folder (no subfolder 'velodyne'), and no folder of point clouds (no .pcd, "
+    return "not a scan folder (no subfolder 'velodyne' with .bin files), and no folder of point "
+           "clouds (no .pcd, "
            ".ply, .las, .npy or .bin) or with a recording (.rawlog, .pcap, .bag, .mcap, .db3)" +
            (scans.empty() ? "" : "; there are scans in " + scans.string());
 }
@@ -164,9 +173,12 @@ std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording
                                  ": is a pipe or a device; a recording is read more than once, so "
                                  "store it in a file first");
     }
-    const bool is_bag = bags::isBag(recording);
-    const bool is_scan_folder = is_folder && std::filesystem::is_directory(recording / "velodyne");
-    if (is_folder && !is_bag && !is_scan_folder && !CloudFileSource::hasClouds(recording)) {
+    const bool is_scan_folder = is_folder && isScanFolder(recording);
+    const bool has_clouds = is_folder && CloudFileSource::hasClouds(recording);
+    // A recording among clouds is one of their other files, which are counted.
+    const bool is_bag =
+        bags::isBag(recording) && (!has_clouds || fs::exists(recording / "metadata.yaml"));
+    if (is_folder && !is_bag && !is_scan_folder && !has_clouds) {
         throw std::runtime_error(recording.string() + ": " + whyNoFolder(recording));
     }
     const bool is_capture = !is_bag && !is_folder && packets::isCapture(recording);

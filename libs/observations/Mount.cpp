@@ -14,15 +14,27 @@ Attitude attitudeOf(const Eigen::Matrix3f& level_from_sensor) {
 
 }  // namespace
 
-std::optional<Attitude> sensorTilt(const ScanPose& pose,
-                                   const mrpt::poses::CPose3D& sensor_on_vehicle,
-                                   const Attitude& mount) {
-    const Attitude recorded{static_cast<float>(sensor_on_vehicle.roll()),
-                            static_cast<float>(sensor_on_vehicle.pitch())};
-    if (!isLevel(recorded)) return pose.attitude.value_or(recorded);
-    if (isLevel(mount) || (pose.attitude && pose.is_of_sensor)) return pose.attitude;
-    if (!pose.attitude) return mount;
-    return attitudeOf(levelFromSensor(*pose.attitude) * levelFromSensor(mount));
+ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
+                     const Attitude& mount) {
+    ScanPose mounted = pose;
+    mounted.sensor_on_vehicle = recorded;
+    const Attitude tilt{static_cast<float>(recorded.roll()), static_cast<float>(recorded.pitch())};
+    if (!isLevel(tilt)) {
+        mounted.attitude = pose.attitude.value_or(tilt);
+        return mounted;
+    }
+    if (isLevel(mount)) return mounted;
+    if (!pose.attitude) {
+        mounted.attitude = mount;
+    } else if (!pose.is_of_sensor) {
+        mounted.attitude = attitudeOf(levelFromSensor(*pose.attitude) * levelFromSensor(mount));
+    }
+    if (pose.is_of_sensor) return mounted;
+    const mrpt::poses::CPose3D turn(0, 0, 0, 0, static_cast<double>(mount.pitch_rad),
+                                    static_cast<double>(mount.roll_rad));
+    mounted.sensor_on_vehicle += turn;
+    if (mounted.sensor_pose) *mounted.sensor_pose += turn;
+    return mounted;
 }
 
 }  // namespace hagen::observations

@@ -97,8 +97,8 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     const Scan& scan = observed_.scan;
     HagenFilter& filter = filterOf(observation.sensorLabel);
 
-    const std::optional<Attitude> tilt =
-        sensorTilt(pose, mrpt::poses::CPose3D(observation.sensorPose()), settings_.mount);
+    const ScanPose mounted =
+        mountedPose(pose, mrpt::poses::CPose3D(observation.sensorPose()), settings_.mount);
 
     const std::string& remark = observed_.remark;
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
@@ -106,7 +106,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
                                                              "process.segment");
     const auto cpu_start = base::threadCpuTime();
-    const SegmentationResult& result = filter.segment(scan, tilt);
+    const SegmentationResult& result = filter.segment(scan, mounted.attitude);
     const auto filter_cpu_time = base::threadCpuTime() - cpu_start;
     segmenting.reset();
     const auto labelled = std::chrono::steady_clock::now();
@@ -120,8 +120,7 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.options = &filter.options();
     out.recovered = observed_.recovered;
     out.is_sensor_assumed = observed_.is_sensor_assumed;
-    out.pose = pose;
-    out.pose.attitude = tilt;
+    out.pose = mounted;
     out.remark = remark;
     out.returns_masked = returns_masked;
     out.time_to_labels = labelled - start;

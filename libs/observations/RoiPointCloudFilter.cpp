@@ -7,7 +7,7 @@ namespace hagen::observations {
 RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
                                          const mrpt::poses::CPose3D& sensor_pose)
     : sensor_pose_(sensor_pose),
-      tilt_(sensorTilt({}, sensor_pose, settings.mount)),
+      tilt_(mountedPose({}, sensor_pose, settings.mount).attitude),
       settings_(settings),
       filter_(filterFor(settings.sensorModel(), settings.options)) {}
 

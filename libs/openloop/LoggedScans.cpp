@@ -38,17 +38,20 @@ void removeOwn(const observations::ObservationSegmenter::Output& out, float own_
 /// Requires a pose at the scan's time.
 void place(const observations::ObservationSegmenter::Output& out, const CObservation& observation,
            const observations::Trajectory& vehicle, float own_reach_m, LoggedScan& scan) {
-    scan.mapped = *logs::placeInMap(out, observation, vehicle);
+    logs::PlacedScan placed = *logs::placeInMap(out, observation, vehicle);
+    scan.mapped = std::move(placed.mapped);
     removeOwn(out, own_reach_m, scan.mapped);
     const auto end = vehicle.at(mrpt::Clock::fromDouble(scan.mapped.time_s));
-    scan.is_placed_by_one_pose = out.scan->time_s.empty() || !end;
+    scan.is_placed_by_one_pose = placed.is_by_one_pose;
     scan.vehicle_m = positionOf(end ? *end : *vehicle.at(observation.timestamp));
 }
 
 }  // namespace
 
-LoggedScans::LoggedScans(const LogSource& source) : own_reach_m_(source.own_reach_m) {
+LoggedScans::LoggedScans(const LogSource& source, const std::function<bool()>& keep_going)
+    : own_reach_m_(source.own_reach_m) {
     logs::SourceOptions options;
+    options.keep_going = keep_going;
     if (!source.sensor_label.empty()) options.sensor_labels = {source.sensor_label};
     options.sensor_json = source.sensor_json;
     options.topics = source.topics;

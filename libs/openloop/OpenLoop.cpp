@@ -94,7 +94,9 @@ DirectionSet directionsAt(std::size_t elevation) {
 class Run {
  public:
     Run(const OpenLoop& open_loop, const OpenLoopListener& listener)
-        : open_loop_(open_loop), listener_(listener), scans_(open_loop.source) {
+        : open_loop_(open_loop),
+          listener_(listener),
+          scans_(open_loop.source, listener.keep_going) {
         result_.poses = scans_.poseSource();
         result_.poses_have_horizon = scans_.posesHaveHorizon();
         result_.scans_without_pose = scans_.scansWithoutPose();
@@ -118,9 +120,11 @@ class Run {
                 process(scan);
                 listener_.progress(result_.scans, scans_.scans() - scans_.scansWithoutPose());
             }
-        } catch (const logs::BrokenRawlog& e) {
-            why_ended_ = e.what();
-        } catch (const logs::BrokenScan& e) {
+        } catch (const SettingsError&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            why_ended_ = "out of memory";
+        } catch (const std::exception& e) {  // what was scored before is kept
             why_ended_ = e.what();
         }
         if (why_ended_.empty() && !listener_.keep_going()) why_ended_ = "interrupted";
@@ -236,6 +240,12 @@ void Run::process(const LoggedScan& scan) {
     ++result_.scans;
 
     const double now_s = scan.mapped.time_s;
+    if (!kept_.empty() && now_s < kept_.back().time_s - LaterScansTruth::kDuration_s) {
+        // The clock went back: what is before has no later scans.
+        while (!waiting_.empty()) scoreOldest();
+        kept_.clear();
+        persistent_points_ = {};
+    }
     while (!waiting_.empty() && waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
         scoreOldest();
     }

@@ -184,6 +184,12 @@ OpenLoopFiles::File& OpenLoopFiles::open(const std::string& name, bool overwrite
     return file;
 }
 
+std::vector<fs::path> OpenLoopFiles::paths() const {
+    std::vector<fs::path> paths;
+    for (const auto& file : files_) paths.push_back(file->path.path());
+    return paths;
+}
+
 void OpenLoopFiles::add(const OpenLoopRow& row, const OpenLoopCost& cost) {
     scans_->out << row.scan << "," << row.entry << "," << Fixed{row.time_s, 6} << "," << row.model
                 << "," << row.returns << "," << row.roi << "," << row.obstacles << "," << row.bytes

@@ -19,6 +19,7 @@ namespace {
 constexpr int kBlocks = kVelodyneBlocks;
 constexpr int kTurn = kReadingsOfTurn;  // 0.01 degrees
 constexpr double kHourUs = 3600e6;
+constexpr double kMostAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
 
 /// A packet, read byte by byte.
 class Packet {
@@ -112,7 +113,7 @@ const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
         const auto isOffset = [](double offset_m) {
             return std::abs(offset_m) <= kMostCorrection_m;
         };
-        if (std::abs(length - 1) < 0.01 && std::abs(laser.azimuth_deg) <= 360 &&
+        if (std::abs(length - 1) < 0.01 && std::abs(laser.azimuth_deg) <= kMostAzimuth_deg &&
             isOffset(laser.distance_m) && isOffset(laser.vertical_offset_m) &&
             isOffset(laser.horizontal_offset_m)) {
             continue;

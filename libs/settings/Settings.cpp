@@ -250,6 +250,9 @@ void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
             parseSensor(file, entry.second, settings);
         } else if (name == "airframe") {
             settings.airframe = parseAirframe(file, entry.second);
+            if (!settings.airframe.learned.empty()) {
+                settings.files.push_back(settings.airframe.learned);
+            }
         } else if (const OptionKey* key = findOption(name)) {
             try {
                 parseOption(*key, entry.second, settings.options);

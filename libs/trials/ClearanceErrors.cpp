@@ -169,6 +169,7 @@ class Passing {
                 TrialSensor::place(turn, measured, returns, trace_, belief);
             for (const auto& model : models) model->update(scan);
             if (scan.time_s >= kFirst_s) query(models, scan.time_s);
+            if (measurement_.continuing) measurement_.continuing();
         }
     }
 

@@ -160,6 +160,20 @@ TEST_F(OpenLoopCommand, LeavesWhatExistsAlone) {
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("file")}, 1, "file");
 }
 
+TEST_F(OpenLoopCommand, OfABrokenMcapWhatWasDigestedIsKept) {
+    simulate(12);
+    const auto converted =
+        test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("gap.rawlog"), "--mcap", path("gap.mcap")});
+    ASSERT_EQ(converted.exit_code, 0) << converted.err;
+    fs::resize_file(path("gap.mcap"), fs::file_size(path("gap.mcap")) * 2 / 3);
+    auto arguments = gap("cut");
+    std::replace(arguments.begin(), arguments.end(), path("gap.rawlog"), path("gap.mcap"));
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("scans before that are in"));
+    EXPECT_TRUE(fs::exists(path("cut/scans.partial.csv")));
+}
+
 TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     simulate(12);
     fs::resize_file(path("gap.rawlog"), fs::file_size(path("gap.rawlog")) * 2 / 3);
@@ -173,8 +187,13 @@ TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     EXPECT_EQ(run(gap("out")).exit_code, 1);
     EXPECT_TRUE(fs::exists(path("out/openloop.partial-2.csv")));
 
+    // What a killed run left is told, but not removed: it may be of another machine.
+    folder_.write("out/scans.csv.tmp-999999999-0123456789abcdef", "");
     simulate(4, {"--overwrite"});
-    ASSERT_EQ(run(gap("out")).exit_code, 0);
+    const auto whole = run(gap("out"));
+    ASSERT_EQ(whole.exit_code, 0);
+    EXPECT_THAT(whole.err, HasSubstr("out/scans.csv.tmp-999999999-0123456789abcdef"));
+    fs::remove(path("out/scans.csv.tmp-999999999-0123456789abcdef"));
     for (const auto& file : fs::directory_iterator(path("out"))) {
         EXPECT_THAT(file.path().filename().string(), Not(HasSubstr("partial"))) << file;
     }

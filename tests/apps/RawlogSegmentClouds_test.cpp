@@ -281,9 +281,10 @@ TEST_F(RawlogSegmentClouds, WrongUsageIsToldFromFailure) {
     EXPECT_TRUE(fs::exists(path("mine/000000.pcd")));
     expectFailure({"-i", file, "--clouds", folder_.path().string(), "--overwrite"}, 1,
                   "is or contains the input");
-    expectFailure(
-        {"-i", path("notes"), "--clouds", path("out")}, 1,
-        "notes: not a scan folder (no subfolder 'velodyne'), and no folder of point clouds");
+    expectFailure({"-i", path("notes"), "--clouds", path("out")}, 1,
+                  "notes: not a scan folder (no subfolder 'velodyne' with .bin files), and no "
+                  "folder of point "
+                  "clouds");
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ TEST(OutputPath, PartsOfEarlierRunsAreFoundByTheirNames) {
     fs::create_directory(directory);
     EXPECT_THAT(partialOutputs(directory),
                 testing::ElementsAre(folder / "out.v2.partial", folder / "out.v2.partial-2"));
+    EXPECT_EQ(partialOutputs(directory.string() + "/"), partialOutputs(directory));
 }
 
 /// Such as /dev/stdout.

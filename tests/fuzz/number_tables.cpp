@@ -38,7 +38,10 @@ void readTables(std::string_view input) {
     const auto times = logs::timesOfNames(names);
     require(times.times_s.size() == names.size(), "a name has no time");
     for (const double time_s : times.times_s) require(std::isfinite(time_s), "no time");
-    for (const std::string& name : names) logs::numberOfName(name);
+    std::vector<std::size_t> order = logs::orderOfNames(names);
+    std::sort(order.begin(), order.end());
+    require(order.size() == names.size(), "a name has no place");
+    for (std::size_t i = 0; i < order.size(); ++i) require(order[i] == i, "a name has two places");
 }
 
 Seeds tables() {

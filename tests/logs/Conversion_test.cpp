@@ -8,6 +8,7 @@
 #include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/range_image/Angle.h>
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -16,6 +17,8 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
+
+#include <mrpt/obs/CObservationOdometry.h>
 
 #include <algorithm>
 #include <atomic>
@@ -368,6 +371,86 @@ TEST_P(ConversionTest, PosesOfALogTravelWithItsScans) {
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
     EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
+}
+
+TEST_P(ConversionTest, AScanWithoutATimeIsToldAndItsFolderCanBeRead) {
+    const auto timeless = scanFrom(0);
+    timeless->timestamp = INVALID_TIMESTAMP;
+    writeLog({timeless, scanFrom(1)});
+    std::vector<std::string> remarks;
+    Conversion to_folder = conversion();
+    to_folder.rawlog.clear();
+    to_folder.folder = folder_ / "scans";
+    convert(to_folder, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::ElementsAre("entry 0 (lidar): its time stamp is no time"));
+    Conversion back = nothing();
+    back.input = folder_ / "scans";
+    back.rawlog = folder_ / "back.rawlog";
+    convert(back);
+    RawlogReader reader(back.rawlog);
+    const auto first = std::dynamic_pointer_cast<CObservation>(reader.next());
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->timestamp, INVALID_TIMESTAMP);
+}
+
+TEST_P(ConversionTest, PosesWithoutAHorizonThatLackAScanAreToldToBeLost) {
+    const auto odometryAt = [](double x_m) {
+        auto observation = mrpt::obs::CObservationOdometry::Create();
+        observation->sensorLabel = "odometry";
+        observation->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+        observation->odometry = mrpt::poses::CPose2D(x_m, 0, 0);
+        return observation;
+    };
+    writeLog({odometryAt(0), scanFrom(0.05), odometryAt(0.1), scanFrom(3)});
+    Conversion posed = conversion();
+    posed.folder = folder_ / "scans";
+    std::vector<std::string> remarks;
+    convert(posed, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::Contains(HasSubstr("(lidar): no pose near its time: no file of "
+                                                     "poses is written")));
+    EXPECT_FALSE(fs::exists(folder_ / "scans/poses.tum"));
+    EXPECT_FALSE(fs::exists(folder_ / "scans/poses.txt"));
+}
+
+/// The mount is in the log, or in the settings: the poses of scans, and what they lead to, are the
+/// same.
+TEST_P(ConversionTest, AMountOfTheSettingsIsInThePosesOfTheSensor) {
+    const mrpt::poses::CPose3D mount(0, 0, 0, 0, radians(-20), radians(180));
+    const auto converted = [&](bool is_recorded, const std::string& name) {
+        std::vector<mrpt::serialization::CSerializable::Ptr> entries;
+        for (const double x_m : {0.0, 0.2}) {
+            auto pose = mrpt::obs::CObservationRobotPose::Create();
+            pose->sensorLabel = "pose";
+            pose->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+            pose->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0.5, 0.02, -0.03);
+            entries.push_back(pose);
+        }
+        const auto scan = scanFrom(0);
+        if (is_recorded) scan->setSensorPose(mount);
+        entries.push_back(scan);
+        writeLog(entries);
+        Conversion posed = conversion();
+        posed.rawlog.clear();
+        posed.folder = folder_ / name;
+        posed.octomaps = {folder_ / (name + ".bt")};
+        if (!is_recorded)
+            posed.settings.mount = {static_cast<float>(radians(180)),
+                                    static_cast<float>(radians(-20))};
+        convert(posed);
+        const auto poses = readTumPoses(folder_ / name / "poses.tum");
+        EXPECT_EQ(poses.size(), 1u);
+        return poses.at(0).pose;
+    };
+    const auto recorded = converted(true, "recorded"), set = converted(false, "set");
+    EXPECT_LT((recorded.asVectorVal() - set.asVectorVal()).norm(), 1e-5);
+    EXPECT_EQ(test::readFile(folder_ / "recorded.bt"), test::readFile(folder_ / "set.bt"));
+    // Read again, the poses contain the mount of sensor.yaml.
+    Conversion again = nothing();
+    again.input = folder_ / "set";
+    again.folder = folder_ / "again";
+    convert(again);
+    EXPECT_EQ(test::readFile(folder_ / "again/labels/000000.label"),
+              test::readFile(folder_ / "set/labels/000000.label"));
 }
 
 TEST_P(ConversionTest, RangeImagesOfLidarsAndCamerasAreScans) {

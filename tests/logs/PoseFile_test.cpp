@@ -123,6 +123,17 @@ TEST_F(PoseFile, AKittiFileIsOfTheSensorScanByScan) {
     EXPECT_EQ(poses.source, file.string());
 }
 
+TEST_F(PoseFile, ScansOfAKittiFileThatTheirTimesDoNotTellApartAreRefused) {
+    const auto file =
+        folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
+    RawlogSurvey survey = surveyOfTwoScans();
+    survey.scans["lidar"][1].time = survey.scans["lidar"][0].time;
+    EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
+                HasSubstr("poses.txt: scans 0 and 1 have different poses, but the same time"));
+    folder_.write("poses.txt", "1 0 0 4 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
+    EXPECT_TRUE(posesOfRawlog(survey, file).are_of_sensor);
+}
+
 TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {
     const auto file = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();

@@ -34,6 +34,23 @@ TEST_F(ScanFolderTest, ListsScansByName) {
     EXPECT_TRUE(scans.altitudes().empty());
 }
 
+TEST_F(ScanFolderTest, NumbersAreInTheirOrderIfNothingElseDiffers) {
+    const auto orderOf = [&](const std::vector<std::string>& names) {
+        const test::TemporaryFolder place;
+        for (const std::string& name : names) place.write("velodyne/" + name + ".bin", "");
+        const ScanFolder folder(place.path());
+        std::vector<std::string> ordered;
+        for (std::size_t i = 0; i < folder.size(); ++i) ordered.push_back(folder.name(i));
+        return ordered;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(orderOf({"10", "9", "0"}), (Names{"0", "9", "10"}));
+    EXPECT_EQ(orderOf({"1000.5", "999.4", "1000.25"}), (Names{"999.4", "1000.25", "1000.5"}));
+    EXPECT_EQ(orderOf({"scan_10", "scan_9"}), (Names{"scan_9", "scan_10"}));
+    EXPECT_EQ(orderOf({"b_1", "a_2", "a_10"}), (Names{"a_10", "a_2", "b_1"}));
+    EXPECT_EQ(orderOf({"000002", "left", "000010"}), (Names{"000002", "000010", "left"}));
+}
+
 TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
     EXPECT_THAT(test::messageOf([&] { ScanFolder scans(folder_.path()); }), HasSubstr("velodyne"));
     fs::create_directory(folder_ / "velodyne");

@@ -495,6 +495,49 @@ TEST_F(ScanSourceTest, OfAFolderOfRecordingsOneIsToBeNamed) {
     EXPECT_TRUE(openRecording(folder_ / "flights"));
 }
 
+TEST_F(ScanSourceTest, ARecordingAmongCloudsDoesNotHideThem) {
+    folder_.write("clouds/000000.npy", "");
+    folder_.write("clouds/segmented.mcap", "\x89MCAP0\r\n");
+    const auto source = openRecording(folder_ / "clouds");
+    EXPECT_EQ(source->entriesKnown(), 1u);
+    EXPECT_THAT(source->remarks(),
+                testing::Contains(HasSubstr("1 file of the folder with another ending")));
+}
+
+TEST_F(ScanSourceTest, OtherFilesAmongTheScansOfAFolderAreTold) {
+    const fs::path folder = scanFolderOf(2);
+    folder_.write("scans/velodyne/000002.bin.gz", "");
+    folder_.write("scans/velodyne/000003.BIN", "");
+    const auto source = openRecording(folder);
+    EXPECT_EQ(source->entriesKnown(), 2u);
+    EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("2 of the files in ")));
+    EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("such as 000002.bin.gz")));
+}
+
+TEST_F(ScanSourceTest, AFolderOfSeveralLidarsNamesAFolderOfOne) {
+    scanFolderOf(2);
+    fs::create_directories(folder_ / "both");
+    fs::rename(folder_ / "scans", folder_ / "both/velodyne");
+    EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "both"); }),
+                HasSubstr("; there are scans in " + (folder_ / "both/velodyne").string()));
+}
+
+TEST_F(ScanSourceTest, PosesOfAFolderAreOfItsSensorAndThoseOfARawlogOfTheVehicle) {
+    const fs::path folder = scanFolderOf(1, "1001\n");
+    writeTumPoses(folder / "poses.tum", {{1000.9, CPose3D()}, {1001.1, CPose3D()}});
+    const auto scans = openRecording(folder);
+    scans->usePoses({});
+    EXPECT_TRUE(scans->nextScan()->pose.is_of_sensor);
+    const fs::path log = rawlogOf({cloud(1, "front")});
+    const auto vehicle = openRecording(log);
+    vehicle->usePoses(folder / "poses.tum");
+    EXPECT_FALSE(vehicle->nextScan()->pose.is_of_sensor);
+    writeKittiPoses(folder_ / "kitti.txt", {CPose3D()});
+    const auto sensor = openRecording(log);
+    sensor->usePoses(folder_ / "kitti.txt");
+    EXPECT_TRUE(sensor->nextScan()->pose.is_of_sensor);
+}
+
 TEST_F(ScanSourceTest, ScansDeeperInAFolderAreNamed) {
     folder_.write("data/samples/LIDAR_TOP/1.pcd.bin", "");
     const std::string message = test::messageOf([&] { openRecording(folder_ / "data"); });

@@ -376,7 +376,7 @@ TEST(VelodyneDecoder, CorrectionsThatNoLaserHasAreRefused) {
          {&laser.azimuthCorrection, &laser.distanceCorrection, &laser.verticalOffsetCorrection,
           &laser.horizontalOffsetCorrection}) {
         const bool is_angle = correction == &laser.azimuthCorrection;
-        for (const double wild : {1e307, -1e307, 1e30, is_angle ? 360.1 : 10.1}) {
+        for (const double wild : {1e307, -1e307, 1e30, is_angle ? 1e9 : 10.1}) {
             const double before = std::exchange(*correction, wild);
             Scan scan;
             try {

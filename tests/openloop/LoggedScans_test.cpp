@@ -155,6 +155,11 @@ TEST_F(LoggedScansTest, TellsWhatIsMissing) {
                 HasSubstr("has no LiDAR scan"));
 }
 
+TEST_F(LoggedScansTest, ReadingInAdvanceIsInterruptible) {
+    EXPECT_THROW(LoggedScans({poleLog(2), posesAt({10, 11}), "", {}}, [] { return false; }),
+                 logs::Interrupted);
+}
+
 TEST_F(LoggedScansTest, ABrokenLogGivesWhatIsBeforeTheBreak) {
     const fs::path log = poleLog(8);
     fs::resize_file(log, fs::file_size(log) * 3 / 4);

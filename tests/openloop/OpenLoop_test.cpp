@@ -184,6 +184,36 @@ TEST_F(OpenLoopTest, ASceneThatIsNotTheLogsIsNotTheTruth) {
                 HasSubstr("was not simulated in wires of seed 1"));
 }
 
+/// The scans after a clock went back are no later scans of those before.
+TEST_F(OpenLoopTest, AClockThatGoesBackBeginsAnew) {
+    const fs::path log = wallFlight(8);
+    const auto hitsWith = [&](double first_s) {
+        std::ofstream times(log / "times.txt");
+        std::vector<logs::TimedPose> poses;
+        for (int i = 0; i < 8; ++i) {
+            const double time_s = i == 0 ? first_s : 100 + 0.1 * i;
+            times << time_s << "\n";
+            poses.push_back({time_s, CPose3D(0.1 * i, 0, 2, 0, 0, 0)});
+        }
+        times.close();
+        logs::writeTumPoses(log / "poses.tum", poses);
+        std::vector<std::size_t> scored;
+        OpenLoopListener listener;
+        listener.row = [&](const OpenLoopRow& row, const OpenLoopCost&) {
+            scored.push_back(row.all.scored);
+        };
+        runOpenLoop(wallsOnly(log), listener);
+        return scored;
+    };
+    const std::vector<std::size_t> in_order = hitsWith(100), back = hitsWith(100000);
+    ASSERT_EQ(in_order.size(), 8u);
+    ASSERT_EQ(back.size(), 8u);
+    EXPECT_GT(in_order[0], 0u);
+    EXPECT_EQ(back[0], 0u);
+    EXPECT_EQ(std::vector<std::size_t>(back.begin() + 1, back.end()),
+              std::vector<std::size_t>(in_order.begin() + 1, in_order.end()));
+}
+
 TEST_F(OpenLoopTest, WhatWasDigestedBeforeABreakIsTold) {
     const fs::path log = wallFlight(6);
     fs::resize_file(log / "velodyne/1004.bin", 1001);
@@ -195,9 +225,10 @@ TEST_F(OpenLoopTest, WhatWasDigestedBeforeABreakIsTold) {
         EXPECT_EQ(ended.result.scans, 4u);
         EXPECT_EQ(ended.result.models[0].bytes.size(), 4u);
     }
-    int scans = 0;
+    std::size_t digested = 0;
     OpenLoopListener listener;
-    listener.keep_going = [&] { return ++scans <= 2; };
+    listener.progress = [&](std::size_t scans, std::size_t) { digested = scans; };
+    listener.keep_going = [&] { return digested < 2; };
     EXPECT_THROW(runOpenLoop(wallsOnly(log), listener), OpenLoopEnded);
     fs::resize_file(log / "velodyne/1000.bin", 1001);
     EXPECT_THAT(test::messageOf([&] { runOpenLoop(wallsOnly(log)); }),

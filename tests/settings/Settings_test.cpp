@@ -355,7 +355,9 @@ TEST_F(SettingsTest, AnAirframeIsAListOfBoxesSpheresAndWhatWasLearned) {
                   "- box: {low_m: [-1, -0.5, 0], high_m: [1, 0.5, 0.25]}\n"
                   "- sphere: {centre_m: [0, 0, -0.3], radius_m: 0.2}\n"
                   "- learned: legs.yaml\n");
-    const auto airframe = settingsOf("include: drone/drone.yaml").airframe;
+    const Settings settings = settingsOf("include: drone/drone.yaml");
+    EXPECT_EQ(settings.files.back(), folder / "legs.yaml");  // so no output replaces it
+    const auto& airframe = settings.airframe;
     ASSERT_EQ(airframe.parts.boxes.size(), 1u);
     EXPECT_EQ(airframe.parts.boxes[0].low_m, Eigen::Vector3f(-1, -0.5f, 0));
     EXPECT_EQ(airframe.parts.boxes[0].high_m, Eigen::Vector3f(1, 0.5f, 0.25f));

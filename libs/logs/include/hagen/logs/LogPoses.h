@@ -4,6 +4,7 @@
 #include <hagen/observations/Trajectory.h>
 #include <filesystem>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace hagen::logs {
 struct LogPoses {
     observations::Trajectory vehicle;
     std::string source;  ///< such as "flight.tum"; empty: no poses
+    /// They are those of the sensor, so they contain its mount; or are so for the scans with these
+    /// labels.
+    bool are_of_sensor = false;
+    std::set<std::string> of_sensors = {};
 };
 
 /// The poses of a rawlog: from `file` if given, otherwise from the log. A KITTI file must have one

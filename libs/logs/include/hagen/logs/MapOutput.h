@@ -14,11 +14,19 @@
 
 namespace hagen::logs {
 
-/// The classified returns of a scan in the map frame. Each is placed with the pose at its own time
-/// if `vehicle` and the scan provide it, otherwise with the pose of the scan. None without a pose.
-std::optional<mapping::MappedScan> placeInMap(
-    const observations::ObservationSegmenter::Output& segmented,
-    const mrpt::obs::CObservation& observation, const observations::Trajectory& vehicle);
+/// A scan in the map frame.
+struct PlacedScan {
+    mapping::MappedScan mapped;
+    /// All returns are placed with the pose of the scan, because they have no times, or because
+    /// the vehicle's poses end before the scan does, or leave a gap in it.
+    bool is_by_one_pose;
+};
+
+/// Places the classified returns of a scan: each with the pose at its own time if `vehicle` and the
+/// scan provide it, otherwise with the pose of the scan. None without a pose.
+std::optional<PlacedScan> placeInMap(const observations::ObservationSegmenter::Output& segmented,
+                                     const mrpt::obs::CObservation& observation,
+                                     const observations::Trajectory& vehicle);
 
 /// An OctoMap of the scans of a log, written to one or several files.
 class MapOutput {

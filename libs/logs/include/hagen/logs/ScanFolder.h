@@ -19,8 +19,7 @@ extern const base::OutputKind kScanFolders;
 ///     labels/NNNNNN.label    uint32 per point, same order: low 16 bits the label (0 unclassified,
 ///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
 ///     labels/made_by.txt     optional: the program whose predictions the labels are; otherwise
-///     they
-///                            are ground truth
+///                            they are ground truth
 ///     semantic/NNNNNN.label  optional: uint32 per point, low 16 bits the object class
 ///     kinds.yaml             optional: names of these classes; see evaluation/LabelMap.h
 ///     altitudes.txt          optional: sensor height above ground [m], one line per scan
@@ -29,7 +28,7 @@ extern const base::OutputKind kScanFolders;
 ///     poses.txt              optional: sensor pose per scan, relative to the first scan; if there
 ///                            is a calib.txt, camera poses as in the KITTI odometry benchmark
 ///     sensor.yaml            optional: beams of this recording, and the sensor's mount on the
-///     vehicle
+///                            vehicle
 ///
 /// All numbers are little-endian. Poses are those of the sensor, so they include its mount.
 /// Functions throw std::runtime_error naming the file.
@@ -37,13 +36,16 @@ class ScanFolder {
  public:
     static constexpr const char* kMadeBy = "labels/made_by.txt";
 
-    /// Lists velodyne/*.bin in the order of their names. Throws if there are none.
+    /// Lists velodyne/*.bin in the order of their names: by number if they differ in nothing else,
+    /// so that 10 comes after 9. Throws if there are none.
     explicit ScanFolder(std::filesystem::path folder);
 
     const std::filesystem::path& path() const { return folder_; }
     std::size_t size() const { return names_.size(); }
     /// File name of a scan without extension, "000042".
     const std::string& name(std::size_t scan) const { return names_[scan]; }
+    /// Names of other files in velodyne/, which are not read.
+    const std::vector<std::string>& otherFiles() const { return others_; }
     std::filesystem::path scanFile(std::size_t scan) const;
     std::filesystem::path labelFile(std::size_t scan) const;
     /// Optional files of this folder.
@@ -57,15 +59,16 @@ class ScanFolder {
     /// Whether the labels are marked as predictions (markAsPredictions()).
     bool hasPredictions() const { return std::filesystem::exists(folder_ / kMadeBy); }
 
-    /// times.txt, one element per scan; empty if the file does not exist. Throws if the number of
-    /// lines differs from the number of scans.
+    /// times.txt, one element per scan, of which those without a time have kNoTime_s
+    /// (TimeStamp.h); empty if the file does not exist. Throws if the number of lines differs from
+    /// the number of scans.
     std::vector<double> times() const;
     /// altitudes.txt, likewise.
     std::vector<double> altitudes() const;
 
  private:
     std::filesystem::path folder_;
-    std::vector<std::string> names_;
+    std::vector<std::string> names_, others_;
 };
 
 /// A scan cannot be read; the message names its file.

@@ -3,15 +3,13 @@
 #include <hagen/segmentation/Levelling.h>
 #include <mrpt/poses/CPose3D.h>
 
-#include <optional>
-
 namespace hagen::observations {
 
-/// The tilt of a sensor, mounted as the recording says (`sensor_on_vehicle`) or, if that is level,
-/// as the settings say (`mount`). If the vehicle's attitude is unknown, the vehicle is taken to be
-/// level; if the mount is level too, nothing is known.
-std::optional<Attitude> sensorTilt(const ScanPose& pose,
-                                   const mrpt::poses::CPose3D& sensor_on_vehicle,
-                                   const Attitude& mount);
+/// The pose of a sensor that is mounted as its scan says (`recorded`, which `pose` contains) or, if
+/// that is level, tilted there as the settings say (`mount`). Poses of the sensor itself contain
+/// the tilt. If no attitude is known, the vehicle is taken to be level; if the sensor is level on
+/// it, too, there is none.
+ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
+                     const Attitude& mount);
 
 }  // namespace hagen::observations

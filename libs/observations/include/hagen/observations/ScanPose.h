@@ -13,14 +13,15 @@ namespace hagen::observations {
 struct ScanPose {
     /// Sensor pose in the map at the scan's time; none: the trajectory does not cover that time.
     std::optional<mrpt::poses::CPose3D> sensor_pose;
-    bool pose_has_horizon = false;     ///< the map is gravity-aligned
-    std::optional<Attitude> attitude;  ///< tilt of the sensor; none: unknown
-    bool is_of_sensor = false;         ///< poses are those of the sensor, not of the vehicle
+    bool pose_has_horizon = false;           ///< the map is gravity-aligned
+    std::optional<Attitude> attitude;        ///< tilt of the sensor; none: unknown
+    bool is_of_sensor = false;               ///< poses are those of the sensor, not of the vehicle
+    mrpt::poses::CPose3D sensor_on_vehicle;  ///< with the mount of mountedPose()
 };
 
 /// The pose of a scan: interpolated from the vehicle's trajectory and composed with the sensor's
-/// mounting pose. The attitude is the one last seen by `horizon`, if recent, otherwise that of the
-/// trajectory if it has a horizon.
+/// mounting pose, as the scan says it. The attitude is the one last seen by `horizon`, if recent,
+/// otherwise that of the trajectory if it has a horizon.
 ScanPose scanPoseOf(const mrpt::obs::CObservation& scan, const Trajectory& vehicle,
                     const Horizon& horizon);
 

@@ -9,6 +9,9 @@ namespace hagen::observations {
 /// computes others wrongly: its differences of times overflow.
 constexpr double kEarliest_s = -11644473600.0, kLatest_s = 1e11;
 
+/// secondsOf(INVALID_TIMESTAMP): what stands for no time in files.
+constexpr double kNoTime_s = kEarliest_s;
+
 /// Whether a number of seconds since 1970 is such a time; false for NaN.
 inline bool isTime(double since_1970_s) {
     return since_1970_s > kEarliest_s && since_1970_s < kLatest_s;

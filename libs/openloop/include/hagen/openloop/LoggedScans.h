@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -28,7 +29,7 @@ struct LoggedScan {
     std::size_t entry = 0;  ///< of the log, from 0; in a scan folder the scan
     mapping::MappedScan mapped;
     Eigen::Vector3f vehicle_m{0, 0, 0};  ///< position of the vehicle at the end of the scan
-    /// Returns have no times, or the poses end before the scan does.
+    /// Returns have no times, or the poses end before the scan does, or leave a gap in it.
     bool is_placed_by_one_pose = false;
     double filter_ms = 0;  ///< CPU time of this thread in the filter
 };
@@ -37,12 +38,14 @@ struct LoggedScan {
 /// from the log; each return is placed by the pose at its own time.
 class LoggedScans {
  public:
-    /// Reads poses and times. Throws std::runtime_error, naming the file, if there are no scans or
-    /// no poses, or if fewer than half of the scans have one; SettingsError for invalid settings.
-    explicit LoggedScans(const LogSource& source);
+    /// Reads poses and times. Throws logs::Interrupted once `keep_going` returns false, and
+    /// std::runtime_error, naming the file, if there are no scans or no poses, or if fewer than
+    /// half of the scans have one; SettingsError for invalid settings.
+    explicit LoggedScans(
+        const LogSource& source, const std::function<bool()>& keep_going = [] { return true; });
 
-    /// Reads the next scan that has a pose; false at the end. Throws BrokenRawlog or BrokenScan if
-    /// the log is truncated. Skips scans that cannot be read.
+    /// Reads the next scan that has a pose; false at the end. Throws like ScanSource::nextScan(),
+    /// as where the log is truncated. Skips scans that cannot be read.
     bool next(LoggedScan& scan);
 
     const std::string& poseSource() const { return source_->poses().source; }

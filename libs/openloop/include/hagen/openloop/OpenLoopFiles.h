@@ -29,6 +29,8 @@ class OpenLoopFiles {
                   const std::vector<std::filesystem::path>& inputs = {});
     ~OpenLoopFiles();
 
+    std::vector<std::filesystem::path> paths() const;
+
     void add(const OpenLoopRow& row, const OpenLoopCost& cost);
     /// Completes the files and removes partial files of earlier runs. Throws std::runtime_error,
     /// naming them, if some could not be written; the others are complete.

@@ -16,8 +16,9 @@ struct ClearanceMeasurement {
     std::vector<std::string> models;  ///< that need no truth
     std::uint64_t first_seed = 0, last_seed = 0;
     ModelDistance distance = ModelDistance::AsStored;
-    bool has_specks = false;                        ///< whether models get the returns of dust, too
-    std::function<void(std::uint64_t seed)> doing;  ///< called before each seed; may throw
+    bool has_specks = false;  ///< whether models get the returns of dust, too
+    std::function<void(std::uint64_t seed)> doing = {};  ///< called before each seed
+    std::function<void()> continuing = {};               ///< called after each scan; may throw
 };
 
 /// What a model makes of the distances to an obstacle.
