@@ -45,8 +45,8 @@ void printRemarks(const openloop::OpenLoopResult& result) {
     print(result.unreadable_scans, "scans could not be read and were skipped");
     print(
         result.scans_placed_by_one_pose,
-        "scans were placed by one pose each, because their returns have no times or the poses end "
-        "before the scan");
+        "scans were placed by one pose each, because their returns have no times, or the poses end "
+        "before the scan or leave a gap in it");
     print(result.model_resets,
           "resets of all models, because the flight is longer than the box of the maps");
     if (!result.poses_have_horizon) {
@@ -76,7 +76,6 @@ int run(Flags flags) {
     if (!flags.is_quiet) {
         listener.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
-    // First of all, as files may fail.
     const auto show = [&](const openloop::OpenLoopResult& result) {
         if (flags.is_quiet) return;
         printRemarks(result);
@@ -84,16 +83,17 @@ int run(Flags flags) {
     };
     try {
         const openloop::OpenLoopResult result = openloop::runOpenLoop(open_loop, listener);
-        show(result);
+        show(result);  // before the files, which may fail
         files.commit(open_loop, result);
         tellLeftBehind(files.paths());
         return 0;
     } catch (const openloop::OpenLoopEnded& ended) {
         show(ended.result);
-        files.keepPartial(open_loop, ended.result);
+        const std::string failures = files.keepPartial(open_loop, ended.result);
         throw std::runtime_error(std::string(ended.what()) + "; figures of the " +
                                  std::to_string(ended.result.scans) + " scans before that are in " +
-                                 flags.folder + "/*.partial*");
+                                 flags.folder + "/*.partial*" +
+                                 (failures.empty() ? "" : "; but " + failures));
     }
 }
 

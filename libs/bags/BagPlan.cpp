@@ -375,6 +375,9 @@ class Planner {
             const std::string& frame = frame_of_[topic];
             const auto pose = onVehicle(frame);
             if (pose) sensor.on_vehicle = *pose;
+            sensor.is_vehicle = plan_.poses != nullptr && frame == plan_.poses->child &&
+                                frame != "base_link" && frame != "base_footprint";
+            sensor.has_its_own_poses = sensor.is_vehicle;
             if (pose || plan_.poses == nullptr) continue;
             sensor.has_its_own_poses = true;
             plan_.remarks.push_back(

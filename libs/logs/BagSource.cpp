@@ -93,6 +93,7 @@ LogPoses BagSource::readPoses(const std::filesystem::path& file) {
         LogPoses found = posesOfRawlog(poses == nullptr ? RawlogSurvey() : posesOf(*poses), file);
         for (const auto& [topic, sensor] : scans_->plan().sensors) {
             if (sensor.has_its_own_poses) found.of_sensors.insert(sensor.label);
+            if (sensor.is_vehicle) found.vehicles.insert(sensor.label);
         }
         return found;
     }

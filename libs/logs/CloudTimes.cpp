@@ -107,8 +107,8 @@ bool ascend(const std::vector<double>& numbers) {
 std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
     std::vector<std::size_t> order(names.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
     std::vector<double> numbers;
     std::set<std::string_view> before;
     for (const std::string& name : names) {

@@ -231,7 +231,7 @@ void Converter::reportRemarks(const ScanInConversion& scan) {
     }
     if (!scan.segmented.remark.empty()) listener_.remark(title, scan.segmented.remark);
     if (!observations::isTime(scan.recorded.observation->timestamp)) {
-        listener_.remark(title, "its time stamp is no time");
+        listener_.remark(title, "it has no valid time");
     } else if (!conversion_.folder.empty() && !report_.poses.empty() &&
                !scan.recorded.pose.sensor_pose) {
         listener_.remark(
@@ -251,9 +251,10 @@ void Converter::insertIntoMap(const ScanInConversion& scan) {
         const bool has_times = !scan.segmented.scan->time_s.empty();
         if (placed->is_by_one_pose && has_times && scan.segmented.scan->size() > 0) {
             const std::lock_guard lock(listener_mutex_);
-            listener_.remark(titleOf(scan.recorded),
-                             "the poses end before it does, or leave a gap in it: in the map, all "
-                             "its returns are placed with one pose");
+            listener_.remark(
+                titleOf(scan.recorded),
+                "the poses end before it does or leave a gap in it, or the times of its returns "
+                "are none of one scan: in the map, all are placed with one pose");
         }
         try {
             outputs_.insertIntoMap(placed->mapped);

@@ -1,5 +1,6 @@
 #include <hagen/logs/LogPoses.h>
 #include <hagen/logs/PoseFile.h>
+#include <hagen/observations/TimeStamp.h>
 
 #include <map>
 #include <stdexcept>
@@ -32,6 +33,7 @@ observations::Trajectory trajectoryOfKitti(const fs::path& file,
     trajectory.has_horizon = false;  // relative to the first scan, which may be tilted
     std::map<mrpt::Clock::time_point, std::size_t> scan_at;
     for (std::size_t i = 0; i < scans.size(); ++i) {
+        if (!observations::isTime(scans[i].time)) continue;  // has no pose
         const auto [earlier, is_new] = scan_at.try_emplace(scans[i].time, i);
         if (!is_new && sensor_poses[i] != sensor_poses[earlier->second]) {
             throw std::runtime_error(file.string() + ": scans " + std::to_string(earlier->second) +

@@ -71,9 +71,8 @@ std::vector<std::string> ScanFolderSource::remarks() const {
     }
     const std::vector<std::string>& others = folder_.otherFiles();
     if (!others.empty()) {
-        remarks.push_back(std::to_string(others.size()) + " of the files in " + scans +
-                          " have no name with .bin, such as " + others.front() +
-                          ": they are not read");
+        remarks.push_back(std::to_string(others.size()) + " of the entries in " + scans +
+                          " do not end in .bin, such as " + others.front() + ": they are not read");
     }
     return remarks;
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include <hagen/base/WriteFile.h>
+#include "CloudTimes.h"
 
 namespace hagen::logs {
 namespace {
@@ -81,8 +82,9 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
         fs::remove(labels, ignored);
         throw;
     }
+    names_.push_back(name);
     times_s_.push_back(observations::isTime(time_s) ? time_s : observations::kNoTime_s);
-    if (sensor_pose) poses_.push_back({times_s_.back(), *sensor_pose});
+    poses_.push_back(sensor_pose);
     have_horizon_ = have_horizon_ && pose_has_horizon;
 }
 
@@ -90,13 +92,18 @@ void ScanFolderWriter::finish() const {
     const fs::path file = folder_ / "times.txt";
     std::ofstream out(file);
     out << std::fixed << std::setprecision(9);
-    for (const double time_s : times_s_) out << time_s << "\n";
-    base::closeWritten(out, file);
-    if (poses_.empty()) return;
-    if (have_horizon_) writeTumPoses(folder_ / "poses.tum", poses_);
-    if (poses_.size() < times_s_.size()) return;
+    std::vector<TimedPose> timed;
     std::vector<mrpt::poses::CPose3D> sensor_poses;
-    for (const TimedPose& pose : poses_) sensor_poses.push_back(pose.pose);
+    for (const std::size_t i : orderOfNames(names_)) {  // as they are read
+        out << times_s_[i] << "\n";
+        if (!poses_[i]) continue;
+        timed.push_back({times_s_[i], *poses_[i]});
+        sensor_poses.push_back(*poses_[i]);
+    }
+    base::closeWritten(out, file);
+    if (timed.empty()) return;
+    if (have_horizon_) writeTumPoses(folder_ / "poses.tum", timed);
+    if (timed.size() < times_s_.size()) return;
     writeKittiPoses(folder_ / "poses.txt", sensor_poses);
 }
 

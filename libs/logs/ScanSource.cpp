@@ -92,9 +92,11 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
                              ": the recording has more than " + std::to_string(kMostLabels) +
                              " LiDARs by their labels; convert some of them (--sensor-label)");
     }
-    observations::ScanPose pose = observations::scanPoseOf(*observation, poses_.vehicle, horizon_);
-    pose.is_of_sensor =
+    const bool are_of_sensor =
         poses_.are_of_sensor || poses_.of_sensors.count(observation->sensorLabel) > 0;
+    observations::ScanPose pose =
+        observations::scanPoseOf(*observation, poses_.vehicle, horizon_, are_of_sensor);
+    if (poses_.vehicles.count(observation->sensorLabel) > 0) pose.attitude_is_of_sensor = true;
     entry.scans.push_back({observation, pose, entry.number, name, nullptr});
     if (recovers_beams_ && observations::isCloud(*observation)) {
         entry.scans.back().beams = beamsOf(observation->sensorLabel);
@@ -155,8 +157,8 @@ std::string whyNoFolder(const fs::path& folder) {
     }
     const fs::path scans = scansWithin(folder);
     return "not a scan folder (no subfolder 'velodyne' with .bin files), and no folder of point "
-           "clouds (no .pcd, "
-           ".ply, .las, .npy or .bin) or with a recording (.rawlog, .pcap, .bag, .mcap, .db3)" +
+           "clouds (no .pcd, .ply, .las, .npy or .bin) or with a recording (.rawlog, .pcap, "
+           ".bag, .mcap, .db3)" +
            (scans.empty() ? "" : "; there are scans in " + scans.string());
 }
 

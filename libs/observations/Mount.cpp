@@ -26,7 +26,7 @@ ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
     if (isLevel(mount)) return mounted;
     if (!pose.attitude) {
         mounted.attitude = mount;
-    } else if (!pose.is_of_sensor) {
+    } else if (!pose.attitude_is_of_sensor) {
         mounted.attitude = attitudeOf(levelFromSensor(*pose.attitude) * levelFromSensor(mount));
     }
     if (pose.is_of_sensor) return mounted;

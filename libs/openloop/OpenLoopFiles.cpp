@@ -228,10 +228,10 @@ void OpenLoopFiles::commit(const OpenLoop& open_loop, const OpenLoopResult& resu
     }
 }
 
-void OpenLoopFiles::keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result) {
+std::string OpenLoopFiles::keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result) {
     finish(open_loop, result);
     for (const auto& file : files_) all_.write(file->path, [&] { file->path.keepPartial(); });
-    if (!all_.failures().empty()) throw std::runtime_error(all_.failures());
+    return all_.failures();
 }
 
 }  // namespace hagen::openloop

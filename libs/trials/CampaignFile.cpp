@@ -4,10 +4,8 @@
 #include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/SettingsHash.h>
 
-#include <fstream>
 #include <stdexcept>
 
-#include "TextFile.h"
 #include "Words.h"
 
 namespace hagen::trials {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "FolderLock.h"
@@ -22,7 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostJournals = 1000000000;  // numbers beyond are no journals of ours
+constexpr int kMostJournals = 1000000000;              // numbers beyond are no journals of ours
+constexpr std::string_view kMarker = "campaign.json";  // tells the folder of a campaign
 constexpr const char* kFiles[] = {"profile.json", "runs.csv", "measured.csv", "campaign.json"};
 
 /// But for outputs that did not get their names, as of a run that failed while it made the folder.
@@ -54,7 +56,7 @@ void CampaignFolder::open(bool overwrite) {
     lock_ = lockFolder(folder_);  // first of all, because another program may be setting it up
     removeUnfinished();
     const bool is_new = holdsNothing(folder_);
-    if (!is_new && !fs::exists(folder_ / "campaign.json")) {
+    if (!is_new && !fs::exists(folder_ / kMarker)) {
         throw std::runtime_error(folder_.string() +
                                  ": exists and contains no campaign; choose another folder");
     }
@@ -80,15 +82,12 @@ void CampaignFolder::begin() {
 
 void CampaignFolder::write(const std::map<std::string, std::string>& texts) {
     std::vector<std::unique_ptr<base::OutputPath>> outputs;
-    std::vector<fs::path> names;
     for (const auto& [name, text] : texts) {
         const fs::path file = folder_ / name;
         outputs.push_back(std::make_unique<base::OutputPath>(file, base::kFile, true));
         base::writeText(text, outputs.back()->temporary(), file);
-        names.push_back(file);
     }
-    if (std::exchange(replaces_, false)) removeOld(texts);
-    const base::RenamingNote note(names);
+    if (std::exchange(replaces_, false)) removeOld();
     for (const auto& output : outputs) output->commit();
 }
 
@@ -105,10 +104,10 @@ void CampaignFolder::removeJournals() const {
     if (error) throw fs::filesystem_error("cannot be removed", folder_ / "journal", error);
 }
 
-void CampaignFolder::removeOld(const std::map<std::string, std::string>& replaced) const {
+void CampaignFolder::removeOld() const {
     removeJournals();
     for (const char* name : kFiles) {
-        if (replaced.count(name) == 0) fs::remove(folder_ / name);
+        if (name != kMarker) fs::remove(folder_ / name);
     }
 }
 

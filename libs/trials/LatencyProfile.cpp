@@ -2,12 +2,10 @@
 #include <hagen/base/Quantile.h>
 #include <hagen/base/ReadFile.h>
 #include <hagen/base/TextStream.h>
-#include <hagen/base/WriteFile.h>
 #include <hagen/trials/LatencyProfile.h>
 #include <hagen/trials/Statistics.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <locale>
 #include <stdexcept>

@@ -1,8 +1,6 @@
 #include "TextFile.h"
 
-#include <hagen/base/OutputPath.h>
 #include <hagen/base/ReadFile.h>
-#include <hagen/base/WriteFile.h>
 
 #include <cerrno>
 #include <cstring>
@@ -12,12 +10,6 @@
 namespace hagen::trials {
 
 namespace fs = std::filesystem;
-
-void writeWhole(const fs::path& file, const std::string& text) {
-    base::OutputPath output(file, base::kFile, true);
-    base::writeText(text, output.temporary(), file);
-    output.commit();
-}
 
 std::vector<std::string> linesOf(const fs::path& file) {
     std::ifstream in = base::openToRead(file);

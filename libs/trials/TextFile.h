@@ -5,10 +5,6 @@
 
 namespace hagen::trials {
 
-/// Writes a file under a temporary name and renames it once it is complete. Throws
-/// std::runtime_error, naming it.
-void writeWhole(const std::filesystem::path& file, const std::string& text);
-
 /// Throws std::runtime_error, naming the file.
 std::vector<std::string> linesOf(const std::filesystem::path& file);
 

@@ -130,7 +130,7 @@ std::shared_ptr<Segmented> Filter::segment(const PythonScan& scan,
     observations::ScanPose pose = scan.recorded.pose;
     if (attitude) {
         pose.attitude = attitude;
-        pose.is_of_sensor = true;
+        pose.attitude_is_of_sensor = true;
     }
     observations::ObservationSegmenter::Output out;
     try {

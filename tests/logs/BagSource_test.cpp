@@ -76,6 +76,28 @@ TEST_F(BagSourceTest, PosesAreThoseOfTheVehicleAndTheMountIsThatOfTheBag) {
     }
 }
 
+TEST_F(BagSourceTest, PosesOfTheLidarsOwnFrameContainItsMount) {
+    const auto poseOf = [&](const std::string& moved) {
+        std::vector<test::SentMessage> messages;
+        for (int i = 0; i < 5; ++i) {
+            const double time_s = kStart_s + 0.1 * i;
+            messages.push_back(test::transformMessage("/tf", time_s, "map", moved, i, 0, 0));
+            messages.push_back(test::cloudMessage("/points", time_s, "lidar", {1, 2, 3, 4}));
+        }
+        const auto file = folder_ / (moved + ".mcap");
+        test::writeBytes(file, test::mcapOf(messages));
+        const auto source = openRecording(file);
+        source->usePoses("");
+        source->nextScan();
+        return source->nextScan()->pose;
+    };
+    EXPECT_TRUE(poseOf("lidar").is_of_sensor);
+    EXPECT_TRUE(poseOf("lidar").attitude_is_of_sensor);
+    // Nothing says where the LiDAR is on it.
+    EXPECT_TRUE(poseOf("base_link").is_of_sensor);
+    EXPECT_TRUE(poseOf("base_link").attitude_is_of_sensor);
+}
+
 TEST_F(BagSourceTest, PosesOfAFileReplaceThem) {
     SourceOptions options;
     options.topics = {"/rear"};

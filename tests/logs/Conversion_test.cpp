@@ -382,7 +382,7 @@ TEST_P(ConversionTest, AScanWithoutATimeIsToldAndItsFolderCanBeRead) {
     to_folder.rawlog.clear();
     to_folder.folder = folder_ / "scans";
     convert(to_folder, remarksInto(remarks));
-    EXPECT_THAT(remarks, testing::ElementsAre("entry 0 (lidar): its time stamp is no time"));
+    EXPECT_THAT(remarks, testing::ElementsAre("entry 0 (lidar): it has no valid time"));
     Conversion back = nothing();
     back.input = folder_ / "scans";
     back.rawlog = folder_ / "back.rawlog";

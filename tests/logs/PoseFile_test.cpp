@@ -132,6 +132,10 @@ TEST_F(PoseFile, ScansOfAKittiFileThatTheirTimesDoNotTellApartAreRefused) {
                 HasSubstr("poses.txt: scans 0 and 1 have different poses, but the same time"));
     folder_.write("poses.txt", "1 0 0 4 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
     EXPECT_TRUE(posesOfRawlog(survey, file).are_of_sensor);
+    // Without times they have no poses, so there is nothing to tell apart.
+    folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
+    for (auto& scan : survey.scans["lidar"]) scan.time = INVALID_TIMESTAMP;
+    EXPECT_EQ(test::messageOf([&] { posesOfRawlog(survey, file); }), "");
 }
 
 TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {

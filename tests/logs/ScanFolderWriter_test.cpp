@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/logs/PoseFile.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanFolderWriter.h>
 #include <hagen/settings/Settings.h>
@@ -56,6 +57,22 @@ TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
     mergeSettings(read.sensorFile(), settings);
     EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
     EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
+}
+
+/// Such as of clouds beside one whose name has no number, which was left out.
+TEST(ScanFolderWriter, TimesAndPosesAreInTheOrderInWhichNamesAreRead) {
+    const test::TemporaryFolder folder;
+    ScanFolderWriter writer(folder.path());
+    for (const auto& [name, time_s] : {std::pair{"10", 50.0}, {"9", 60.0}}) {
+        writer.write(name, threePoints(), labels(), sensorModel("VLP-16"), time_s,
+                     mrpt::poses::CPose3D(time_s, 0, 0, 0, 0, 0));
+    }
+    writer.finish();
+    const ScanFolder read(folder.path());
+    EXPECT_EQ(read.name(0), "9");
+    EXPECT_EQ(read.times(), (std::vector<double>{60, 50}));
+    EXPECT_EQ(readTumPoses(read.tumFile()).at(0).pose.x(), 60);
+    EXPECT_NEAR(readKittiPoses(read.kittiPosesFile()).at(1).x(), -10, 1e-9);
 }
 
 TEST(ScanFolderWriter, KeepsTheMountOfTheSensor) {

@@ -510,7 +510,7 @@ TEST_F(ScanSourceTest, OtherFilesAmongTheScansOfAFolderAreTold) {
     folder_.write("scans/velodyne/000003.BIN", "");
     const auto source = openRecording(folder);
     EXPECT_EQ(source->entriesKnown(), 2u);
-    EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("2 of the files in ")));
+    EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("2 of the entries in ")));
     EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("such as 000002.bin.gz")));
 }
 
@@ -536,6 +536,13 @@ TEST_F(ScanSourceTest, PosesOfAFolderAreOfItsSensorAndThoseOfARawlogOfTheVehicle
     const auto sensor = openRecording(log);
     sensor->usePoses(folder_ / "kitti.txt");
     EXPECT_TRUE(sensor->nextScan()->pose.is_of_sensor);
+    // The attitude of an IMU or a robot pose is the vehicle's, whatever the poses are of.
+    const auto both = openRecording(rawlogOf({pose(0.95, 0, 0.1), cloud(1, "front")}));
+    both->usePoses(folder_ / "kitti.txt");
+    const auto scan = both->nextScan();
+    ASSERT_TRUE(scan->pose.attitude);
+    EXPECT_TRUE(scan->pose.is_of_sensor);
+    EXPECT_FALSE(scan->pose.attitude_is_of_sensor);
 }
 
 TEST_F(ScanSourceTest, ScansDeeperInAFolderAreNamed) {

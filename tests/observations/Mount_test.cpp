@@ -48,7 +48,9 @@ TEST(Mount, OfTheSettingsCountsWhereTheRecordingSaysNothing) {
     // Nose down by 8 degrees, then turned about its own forward axis.
     vehicle.attitude = tilt(0, 8);
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(90, 8));
-    vehicle.is_of_sensor = true;
+    vehicle.is_of_sensor = true;  // its pose, but not its attitude
+    expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(90, 8));
+    vehicle.attitude_is_of_sensor = true;
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(0, 8));
 }
 

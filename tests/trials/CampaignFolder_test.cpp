@@ -216,6 +216,36 @@ TEST(CampaignFolder, OneThatWasStoppedWhileItWasMadeIsMadeWhole) {
     EXPECT_EQ(readFile(place / "e/campaign.partial.json"), "{");
 }
 
+/// Killed while the files of another profile replaced it: campaign.json is the first to be there.
+TEST(CampaignFolder, OneThatWasKilledWhileItWasOverwrittenIsMadeWhole) {
+    const TemporaryFolder place;
+    std::string campaign;
+    {
+        CampaignFolder folder(place / "new", constantProfile(2), false);
+        campaign = readFile(place / "new/campaign.json");
+    }
+    const auto filled = [&](const std::string& name) {
+        CampaignFolder folder(place / name, constantProfile(1), false);
+        journal(folder, {1});
+        folder.readJournals();
+        folder.finish();
+    };
+    filled("c");
+    // No name is free for profile.json: the step after the first new name fails.
+    fs::remove(place / "c/profile.json");
+    fs::create_directory(place / "c/profile.json");
+    EXPECT_NE(
+        messageOf([&] { CampaignFolder(place / "c", constantProfile(2), true).newJournal(); }), "");
+    // Before it, everything but campaign.json is gone.
+    filled("d");
+    for (const char* old : {"profile.json", "runs.csv", "measured.csv"})
+        fs::remove(place / "d" / old);
+    place.write("d/campaign.json", campaign);
+    CampaignFolder folder(place / "d", constantProfile(2), false);
+    EXPECT_EQ(folder.size(), 0u);
+    EXPECT_EQ(readFile(place / "d/profile.json"), textOf(constantProfile(2)));
+}
+
 TEST(CampaignFolder, OneThatCannotBeRemovedRemainsACampaign) {
     const TemporaryFolder place;
     { CampaignFolder folder(place / "c", constantProfile(1), false); }

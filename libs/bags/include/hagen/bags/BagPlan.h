@@ -24,6 +24,7 @@ struct BagSensor {
     std::string label;                ///< sensor label of its scans
     mrpt::poses::CPose3D on_vehicle;  ///< by the bag's static transforms; origin: not known
     bool has_its_own_poses = false;   ///< BagPlan::poses are taken for those of the sensor
+    bool is_vehicle = false;          ///< its own frame is that of the vehicle, which moves
     std::shared_ptr<const packets::OusterSensor> ouster;  ///< of Ouster packets; otherwise null
 };
 

@@ -18,6 +18,7 @@ struct LogPoses {
     /// labels.
     bool are_of_sensor = false;
     std::set<std::string> of_sensors = {};
+    std::set<std::string> vehicles = {};  ///< LiDARs, by label, that are the vehicle themselves
 };
 
 /// The poses of a rawlog: from `file` if given, otherwise from the log. A KITTI file must have one

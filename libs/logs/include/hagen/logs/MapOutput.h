@@ -17,8 +17,8 @@ namespace hagen::logs {
 /// A scan in the map frame.
 struct PlacedScan {
     mapping::MappedScan mapped;
-    /// All returns are placed with the pose of the scan, because they have no times, or because
-    /// the vehicle's poses end before the scan does, or leave a gap in it.
+    /// All returns are placed with the pose of the scan, because they have no times (of one scan),
+    /// or because the vehicle's poses end before the scan does, or leave a gap in it.
     bool is_by_one_pose;
 };
 

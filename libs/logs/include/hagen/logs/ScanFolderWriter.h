@@ -50,8 +50,9 @@ class ScanFolderWriter {
     std::filesystem::path folder_;
     Attitude mount_;
     std::optional<GivenLimits> unnamed_;
+    std::vector<std::string> names_;  ///< of the scans, and of each:
     std::vector<double> times_s_;
-    std::vector<TimedPose> poses_;
+    std::vector<std::optional<mrpt::poses::CPose3D>> poses_;
     bool have_horizon_ = true;
 };
 

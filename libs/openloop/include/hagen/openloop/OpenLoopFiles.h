@@ -35,9 +35,9 @@ class OpenLoopFiles {
     /// Completes the files and removes partial files of earlier runs. Throws std::runtime_error,
     /// naming them, if some could not be written; the others are complete.
     void commit(const OpenLoop& open_loop, const OpenLoopResult& result);
-    /// Keeps the results of a log that ended early as scans.partial.csv and so on. Throws like
-    /// commit().
-    void keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result);
+    /// Keeps the results of a log that ended early as scans.partial.csv and so on. Returns why some
+    /// could not be written; "" if all were.
+    std::string keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result);
 
  private:
     struct File {

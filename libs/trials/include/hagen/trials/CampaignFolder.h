@@ -51,7 +51,7 @@ class CampaignFolder {
     /// Takes in the runs and plans of another folder, for finish(). Throws like checkJoins().
     void add(const CampaignFolder& other);
 
-    /// Writes all files, and removes the journals.
+    /// Writes runs.csv, measured.csv and what else is new, and removes the journals.
     void finish();
 
  private:
@@ -61,13 +61,15 @@ class CampaignFolder {
     };
     void open(bool overwrite);
     void begin();
-    /// Writes files with these texts, by name. None gets its name before all are complete.
+    /// Writes files with these texts, by name. None gets its name before all are complete, and
+    /// campaign.json is the first: a command that is killed in between leaves a campaign that the
+    /// next one completes.
     void write(const std::map<std::string, std::string>& texts);
     /// Removes temporary files of a command that was killed.
     void removeUnfinished() const;
     void removeJournals() const;
-    /// Removes what is not replaced by new files.
-    void removeOld(const std::map<std::string, std::string>& replaced) const;
+    /// Removes an older campaign, except for campaign.json, which is to be replaced.
+    void removeOld() const;
     void readTables();
     void keep(const std::string& text, const std::string& measured, const std::string& from);
     void addPlan(const std::string& plan);
