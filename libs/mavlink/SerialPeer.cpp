@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <iterator>
 #include <stdexcept>
 #include <thread>
@@ -58,11 +57,11 @@ class SerialPeer : public Peer {
 
     std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) override {
         if (!isOpen()) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(longest_s));
+            std::this_thread::sleep_for(std::chrono::milliseconds(waitMs(longest_s)));
             return 0;
         }
         pollfd waits{line_, POLLIN, 0};
-        if (poll(&waits, 1, static_cast<int>(std::ceil(1e3 * longest_s))) <= 0) return 0;
+        if (poll(&waits, 1, waitMs(longest_s)) <= 0) return 0;
         const ssize_t got = read(line_, buffer, size);
         if (got > 0) return static_cast<std::size_t>(got);
         if (got == 0) leave(ENODEV);

@@ -7,9 +7,17 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <future>
+#include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "support/Program.h"
 
@@ -138,6 +146,29 @@ TEST(UdpPeer, SurvivesThatNobodyListens) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
+/// A time that has just passed is waited for as none, not without an end.
+void expectNoWait(Peer& peer) {
+    for (const double longest_s : {0.0, -0.0005, -0.002, -1e300, std::nan("")}) {
+        std::array<std::uint8_t, 16> buffer{};
+        std::promise<std::size_t> received;
+        auto size = received.get_future();
+        std::thread waits(
+            [&] { received.set_value(peer.receive(buffer.data(), buffer.size(), longest_s)); });
+        const bool has_ended = size.wait_for(std::chrono::seconds(5)) == std::future_status::ready;
+        if (!has_ended) {
+            ADD_FAILURE() << "waits for ever: " << longest_s;
+            std::exit(1);  // nothing ends that thread
+        }
+        waits.join();
+        EXPECT_EQ(size.get(), 0u);
+    }
+}
+
+TEST(UdpPeer, ATimeThatHasPassedIsNotWaitedFor) {
+    const Socket other;
+    expectNoWait(*peerAt(other.port()));
+}
+
 /// A serial line whose other end is this test.
 class Line {
  public:
@@ -189,6 +220,17 @@ TEST(SerialPeer, PassesAllBytesAndSurvivesThatTheLineIsUnplugged) {
     }
     EXPECT_EQ(line->receive(64), Bytes{9});
     EXPECT_EQ(peer->trouble(), "");
+}
+
+TEST(SerialPeer, ATimeThatHasPassedIsNotWaitedFor) {
+    const test::TemporaryFolder folder;
+    const std::string name = (folder / "line").string();
+    auto line = std::make_unique<Line>(name);
+    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+    expectNoWait(*peer);
+    line.reset();  // unplugged
+    for (int i = 0; i < 20 && peer->trouble().empty(); ++i) received(*peer);
+    expectNoWait(*peer);
 }
 
 /// A service may be started without standard input: the line then has the descriptor 0.
