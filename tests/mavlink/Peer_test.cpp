@@ -279,5 +279,40 @@ TEST(SerialPeer, AMessageIsSentWholeOrNotAtAll) {
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i / size);
 }
 
+/// Where obstacles were long ago is not told first, once the line goes on.
+TEST(SerialPeer, ALineThatTakesNothingIsToldAndForgetsWhatWaits) {
+    const test::TemporaryFolder folder;
+    const std::string name = (folder / "line").string();
+    const Line line(name);
+    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+    constexpr std::size_t kSize = 200;
+    std::size_t sent = 0;
+    while (sent < 250 && peer->send(Bytes(kSize, 1))) ++sent;
+    ASSERT_LT(sent, 250u);
+    EXPECT_EQ(peer->trouble(), "");
+    for (int i = 0; i < 100 && peer->trouble().empty(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        peer->send(Bytes(kSize, 2));
+    }
+    ASSERT_THAT(peer->trouble(), HasSubstr(name + ": takes nothing"));
+    EXPECT_TRUE(peer->send(Bytes(kSize, 4)));
+
+    Bytes all;
+    while (all.empty() || all.back() != 4) {
+        const Bytes part = line.receive(4096);
+        ASSERT_FALSE(part.empty());
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    // The other end of a pseudoterminal keeps what it has taken over.
+    EXPECT_LT(all.size(), sent * kSize / 2);
+    EXPECT_EQ(std::count(all.begin(), all.end(), 4), static_cast<std::ptrdiff_t>(kSize));
+    for (int i = 0; i < 40 && !peer->trouble().empty(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        EXPECT_TRUE(peer->send(Bytes(kSize, 3)));
+        line.receive(4096);
+    }
+    EXPECT_EQ(peer->trouble(), "");
+}
+
 }  // namespace
 }  // namespace hagen::mavlink
