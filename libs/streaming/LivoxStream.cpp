@@ -1,6 +1,7 @@
 #include <hagen/range_image/Airframe.h>
 #include <hagen/streaming/LivoxStream.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "CheckTime.h"
@@ -37,6 +38,15 @@ void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_senso
     segmenter_->setPose(map_from_sensor);
 }
 
+/// A copy may come after later packets, as by a second path. It measured nothing: where packets are
+/// lost, copies of others do not make up for them.
+bool LivoxStream::isRepeated(const packets::LivoxPacket& packet) const {
+    const auto end = recent_.begin() + static_cast<std::ptrdiff_t>(std::min(recent_at_, kRecent));
+    return std::any_of(recent_.begin(), end, [&](const Recent& other) {
+        return other.time_ns == packet.time_ns && other.number == packet.number;
+    });
+}
+
 LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size, double arrival_s) {
     checkTime(arrival_s);
     packets::Datagram datagram;
@@ -51,14 +61,15 @@ LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size,
         ++counts_.foreign;
         return Taken::Foreign;
     }
+    if (isRepeated(*packet)) {
+        ++counts_.repeated;
+        return Taken::Repeated;
+    }
+    recent_[recent_at_++ % kRecent] = {packet->time_ns, packet->number};
     bool is_late = false;
     if (has_last_) {
         const auto step =
             static_cast<std::int16_t>(static_cast<std::uint16_t>(packet->number - last_number_));
-        if (step == 0 && packet->time_ns == last_ns_) {
-            ++counts_.repeated;
-            return Taken::Repeated;
-        }
         const bool is_earlier = packet->time_ns < last_ns_;
         const std::uint64_t gap_ns =
             is_earlier ? last_ns_ - packet->time_ns : packet->time_ns - last_ns_;

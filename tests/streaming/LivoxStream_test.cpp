@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/streaming/LivoxStream.h>
+#include <hagen/streaming/SectorDistances.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,39 @@ TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
     EXPECT_EQ(counts.late, 1u);
     EXPECT_EQ(counts.interruptions, 1u);
     EXPECT_EQ(counts.packets, 9u);
+}
+
+/// Of each ten packets six are lost, and the others come again after the next one: four measured.
+TEST_F(LivoxStreamTest, CopiesDoNotMakeUpForLostPackets) {
+    double measured_s = 0;
+    SectorDistances distances(sensorModel("Mid-360"));
+    LivoxStream stream({}, [&](const LabelledSector& sector) {
+        measured_s += sector.measured_s;
+        distances.take(sector);
+    });
+    const auto addTo = [&](const std::string& packet, double time_s) {
+        return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                          time_s);
+    };
+    const std::vector<test::LivoxPoint> nothing(kPoints, {0, 0, 0, 0});
+    std::string before;
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 10 >= 4) continue;
+        const double time_s = 1 + 1e-9 * kPacket_ns * i;
+        const std::string packet = test::livoxPacket(nothing, 1000000000 + kPacket_ns * i, i);
+        EXPECT_EQ(addTo(packet, time_s), Taken::Yes);
+        if (!before.empty()) {
+            EXPECT_EQ(addTo(before, time_s), Taken::Repeated);
+        }
+        before = packet;
+    }
+    stream.flush();
+    EXPECT_EQ(stream.counts().repeated, 399u);
+    EXPECT_EQ(stream.counts().late, 0u);
+    EXPECT_NEAR(measured_s, 0.4 * 1e-9 * kPacket_ns * 1000, 1e-6);
+    for (const auto& sector : distances.at(1 + 1e-9 * kPacket_ns * 1000)) {
+        EXPECT_EQ(sector.state, SectorDistances::State::Unknown);
+    }
 }
 
 /// What is near may be an obstacle, as long as little is known around.

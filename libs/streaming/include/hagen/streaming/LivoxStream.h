@@ -3,6 +3,7 @@
 #include <hagen/settings/Settings.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -45,12 +46,22 @@ class LivoxStream {
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
+    struct Recent {
+        std::uint64_t time_ns;
+        std::uint16_t number;
+    };
+    static constexpr std::size_t kRecent = 512;  // packets: a quarter of a second
+
+    bool isRepeated(const packets::LivoxPacket& packet) const;
+
     Settings settings_;
     double frame_s_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
     bool is_begun_ = false, has_last_ = false;
     std::uint64_t start_ns_ = 0, last_ns_ = 0;
     std::uint16_t last_number_ = 0;
+    std::array<Recent, kRecent> recent_{};  ///< a ring
+    std::size_t recent_at_ = 0;             ///< packets that were written to it
     std::size_t packets_of_frame_ = 0;
     double last_arrival_s_ = 0;
     double measured_s_ = 0;  ///< by the packets of the frame
