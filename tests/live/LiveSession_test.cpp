@@ -380,6 +380,55 @@ TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {
     EXPECT_THAT(report.recorded.failure, HasSubstr("took no packets for 0.2 s and was ended"));
 }
 
+/// What fits into the socket tells nothing. Another process has that, too.
+TEST_F(LiveRecordingTest, ARecorderThatIsStuckAtTheEndIsEnded) {
+    recordBy(kReady + std::string("exec 5<&0\nsleep 5 >/dev/null 2>&1 &\nexec sleep 30"));
+    options_.recording.patience_s = 0.3;
+    GivenPackets source;
+    source.addAll(turnsOf(1)).asSensor();
+    const LiveReport report = run(source);
+    EXPECT_THAT(report.recorded.failure,
+                testing::AllOf(HasSubstr((folder_ / "a.rawlog").string()),
+                               HasSubstr("did nothing for 0.3 s and was ended"),
+                               HasSubstr("under a temporary name beside it")));
+}
+
+TEST_F(LiveRecordingTest, ARecorderThatIsBusyAtTheEndIsWaitedFor) {
+    recordBy(kReady + std::string("i=0\nwhile [ $i -lt 1000000 ]; do i=$((i + 1)); done\n") +
+             sayDone());
+    options_.recording.patience_s = 0.4;
+    GivenPackets source;
+    source.addAll(turnsOf(1)).asSensor();
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.recorded.failure, "");
+    EXPECT_EQ(report.recorded.turns, 2u);
+}
+
+/// It starts a program whose input has no writer yet: the system shows that as it shows a wait for
+/// the disk.
+TEST_F(LiveRecordingTest, ARecorderThatWaitsForItsDiskAtTheEndIsWaitedForLonger) {
+    const std::string fifo = (folder_ / "fifo").string();
+    ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+    std::thread writer([&] {
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+        const int end = open(fifo.c_str(), O_RDWR | O_CLOEXEC);
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        close(end);
+    });
+    const auto program = folder_.write(
+        "recorder.py", "import os\nos.posix_spawn('/bin/true', ['true'], {}, file_actions=["
+                       "(os.POSIX_SPAWN_OPEN, 3, '" +
+                           fifo + "', os.O_RDONLY, 0)])\nos.write(0, b'" + kDone + "\\n')\n");
+    recordBy(kReady + std::string("exec python3 '") + program.string() + "'\n");
+    options_.recording.patience_s = 0.4;
+    GivenPackets source;
+    source.addAll(turnsOf(1)).asSensor();
+    const LiveReport report = run(source);
+    writer.join();
+    EXPECT_EQ(report.recorded.failure, "");
+    EXPECT_EQ(report.recorded.turns, 2u);
+}
+
 TEST_F(LiveSessionTest, AFailingSourceIsReported) {
     class Failing : public PacketSource {
      public:
