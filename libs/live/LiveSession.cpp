@@ -94,7 +94,8 @@ class Session {
     Session(const LiveOptions& options, const LiveListener& listener, bool is_live);
 
     void take(const Packet& packet);
-    /// Tells silence, shows the status; if no packet waits, ends the sector in progress.
+    /// Tells silence, shows the status; if the sensor is silent, ends the sector in progress.
+    /// `is_idle`: no packet waits.
     void look(bool is_idle);
     LiveReport finish(double start_cpu_s);
     LiveReport& report() { return report_; }
@@ -223,12 +224,14 @@ void Session::tellSilence(double now_s) {
 
 void Session::look(bool is_idle) {
     const double now_s = steadyNow_s();
-    if (is_idle && report_.datagrams > 0 && !is_flushed_ && now_s - last_packet_s_ > kFlush_s) {
+    // Packets that wait for a busy processor are no silence of the sensor; those that others send
+    // to the port do not shorten it.
+    const double heard_s = is_idle ? now_s : last_taken_s_;
+    if (report_.datagrams > 0 && !is_flushed_ && heard_s - last_packet_s_ > kFlush_s) {
         sensor_->flush();
         is_flushed_ = true;
     }
-    // Packets that wait for a busy processor are no silence of the sensor.
-    tellSilence(is_idle ? now_s : last_taken_s_);
+    tellSilence(heard_s);
     if (recorder_ && !is_recording_told_) {
         const std::string failure = recorder_->failure();
         if (!failure.empty()) {

@@ -28,7 +28,7 @@ namespace hagen::live {
 namespace {
 
 constexpr std::size_t kQueue = 4096;       // packets: seconds
-constexpr double kDiskPatience = 6;         // times as long: caches of hundreds of megabytes
+constexpr double kDiskPatience = 6;        // times as long: caches of hundreds of megabytes
 constexpr std::chrono::seconds kDeath{2};  // of what is killed
 
 std::filesystem::path programOf(const RecordingOptions& recording) {

@@ -227,6 +227,27 @@ TEST_F(LiveSessionTest, WithTooManyAddressesNoneTakesThePlaceOfOurs) {
     EXPECT_EQ(report.foreign, 101u);
 }
 
+/// What came before a silence gets its labels although others send to the port.
+TEST_F(LiveSessionTest, OthersDoNotKeepASectorFromItsLabels) {
+    GivenPackets source;
+    auto turn = turnsOf(1);
+    turn.resize(74);  // not a whole number of sectors
+    const std::vector<std::string> others(10, turnsOf(1, 900000000)[0]);
+    source.addFrom(kOurs, turn).addFrom(kOther, others);
+    source.later(0.03).addFrom(kOther, others).addFrom(kOurs, turnsOf(1, 1140000));
+    std::size_t packets = 0, cut_after = 0;
+    LiveListener listener;
+    listener.motion = [&](double) {
+        ++packets;
+        return streaming::SensorMotion();
+    };
+    listener.sector = [&](const streaming::LabelledSector& sector) {
+        if (sector.is_cut && cut_after == 0) cut_after = packets;
+    };
+    runLive(source, options_, listener);
+    EXPECT_EQ(cut_after, 74u + 10 + 1);
+}
+
 TEST_F(LiveSessionTest, PacketsThatWaitForTheProcessorAreNoSilence) {
     GivenPackets source;
     source.addAll(turnsOf(1));
@@ -415,10 +436,11 @@ TEST_F(LiveRecordingTest, ARecorderThatWaitsForItsDiskAtTheEndIsWaitedForLonger)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         close(end);
     });
-    const auto program = folder_.write(
-        "recorder.py", "import os\nos.posix_spawn('/bin/true', ['true'], {}, file_actions=["
-                       "(os.POSIX_SPAWN_OPEN, 3, '" +
-                           fifo + "', os.O_RDONLY, 0)])\nos.write(0, b'" + kDone + "\\n')\n");
+    const auto program =
+        folder_.write("recorder.py",
+                      "import os\nos.posix_spawn('/bin/true', ['true'], {}, file_actions=["
+                      "(os.POSIX_SPAWN_OPEN, 3, '" +
+                          fifo + "', os.O_RDONLY, 0)])\nos.write(0, b'" + kDone + "\\n')\n");
     recordBy(kReady + std::string("exec python3 '") + program.string() + "'\n");
     options_.recording.patience_s = 0.4;
     GivenPackets source;
