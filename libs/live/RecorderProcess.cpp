@@ -235,7 +235,7 @@ void RecorderProcess::watchEnd() {
         waiting = now_waiting;
         if (now_s - alive_s <= patience_s_) continue;
         if (now_s - alive_s <= kDiskPatience * patience_s_ && waitsForDisk(process_)) continue;
-        endIt("did nothing for ");
+        endIt(waitsForDisk(process_) ? "waited for its disk for more than " : "did nothing for ");
         is_given_up_ = !hasEndedWithin(kDeath);
         return;
     }
