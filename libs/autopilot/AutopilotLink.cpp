@@ -116,7 +116,12 @@ class AutopilotLink::Work {
         for (std::size_t period = 0; !is_at_end_; ++period) {
             attempt([&] { sendPeriod(period); });
             next_s = std::max(next_s + kPeriod_s, now_s() - kMostBehind_s);
-            while (!is_at_end_ && now_s() < next_s) attempt([&] { receive(next_s - now_s()); });
+            while (!is_at_end_) {
+                // One reading: by a second one, the time may have passed, and the wait be negative.
+                const double rest_s = next_s - now_s();
+                if (rest_s <= 0) break;
+                attempt([&] { receive(rest_s); });
+            }
             attempt([&] { tellPeer(); });
             attempt([&] { tellAttitude(); });
         }

@@ -141,6 +141,7 @@ class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
     bool turns() const override { return false; }
     Counts counts() const override {
         Counts counts = commonCounts();
+        counts.late += stream_->counts().too_late;
         counts.wrong_size = stream_->counts().foreign;
         counts.position = stream_->counts().imu;
         counts.scans = segmenter().sectors() / 5;  // frames of 20 ms

@@ -5,14 +5,18 @@
 #include <hagen/packets/CaptureFile.h>
 #include <hagen/packets/VelodyneModel.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <ctime>
 #include <exception>
 #include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "LiveSensor.h"
 #include "RecorderProcess.h"
@@ -38,13 +42,60 @@ double processCpu_s() {
 
 double threadCpu_s() { return std::chrono::duration<double>(base::threadCpuTime()).count(); }
 
+/// Which of the addresses that send packets of the sensor's model is the sensor's.
+class SensorAddress {
+ public:
+    /// Whether a packet from this address is of the sensor. `is_silent`: none of it has come for a
+    /// second.
+    bool take(std::uint32_t ip, bool is_silent);
+    /// None: nothing has come.
+    std::optional<std::uint32_t> ip() const {
+        return own_.empty() ? std::nullopt : std::optional(own_[current_]);
+    }
+
+ private:
+    /// Beyond, nothing takes the sensor's place: those not seen before may be any.
+    static constexpr std::size_t kMost = 64;
+
+    /// Those that the sensor had, in their order: it may come back with another one.
+    std::vector<std::uint32_t> own_;
+    std::size_t current_ = 0;  ///< of these
+    /// Those that sent while the sensor did, too: of other sensors, which never become ours.
+    std::vector<std::uint32_t> others_;
+};
+
+bool SensorAddress::take(std::uint32_t ip, bool is_silent) {
+    if (own_.empty()) own_.push_back(ip);
+    if (ip == own_[current_]) return true;
+    if (std::find(others_.begin(), others_.end(), ip) != others_.end()) return false;
+    const auto own = std::find(own_.begin(), own_.end(), ip);
+    if (own == own_.end()) {
+        if (own_.size() + others_.size() >= kMost) return false;
+        (is_silent ? own_ : others_).push_back(ip);
+        if (is_silent) current_ = own_.size() - 1;
+        return is_silent;
+    }
+    // Two that both send are two sensors: ours is the one that came first.
+    const auto at = static_cast<std::size_t>(own - own_.begin());
+    const std::size_t later = std::max(at, current_);
+    current_ = std::min(at, current_);
+    if (is_silent) {
+        current_ = at;
+    } else {
+        others_.push_back(own_[later]);
+        own_.erase(own_.begin() + static_cast<std::ptrdiff_t>(later));
+    }
+    return own_[current_] == ip;
+}
+
 /// What becomes of the packets of a sensor.
 class Session {
  public:
     Session(const LiveOptions& options, const LiveListener& listener, bool is_live);
 
     void take(const Packet& packet);
-    /// Tells silence, shows the status; if no packet waits, ends the sector in progress.
+    /// Tells silence, shows the status; if the sensor is silent, ends the sector in progress.
+    /// `is_idle`: no packet waits.
     void look(bool is_idle);
     LiveReport finish(double start_cpu_s);
     LiveReport& report() { return report_; }
@@ -65,7 +116,7 @@ class Session {
     std::unique_ptr<RecorderProcess> recorder_;
 
     double start_s_, status_s_, last_packet_s_ = 0, last_taken_s_ = 0;  ///< of the sensor, of all
-    std::optional<std::uint32_t> sensor_ip_;
+    SensorAddress address_;
     bool is_flushed_ = true, is_silent_ = false, is_recording_told_ = false;
     std::size_t foreign_ip_ = 0;
 };
@@ -86,19 +137,17 @@ void Session::tell(const streaming::LabelledSector& sector) {
     listener_.sector(sector);
 }
 
-/// Packets of the same model from another address are foreign, unless the first one fell silent:
-/// a sensor may come back with another address.
+/// Packets of the same model from another address are foreign, unless it is the sensor's new one.
 bool Session::isOfSensor(const Packet& packet) {
-    if (!sensor_ip_) {
-        sensor_ip_ = packet.from_ip;
-    } else if (*sensor_ip_ != packet.from_ip) {
-        if (packet.arrival_s - last_packet_s_ < kSilence_s) {
-            ++foreign_ip_;
-            return false;
-        }
+    const std::uint32_t before = address_.ip().value_or(packet.from_ip);
+    if (!address_.take(packet.from_ip, packet.arrival_s - last_packet_s_ >= kSilence_s)) {
+        ++foreign_ip_;
+        return false;
+    }
+    if (before != packet.from_ip) {
         listener_.remark("the sensor is now at " + packets::ipText(packet.from_ip) +
-                         ", no longer at " + packets::ipText(*sensor_ip_));
-        sensor_ip_ = packet.from_ip;
+                         ", no longer at " + packets::ipText(before));
+        sensor_->flush();  // no sector has returns of both
     }
     return true;
 }
@@ -175,12 +224,14 @@ void Session::tellSilence(double now_s) {
 
 void Session::look(bool is_idle) {
     const double now_s = steadyNow_s();
-    if (is_idle && report_.datagrams > 0 && !is_flushed_ && now_s - last_packet_s_ > kFlush_s) {
+    // Packets that wait for a busy processor are no silence of the sensor; those that others send
+    // to the port do not shorten it.
+    const double heard_s = is_idle ? now_s : last_taken_s_;
+    if (report_.datagrams > 0 && !is_flushed_ && heard_s - last_packet_s_ > kFlush_s) {
         sensor_->flush();
         is_flushed_ = true;
     }
-    // Packets that wait for a busy processor are no silence of the sensor.
-    tellSilence(is_idle ? now_s : last_taken_s_);
+    tellSilence(heard_s);
     if (recorder_ && !is_recording_told_) {
         const std::string failure = recorder_->failure();
         if (!failure.empty()) {

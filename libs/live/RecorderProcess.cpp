@@ -3,9 +3,11 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/live/RecorderLink.h>
 
+#include <linux/sockios.h>
 #include <sched.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +16,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -22,7 +27,9 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kQueue = 4096;  // packets: seconds
+constexpr std::size_t kQueue = 4096;       // packets: seconds
+constexpr double kDiskPatience = 6;        // times as long: caches of hundreds of megabytes
+constexpr std::chrono::seconds kDeath{2};  // of what is killed
 
 std::filesystem::path programOf(const RecordingOptions& recording) {
     return recording.program.empty() ? recorderProgram() : recording.program;
@@ -78,12 +85,40 @@ int spawn(std::vector<std::string> arguments, int socket, pid_t& pid) {
 }
 
 /// Waits until a process has ended. Without `reaps`, its number stays its own.
-siginfo_t waitFor(pid_t process, bool reaps) {
+siginfo_t waitFor(pid_t process, bool reaps, int how = 0) {
     siginfo_t end{};
-    const int how = reaps ? WEXITED : WEXITED | WNOWAIT;
+    how |= reaps ? WEXITED : WEXITED | WNOWAIT;
     while (waitid(P_PID, static_cast<id_t>(process), &end, how) < 0 && errno == EINTR) {
     }
     return end;
+}
+
+double cpuOf_s(pid_t process) {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Whether one of its threads waits for the disk ("D" in its state), which takes no processor.
+bool waitsForDisk(pid_t process) {
+    std::error_code error;
+    const std::string tasks = "/proc/" + std::to_string(process) + "/task";
+    for (std::filesystem::directory_iterator task(tasks, error), end; !error && task != end;
+         task.increment(error)) {
+        std::string stat;
+        std::getline(std::ifstream(task->path() / "stat"), stat);
+        const std::size_t name_end = stat.rfind(')');  // the name may hold anything
+        if (name_end != std::string::npos && stat.compare(name_end, 3, ") D") == 0) return true;
+    }
+    return false;
+}
+
+/// Of a process that takes packets: it changes while one of them is taken.
+int waitingBytes(int socket) {
+    int bytes = 0;
+    ioctl(socket, SIOCOUTQ, &bytes);
+    return bytes;
 }
 
 }  // namespace
@@ -148,10 +183,7 @@ void RecorderProcess::send() {
         if (popped != PacketQueue::Popped::Packet || !is_open) continue;
         is_open = sendPacket(socket_, packet);
         if (is_open) continue;
-        if (errno == EAGAIN) {
-            was_stuck_ = true;
-            kill(process_, SIGKILL);
-        }
+        if (errno == EAGAIN) endIt("took no packets for ");
         queue_.close();
     }
     shutdown(socket_, SHUT_WR);
@@ -173,17 +205,55 @@ void RecorderProcess::listen() {
     {
         const std::lock_guard lock(mutex_);
         recorded_ = std::move(recorded);
+        is_ended_ = true;
     }
+    has_ended_.notify_all();
     queue_.close();
+}
+
+/// Something else may hold its end of the socket, so that its death alone wakes no thread.
+void RecorderProcess::endIt(const char* why) {
+    why_ended_ = why;
+    kill(process_, SIGKILL);
+    shutdown(socket_, SHUT_RDWR);
+}
+
+/// Waits until the recorder has completed its file. One that does nothing for too long is ended: it
+/// would keep the session, and whoever restarts that, for ever. A disk may take longer.
+void RecorderProcess::watchEnd() {
+    double alive_s = steadyNow_s(), cpu_s = cpuOf_s(process_);
+    int waiting = waitingBytes(socket_);
+    std::unique_lock lock(mutex_);
+    const auto hasEndedWithin = [&](std::chrono::milliseconds longest) {
+        return has_ended_.wait_for(lock, longest, [&] { return is_ended_; });
+    };
+    while (!hasEndedWithin(std::chrono::milliseconds(20))) {
+        const double now_s = steadyNow_s(), now_cpu_s = cpuOf_s(process_);
+        const int now_waiting = waitingBytes(socket_);
+        if (now_cpu_s != cpu_s || now_waiting != waiting) alive_s = now_s;
+        cpu_s = now_cpu_s;
+        waiting = now_waiting;
+        if (now_s - alive_s <= patience_s_) continue;
+        if (now_s - alive_s <= kDiskPatience * patience_s_ && waitsForDisk(process_)) continue;
+        endIt(waitsForDisk(process_) ? "waited for its disk for more than " : "did nothing for ");
+        is_given_up_ = !hasEndedWithin(kDeath);
+        return;
+    }
 }
 
 /// Waits until the process has ended, without a word that can be read. If it still speaks, that
 /// ends it.
 std::string RecorderProcess::howItEnded() const {
     shutdown(socket_, SHUT_RD);
-    const siginfo_t end = waitFor(process_, false);
+    siginfo_t end{};
+    while (end.si_pid == 0 && !is_given_up_) {
+        end = waitFor(process_, false, WNOHANG);
+        if (end.si_pid == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    const char* const why = why_ended_;
     const std::string how =
-        was_stuck_ ? "took no packets for " + base::fixedText(patience_s_, 1) + " s and was ended"
+        why != nullptr ? why + base::fixedText(patience_s_, 1) + " s and was ended" +
+                             (end.si_pid == 0 ? ", but is still there: it waits for its disk" : "")
         : end.si_code == CLD_EXITED ? "ended with exit status " + std::to_string(end.si_status)
                                     : "was killed by signal " + std::to_string(end.si_status) +
                                           " (" + strsignal(end.si_status) + ")";
@@ -204,12 +274,13 @@ std::string RecorderProcess::failure() const {
 
 Recorded RecorderProcess::finish() {
     queue_.close();
+    if (listener_.joinable()) watchEnd();
     if (sender_.joinable()) sender_.join();
     if (listener_.joinable()) listener_.join();
     if (socket_ >= 0) {
         close(socket_);
         socket_ = -1;
-        waitFor(process_, true);
+        waitFor(process_, true, is_given_up_ ? WNOHANG : 0);
     }
     recorded_.packets_left_out = left_out_;
     return recorded_;

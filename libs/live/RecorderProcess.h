@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -34,6 +35,8 @@ class RecorderProcess {
  private:
     void send();
     void listen();
+    void watchEnd();
+    void endIt(const char* why);
     std::string howItEnded() const;
 
     const std::string program_, file_;
@@ -45,10 +48,13 @@ class RecorderProcess {
     Packet copy_;
     std::size_t left_out_ = 0;
     std::thread sender_, listener_;
-    std::atomic<bool> was_stuck_ = false;
+    std::atomic<const char*> why_ended_ = nullptr;  ///< by us: what it did for too long
+    std::atomic<bool> is_given_up_ = false;         ///< it was killed, and is still there
 
     mutable std::mutex mutex_;
-    Recorded recorded_;  ///< from its last line; until then, `failure` only
+    std::condition_variable has_ended_;
+    bool is_ended_ = false;  ///< it has said its last line, or has none
+    Recorded recorded_;      ///< from its last line; until then, `failure` only
 };
 
 }  // namespace hagen::live

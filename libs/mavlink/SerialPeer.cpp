@@ -1,12 +1,13 @@
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -31,7 +32,9 @@ const Speed* speedOf(int baud) {
     return found == std::end(kSpeeds) ? nullptr : found;
 }
 
-constexpr std::chrono::milliseconds kOpenEvery{500};  // a line that was unplugged
+constexpr std::chrono::milliseconds kOpenEvery{500};    // a line that was unplugged
+constexpr std::chrono::milliseconds kTakesWithin{300};  // as long as a direction stays known
+constexpr std::chrono::milliseconds kStuckFor{1000};    // is told, after the last time
 
 class SerialPeer : public Peer {
  public:
@@ -45,7 +48,9 @@ class SerialPeer : public Peer {
     SerialPeer& operator=(const SerialPeer&) = delete;
 
     bool send(const std::vector<std::uint8_t>& bytes) override {
-        if (!isOpen() || !sendRest()) return false;
+        if (!isOpen()) return false;
+        dropOld();
+        if (!sendRest()) return false;
         const ssize_t sent = write(line_, bytes.data(), bytes.size());
         if (sent < 0) {
             if (errno != EAGAIN && errno != EINTR) leave(errno);
@@ -53,16 +58,17 @@ class SerialPeer : public Peer {
         }
         // The rest of a message that has begun follows before the next one.
         rest_.assign(bytes.begin() + sent, bytes.end());
+        noteWaiting();
         return true;
     }
 
     std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) override {
         if (!isOpen()) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(longest_s));
+            std::this_thread::sleep_for(std::chrono::milliseconds(waitMs(longest_s)));
             return 0;
         }
         pollfd waits{line_, POLLIN, 0};
-        if (poll(&waits, 1, static_cast<int>(std::ceil(1e3 * longest_s))) <= 0) return 0;
+        if (poll(&waits, 1, waitMs(longest_s)) <= 0) return 0;
         const ssize_t got = read(line_, buffer, size);
         if (got > 0) return static_cast<std::size_t>(got);
         if (got == 0) leave(ENODEV);
@@ -73,7 +79,8 @@ class SerialPeer : public Peer {
     bool hasDatagrams() const override { return false; }
 
     std::string trouble() const override {
-        return line_ >= 0 ? "" : device_ + ": cannot be used: " + errorText(error_);
+        if (line_ < 0) return device_ + ": cannot be used: " + errorText(error_);
+        return isStuck() ? device_ + ": takes nothing" : "";
     }
 
  private:
@@ -99,8 +106,12 @@ class SerialPeer : public Peer {
         cfsetospeed(&settings, speed_);
         if (tcsetattr(line_, TCSANOW, &settings) != 0) return leave(errno);
         tcflush(line_, TCIOFLUSH);
+        waiting_ = 0;
+        moved_ = Clock::now();
     }
     void leave(int error) {
+        // Otherwise close() waits for what it does not take.
+        if (line_ >= 0 && isStuck()) tcflush(line_, TCOFLUSH);
         if (line_ >= 0) close(line_);
         line_ = -1;
         error_ = error;
@@ -110,8 +121,39 @@ class SerialPeer : public Peer {
         if (rest_.empty()) return true;
         const ssize_t sent = write(line_, rest_.data(), rest_.size());
         if (sent < 0 && errno != EAGAIN && errno != EINTR) leave(errno);
-        if (sent > 0) rest_.erase(rest_.begin(), rest_.begin() + sent);
+        if (sent > 0) {
+            rest_.erase(rest_.begin(), rest_.begin() + sent);
+            noteWaiting();
+        }
         return line_ >= 0 && rest_.empty();
+    }
+
+    bool isStuck() const { return stuck_ && Clock::now() - *stuck_ <= kStuckFor; }
+    int waitingBytes() const {
+        int bytes = 0;
+        return ioctl(line_, TIOCOUTQ, &bytes) == 0 ? bytes : 0;
+    }
+    /// After the line took some bytes. Some drivers, such as of pseudoterminals, do not tell how
+    /// many wait: then it moves as long as it takes some.
+    void noteWaiting() {
+        waiting_ = waitingBytes();
+        if (waiting_ == 0) moved_ = Clock::now();
+    }
+    /// Messages that wait in a line that takes nothing would be the first ones later.
+    void dropOld() {
+        const int waiting = waitingBytes();
+        if (waiting < waiting_ || (waiting == 0 && !isFull())) moved_ = Clock::now();
+        waiting_ = waiting;
+        if (Clock::now() - moved_ <= kTakesWithin) return;
+        stuck_ = moved_ = Clock::now();
+        tcflush(line_, TCOFLUSH);
+        rest_.clear();
+        waiting_ = 0;
+    }
+    /// Whether it takes nothing now.
+    bool isFull() const {
+        pollfd line{line_, POLLOUT, 0};
+        return poll(&line, 1, 0) == 0;
     }
 
     std::string device_;
@@ -119,6 +161,9 @@ class SerialPeer : public Peer {
     int line_ = -1, error_ = 0;
     Clock::time_point tried_;
     std::vector<std::uint8_t> rest_;
+    int waiting_ = 0;          ///< bytes that the line had when it was looked at last
+    Clock::time_point moved_;  ///< when some of them had gone, or none were there
+    std::optional<Clock::time_point> stuck_;
 };
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <stdexcept>
 
 #include "Peers.h"
@@ -55,7 +54,7 @@ class UdpPeer : public Peer {
 
     std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) override {
         pollfd waits{socket_, POLLIN, 0};
-        if (poll(&waits, 1, static_cast<int>(std::ceil(1e3 * longest_s))) <= 0) return 0;
+        if (poll(&waits, 1, waitMs(longest_s)) <= 0) return 0;
         const ssize_t got = recv(socket_, buffer, size, MSG_DONTWAIT);
         if (got > 0) {
             error_ = 0;

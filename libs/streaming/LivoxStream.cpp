@@ -1,6 +1,7 @@
 #include <hagen/range_image/Airframe.h>
 #include <hagen/streaming/LivoxStream.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "CheckTime.h"
@@ -9,7 +10,10 @@ namespace hagen::streaming {
 namespace {
 
 constexpr std::uint64_t kInterruption_ns = 1000000000;
-constexpr double kPointInterval_s = 5e-6;   // of a Mid-360, where a packet does not say it
+constexpr std::uint64_t kMostLate_ns = 16 * 480000;  // sixteen packets
+constexpr std::size_t kOfSetClock = 4;               // packets in a row
+constexpr double kLongestFrame = 2;                  // times as long as usual, by arrival
+constexpr double kPointInterval_s = 5e-6;            // of a Mid-360, where a packet does not say it
 constexpr std::size_t kMostPackets = 1000;  // of a frame, whatever the clock says; usual are 42
 
 }  // namespace
@@ -22,7 +26,7 @@ LivoxStream::LivoxStream(const Settings& settings, StreamingSegmenter::Take take
     sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
     filterFor(sensor, settings.options);  // throws SettingsError
     StreamingOptions streaming;
-    // A frame counts as old as its last packet.
+    // As context, a frame counts as old as its last packet.
     streaming.context_s = window_s - frame_s / 2;
     segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
                                                       std::move(take), streaming);
@@ -37,8 +41,30 @@ void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_senso
     segmenter_->setPose(map_from_sensor);
 }
 
+/// A copy may come after later packets, as by a second path. It measured nothing: where packets are
+/// lost, copies of others do not make up for them.
+bool LivoxStream::isRepeated(const packets::LivoxPacket& packet) const {
+    const auto end = recent_.begin() + static_cast<std::ptrdiff_t>(std::min(recent_at_, kRecent));
+    return std::any_of(recent_.begin(), end, [&](const Recent& other) {
+        return other.time_ns == packet.time_ns && other.number == packet.number;
+    });
+}
+
+/// By a packet that is too late. One that is alone waited in a network; several in a row, one
+/// shortly after the other, are of a clock that was set back: nothing else comes any more.
+bool LivoxStream::wentBack(std::uint64_t time_ns) {
+    const bool follows =
+        too_late_in_a_row_ > 0 && time_ns > too_late_ns_ && time_ns - too_late_ns_ <= kMostLate_ns;
+    too_late_in_a_row_ = follows ? too_late_in_a_row_ + 1 : 1;
+    too_late_ns_ = time_ns;
+    return too_late_in_a_row_ >= kOfSetClock;
+}
+
 LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size, double arrival_s) {
     checkTime(arrival_s);
+    // The sensor was silent, or its clock stood still: what came before has waited for its labels,
+    // and is not as new as what comes now.
+    if (is_begun_ && arrival_s - first_arrival_s_ > kLongestFrame * frame_s_) flush();
     packets::Datagram datagram;
     datagram.bytes = bytes;
     datagram.size = size;
@@ -51,18 +77,25 @@ LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size,
         ++counts_.foreign;
         return Taken::Foreign;
     }
+    if (isRepeated(*packet)) {
+        ++counts_.repeated;
+        return Taken::Repeated;
+    }
+    recent_[recent_at_++ % kRecent] = {packet->time_ns, packet->number};
     bool is_late = false;
     if (has_last_) {
         const auto step =
             static_cast<std::int16_t>(static_cast<std::uint16_t>(packet->number - last_number_));
-        if (step == 0 && packet->time_ns == last_ns_) {
-            ++counts_.repeated;
-            return Taken::Repeated;
-        }
         const bool is_earlier = packet->time_ns < last_ns_;
         const std::uint64_t gap_ns =
             is_earlier ? last_ns_ - packet->time_ns : packet->time_ns - last_ns_;
-        if (gap_ns > kInterruption_ns) {
+        const bool is_too_late = is_earlier && gap_ns > kMostLate_ns && gap_ns <= kInterruption_ns;
+        if (is_too_late && !wentBack(packet->time_ns)) {
+            ++counts_.too_late;
+            return Taken::TooLate;
+        }
+        too_late_in_a_row_ = 0;
+        if (gap_ns > kInterruption_ns || is_too_late) {
             ++counts_.interruptions;
             flush();
             segmenter_->restart();
@@ -78,6 +111,7 @@ LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size,
     if (!is_begun_) {
         is_begun_ = true;
         start_ns_ = packet->time_ns;
+        first_arrival_s_ = arrival_s;
     }
     if (!is_late) {
         has_last_ = true;
@@ -105,7 +139,7 @@ void LivoxStream::flush() {
     packets_of_frame_ = 0;
     locateBeams(segmenter_->sensor(), frame_);
     counts_.returns_masked += maskAirframe(settings_.airframe.parts, frame_);
-    segmenter_->addFrame(frame_, last_arrival_s_, std::exchange(measured_s_, 0));
+    segmenter_->addFrame(frame_, last_arrival_s_, std::exchange(measured_s_, 0), first_arrival_s_);
     frame_.clear();
     tags_.clear();
 }

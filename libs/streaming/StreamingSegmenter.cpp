@@ -196,7 +196,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     packet.thinned_first = packet.thinned_end = 0;
     packet.sweep.reset();
     packet.measured_s = 0;
-    packet.time_s = time_s;
+    packet.time_s = packet.first_time_s = time_s;
     packet.pose = pose_;
     packet.has_place = pose_.has_value();
     if (!pose_ && attitude_) {
@@ -252,12 +252,20 @@ void StreamingSegmenter::add(const Scan& returns, const Sweep& sweep, double tim
     }
 }
 
-void StreamingSegmenter::addFrame(const Scan& returns, double time_s, double measured_s) {
+void StreamingSegmenter::addFrame(const Scan& returns, double time_s, double measured_s,
+                                  std::optional<double> first_time_s) {
     checkTime(time_s);
     if (!(measured_s >= 0)) {
         throw std::invalid_argument("streaming: a frame was measured for less than no time");
     }
-    push(returns, time_s).measured_s = measured_s;
+    const double first_s = first_time_s.value_or(time_s);
+    checkTime(first_s);
+    if (first_s > time_s) {
+        throw std::invalid_argument("streaming: a frame's first packet came after its last");
+    }
+    Packet& packet = push(returns, time_s);
+    packet.measured_s = measured_s;
+    packet.first_time_s = first_s;
     label(false);
 }
 
@@ -468,8 +476,9 @@ void StreamingSegmenter::label(bool is_cut) {
         turns ? oldest && oldest->from_rad < head_rad_ - kTurn_rad + kRounding_rad : first_open > 0;
     ++sectors_;
     open_ = 0;
-    take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt, first.time_s,
-           last.time_s, has_turn, is_doubtful, is_cut, result, &sweeps_, last.measured_s});
+    take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt,
+           first.first_time_s, last.time_s, has_turn, is_doubtful, is_cut, result, &sweeps_,
+           last.measured_s});
 }
 
 }  // namespace hagen::streaming

@@ -159,7 +159,7 @@ struct AnyLivox : StreamOf<streaming::LivoxStream> {
     }
     std::size_t counted() const override {
         const auto& c = stream.counts();
-        return c.packets + c.imu + c.foreign + c.repeated;
+        return c.packets + c.imu + c.foreign + c.repeated + c.too_late;
     }
 };
 

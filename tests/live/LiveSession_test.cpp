@@ -1,6 +1,9 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/live/LiveSession.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <deque>
@@ -28,6 +31,7 @@ class GivenPackets : public PacketSource {
         Packet packet;
         packet.bytes.assign(bytes.begin(), bytes.end());
         packet.from_ip = from_ip;
+        packet.arrival_s = later_s_;
         packet.time_ns = 1700000000000000000 + 1330000 * static_cast<std::int64_t>(packets_.size());
         packets_.push_back(packet);
         return *this;
@@ -36,10 +40,20 @@ class GivenPackets : public PacketSource {
         for (const std::string& packet : packets) add(packet);
         return *this;
     }
+    GivenPackets& addFrom(std::uint32_t ip, const std::vector<std::string>& packets) {
+        for (const std::string& packet : packets) add(packet, ip);
+        return *this;
+    }
     GivenPackets& pause(double seconds) {
         Packet packet;
         packet.arrival_s = seconds;
         packets_.push_back(packet);
+        return *this;
+    }
+    /// As a pause for the packets that follow, for which nobody waits. The others then come at
+    /// once, however busy the machine is.
+    GivenPackets& later(double seconds) {
+        later_s_ += seconds;
         return *this;
     }
 
@@ -47,11 +61,11 @@ class GivenPackets : public PacketSource {
         if (packets_.empty()) return Next::End;
         packet = packets_.front();
         packets_.pop_front();
-        if (packet.arrival_s > 0) {
+        if (packet.bytes.empty()) {
             std::this_thread::sleep_for(std::chrono::duration<double>(packet.arrival_s));
             return Next::Nothing;
         }
-        packet.arrival_s = steadyNow_s();
+        packet.arrival_s = later_s_ > 0 ? start_s_ + packet.arrival_s : steadyNow_s();
         return Next::Packet;
     }
     bool isLive() const override { return is_live_; }
@@ -65,6 +79,8 @@ class GivenPackets : public PacketSource {
  private:
     std::deque<Packet> packets_;
     bool is_live_ = false;
+    double later_s_ = 0;
+    const double start_s_ = steadyNow_s();
 };
 
 std::vector<std::string> turnsOf(int turns, std::uint32_t first_us = 1000000,
@@ -157,6 +173,81 @@ TEST_F(LiveSessionTest, ASensorThatFallsSilentAndComesBackIsTold) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("packets come again")));
 }
 
+constexpr std::uint32_t kOurs = 0x0a000064, kOther = 0x0a000065, kThird = 0x0a000066;
+
+/// A sensor of the same model that looks elsewhere would be told in our directions.
+TEST_F(LiveSessionTest, AnotherSensorThatSentBesideOursNeverTakesItsPlace) {
+    GivenPackets source;
+    source.addFrom(kOurs, turnsOf(1)).addFrom(kOther, turnsOf(1, 900000000));
+    source.later(1.5).addFrom(kOther, turnsOf(1, 901500000));  // ours pauses
+    source.addFrom(kOurs, turnsOf(1, 2500000));
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets, 2u * 76);
+    EXPECT_EQ(report.foreign, 2u * 76);
+    EXPECT_THAT(remarks_, testing::Each(testing::Not(HasSubstr("the sensor is now"))));
+}
+
+/// One that was not there before may be ours with a new address, until ours comes again.
+TEST_F(LiveSessionTest, OurSensorIsTakenBackWhenItComesAgain) {
+    GivenPackets source;
+    source.addFrom(kOurs, turnsOf(1));
+    source.later(1.5).addFrom(kOther, turnsOf(1, 901500000));
+    source.addFrom(kOurs, turnsOf(1, 2500000)).addFrom(kOther, turnsOf(1, 901600000));
+    source.later(1.5).addFrom(kOther, turnsOf(1, 903000000));  // known by now
+    source.addFrom(kOurs, turnsOf(1, 4000000));
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets, 4u * 76);
+    EXPECT_EQ(report.foreign, 2u * 76);
+    EXPECT_THAT(remarks_, Contains(HasSubstr("now at 10.0.0.101, no longer at 10.0.0.100")));
+    EXPECT_THAT(remarks_, Contains(HasSubstr("now at 10.0.0.100, no longer at 10.0.0.101")));
+}
+
+/// A sensor may change its address more than once, and get an earlier one again.
+TEST_F(LiveSessionTest, OurSensorMayHaveSeveralAddressesOneAfterTheOther) {
+    GivenPackets source;
+    source.addFrom(kOurs, turnsOf(1)).later(1.5).addFrom(kOther, turnsOf(1, 2600000));
+    source.later(1.5).addFrom(kThird, turnsOf(1, 4200000));
+    source.later(1.5).addFrom(kOther, turnsOf(1, 5800000));
+    source.later(1.5).addFrom(kThird, turnsOf(1, 7400000));
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets, 5u * 76);
+    EXPECT_EQ(report.foreign, 0u);
+}
+
+/// A sender may invent addresses without an end.
+TEST_F(LiveSessionTest, WithTooManyAddressesNoneTakesThePlaceOfOurs) {
+    GivenPackets source;
+    source.addFrom(kOurs, turnsOf(1));
+    const std::string other = turnsOf(1, 900000000)[0];
+    for (std::uint32_t i = 0; i < 100; ++i) source.add(other, kThird + i);
+    source.later(1.5).add(other, 0x0b000001);
+    source.addFrom(kOurs, turnsOf(1, 2500000));
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets, 2u * 76);
+    EXPECT_EQ(report.foreign, 101u);
+}
+
+/// What came before a silence gets its labels although others send to the port.
+TEST_F(LiveSessionTest, OthersDoNotKeepASectorFromItsLabels) {
+    GivenPackets source;
+    auto turn = turnsOf(1);
+    turn.resize(74);  // not a whole number of sectors
+    const std::vector<std::string> others(10, turnsOf(1, 900000000)[0]);
+    source.addFrom(kOurs, turn).addFrom(kOther, others);
+    source.later(0.03).addFrom(kOther, others).addFrom(kOurs, turnsOf(1, 1140000));
+    std::size_t packets = 0, cut_after = 0;
+    LiveListener listener;
+    listener.motion = [&](double) {
+        ++packets;
+        return streaming::SensorMotion();
+    };
+    listener.sector = [&](const streaming::LabelledSector& sector) {
+        if (sector.is_cut && cut_after == 0) cut_after = packets;
+    };
+    runLive(source, options_, listener);
+    EXPECT_EQ(cut_after, 74u + 10 + 1);
+}
+
 TEST_F(LiveSessionTest, PacketsThatWaitForTheProcessorAreNoSilence) {
     GivenPackets source;
     source.addAll(turnsOf(1));
@@ -231,6 +322,10 @@ class LiveRecordingTest : public LiveSessionTest {
         options_.recording.file = folder_ / "a.rawlog";
     }
     static constexpr const char* kReady = "echo '{\"failure\": \"\"}' >&0\n";
+    static constexpr const char* kDone =
+        "{\"turns\": 2, \"left_out\": 1, \"unreadable\": 0, \"files\": [\"x\"], "
+        "\"older_files\": [], \"failure\": \"\"}";
+    static std::string sayDone() { return std::string("echo '") + kDone + "' >&0\n"; }
     test::TemporaryFolder folder_;
 };
 
@@ -275,10 +370,8 @@ TEST_F(LiveRecordingTest, LabelsGoOnWithoutTheRecorder) {
 }
 
 TEST_F(LiveRecordingTest, WhatTheRecorderSaysIsReported) {
-    recordBy(kReady + std::string("cat <&0 >'") + (folder_ / "packets").string() +
-             "'\necho '{\"turns\": 2, \"left_out\": 1, \"unreadable\": 0, \"files\": [\"x\"], "
-             "\"older_files\": [], "
-             "\"failure\": \"\"}' >&0");
+    recordBy(kReady + std::string("cat <&0 >'") + (folder_ / "packets").string() + "'\n" +
+             sayDone());
     GivenPackets source;
     source.addAll(turnsOf(1));
     source.add("hello").add(turnsOf(1, 0, "HDL-32E")[0]);  // no data of the sensor
@@ -306,6 +399,56 @@ TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {
     const LiveReport report = run(source);
     EXPECT_EQ(report.packets + report.dropped, 20u * 76);
     EXPECT_THAT(report.recorded.failure, HasSubstr("took no packets for 0.2 s and was ended"));
+}
+
+/// What fits into the socket tells nothing. Another process has that, too.
+TEST_F(LiveRecordingTest, ARecorderThatIsStuckAtTheEndIsEnded) {
+    recordBy(kReady + std::string("exec 5<&0\nsleep 5 >/dev/null 2>&1 &\nexec sleep 30"));
+    options_.recording.patience_s = 0.3;
+    GivenPackets source;
+    source.addAll(turnsOf(1)).asSensor();
+    const LiveReport report = run(source);
+    EXPECT_THAT(report.recorded.failure,
+                testing::AllOf(HasSubstr((folder_ / "a.rawlog").string()),
+                               HasSubstr("did nothing for 0.3 s and was ended"),
+                               HasSubstr("under a temporary name beside it")));
+}
+
+TEST_F(LiveRecordingTest, ARecorderThatIsBusyAtTheEndIsWaitedFor) {
+    recordBy(kReady + std::string("i=0\nwhile [ $i -lt 1000000 ]; do i=$((i + 1)); done\n") +
+             sayDone());
+    options_.recording.patience_s = 0.4;
+    GivenPackets source;
+    source.addAll(turnsOf(1)).asSensor();
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.recorded.failure, "");
+    EXPECT_EQ(report.recorded.turns, 2u);
+}
+
+/// It starts a program whose input has no writer yet: the system shows that as it shows a wait for
+/// the disk.
+TEST_F(LiveRecordingTest, ARecorderThatWaitsForItsDiskAtTheEndIsWaitedForLonger) {
+    const std::string fifo = (folder_ / "fifo").string();
+    ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+    std::thread writer([&] {
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+        const int end = open(fifo.c_str(), O_RDWR | O_CLOEXEC);
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        close(end);
+    });
+    const auto program =
+        folder_.write("recorder.py",
+                      "import os\nos.posix_spawn('/bin/true', ['true'], {}, file_actions=["
+                      "(os.POSIX_SPAWN_OPEN, 3, '" +
+                          fifo + "', os.O_RDONLY, 0)])\nos.write(0, b'" + kDone + "\\n')\n");
+    recordBy(kReady + std::string("exec python3 '") + program.string() + "'\n");
+    options_.recording.patience_s = 0.4;
+    GivenPackets source;
+    source.addAll(turnsOf(1)).asSensor();
+    const LiveReport report = run(source);
+    writer.join();
+    EXPECT_EQ(report.recorded.failure, "");
+    EXPECT_EQ(report.recorded.turns, 2u);
 }
 
 TEST_F(LiveSessionTest, AFailingSourceIsReported) {

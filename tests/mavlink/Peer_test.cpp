@@ -7,9 +7,17 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <future>
+#include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "support/Program.h"
 
@@ -138,6 +146,29 @@ TEST(UdpPeer, SurvivesThatNobodyListens) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
+/// A time that has just passed is waited for as none, not without an end.
+void expectNoWait(Peer& peer) {
+    for (const double longest_s : {0.0, -0.0005, -0.002, -1e300, std::nan("")}) {
+        std::array<std::uint8_t, 16> buffer{};
+        std::promise<std::size_t> received;
+        auto size = received.get_future();
+        std::thread waits(
+            [&] { received.set_value(peer.receive(buffer.data(), buffer.size(), longest_s)); });
+        const bool has_ended = size.wait_for(std::chrono::seconds(5)) == std::future_status::ready;
+        if (!has_ended) {
+            ADD_FAILURE() << "waits for ever: " << longest_s;
+            std::exit(1);  // nothing ends that thread
+        }
+        waits.join();
+        EXPECT_EQ(size.get(), 0u);
+    }
+}
+
+TEST(UdpPeer, ATimeThatHasPassedIsNotWaitedFor) {
+    const Socket other;
+    expectNoWait(*peerAt(other.port()));
+}
+
 /// A serial line whose other end is this test.
 class Line {
  public:
@@ -191,6 +222,17 @@ TEST(SerialPeer, PassesAllBytesAndSurvivesThatTheLineIsUnplugged) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
+TEST(SerialPeer, ATimeThatHasPassedIsNotWaitedFor) {
+    const test::TemporaryFolder folder;
+    const std::string name = (folder / "line").string();
+    auto line = std::make_unique<Line>(name);
+    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+    expectNoWait(*peer);
+    line.reset();  // unplugged
+    for (int i = 0; i < 20 && peer->trouble().empty(); ++i) received(*peer);
+    expectNoWait(*peer);
+}
+
 /// A service may be started without standard input: the line then has the descriptor 0.
 TEST(SerialPeer, WithoutStandardInputTheLineIsUsedAsAnyOther) {
     const test::TemporaryFolder folder;
@@ -235,6 +277,41 @@ TEST(SerialPeer, AMessageIsSentWholeOrNotAtAll) {
     }
     ASSERT_EQ(all.size(), (sent + 1u) * size);
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i / size);
+}
+
+/// Where obstacles were long ago is not told first, once the line goes on.
+TEST(SerialPeer, ALineThatTakesNothingIsToldAndForgetsWhatWaits) {
+    const test::TemporaryFolder folder;
+    const std::string name = (folder / "line").string();
+    const Line line(name);
+    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+    constexpr std::size_t kSize = 200;
+    std::size_t sent = 0;
+    while (sent < 250 && peer->send(Bytes(kSize, 1))) ++sent;
+    ASSERT_LT(sent, 250u);
+    EXPECT_EQ(peer->trouble(), "");
+    for (int i = 0; i < 100 && peer->trouble().empty(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        peer->send(Bytes(kSize, 2));
+    }
+    ASSERT_THAT(peer->trouble(), HasSubstr(name + ": takes nothing"));
+    EXPECT_TRUE(peer->send(Bytes(kSize, 4)));
+
+    Bytes all;
+    while (all.empty() || all.back() != 4) {
+        const Bytes part = line.receive(4096);
+        ASSERT_FALSE(part.empty());
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    // The other end of a pseudoterminal keeps what it has taken over.
+    EXPECT_LT(all.size(), sent * kSize / 2);
+    EXPECT_EQ(std::count(all.begin(), all.end(), 4), static_cast<std::ptrdiff_t>(kSize));
+    for (int i = 0; i < 40 && !peer->trouble().empty(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        EXPECT_TRUE(peer->send(Bytes(kSize, 3)));
+        line.receive(4096);
+    }
+    EXPECT_EQ(peer->trouble(), "");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/streaming/LivoxStream.h>
+#include <hagen/streaming/SectorDistances.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,117 @@ TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
     EXPECT_EQ(counts.late, 1u);
     EXPECT_EQ(counts.interruptions, 1u);
     EXPECT_EQ(counts.packets, 9u);
+}
+
+/// As PTP does. The packets that follow are as new as before: neither are they late, nor do they
+/// wait for a clock that has stood here already.
+TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothing) {
+    for (const std::int64_t back_ns : {20000000, 200000000, 900000000}) {
+        frames_.clear();
+        LivoxStream stream({}, [this](const LabelledSector& sector) {
+            frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
+                               sector.has_turn});
+        });
+        for (int i = 0; i < 1000; ++i) {
+            const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
+            const std::string packet = packetOf(i, time_ns);
+            stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                       1 + 1e-9 * kPacket_ns * i);
+        }
+        EXPECT_EQ(stream.counts().interruptions, 1u);
+        EXPECT_EQ(stream.counts().late, 0u);
+        EXPECT_EQ(stream.counts().too_late, 3u);
+        EXPECT_EQ(stream.counts().packets, 997u);
+        EXPECT_NEAR(static_cast<double>(frames_.size()), 24, 2);
+        double latest_s = 1;
+        for (const Frame& frame : frames_) {
+            EXPECT_LT(frame.last_s - frame.first_s, 0.021);
+            EXPECT_LT(frame.last_s - latest_s, 0.025);
+            latest_s = frame.last_s;
+        }
+    }
+}
+
+/// What waited in a network for long is not as new as what comes with it.
+TEST_F(LivoxStreamTest, PacketsThatAreFarTooLateAreLeftOut) {
+    const auto packet = [](int i) { return packetOf(i, 5000000000 + kPacket_ns * i); };
+    double time_s = 0;
+    for (int i = 0; i < 400; ++i) add(packet(i), time_s += 4.8e-4);
+    EXPECT_EQ(add(packet(500), time_s += 4.8e-4), Taken::Yes);
+    for (int i = 420; i < 423; ++i) {
+        EXPECT_EQ(add(packet(i), time_s += 4.8e-4), Taken::TooLate);
+    }
+    EXPECT_EQ(add(packet(501), time_s += 4.8e-4), Taken::Yes);
+    EXPECT_EQ(add(packet(423), time_s += 4.8e-4), Taken::TooLate);
+    EXPECT_EQ(add(packet(490), time_s += 4.8e-4), Taken::Yes);
+    EXPECT_EQ(stream_.counts().too_late, 4u);
+    EXPECT_EQ(stream_.counts().late, 1u);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+}
+
+/// A frame in progress does not wait for what comes after a silence.
+TEST_F(LivoxStreamTest, WhatCameBeforeASilenceIsAsOldAsItIs) {
+    SectorDistances distances(sensorModel("Mid-360"));
+    LivoxStream stream({}, [&](const LabelledSector& sector) {
+        frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
+                           sector.has_turn});
+        distances.take(sector);
+    });
+    const auto addTo = [&](const std::string& packet, double time_s) {
+        stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(), time_s);
+    };
+    for (int i = 0; i < 500; ++i) {
+        addTo(packetOf(i, 5000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i);
+    }
+    const std::size_t before = frames_.size();
+    const int again = 500 + 1875;  // 0.9 s
+    const double now_s = 1e-9 * kPacket_ns * again;
+    addTo(test::livoxPacket(std::vector<test::LivoxPoint>(kPoints, {0, 0, 0, 0}),
+                            5000000000 + kPacket_ns * again, again),
+          now_s);
+    ASSERT_EQ(frames_.size(), before + 1);
+    EXPECT_LT(frames_.back().last_s, 0.241);
+    stream.flush();
+    for (const auto& sector : distances.at(now_s)) {
+        EXPECT_EQ(sector.state, SectorDistances::State::Unknown);
+    }
+    // A frame is as old as its first packet.
+    for (std::size_t i = 0; i < before; ++i) {
+        EXPECT_NEAR(frames_[i].last_s - frames_[i].first_s, 0.0197, 0.001);
+    }
+}
+
+/// Of each ten packets six are lost, and the others come again after the next one: four measured.
+TEST_F(LivoxStreamTest, CopiesDoNotMakeUpForLostPackets) {
+    double measured_s = 0;
+    SectorDistances distances(sensorModel("Mid-360"));
+    LivoxStream stream({}, [&](const LabelledSector& sector) {
+        measured_s += sector.measured_s;
+        distances.take(sector);
+    });
+    const auto addTo = [&](const std::string& packet, double time_s) {
+        return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                          time_s);
+    };
+    const std::vector<test::LivoxPoint> nothing(kPoints, {0, 0, 0, 0});
+    std::string before;
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 10 >= 4) continue;
+        const double time_s = 1 + 1e-9 * kPacket_ns * i;
+        const std::string packet = test::livoxPacket(nothing, 1000000000 + kPacket_ns * i, i);
+        EXPECT_EQ(addTo(packet, time_s), Taken::Yes);
+        if (!before.empty()) {
+            EXPECT_EQ(addTo(before, time_s), Taken::Repeated);
+        }
+        before = packet;
+    }
+    stream.flush();
+    EXPECT_EQ(stream.counts().repeated, 399u);
+    EXPECT_EQ(stream.counts().late, 0u);
+    EXPECT_NEAR(measured_s, 0.4 * 1e-9 * kPacket_ns * 1000, 1e-6);
+    for (const auto& sector : distances.at(1 + 1e-9 * kPacket_ns * 1000)) {
+        EXPECT_EQ(sector.state, SectorDistances::State::Unknown);
+    }
 }
 
 /// What is near may be an obstacle, as long as little is known around.

@@ -372,6 +372,7 @@ TEST_F(StreamingSegmenterTest, UnsoundSweepsAndTimesAreRefusedAndNothingElseIsLo
     for (const double time_s : {kNan, kInfinity, -1e300}) {
         EXPECT_THROW(segmenter.add(packets[10], sweepOf(0, 10), time_s), std::invalid_argument);
         EXPECT_THROW(segmenter.addFrame(packets[10], time_s), std::invalid_argument);
+        EXPECT_THROW(segmenter.addFrame(packets[10], 1, 1, time_s), std::invalid_argument);
     }
     addTurn(0, packets, segmenter, 10, kPackets);
     segmenter.flush();

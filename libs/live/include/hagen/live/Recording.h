@@ -16,7 +16,8 @@ struct RecordingOptions {
     /// The settings of the recorded labels: files, of which later ones override earlier ones.
     std::vector<std::filesystem::path> settings_files;
     std::filesystem::path program;  ///< that records; empty: recorderProgram()
-    /// A recorder that takes no packet of a live sensor for this long is ended.
+    /// A recorder that takes no packet of a live sensor for this long is ended, and so is one that
+    /// shows no sign of life for this long at the end.
     double patience_s = 10;
 };
 

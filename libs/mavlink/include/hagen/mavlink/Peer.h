@@ -32,7 +32,8 @@ class Peer {
 
     /// Sends a message whole; false: it is not sent.
     virtual bool send(const std::vector<std::uint8_t>& bytes) = 0;
-    /// Waits for bytes, at most this long; returns how many came.
+    /// Waits for bytes, at most this long (up to an hour; negative: not at all); returns how many
+    /// came.
     virtual std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) = 0;
     /// Whether receive() returns one datagram: a message does not go on in the next one.
     virtual bool hasDatagrams() const = 0;

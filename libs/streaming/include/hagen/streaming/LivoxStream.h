@@ -3,6 +3,7 @@
 #include <hagen/settings/Settings.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,16 +17,19 @@ namespace hagen::streaming {
 class LivoxStream {
  public:
     struct Counts {
-        std::size_t packets = 0;        ///< taken
-        std::size_t imu = 0;            ///< packets of the IMU, left out
-        std::size_t foreign = 0;        ///< datagrams of something else
-        std::size_t repeated = 0;       ///< came again, left out
-        std::size_t late = 0;           ///< came after a later one; they join the frame in progress
-        std::size_t lost = 0;           ///< missing by their numbers
-        std::size_t interruptions = 0;  ///< jumps of the sensor's clock by more than a second
+        std::size_t packets = 0;   ///< taken
+        std::size_t imu = 0;       ///< packets of the IMU, left out
+        std::size_t foreign = 0;   ///< datagrams of something else
+        std::size_t repeated = 0;  ///< came again, left out
+        std::size_t late = 0;      ///< came after a later one; they join the frame in progress
+        std::size_t too_late = 0;  ///< by more than sixteen packets; left out
+        std::size_t lost = 0;      ///< missing by their numbers
+        /// Jumps of the sensor's clock by more than a second, and back by more than sixteen
+        /// packets.
+        std::size_t interruptions = 0;
         std::size_t returns_masked = 0;  ///< of the airframe
     };
-    enum class Taken { Yes, Foreign, Repeated, Imu };
+    enum class Taken { Yes, Foreign, Repeated, TooLate, Imu };
 
     /// Throws SettingsError if the options do not fit the sensor.
     LivoxStream(const Settings& settings, StreamingSegmenter::Take take, double frame_s = 0.02,
@@ -45,15 +49,28 @@ class LivoxStream {
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
+    struct Recent {
+        std::uint64_t time_ns;
+        std::uint16_t number;
+    };
+    static constexpr std::size_t kRecent = 512;  // packets: a quarter of a second
+
+    bool isRepeated(const packets::LivoxPacket& packet) const;
+    bool wentBack(std::uint64_t time_ns);
+
     Settings settings_;
     double frame_s_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
     bool is_begun_ = false, has_last_ = false;
     std::uint64_t start_ns_ = 0, last_ns_ = 0;
+    std::uint64_t too_late_ns_ = 0;      ///< the time of the latest packet that was too late
+    std::size_t too_late_in_a_row_ = 0;  ///< up to now
     std::uint16_t last_number_ = 0;
+    std::array<Recent, kRecent> recent_{};  ///< a ring
+    std::size_t recent_at_ = 0;             ///< packets that were written to it
     std::size_t packets_of_frame_ = 0;
-    double last_arrival_s_ = 0;
-    double measured_s_ = 0;  ///< by the packets of the frame
+    double first_arrival_s_ = 0, last_arrival_s_ = 0;  ///< of the frame
+    double measured_s_ = 0;                            ///< by the packets of the frame
     Scan frame_;
     std::vector<std::uint8_t> tags_;
     Counts counts_;

@@ -109,10 +109,12 @@ class StreamingSegmenter {
     /// `sweep` of packets that come late may be before that of others: their returns are labelled
     /// with the sector in progress. Calls the function if that ends a sector.
     void add(const Scan& returns, const Sweep& sweep, double time_s);
-    /// The same for a frame of a sensor that does not turn, which is a sector. `measured_s` is for
-    /// how long its packets measured, if some may be lost.
+    /// The same for a frame of a sensor that does not turn, which is a sector. `time_s` is when its
+    /// last packet came. `measured_s` is for how long its packets measured, if some may be lost.
+    /// `first_time_s` is when its first packet came; none: at once with the last.
     void addFrame(const Scan& returns, double time_s,
-                  double measured_s = std::numeric_limits<double>::infinity());
+                  double measured_s = std::numeric_limits<double>::infinity(),
+                  std::optional<double> first_time_s = std::nullopt);
     /// Labels the sector in progress: no packet followed for some time.
     void flush();
     /// Forgets the context: packets that follow are of another place or sensor mode. The sector in
@@ -139,7 +141,7 @@ class StreamingSegmenter {
         Returns all;
         std::size_t thinned_first = 0, thinned_end = 0;  ///< in `thinned_`
         std::optional<Sweep> sweep;
-        double time_s = 0;
+        double time_s = 0, first_time_s = 0;    ///< the same, but for frames
         std::optional<Eigen::Isometry3d> pose;  ///< of the sensor; its rotation only: without place
         bool has_place = false;
         double measured_s = 0;  ///< without a sweep
