@@ -60,6 +60,7 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
         counts.position = position_;
         counts.foreign = of_stream.other_model;
         counts.unsound = of_stream.unsound;
+        counts.unsound_blocks = of_stream.unsound_blocks;
         counts.mode_changes = of_stream.mode_changes;
         counts.scans = of_stream.turns;
         return counts;

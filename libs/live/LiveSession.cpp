@@ -140,6 +140,7 @@ void Session::copyCounts() {
     r.position = counts.position;
     r.foreign = counts.foreign + foreign_ip_;
     r.unsound = counts.unsound;
+    r.unsound_blocks = counts.unsound_blocks;
     r.interruptions = counts.interruptions;
     r.scans = counts.scans;
     figures_->update(steadyNow_s());

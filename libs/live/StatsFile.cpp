@@ -28,6 +28,7 @@ void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListe
                       {"position", r.position},
                       {"foreign", r.foreign},
                       {"unsound", r.unsound}}},
+                    {"unsound_blocks", r.unsound_blocks},
                     {"interruptions", r.interruptions},
                     {"silences", r.silences},
                     {"mode_changes", r.mode_changes},

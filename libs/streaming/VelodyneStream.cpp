@@ -1,5 +1,6 @@
 #include <hagen/range_image/Airframe.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/AppendReturn.h>
 #include <hagen/streaming/VelodyneStream.h>
 
 #include <algorithm>
@@ -20,9 +21,38 @@ constexpr double kTurn_rad = 2 * kPi;
 constexpr double kOverlap_rad = 0.2;  // of packets that are not full
 constexpr int kBlocks = packets::kVelodyneBlocks;
 constexpr int kReadings = packets::kReadingsOfTurn;
+// In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.
+constexpr double kJitter = 10, kMostOff = 100;
 
 /// From one time of the sensor's clock to another: within half an hour, since it wraps every hour.
 double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
+
+int blocksPerFiring(const VelodynePacket& packet) {
+    return packet.isDual() || packets::isOfHdl64(packet.bytes.data()) ? 2 : 1;
+}
+
+/// -1: one of its blocks is unsound.
+int azimuthOfFiring(const VelodynePacket& packet, int firing) {
+    const int step = blocksPerFiring(packet);
+    for (int b = firing * step; b < (firing + 1) * step; ++b) {
+        if (packet.azimuthOf(b) < 0) return -1;
+    }
+    return packet.azimuthOf(firing * step);
+}
+
+/// How many returns the decoder finds in the first blocks.
+std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
+    std::size_t returns = 0;
+    for (int b = 0; b < blocks; ++b) {
+        if (packet.azimuthOf(b) < 0) continue;
+        const std::uint8_t* const block =
+            packet.bytes.data() + b * packets::kVelodyneBlockBytes + packets::kVelodyneHeaderBytes;
+        for (std::size_t i = 0; i < packets::kReturnsOfBlock; ++i) {
+            returns += (block[3 * i] | block[3 * i + 1]) != 0;
+        }
+    }
+    return returns;
+}
 
 }  // namespace
 
@@ -60,29 +90,56 @@ bool VelodyneStream::isRepeated(const VelodynePacket& packet, double time_us) co
     });
 }
 
-/// What a packet swept; the packets since the one before may be lost. Returns false if it has no
-/// sound block.
-bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
-                               Sweep& sweep) const {
-    const bool is_hdl64 = &model_ == &packets::hdl64Model();
-    const int blocks_per_firing = packet.isDual() || is_hdl64 ? 2 : 1;
-    int first = -1, last = -1;
-    for (int b = 0; b < kBlocks; ++b) {
-        if (packet.azimuthOf(b) < 0) continue;
-        if (first < 0) first = b;
-        last = b;
+/// The firings whose blocks are all sound, in runs that turn on as a sensor does. What an unsound
+/// block would have seen is not known, so that no sweep goes over it.
+void VelodyneStream::findRuns(const VelodynePacket& packet) {
+    runs_.clear();
+    int before = -1;  // azimuth of the firing before, if that is sound
+    for (int f = 0; f < kBlocks / blocksPerFiring(packet); ++f) {
+        const int azimuth = azimuthOfFiring(packet, f);
+        const double step = std::remainder(azimuth - before, kReadings);
+        const bool goes_on = before >= 0 && step > -kJitter &&
+                             step * kBlocks < kReadings / 8.0 * blocksPerFiring(packet);
+        if (azimuth >= 0 && goes_on) {
+            ++runs_.back().end;
+        } else if (azimuth >= 0) {
+            runs_.push_back({f, f + 1});
+        }
+        before = azimuth;
     }
-    if (first < 0) return false;
-    const int firings = last / blocks_per_firing - first / blocks_per_firing;
-    int turned = packet.azimuthOf(last) - packet.azimuthOf(first);
-    if (turned < 0) turned += kReadings;
-    // A packet sweeps a few degrees; more is a broken reading.
-    const int all_firings = kBlocks / blocks_per_firing;
-    const double per_firing = turned * all_firings < firings * kReadings / 8
-                                  ? static_cast<double>(turned) / firings
-                                  : 0.0;
-    const int before = first / blocks_per_firing;
-    const double from = packet.azimuthOf(first) - per_firing * before;
+}
+
+/// What a packet swept, as if all of its blocks were sound; the packets since the one before may be
+/// lost. Leaves those runs that are where the sensor is by the longest one: others are broken
+/// readings. Returns false if the packet has no sound block.
+bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
+    findRuns(packet);
+    const int step = blocksPerFiring(packet), all_firings = kBlocks / step;
+    double from = -1, per_firing = 0;
+    if (runs_.empty()) {  // halves of firings at most
+        for (int b = kBlocks - 1; b >= 0; --b) {
+            if (packet.azimuthOf(b) >= 0) from = packet.azimuthOf(b);
+        }
+        if (from < 0) return false;
+    } else {
+        const auto isShorter = [](const Run& a, const Run& b) {
+            return a.end - a.first < b.end - b.first;
+        };
+        const Run longest = *std::max_element(runs_.begin(), runs_.end(), isShorter);
+        const int first_azimuth = packet.azimuthOf(longest.first * step);
+        const int turned = packet.azimuthOf(longest.end * step - 1) - first_azimuth;
+        const int firings = longest.end - longest.first - 1;
+        if (firings > 0) {
+            per_firing = std::max(0.0, std::remainder(turned, kReadings)) / firings;
+        }
+        from = first_azimuth - per_firing * longest.first;
+        const auto isElsewhere = [&](const Run& run) {
+            const double expected = from + per_firing * run.first;
+            const double off = azimuthOfFiring(packet, run.first) - expected;
+            return std::abs(std::remainder(off, kReadings)) > kMostOff;
+        };
+        runs_.erase(std::remove_if(runs_.begin(), runs_.end(), isElsewhere), runs_.end());
+    }
     const double swept_rad = radians(0.01 * per_firing * all_firings);
     sweep.from_rad = radians(0.01 * from);
     if (has_last_) {
@@ -95,6 +152,33 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
     }
     sweep.to_rad = sweep.from_rad + swept_rad;
     return true;
+}
+
+/// Each run is a sweep. Returns of other blocks have labels, too: they go with the run before.
+void VelodyneStream::addRuns(const VelodynePacket& packet, const Sweep& sweep, double arrival_s) {
+    const int step = blocksPerFiring(packet);
+    if (runs_.empty()) {
+        segmenter_->add(returns_, {sweep.from_rad, sweep.from_rad}, arrival_s);
+        return;
+    }
+    if (runs_.size() == 1 && runs_[0].first == 0 && runs_[0].end == kBlocks / step) {
+        segmenter_->add(returns_, sweep, arrival_s);
+        return;
+    }
+    const double firing_rad = (sweep.to_rad - sweep.from_rad) * step / kBlocks;
+    std::size_t taken = 0;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+        const bool is_last = r + 1 == runs_.size();
+        const int end_block = is_last ? kBlocks : runs_[r + 1].first * step;
+        const std::size_t end = is_last ? returns_.size() : returnsBefore(packet, end_block);
+        part_.clear();
+        part_.beams = returns_.beams;
+        for (; taken < end; ++taken) appendReturn(returns_, taken, part_);
+        segmenter_->add(part_,
+                        {sweep.from_rad + firing_rad * runs_[r].first,
+                         sweep.from_rad + firing_rad * runs_[r].end},
+                        arrival_s);
+    }
 }
 
 VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t size,
@@ -164,7 +248,7 @@ VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t
         decodePackets({packet.bytes.data(), 1}, calibration_, returns_, decoder_);
     counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
     ++counts_.packets;
-    segmenter_->add(returns_, sweep, arrival_s);
+    addRuns(packet, sweep, arrival_s);
     return Taken::Yes;
 }
 

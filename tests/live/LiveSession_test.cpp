@@ -105,6 +105,16 @@ class LiveSessionTest : public testing::Test {
     std::chrono::milliseconds first_sector_takes_{0};
 };
 
+TEST_F(LiveSessionTest, UnsoundBlocksAreCounted) {
+    const test::TemporaryFolder folder;
+    options_.stats = folder / "stats.json";
+    auto packets = turnsOf(1);
+    for (const int block : {3, 4, 8}) packets[20][100 * block] = '\0';
+    GivenPackets source;
+    EXPECT_EQ(run(source.addAll(packets)).unsound_blocks, 3u);
+    EXPECT_THAT(test::readFile(options_.stats), HasSubstr("\"unsound_blocks\": 3,"));
+}
+
 TEST_F(LiveSessionTest, EverythingIsCountedOnce) {
     auto packets = turnsOf(3);
     const std::string first = packets[0];

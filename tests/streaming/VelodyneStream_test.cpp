@@ -10,6 +10,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/CaptureWriter.h"
@@ -278,6 +279,50 @@ TEST_F(VelodyneStreamTest, APacketThatSweepsMoreThanATurnIsABrokenReading) {
     stream_.flush();
     EXPECT_EQ(stream_.counts().unsound_blocks, 10u);
     EXPECT_GT(all_.label.size(), 0u);
+}
+
+/// What an unsound block would have seen is not known: no sweep goes over it.
+TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
+    auto packets = turnsOf(1);
+    const auto setHeader = [&](int block, char value) {
+        packets[20][100 * block] = packets[20][100 * block + 1] = value;
+    };
+    for (const int block : {0, 4, 5, 9}) setHeader(block, '\0');
+    packets[20][100 * 7 + 3] = static_cast<char>(packets[20][100 * 7 + 3] + 8);  // 20 degrees ahead
+    std::vector<Sweep> swept;
+    std::size_t returns = 0;
+    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+        swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
+        returns += sector.returns.size();
+    });
+    addAll(packets, stream);
+    stream.flush();
+    EXPECT_EQ(stream.counts().unsound_blocks, 4u);
+    EXPECT_GT(returns, 10000u);
+    ASSERT_EQ(swept.size(), kPackets + 3);
+    const double block_rad = (swept[21 + 3].from_rad - swept[19].to_rad) / 12;
+    EXPECT_NEAR(degrees(block_rad), 0.4, 0.01);
+    const std::vector<std::pair<int, int>> blocks{{1, 4}, {6, 7}, {8, 9}, {10, 12}};
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const double first_rad = swept[19].to_rad;
+        EXPECT_NEAR((swept[20 + i].from_rad - first_rad) / block_rad, blocks[i].first, 0.06) << i;
+        EXPECT_NEAR((swept[20 + i].to_rad - first_rad) / block_rad, blocks[i].second, 0.06) << i;
+    }
+}
+
+/// Of a firing with two returns, one block does not tell what the other would have seen.
+TEST_F(VelodyneStreamTest, HalfAFiringIsNotSwept) {
+    auto packets = turnsOf(1, 1000000, true);
+    packets[40][100 * 5] = '\0';
+    std::vector<Sweep> swept;
+    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+        swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
+    });
+    addAll(packets, stream);
+    stream.flush();
+    ASSERT_EQ(swept.size(), packets.size() + 1);
+    const double firing_rad = (swept[42].from_rad - swept[39].to_rad) / 6;
+    EXPECT_NEAR(swept[41].from_rad - swept[40].to_rad, firing_rad, 0.06 * firing_rad);
 }
 
 TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {

@@ -11,6 +11,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hagen::streaming {
 
@@ -62,15 +63,23 @@ class VelodyneStream {
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
+    /// Sound firings of a packet that follow each other.
+    struct Run {
+        int first, end;
+    };
+
     bool isRepeated(const packets::VelodynePacket& packet, double time_us) const;
-    bool readSweep(const packets::VelodynePacket& packet, double elapsed_us, Sweep& sweep) const;
+    void findRuns(const packets::VelodynePacket& packet);
+    bool readSweep(const packets::VelodynePacket& packet, double elapsed_us, Sweep& sweep);
+    void addRuns(const packets::VelodynePacket& packet, const Sweep& sweep, double arrival_s);
 
     const packets::VelodyneModel& model_;
     Settings settings_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
     packets::VelodyneCalibration calibration_;
     packets::DecoderWorkspace decoder_;
-    Scan returns_;
+    Scan returns_, part_;
+    std::vector<Run> runs_;  ///< of the latest packet
     std::deque<packets::VelodynePacket> recent_;
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< by the sensor's clock, of the latest packet
