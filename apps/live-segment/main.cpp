@@ -139,8 +139,8 @@ void printSummary(const live::LiveReport& r) {
                 r.packets, r.scans, r.lost, r.late, r.repeated, r.dropped);
     std::printf(
         "left out: %zu datagrams of another size, %zu of other sensors, %zu of position or IMU, "
-        "%zu without valid data\n",
-        r.wrong_size, r.foreign, r.position, r.unsound);
+        "%zu without valid data, %zu too late\n",
+        r.wrong_size, r.foreign, r.position, r.unsound, r.too_late);
     std::printf("%zu sectors, %zu returns, %zu RoI\n", r.sectors, r.returns, r.roi);
     if (r.latency.count() > 0) {
         std::printf(

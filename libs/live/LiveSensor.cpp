@@ -61,6 +61,7 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
         counts.foreign = of_stream.other_model;
         counts.unsound = of_stream.unsound;
         counts.unsound_blocks = of_stream.unsound_blocks;
+        counts.too_late = of_stream.too_late;
         counts.mode_changes = of_stream.mode_changes;
         counts.scans = of_stream.turns;
         return counts;
@@ -105,6 +106,7 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
         counts.position = of_stream.imu;
         counts.foreign = of_stream.other_sensor;
         counts.unsound = of_stream.unsound;
+        counts.too_late = of_stream.too_late;
         counts.scans = of_stream.turns;
         return counts;
     }

@@ -135,6 +135,7 @@ void Session::copyCounts() {
     r.packets = counts.packets;
     r.lost = counts.lost;
     r.late = counts.late;
+    r.too_late = counts.too_late;
     r.repeated = counts.repeated;
     r.wrong_size = counts.wrong_size;
     r.position = counts.position;

@@ -22,6 +22,7 @@ void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListe
                       {"taken", r.packets},
                       {"lost", r.lost},
                       {"late", r.late},
+                      {"too_late", r.too_late},
                       {"repeated", r.repeated},
                       {"dropped", r.dropped},
                       {"wrong_size", r.wrong_size},

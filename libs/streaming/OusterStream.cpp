@@ -75,13 +75,6 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         ++counts_.other_sensor;
         return Taken::OtherSensor;
     }
-    const std::uint16_t id = packets::frameIdOf(bytes, sensor_);
-    const int step = has_last_ ? stepOf(last_id_, id) : 0;
-    if (std::abs(step) > kMostTurns) {
-        ++counts_.interruptions;
-        segmenter_->restart();
-        has_last_ = false;
-    }
     const std::size_t repeated = frames_.counts().repeated_columns;
     const packets::OusterFrame* const frame = frames_.add(bytes, time_ns, &columns_);
     countLosses();
@@ -89,6 +82,13 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         ++counts_.late;
         ++counts_.too_late;
         return Taken::Late;
+    }
+    const std::uint16_t id = frame->id;
+    const int step = has_last_ ? stepOf(last_id_, id) : 0;
+    if (std::abs(step) > kMostTurns) {  // and not one that is only late
+        ++counts_.interruptions;
+        segmenter_->restart();
+        has_last_ = false;
     }
     if (columns_.empty()) {
         const bool is_repeated = frames_.counts().repeated_columns > repeated;
@@ -108,7 +108,6 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
     const auto of_packet = static_cast<long long>(sensor_.columns_per_packet);
     const long long turn = has_last_ ? turn_ + step : 0;
     const long long at = turn * columns + static_cast<long long>(columns_.front());
-    ++counts_.packets;
     if (has_last_ && at < last_at_) {
         ++counts_.late;
         if (last_at_ - at > kMostLate * of_packet) {
@@ -121,6 +120,7 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         turn_ = turn;
         last_at_ = at;
     }
+    ++counts_.packets;
     addRuns(*frame, turn, arrival_s);
     return Taken::Yes;
 }

@@ -201,19 +201,46 @@ VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t
         ++counts_.repeated;
         return Taken::Repeated;
     }
-    const bool is_dual = packet.isDual();
     // From the packet before to this one: as long as the one before lasted.
+    const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : packet.isDual());
+    const bool is_too_late =
+        has_last_ && elapsedUs(last_us_, time_us) < -static_cast<double>(kMostLate) * period_us;
+    if (is_too_late) return hold(packet, arrival_s);
+    held_.clear();
+    return take(packet, arrival_s);
+}
+
+/// One packet that was under way for a turn must not count as what is there now. So many in a row
+/// are no late ones: the sensor's clock was set.
+VelodyneStream::Taken VelodyneStream::hold(const VelodynePacket& packet, double arrival_s) {
+    held_.push_back({packet, arrival_s});
+    ++counts_.late;
+    ++counts_.too_late;
+    if (held_.size() < kMostLate) return Taken::Late;
+    counts_.late -= held_.size();
+    counts_.too_late -= held_.size();
+    ++counts_.interruptions;
+    segmenter_->restart();
+    has_last_ = false;
+    Taken taken = Taken::Late;
+    for (const auto& [held, held_s] : std::exchange(held_, {})) {
+        taken = add(held.bytes.data(), held.bytes.size(), held_s);
+    }
+    return taken;
+}
+
+VelodyneStream::Taken VelodyneStream::take(const VelodynePacket& packet, double arrival_s) {
+    const double time_us = packet.sensorTimeUs();
+    const bool is_dual = packet.isDual();
     const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : is_dual);
-    double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
-    if (has_last_ && (elapsed_us < -static_cast<double>(kMostLate) * period_us ||
-                      elapsed_us > kInterruptionUs)) {
+    const double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
+    if (elapsed_us > kInterruptionUs) {
         ++counts_.interruptions;
-        const bool is_jump = elapsed_us < 0 || elapsed_us > 1e6 * segmenter_->streaming().context_s;
-        if (elapsed_us > 0 && elapsed_us < 1e6) {
+        if (elapsed_us < 1e6) {
             counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
         }
         segmenter_->flush();
-        if (is_jump) {
+        if (elapsed_us > 1e6 * segmenter_->streaming().context_s) {
             segmenter_->restart();
             has_last_ = false;
         }

@@ -112,7 +112,7 @@ struct AnyVelodyne : StreamOf<streaming::VelodyneStream> {
     }
     std::size_t counted() const override {
         const auto& c = stream.counts();
-        return c.packets + c.wrong_size + c.other_model + c.repeated + c.unsound;
+        return c.packets + c.wrong_size + c.other_model + c.repeated + c.unsound + c.too_late;
     }
 
     std::uint8_t number;

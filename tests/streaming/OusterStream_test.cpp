@@ -171,6 +171,20 @@ TEST_F(OusterStreamTest, ASensorThatStartsAgainIsLabelledAgain) {
     EXPECT_EQ(taken, 24);
 }
 
+TEST_F(OusterStreamTest, APacketThatComesTurnsLateIsLeftOut) {
+    std::vector<std::string> late;
+    for (int id = 0; id < 20; ++id) {
+        const auto packets = packetsOf(static_cast<std::uint16_t>(id));
+        if (id == 12) late = packets;
+        for (const auto& packet : packets) EXPECT_EQ(add(packet), Taken::Yes);
+    }
+    for (const auto& packet : late) EXPECT_EQ(add(packet), Taken::Late);
+    for (const auto& packet : packetsOf(20)) EXPECT_EQ(add(packet), Taken::Yes);
+    EXPECT_EQ(stream_.counts().too_late, 4u);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+    EXPECT_EQ(stream_.counts().packets, 84u);
+}
+
 TEST_F(OusterStreamTest, AJumpOfTheTurnsEndsTheContext) {
     for (const auto& packet : packetsOf(1)) add(packet);
     for (const auto& packet : packetsOf(500)) EXPECT_EQ(add(packet), Taken::Yes);

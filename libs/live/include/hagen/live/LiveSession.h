@@ -44,6 +44,7 @@ struct LiveReport {
     std::size_t packets = 0;         ///< of the sensor, taken
     std::size_t lost = 0;            ///< missing by the sensor's clock
     std::size_t late = 0;            ///< came after a later one
+    std::size_t too_late = 0;        ///< of these: so late that they were left out
     std::size_t repeated = 0;        ///< came again
     std::size_t wrong_size = 0;      ///< datagrams that are no data packets
     std::size_t position = 0;        ///< position packets and those of an IMU
