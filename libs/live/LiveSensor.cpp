@@ -105,6 +105,8 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
         counts.wrong_size = of_stream.wrong_size;
         counts.position = of_stream.imu;
         counts.foreign = of_stream.other_sensor;
+        counts.uncertain = of_stream.uncertain;
+        counts.restarts = of_stream.restarts;
         counts.unsound = of_stream.unsound;
         counts.too_late = of_stream.too_late;
         counts.scans = of_stream.turns;

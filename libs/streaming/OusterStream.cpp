@@ -83,6 +83,16 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         ++counts_.too_late;
         return Taken::Late;
     }
+    counts_.restarts = frames_.restarts();
+    if (frame->is_uncertain) {
+        // Nothing is known of where the sensor looks, nor where it has looked in this turn.
+        if (!is_uncertain_) segmenter_->restart();
+        is_uncertain_ = true;
+        has_last_ = false;
+        ++counts_.uncertain;
+        return Taken::Uncertain;
+    }
+    is_uncertain_ = false;
     const std::uint16_t id = frame->id;
     const int step = has_last_ ? stepOf(last_id_, id) : 0;
     if (std::abs(step) > kMostTurns) {  // and not one that is only late
