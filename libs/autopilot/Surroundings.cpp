@@ -49,6 +49,7 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
     seen.turns = sector.sweep.has_value();
     if (seen.turns) {
         seen.swept = coverage_.add(sector);
+        seen.ahead_rad = sector.offsets.ahead_rad;
         seen.from_rad = coverage_.before_rad();
         seen.to_rad = coverage_.head_rad();
     }
@@ -87,12 +88,12 @@ double Surroundings::azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edg
     return is_seen ? -std::atan2(ahead.y(), ahead.x()) : std::nan("");
 }
 
-/// Whether all of an arc was swept by the time of this sector, and nothing of it before
-/// `since_rad`: that is too old.
+/// Whether all of an arc was swept by the time of this sector, and nothing of it before the head
+/// had turned to `since_rad`: that is too old.
 bool Surroundings::hasPassed(const Seen& seen, const TurnCoverage::Arc& arc, double since_rad) {
     if (!seen.turns) return seen.is_all_around && !std::isnan(arc.begin_rad);
     return std::any_of(seen.swept.begin(), seen.swept.end(), [&](TurnCoverage::Swept swept) {
-        swept.since_rad = std::max(swept.since_rad, since_rad);
+        swept.since_rad = std::max(swept.since_rad, since_rad + seen.ahead_rad);
         return endOfArc(swept, arc).has_value();
     });
 }

@@ -19,6 +19,17 @@ constexpr long long kMostLate = 16;  // packets
 constexpr int kMostTurns = 2;        // missing; more: the sensor was started again
 constexpr std::size_t kImuBytes = 48;
 
+/// Where the pixels look.
+BeamOffsets offsetsOf(const packets::OusterSensor& sensor) {
+    BeamOffsets offsets;
+    for (const double azimuth_rad : sensor.azimuth_rad) {
+        const double behind_rad = std::remainder(azimuth_rad, 2 * kPi);
+        offsets.behind_rad = std::max(offsets.behind_rad, behind_rad);
+        offsets.ahead_rad = std::max(offsets.ahead_rad, -behind_rad);
+    }
+    return offsets;
+}
+
 /// From one frame id to another; ids wrap.
 int stepOf(std::uint16_t from, std::uint16_t to) {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
@@ -37,6 +48,7 @@ OusterStream::OusterStream(const packets::OusterSensor& sensor, const Settings& 
                                                       std::move(take), streaming);
     const Eigen::Matrix3d turned = sensor_.lidar_to_sensor.linear();
     ahead_rad_ = -std::atan2(turned(1, 0), turned(0, 0));
+    segmenter_->setBeamOffsets(offsetsOf(sensor_));
     segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 

@@ -61,22 +61,34 @@ void SectorDistances::noteSwept(const LabelledSector& sector) {
         }
         return;
     }
-    for (const TurnCoverage::Swept& swept : coverage_.add(sector)) {
-        for (int k = 0; k < kBins; ++k) {
-            Bin& bin = bins_[k];
-            const auto begun_rad = begunArc(swept, arcs_[k]);
-            if (begun_rad && *begun_rad > bin.begun_rad + kPi) {
-                bin.begun_rad = *begun_rad;
-                bin.begun_s = now_s;
-            }
-            const auto end_rad = endOfArc(swept, arcs_[k]);
-            if (!end_rad || *end_rad < bin.end_rad + kPi) continue;
-            bin.end_rad = *end_rad;
-            bin.swept_s = bin.begun_s;
-            bin.passed_s = now_s;
-            bin.passed_rad = coverage_.head_rad();
-        }
+    const std::vector<TurnCoverage::Swept>& packets = coverage_.add(sector);
+    if (packets.empty()) return;
+    TurnCoverage::Swept all = packets.front();  // most degrees are elsewhere
+    for (const TurnCoverage::Swept& swept : packets) {
+        all.looked_from_rad =
+            std::min({all.looked_from_rad, swept.looked_from_rad, swept.from_rad});
+        all.looked_to_rad = std::max({all.looked_to_rad, swept.looked_to_rad, swept.to_rad});
     }
+    for (int k = 0; k < kBins; ++k) {
+        if (!begunArc(all, arcs_[k])) continue;
+        for (const TurnCoverage::Swept& swept : packets)
+            noteSwept(swept, arcs_[k], now_s, bins_[k]);
+    }
+}
+
+void SectorDistances::noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc,
+                                double now_s, Bin& bin) const {
+    const auto begun_rad = begunArc(swept, arc);
+    if (begun_rad && *begun_rad > bin.begun_rad + kPi) {
+        bin.begun_rad = *begun_rad;
+        bin.begun_s = now_s;
+    }
+    const auto end_rad = endOfArc(swept, arc);
+    if (!end_rad || *end_rad < bin.end_rad + kPi) return;
+    bin.end_rad = *end_rad;
+    bin.swept_s = bin.begun_s;
+    bin.passed_s = now_s;
+    bin.passed_rad = coverage_.head_rad();
 }
 
 void SectorDistances::take(const LabelledSector& sector) {

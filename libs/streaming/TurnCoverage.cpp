@@ -40,14 +40,14 @@ const std::vector<TurnCoverage::Swept>& TurnCoverage::add(const LabelledSector& 
     if (stretches_.empty()) before_rad_ = sector.sweep->from_rad + added_rad_;
     head_rad_ = sector.sweep->to_rad + added_rad_;
     if (sector.packets == nullptr) {
-        add(*sector.sweep);
+        add(*sector.sweep, sector.offsets);
     } else {
-        for (const Sweep& packet : *sector.packets) add(packet);
+        for (const Sweep& packet : *sector.packets) add(packet, sector.offsets);
     }
     return swept_;
 }
 
-void TurnCoverage::add(const Sweep& sweep) {
+void TurnCoverage::add(const Sweep& sweep, const BeamOffsets& offsets) {
     const Sweep added{sweep.from_rad + added_rad_, sweep.to_rad + added_rad_};
     Sweep stretch = added;
     const auto isJoined = [&](const Sweep& other) {
@@ -62,15 +62,20 @@ void TurnCoverage::add(const Sweep& sweep) {
     stretches_.erase(std::remove_if(stretches_.begin(), stretches_.end(), isJoined),
                      stretches_.end());
     stretches_.push_back(stretch);
-    swept_.push_back({std::max(stretch.from_rad, added.from_rad - kBeside_rad),
-                      std::min(stretch.to_rad, added.to_rad + kBeside_rad), stretch.from_rad});
+    // After a gap, the leading beams are the last to look at a direction without it.
+    const double since_rad = stretch.from_rad + offsets.ahead_rad;
+    const double looked_from_rad = added.from_rad - offsets.behind_rad;
+    const double looked_to_rad = added.to_rad + offsets.ahead_rad;
+    swept_.push_back({std::max(since_rad, looked_from_rad - kBeside_rad),
+                      std::min(stretch.to_rad - offsets.behind_rad, looked_to_rad + kBeside_rad),
+                      since_rad, looked_from_rad, looked_to_rad});
 }
 
 std::optional<double> begunArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc) {
-    const double most_rad = swept.to_rad - kRounding_rad;
+    const double most_rad = swept.looked_to_rad - kRounding_rad;
     const double turns = std::floor((most_rad - arc.begin_rad) / kTurn_rad);
     const double begin_rad = arc.begin_rad + kTurn_rad * turns;
-    const bool is_begun = begin_rad + arc.width_rad > swept.from_rad + kRounding_rad;
+    const bool is_begun = begin_rad + arc.width_rad > swept.looked_from_rad + kRounding_rad;
     return is_begun ? std::optional(begin_rad) : std::nullopt;
 }
 

@@ -19,6 +19,7 @@ constexpr std::size_t kMostLate = 16;
 constexpr double kHourUs = 3600e6, kInterruptionUs = 50e3;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kOverlap_rad = 0.2;  // of packets that are not full
+constexpr double kNearest_m = 0.5;
 constexpr int kBlocks = packets::kVelodyneBlocks;
 constexpr int kReadings = packets::kReadingsOfTurn;
 // In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.
@@ -26,6 +27,20 @@ constexpr double kJitter = 10, kMostOff = 100;
 
 /// From one time of the sensor's clock to another: within half an hour, since it wraps every hour.
 double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
+
+/// Where the lasers look, by their corrections. A laser beside the axis sees what is near in
+/// another direction than it points.
+BeamOffsets offsetsOf(const packets::VelodyneCalibration& calibration, double min_range_m) {
+    BeamOffsets offsets;
+    for (const packets::VelodyneLaser& laser : calibration.lasers) {
+        const double behind_rad = radians(std::remainder(laser.azimuth_deg, 360.0));
+        const double sideways = laser.horizontal_offset_m / std::max(min_range_m, kNearest_m);
+        const double beside_rad = std::asin(std::min(std::abs(sideways), 1.0));
+        offsets.behind_rad = std::max(offsets.behind_rad, behind_rad + beside_rad);
+        offsets.ahead_rad = std::max(offsets.ahead_rad, beside_rad - behind_rad);
+    }
+    return offsets;
+}
 
 int blocksPerFiring(const VelodynePacket& packet) {
     return packet.isDual() || packets::isOfHdl64(packet.bytes.data()) ? 2 : 1;
@@ -71,8 +86,10 @@ VelodyneStream::VelodyneStream(const packets::VelodyneModel& model, const Settin
     sensor.min_range_m = settings.sensor.min_range_m.value_or(limits.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(limits.max_range_m);
     filterFor(sensor, settings.options);  // throws SettingsError
+    const BeamOffsets offsets = offsetsOf(calibration_, static_cast<double>(sensor.min_range_m));
     segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
                                                       std::move(take), streaming);
+    segmenter_->setBeamOffsets(offsets);
     segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 

@@ -320,6 +320,30 @@ TEST_F(SurroundingsTest, ALostPacketThatIsNarrowIsNotPassed) {
     }
 }
 
+/// A beam that is 4 degrees behind the head has not passed what the head has.
+TEST_F(SurroundingsTest, AnObstacleStaysUntilAllBeamsHavePassedIt) {
+    Surroundings surroundings(sensorModel("VLP-32C"), {});
+    const SegmentationResult result;
+    Scan none, wire;
+    wire.x_m = {static_cast<float>(5 * std::cos(radians(10.0)))};
+    wire.y_m = {static_cast<float>(-5 * std::sin(radians(10.0)))};
+    wire.z_m = {0};
+    const auto take = [&](const Scan& scan, double from_deg, double to_deg, double time_s) {
+        const std::vector<Label> labels(scan.size(), Label::Roi);
+        LabelledSector sector{scan,   labels,         Sweep{radians(from_deg), radians(to_deg)},
+                              time_s, time_s + 0.001, true,
+                              false,  false,          result};
+        sector.offsets = {radians(4), radians(4)};
+        surroundings.take(sector);
+    };
+    take(wire, 0, 180, 1);
+    take(none, 180, 360, 1.05);
+    take(none, 360, 374.4, 1.1);  // 10.5, the end of its degree, and 4
+    EXPECT_EQ(surroundings.at(1.11, {})[2].state, State::Obstacle);
+    take(none, 374.4, 374.6, 1.104);
+    EXPECT_EQ(surroundings.at(1.11, {})[2].state, State::SeenNothing);
+}
+
 TEST_F(SurroundingsTest, AnObstacleIsForgottenWhenTheNextTurnDoesNotSeeIt) {
     Flight flight;
     flight.poles = {{6, 0}};

@@ -81,6 +81,18 @@ TEST_F(OusterStreamTest, EachReturnOfAFrameIsLabelled) {
     }
 }
 
+TEST_F(OusterStreamTest, SectorsTellWhereItsPixelsLook) {
+    BeamOffsets offsets;
+    OusterSensor sensor = sensor_;
+    sensor.azimuth_rad = {radians(2.0), radians(-0.5), radians(-3.0), radians(0.1)};
+    OusterStream stream(sensor, settingsOfFourBeams(),
+                        [&](const LabelledSector& sector) { offsets = sector.offsets; });
+    for (const auto& packet : packetsOf(7)) stream.add(bytesOf(packet), packet.size(), 0.01, 0);
+    stream.flush();
+    EXPECT_NEAR(degrees(offsets.behind_rad), 2, 1e-9);  // azimuths are counter-clockwise
+    EXPECT_NEAR(degrees(offsets.ahead_rad), 3, 1e-9);
+}
+
 TEST_F(OusterStreamTest, TheSettingsLimitTheRanges) {
     const auto limitsOf = [&](const Settings& settings) {
         const OusterStream stream(sensor_, settings, [](const LabelledSector&) {});

@@ -18,8 +18,10 @@ class TurnCoverageTest : public testing::Test {
             packets.push_back({radians(from_deg), radians(to_deg)});
         }
         const Sweep sector{packets.front().from_rad, radians(head_deg)};
-        const auto& all =
-            coverage_.add({scan_, labels_, sector, 1, 1, true, false, false, result_, &packets});
+        LabelledSector labelled{scan_, labels_, sector, 1,       1,
+                                true,  false,   false,  result_, &packets};
+        labelled.offsets = offsets_;
+        const auto& all = coverage_.add(labelled);
         std::vector<double> complete_deg;
         for (int k = 0; k < 360; ++k) {
             bool is_complete = false;
@@ -37,6 +39,7 @@ class TurnCoverageTest : public testing::Test {
     const Scan scan_;
     const std::vector<Label> labels_;
     const SegmentationResult result_;
+    BeamOffsets offsets_;
     TurnCoverage coverage_;
 };
 
@@ -61,10 +64,27 @@ TEST_F(TurnCoverageTest, APacketThatComesLateClosesTheGap) {
               (Degrees{10.5, 11.5, 12.5, 13.5, 14.5, 15.5, 16.5, 17.5, 18.5, 19.5, 20.5}));
 }
 
+TEST_F(TurnCoverageTest, AllBeamsMustHaveLooked) {
+    offsets_ = {radians(4.2), radians(2.2)};
+    EXPECT_EQ(add(100, 105), Degrees());  // from 102.2 to 100.8
+    EXPECT_EQ(add(105, 110), (Degrees{103.5, 104.5}));
+    EXPECT_EQ(add(110, 112), (Degrees{103.5, 104.5, 105.5, 106.5}));
+    EXPECT_EQ(add(113, 130),
+              (Degrees{116.5, 117.5, 118.5, 119.5, 120.5, 121.5, 122.5, 123.5, 124.5}));
+    add(130, 140);
+    // The lost packet, late.
+    const Degrees late = add({{112, 113}}, 140);
+    EXPECT_EQ(late.front(), 104.5);
+    EXPECT_EQ(late.back(), 117.5);
+    EXPECT_EQ(late.size(), 14u);
+}
+
 TEST_F(TurnCoverageTest, AfterATurnTheSameDegreesAreSweptAgain) {
     add(350, 362.5);
     EXPECT_EQ(add(362.5, 364.5), (Degrees{0.5, 1.5, 2.5, 3.5, 359.5}));
-    EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700)}, {0, radians(5)}), radians(725));
+    EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700), radians(710), radians(730)},
+                       {0, radians(5)}),
+              radians(725));
 }
 
 /// What was swept before is not joined to what is swept now, where angles are by chance the next.

@@ -63,6 +63,7 @@ class Surroundings {
         double first_time_s = 0, last_time_s = 0;
         bool turns = false;
         std::vector<streaming::TurnCoverage::Swept> swept;  ///< by its packets
+        double ahead_rad = 0;                               ///< of its beams
         bool is_all_around = false;          ///< it does not turn, and FrameCoverage says so
         double from_rad = 0, to_rad = 0;     ///< how far the sensor had turned before, and has now
         std::vector<Eigen::Vector3f> roi_m;  ///< in the sensor's frame

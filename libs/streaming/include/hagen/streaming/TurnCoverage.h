@@ -7,14 +7,16 @@
 
 namespace hagen::streaming {
 
-/// Where a sensor that turns has looked, and where it has not: between two packets, others may be
-/// lost, however narrow they are. Packets that come late close the gap that they left.
+/// Where all beams of a sensor that turns have looked: some lag behind its head (BeamOffsets).
+/// Between two packets, others may be lost, however narrow they are. Packets that come late close
+/// the gap that they left.
 class TurnCoverage {
  public:
     /// The directions that a packet's sweep has completed, in angles that go on from turn to turn.
     struct Swept {
         double from_rad, to_rad;
-        double since_rad;  ///< without a gap from here to `to_rad`
+        double since_rad;                       ///< without a gap from here to `to_rad`
+        double looked_from_rad, looked_to_rad;  ///< any of its beams
     };
 
     /// Directions of the sensor, in any turn. NaN: none.
@@ -37,7 +39,7 @@ class TurnCoverage {
  private:
     static constexpr double kNone = -std::numeric_limits<double>::infinity();
 
-    void add(const Sweep& sweep);
+    void add(const Sweep& sweep, const BeamOffsets& offsets);
 
     std::vector<Sweep> stretches_;  ///< without a gap, of the latest turn; in any order
     std::vector<Swept> swept_;
@@ -45,7 +47,7 @@ class TurnCoverage {
     double added_rad_ = 0;  ///< to the angles of sectors
 };
 
-/// Where an arc begins in the latest turn in which the sweep looks there; none: it does not.
+/// Where an arc begins in the latest turn in which a beam looks there; none: none does.
 std::optional<double> begunArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc);
 /// Where it ends in the latest turn in which the sweep has completed it; none: not all of the arc
 /// was swept without a gap.
