@@ -139,8 +139,8 @@ void printSummary(const live::LiveReport& r) {
                 r.packets, r.scans, r.lost, r.late, r.repeated, r.dropped);
     std::printf(
         "left out: %zu datagrams of another size, %zu of other sensors, %zu of position or IMU, "
-        "%zu without valid data\n",
-        r.wrong_size, r.foreign, r.position, r.unsound);
+        "%zu without valid data, %zu too late, %zu of an uncertain mode\n",
+        r.wrong_size, r.foreign, r.position, r.unsound, r.too_late, r.uncertain);
     std::printf("%zu sectors, %zu returns, %zu RoI\n", r.sectors, r.returns, r.roi);
     if (r.latency.count() > 0) {
         std::printf(
@@ -217,6 +217,11 @@ int run(const Program& program, Flags& flags) {
         if (report.foreign > 0) {
             problem += ", but " + std::to_string(report.foreign) + " of other sensors: see " +
                        (flags.live.model.empty() ? "--sensor-json" : "--model");
+        }
+        if (report.uncertain > 0) {
+            problem += ", but " + std::to_string(report.uncertain) +
+                       " of one that does not turn with the columns of the metadata: is it in "
+                       "another mode?";
         }
         return program.fail(kFailed, problem);
     } catch (const SettingsError& e) {

@@ -39,6 +39,7 @@ struct OusterCapture::Reader {
     bool isOfSensor(const packets::Datagram& datagram);
     std::string textOfOthers() const;
     std::string whyEmpty() const;
+    std::string whyUncertain() const;
 };
 
 /// Counts what is not of the sensor.
@@ -98,6 +99,12 @@ std::string OusterCapture::Reader::whyEmpty() const {
            ". Is it another sensor's metadata?";
 }
 
+std::string OusterCapture::Reader::whyUncertain() const {
+    return file.string() + ": its turns do not have the " +
+           std::to_string(sensor.columns_per_frame) + " columns of " + json.string() +
+           ". Are the metadata of another mode?";
+}
+
 OusterCapture::OusterCapture(const std::filesystem::path& file,
                              const std::filesystem::path& sensor_json)
     : reader_(std::make_unique<Reader>(file, sensor_json)) {}
@@ -124,6 +131,7 @@ CObservationPointCloud::Ptr OusterCapture::next() {
     }
     if (!r.broken_because.empty()) throw packets::BrokenCapture(r.broken_because);
     if (r.frames.counts().packets == 0) throw packets::BrokenCapture(r.whyEmpty());
+    if (r.frames.counts().frames == 0) throw packets::BrokenCapture(r.whyUncertain());
     return nullptr;
 }
 

@@ -23,6 +23,8 @@ mrpt::obs::CObservationPointCloud::Ptr observationOf(const packets::OusterFrame&
 std::string textOf(const packets::OusterFrames::Counts& counts) {
     std::string text = counted(counts.packets, "packet") + " in " + counted(counts.frames, "turn");
     addCount(counts.lost_frames, "turn", "lost", text);
+    addCount(counts.uncertain_frames, "turn",
+             "left out: it is not certain that they have the columns of the metadata", text);
     addCount(counts.missing_columns, "column", "missing", text);
     addCount(counts.invalid_columns, "column", "that the sensor calls invalid, left out", text);
     addCount(counts.wrong_columns, "column", "with a wrong number, left out", text);

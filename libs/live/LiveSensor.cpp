@@ -60,6 +60,8 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
         counts.position = position_;
         counts.foreign = of_stream.other_model;
         counts.unsound = of_stream.unsound;
+        counts.unsound_blocks = of_stream.unsound_blocks;
+        counts.too_late = of_stream.too_late;
         counts.mode_changes = of_stream.mode_changes;
         counts.scans = of_stream.turns;
         return counts;
@@ -103,7 +105,10 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
         counts.wrong_size = of_stream.wrong_size;
         counts.position = of_stream.imu;
         counts.foreign = of_stream.other_sensor;
+        counts.uncertain = of_stream.uncertain;
+        counts.restarts = of_stream.restarts;
         counts.unsound = of_stream.unsound;
+        counts.too_late = of_stream.too_late;
         counts.scans = of_stream.turns;
         return counts;
     }

@@ -15,7 +15,8 @@ class LiveSensor {
     /// Of its packets, as in LiveReport.
     struct Counts {
         std::size_t packets = 0, lost = 0, late = 0, repeated = 0, wrong_size = 0, position = 0,
-                    foreign = 0, unsound = 0, interruptions = 0, mode_changes = 0, scans = 0;
+                    foreign = 0, unsound = 0, unsound_blocks = 0, too_late = 0, uncertain = 0,
+                    restarts = 0, interruptions = 0, mode_changes = 0, scans = 0;
     };
 
     virtual ~LiveSensor() = default;

@@ -104,6 +104,7 @@ class Session {
     bool isOfSensor(const Packet& packet);
     void tell(const streaming::LabelledSector& sector);
     void tellChanges();
+    void tellUncertain();
     void tellSilence(double now_s);
     void copyCounts();
     void showStatus(double now_s);
@@ -117,6 +118,8 @@ class Session {
 
     double start_s_, status_s_, last_packet_s_ = 0, last_taken_s_ = 0;  ///< of the sensor, of all
     SensorAddress address_;
+    std::size_t uncertain_ = 0, restarts_ = 0;  ///< those that were told
+    bool is_uncertain_ = false;
     bool is_flushed_ = true, is_silent_ = false, is_recording_told_ = false;
     std::size_t foreign_ip_ = 0;
 };
@@ -161,12 +164,36 @@ void Session::take(const Packet& packet) {
         last_packet_s_ = packet.arrival_s;
         is_flushed_ = false;
         tellChanges();
+    } else {
+        tellUncertain();
     }
     if (recorder_ && sensor_->isData(packet)) recorder_->add(packet);
 }
 
+/// After a packet was left out: perhaps since the mode of an Ouster is not that of its metadata.
+void Session::tellUncertain() {
+    const LiveSensor::Counts counts = sensor_->counts();
+    if (counts.uncertain == uncertain_) return;
+    uncertain_ = counts.uncertain;
+    const bool is_restarted = counts.restarts > restarts_;
+    restarts_ = counts.restarts;
+    if (is_uncertain_ && !is_restarted) return;
+    is_uncertain_ = true;
+    listener_.remark(is_restarted
+                         ? "the sensor was started again; it is labelled once it turns with "
+                           "the columns of " +
+                               options_.sensor_json.string()
+                         : "the sensor does not turn with the columns of " +
+                               options_.sensor_json.string() +
+                               ": its packets are left out. Is it in another mode?");
+}
+
 /// After a packet was taken.
 void Session::tellChanges() {
+    if (is_uncertain_) {
+        is_uncertain_ = false;
+        listener_.remark("the sensor turns with the columns of its metadata again");
+    }
     if (is_silent_) {
         is_silent_ = false;
         listener_.remark("packets come again");
@@ -184,11 +211,14 @@ void Session::copyCounts() {
     r.packets = counts.packets;
     r.lost = counts.lost;
     r.late = counts.late;
+    r.too_late = counts.too_late;
     r.repeated = counts.repeated;
     r.wrong_size = counts.wrong_size;
     r.position = counts.position;
     r.foreign = counts.foreign + foreign_ip_;
     r.unsound = counts.unsound;
+    r.unsound_blocks = counts.unsound_blocks;
+    r.uncertain = counts.uncertain;
     r.interruptions = counts.interruptions;
     r.scans = counts.scans;
     figures_->update(steadyNow_s());

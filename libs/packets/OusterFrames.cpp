@@ -45,9 +45,8 @@ OusterFrame emptyFrame(const OusterSensor& sensor, std::uint16_t id, std::int64_
 const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t time_ns,
                                      std::vector<std::size_t>* taken) {
     if (taken != nullptr) taken->clear();
-    const bool is_legacy = sensor_.profile.is_legacy;
-    constexpr std::size_t kPacketHeader = 32;
     ++counts_.packets;
+    const bool is_certain = columns_.take(packet);
     OusterFrame* const frame = frameOf(frameIdOf(packet, sensor_), time_ns);
     if (frame == nullptr) {
         ++counts_.late_packets;
@@ -55,11 +54,11 @@ const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t ti
         return nullptr;
     }
     late_in_a_row_ = 0;
-    const std::uint8_t* const first = packet + (is_legacy ? 0 : kPacketHeader);
+    if (!is_certain) frame->is_uncertain = true;
     for (std::size_t c = 0; c < sensor_.columns_per_packet; ++c) {
         std::size_t number = 0;
-        const bool is_new = readColumn(first + c * sensor_.columnBytes(), number, *frame);
-        if (is_new && taken != nullptr) taken->push_back(number);
+        const bool is_new = readColumn(sensor_.columnOf(packet, c), number, *frame);
+        if (is_new && taken != nullptr && !frame->is_uncertain) taken->push_back(number);
     }
     return frame;
 }
@@ -97,11 +96,8 @@ bool OusterFrames::readColumn(const std::uint8_t* column, std::size_t& number, O
     }
     constexpr std::size_t kHeader = 12, kLegacyHeader = 16;
     const std::uint8_t* const pixels = column + (profile.is_legacy ? kLegacyHeader : kHeader);
-    const bool is_valid =
-        profile.is_legacy
-            ? little<std::uint32_t>(pixels + sensor_.pixels * profile.pixel_bytes) == 0xffffffff
-            : (column[10] & 1) != 0;
-    frame.state[number] = is_valid ? OusterFrame::Column::Valid : OusterFrame::Column::Invalid;
+    frame.state[number] =
+        sensor_.isValid(column) ? OusterFrame::Column::Valid : OusterFrame::Column::Invalid;
     frame.column_time_ns[number] = little<std::uint64_t>(column);
     for (std::size_t p = 0; p < sensor_.pixels; ++p) {
         const std::uint8_t* const pixel = pixels + p * profile.pixel_bytes;
@@ -118,16 +114,21 @@ bool OusterFrames::readColumn(const std::uint8_t* column, std::size_t& number, O
 
 void OusterFrames::completeFirst() {
     OusterFrame& frame = open_.front();
-    ++counts_.frames;
     if (has_last_) counts_.lost_frames += static_cast<std::size_t>(stepOf(last_id_, frame.id) - 1);
+    has_last_ = true;
+    last_id_ = frame.id;
+    if (frame.is_uncertain) {
+        ++counts_.uncertain_frames;
+        open_.pop_front();
+        return;
+    }
+    ++counts_.frames;
     std::size_t present = 0;
     for (const OusterFrame::Column state : frame.state) {
         present += state != OusterFrame::Column::Missing;
         counts_.invalid_columns += state == OusterFrame::Column::Invalid;
     }
     counts_.missing_columns += sensor_.windowColumns() - std::min(present, sensor_.windowColumns());
-    has_last_ = true;
-    last_id_ = frame.id;
     complete_.push_back(std::move(frame));
     open_.pop_front();
 }

@@ -3,6 +3,7 @@
 
 #include <hagen/base/FileKind.h>
 #include <hagen/base/Json.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/range_image/Angle.h>
 
 #include <algorithm>
@@ -116,6 +117,17 @@ std::size_t columnsOfMode(const std::string& mode) {
     throw std::runtime_error("'lidar_mode' is '" + mode + "', not like '1024x10'");
 }
 
+/// From a mode like "1024x10": turns per second; 0: it is none.
+double turnTimeOfMode(const Metadata& metadata) {
+    const Json* const found = metadata.find("lidar_mode");
+    if (found == nullptr || !found->isText()) return 0;
+    const std::string mode = found->text();
+    const std::size_t at = mode.find('x');
+    const auto turns =
+        at == std::string::npos ? std::nullopt : base::numberFrom<unsigned>(mode.substr(at + 1));
+    return turns && *turns > 0 && *turns <= 100 ? 1.0 / *turns : 0;
+}
+
 const OusterProfile& profileNamed(const std::string& name) {
     std::string known;
     for (const OusterProfile& profile : profiles()) {
@@ -147,6 +159,7 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
     }
     sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMostColumns)
                                           : columnsOfMode(metadata.requiredText("lidar_mode"));
+    sensor.turn_s = turnTimeOfMode(metadata);
     const std::size_t most_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
     sensor.columns_per_packet =
         has_format ? metadata.count("columns_per_packet", 1, most_of_packet) : 16;
@@ -260,6 +273,17 @@ std::size_t OusterSensor::windowColumns() const {
     return (last_column + columns_per_frame - first_column) % columns_per_frame + 1;
 }
 
+const std::uint8_t* OusterSensor::columnOf(const std::uint8_t* packet, std::size_t column) const {
+    return packet + (profile.is_legacy ? 0 : kPacketHeader) + column * columnBytes();
+}
+
+bool OusterSensor::isValid(const std::uint8_t* column) const {
+    if (!profile.is_legacy) return (column[10] & 1) != 0;
+    const std::uint8_t* const footer = column + columnBytes() - kLegacyColumnFooter;
+    return std::all_of(footer, footer + kLegacyColumnFooter,
+                       [](std::uint8_t byte) { return byte == 0xff; });
+}
+
 bool isOfLidar(const std::uint8_t* packet, const OusterSensor& sensor) {
     if (sensor.profile.is_legacy) return true;
     return packet[0] == 1 && (sensor.has_fusa_header || packet[1] == 0);
@@ -276,6 +300,13 @@ std::uint64_t serialOf(const std::uint8_t* packet, const OusterSensor& sensor) {
 std::uint16_t frameIdOf(const std::uint8_t* packet, const OusterSensor& sensor) {
     const std::size_t at = sensor.profile.is_legacy ? 10 : sensor.has_fusa_header ? 4 : 2;
     return static_cast<std::uint16_t>(packet[at] | packet[at + 1] << 8);
+}
+
+std::optional<std::uint32_t> initializationOf(const std::uint8_t* packet,
+                                              const OusterSensor& sensor) {
+    if (sensor.profile.is_legacy) return std::nullopt;
+    const std::size_t at = sensor.has_fusa_header ? 1 : 4;
+    return packet[at] | std::uint32_t{packet[at + 1]} << 8 | std::uint32_t{packet[at + 2]} << 16;
 }
 
 OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) {

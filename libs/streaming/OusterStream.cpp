@@ -19,6 +19,17 @@ constexpr long long kMostLate = 16;  // packets
 constexpr int kMostTurns = 2;        // missing; more: the sensor was started again
 constexpr std::size_t kImuBytes = 48;
 
+/// Where the pixels look.
+BeamOffsets offsetsOf(const packets::OusterSensor& sensor) {
+    BeamOffsets offsets;
+    for (const double azimuth_rad : sensor.azimuth_rad) {
+        const double behind_rad = std::remainder(azimuth_rad, 2 * kPi);
+        offsets.behind_rad = std::max(offsets.behind_rad, behind_rad);
+        offsets.ahead_rad = std::max(offsets.ahead_rad, -behind_rad);
+    }
+    return offsets;
+}
+
 /// From one frame id to another; ids wrap.
 int stepOf(std::uint16_t from, std::uint16_t to) {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
@@ -37,6 +48,7 @@ OusterStream::OusterStream(const packets::OusterSensor& sensor, const Settings& 
                                                       std::move(take), streaming);
     const Eigen::Matrix3d turned = sensor_.lidar_to_sensor.linear();
     ahead_rad_ = -std::atan2(turned(1, 0), turned(0, 0));
+    segmenter_->setBeamOffsets(offsetsOf(sensor_));
     segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 
@@ -75,13 +87,6 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         ++counts_.other_sensor;
         return Taken::OtherSensor;
     }
-    const std::uint16_t id = packets::frameIdOf(bytes, sensor_);
-    const int step = has_last_ ? stepOf(last_id_, id) : 0;
-    if (std::abs(step) > kMostTurns) {
-        ++counts_.interruptions;
-        segmenter_->restart();
-        has_last_ = false;
-    }
     const std::size_t repeated = frames_.counts().repeated_columns;
     const packets::OusterFrame* const frame = frames_.add(bytes, time_ns, &columns_);
     countLosses();
@@ -89,6 +94,23 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         ++counts_.late;
         ++counts_.too_late;
         return Taken::Late;
+    }
+    counts_.restarts = frames_.restarts();
+    if (frame->is_uncertain) {
+        // Nothing is known of where the sensor looks, nor where it has looked in this turn.
+        if (!is_uncertain_) segmenter_->restart();
+        is_uncertain_ = true;
+        has_last_ = false;
+        ++counts_.uncertain;
+        return Taken::Uncertain;
+    }
+    is_uncertain_ = false;
+    const std::uint16_t id = frame->id;
+    const int step = has_last_ ? stepOf(last_id_, id) : 0;
+    if (std::abs(step) > kMostTurns) {  // and not one that is only late
+        ++counts_.interruptions;
+        segmenter_->restart();
+        has_last_ = false;
     }
     if (columns_.empty()) {
         const bool is_repeated = frames_.counts().repeated_columns > repeated;
@@ -108,7 +130,6 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
     const auto of_packet = static_cast<long long>(sensor_.columns_per_packet);
     const long long turn = has_last_ ? turn_ + step : 0;
     const long long at = turn * columns + static_cast<long long>(columns_.front());
-    ++counts_.packets;
     if (has_last_ && at < last_at_) {
         ++counts_.late;
         if (last_at_ - at > kMostLate * of_packet) {
@@ -121,6 +142,7 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
         turn_ = turn;
         last_at_ = at;
     }
+    ++counts_.packets;
     addRuns(*frame, turn, arrival_s);
     return Taken::Yes;
 }

@@ -171,6 +171,13 @@ void StreamingSegmenter::setPose(const std::optional<Eigen::Isometry3d>& map_fro
 
 void StreamingSegmenter::setMount(const std::optional<Attitude>& tilt) { mount_ = ifFinite(tilt); }
 
+void StreamingSegmenter::setBeamOffsets(const BeamOffsets& offsets) {
+    const auto isSound = [](double angle_rad) { return angle_rad >= 0 && angle_rad <= kTurn_rad; };
+    check(isSound(offsets.behind_rad) && isSound(offsets.ahead_rad),
+          "beams look at least 0 and at most a turn behind or ahead of the head");
+    offsets_ = offsets;
+}
+
 StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double time_s) {
     checkLocated(returns, filter_.sensor());
     const auto isUsable = [](float azimuth_rad) {
@@ -478,7 +485,7 @@ void StreamingSegmenter::label(bool is_cut) {
     open_ = 0;
     take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt,
            first.first_time_s, last.time_s, has_turn, is_doubtful, is_cut, result, &sweeps_,
-           last.measured_s});
+           last.measured_s, offsets_});
 }
 
 }  // namespace hagen::streaming

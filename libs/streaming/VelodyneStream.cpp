@@ -1,5 +1,6 @@
 #include <hagen/range_image/Airframe.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/range_image/AppendReturn.h>
 #include <hagen/streaming/VelodyneStream.h>
 
 #include <algorithm>
@@ -18,11 +19,55 @@ constexpr std::size_t kMostLate = 16;
 constexpr double kHourUs = 3600e6, kInterruptionUs = 50e3;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kOverlap_rad = 0.2;  // of packets that are not full
+constexpr double kNearest_m = 0.5;
 constexpr int kBlocks = packets::kVelodyneBlocks;
 constexpr int kReadings = packets::kReadingsOfTurn;
+// In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.
+constexpr double kJitter = 10, kMostOff = 100;
 
 /// From one time of the sensor's clock to another: within half an hour, since it wraps every hour.
 double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
+
+/// Where the lasers look, by their corrections. A laser beside the axis sees what is near in
+/// another direction than it points.
+BeamOffsets offsetsOf(const packets::VelodyneCalibration& calibration, double min_range_m) {
+    BeamOffsets offsets;
+    for (const packets::VelodyneLaser& laser : calibration.lasers) {
+        const double behind_rad = radians(std::remainder(laser.azimuth_deg, 360.0));
+        const double sideways = laser.horizontal_offset_m / std::max(min_range_m, kNearest_m);
+        const double beside_rad = std::asin(std::min(std::abs(sideways), 1.0));
+        offsets.behind_rad = std::max(offsets.behind_rad, behind_rad + beside_rad);
+        offsets.ahead_rad = std::max(offsets.ahead_rad, beside_rad - behind_rad);
+    }
+    return offsets;
+}
+
+int blocksPerFiring(const VelodynePacket& packet) {
+    return packet.isDual() || packets::isOfHdl64(packet.bytes.data()) ? 2 : 1;
+}
+
+/// -1: one of its blocks is unsound.
+int azimuthOfFiring(const VelodynePacket& packet, int firing) {
+    const int step = blocksPerFiring(packet);
+    for (int b = firing * step; b < (firing + 1) * step; ++b) {
+        if (packet.azimuthOf(b) < 0) return -1;
+    }
+    return packet.azimuthOf(firing * step);
+}
+
+/// How many returns the decoder finds in the first blocks.
+std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
+    std::size_t returns = 0;
+    for (int b = 0; b < blocks; ++b) {
+        if (packet.azimuthOf(b) < 0) continue;
+        const std::uint8_t* const block =
+            packet.bytes.data() + b * packets::kVelodyneBlockBytes + packets::kVelodyneHeaderBytes;
+        for (std::size_t i = 0; i < packets::kReturnsOfBlock; ++i) {
+            returns += (block[3 * i] | block[3 * i + 1]) != 0;
+        }
+    }
+    return returns;
+}
 
 }  // namespace
 
@@ -41,8 +86,10 @@ VelodyneStream::VelodyneStream(const packets::VelodyneModel& model, const Settin
     sensor.min_range_m = settings.sensor.min_range_m.value_or(limits.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(limits.max_range_m);
     filterFor(sensor, settings.options);  // throws SettingsError
+    const BeamOffsets offsets = offsetsOf(calibration_, static_cast<double>(sensor.min_range_m));
     segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
                                                       std::move(take), streaming);
+    segmenter_->setBeamOffsets(offsets);
     segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 
@@ -60,29 +107,56 @@ bool VelodyneStream::isRepeated(const VelodynePacket& packet, double time_us) co
     });
 }
 
-/// What a packet swept; the packets since the one before may be lost. Returns false if it has no
-/// sound block.
-bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
-                               Sweep& sweep) const {
-    const bool is_hdl64 = &model_ == &packets::hdl64Model();
-    const int blocks_per_firing = packet.isDual() || is_hdl64 ? 2 : 1;
-    int first = -1, last = -1;
-    for (int b = 0; b < kBlocks; ++b) {
-        if (packet.azimuthOf(b) < 0) continue;
-        if (first < 0) first = b;
-        last = b;
+/// The firings whose blocks are all sound, in runs that turn on as a sensor does. What an unsound
+/// block would have seen is not known, so that no sweep goes over it.
+void VelodyneStream::findRuns(const VelodynePacket& packet) {
+    runs_.clear();
+    int before = -1;  // azimuth of the firing before, if that is sound
+    for (int f = 0; f < kBlocks / blocksPerFiring(packet); ++f) {
+        const int azimuth = azimuthOfFiring(packet, f);
+        const double step = std::remainder(azimuth - before, kReadings);
+        const bool goes_on = before >= 0 && step > -kJitter &&
+                             step * kBlocks < kReadings / 8.0 * blocksPerFiring(packet);
+        if (azimuth >= 0 && goes_on) {
+            ++runs_.back().end;
+        } else if (azimuth >= 0) {
+            runs_.push_back({f, f + 1});
+        }
+        before = azimuth;
     }
-    if (first < 0) return false;
-    const int firings = last / blocks_per_firing - first / blocks_per_firing;
-    int turned = packet.azimuthOf(last) - packet.azimuthOf(first);
-    if (turned < 0) turned += kReadings;
-    // A packet sweeps a few degrees; more is a broken reading.
-    const int all_firings = kBlocks / blocks_per_firing;
-    const double per_firing = turned * all_firings < firings * kReadings / 8
-                                  ? static_cast<double>(turned) / firings
-                                  : 0.0;
-    const int before = first / blocks_per_firing;
-    const double from = packet.azimuthOf(first) - per_firing * before;
+}
+
+/// What a packet swept, as if all of its blocks were sound; the packets since the one before may be
+/// lost. Leaves those runs that are where the sensor is by the longest one: others are broken
+/// readings. Returns false if the packet has no sound block.
+bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
+    findRuns(packet);
+    const int step = blocksPerFiring(packet), all_firings = kBlocks / step;
+    double from = -1, per_firing = 0;
+    if (runs_.empty()) {  // halves of firings at most
+        for (int b = kBlocks - 1; b >= 0; --b) {
+            if (packet.azimuthOf(b) >= 0) from = packet.azimuthOf(b);
+        }
+        if (from < 0) return false;
+    } else {
+        const auto isShorter = [](const Run& a, const Run& b) {
+            return a.end - a.first < b.end - b.first;
+        };
+        const Run longest = *std::max_element(runs_.begin(), runs_.end(), isShorter);
+        const int first_azimuth = packet.azimuthOf(longest.first * step);
+        const int turned = packet.azimuthOf(longest.end * step - 1) - first_azimuth;
+        const int firings = longest.end - longest.first - 1;
+        if (firings > 0) {
+            per_firing = std::max(0.0, std::remainder(turned, kReadings)) / firings;
+        }
+        from = first_azimuth - per_firing * longest.first;
+        const auto isElsewhere = [&](const Run& run) {
+            const double expected = from + per_firing * run.first;
+            const double off = azimuthOfFiring(packet, run.first) - expected;
+            return std::abs(std::remainder(off, kReadings)) > kMostOff;
+        };
+        runs_.erase(std::remove_if(runs_.begin(), runs_.end(), isElsewhere), runs_.end());
+    }
     const double swept_rad = radians(0.01 * per_firing * all_firings);
     sweep.from_rad = radians(0.01 * from);
     if (has_last_) {
@@ -95,6 +169,33 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us,
     }
     sweep.to_rad = sweep.from_rad + swept_rad;
     return true;
+}
+
+/// Each run is a sweep. Returns of other blocks have labels, too: they go with the run before.
+void VelodyneStream::addRuns(const VelodynePacket& packet, const Sweep& sweep, double arrival_s) {
+    const int step = blocksPerFiring(packet);
+    if (runs_.empty()) {
+        segmenter_->add(returns_, {sweep.from_rad, sweep.from_rad}, arrival_s);
+        return;
+    }
+    if (runs_.size() == 1 && runs_[0].first == 0 && runs_[0].end == kBlocks / step) {
+        segmenter_->add(returns_, sweep, arrival_s);
+        return;
+    }
+    const double firing_rad = (sweep.to_rad - sweep.from_rad) * step / kBlocks;
+    std::size_t taken = 0;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+        const bool is_last = r + 1 == runs_.size();
+        const int end_block = is_last ? kBlocks : runs_[r + 1].first * step;
+        const std::size_t end = is_last ? returns_.size() : returnsBefore(packet, end_block);
+        part_.clear();
+        part_.beams = returns_.beams;
+        for (; taken < end; ++taken) appendReturn(returns_, taken, part_);
+        segmenter_->add(part_,
+                        {sweep.from_rad + firing_rad * runs_[r].first,
+                         sweep.from_rad + firing_rad * runs_[r].end},
+                        arrival_s);
+    }
 }
 
 VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t size,
@@ -117,19 +218,46 @@ VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t
         ++counts_.repeated;
         return Taken::Repeated;
     }
-    const bool is_dual = packet.isDual();
     // From the packet before to this one: as long as the one before lasted.
+    const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : packet.isDual());
+    const bool is_too_late =
+        has_last_ && elapsedUs(last_us_, time_us) < -static_cast<double>(kMostLate) * period_us;
+    if (is_too_late) return hold(packet, arrival_s);
+    held_.clear();
+    return take(packet, arrival_s);
+}
+
+/// One packet that was under way for a turn must not count as what is there now. So many in a row
+/// are no late ones: the sensor's clock was set.
+VelodyneStream::Taken VelodyneStream::hold(const VelodynePacket& packet, double arrival_s) {
+    held_.push_back({packet, arrival_s});
+    ++counts_.late;
+    ++counts_.too_late;
+    if (held_.size() < kMostLate) return Taken::Late;
+    counts_.late -= held_.size();
+    counts_.too_late -= held_.size();
+    ++counts_.interruptions;
+    segmenter_->restart();
+    has_last_ = false;
+    Taken taken = Taken::Late;
+    for (const auto& [held, held_s] : std::exchange(held_, {})) {
+        taken = add(held.bytes.data(), held.bytes.size(), held_s);
+    }
+    return taken;
+}
+
+VelodyneStream::Taken VelodyneStream::take(const VelodynePacket& packet, double arrival_s) {
+    const double time_us = packet.sensorTimeUs();
+    const bool is_dual = packet.isDual();
     const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : is_dual);
-    double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
-    if (has_last_ && (elapsed_us < -static_cast<double>(kMostLate) * period_us ||
-                      elapsed_us > kInterruptionUs)) {
+    const double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
+    if (elapsed_us > kInterruptionUs) {
         ++counts_.interruptions;
-        const bool is_jump = elapsed_us < 0 || elapsed_us > 1e6 * segmenter_->streaming().context_s;
-        if (elapsed_us > 0 && elapsed_us < 1e6) {
+        if (elapsed_us < 1e6) {
             counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
         }
         segmenter_->flush();
-        if (is_jump) {
+        if (elapsed_us > 1e6 * segmenter_->streaming().context_s) {
             segmenter_->restart();
             has_last_ = false;
         }
@@ -164,7 +292,7 @@ VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t
         decodePackets({packet.bytes.data(), 1}, calibration_, returns_, decoder_);
     counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
     ++counts_.packets;
-    segmenter_->add(returns_, sweep, arrival_s);
+    addRuns(packet, sweep, arrival_s);
     return Taken::Yes;
 }
 

@@ -292,6 +292,58 @@ TEST_F(SurroundingsTest, ADirectionWhosePacketsAreLostIsUnknownAfterAWhile) {
     }
 }
 
+/// A packet of a degree, as of an HDL-32E with two returns per firing.
+TEST_F(SurroundingsTest, ALostPacketThatIsNarrowIsNotPassed) {
+    for (const double lost_deg : {10.0, 10.3, 10.5, 10.9}) {
+        Surroundings surroundings(sensorModel("VLP-16"), {});
+        const SegmentationResult result;
+        Scan none, pole;
+        pole.x_m = {static_cast<float>(5 * std::cos(radians(lost_deg + 0.5)))};
+        pole.y_m = {static_cast<float>(-5 * std::sin(radians(lost_deg + 0.5)))};
+        pole.z_m = {0};
+        const std::vector<Label> roi{Label::Roi};
+        const auto take = [&](const Scan& scan, double from_deg, double to_deg, double time_s) {
+            surroundings.take({scan, scan.size() > 0 ? roi : std::vector<Label>(),
+                               Sweep{radians(from_deg), radians(to_deg)}, time_s, time_s + 0.001,
+                               true, false, false, result});
+        };
+        take(pole, 0, 180, 1);
+        take(none, 180, 360, 1.05);
+        take(none, 360, 360 + lost_deg, 1.1);
+        take(none, 360 + lost_deg + 1, 540, 1.105);
+        take(none, 540, 720, 1.15);
+        EXPECT_EQ(surroundings.at(1.2, {})[2].state, State::Obstacle) << lost_deg;
+        take(none, 720, 720 + lost_deg, 1.2);
+        take(none, 720 + lost_deg + 1, 1080, 1.205);
+        EXPECT_EQ(surroundings.at(1.302, {})[2].state, State::Unknown) << lost_deg;
+        EXPECT_EQ(surroundings.at(1.302, {})[3].state, State::SeenNothing) << lost_deg;
+    }
+}
+
+/// A beam that is 4 degrees behind the head has not passed what the head has.
+TEST_F(SurroundingsTest, AnObstacleStaysUntilAllBeamsHavePassedIt) {
+    Surroundings surroundings(sensorModel("VLP-32C"), {});
+    const SegmentationResult result;
+    Scan none, wire;
+    wire.x_m = {static_cast<float>(5 * std::cos(radians(10.0)))};
+    wire.y_m = {static_cast<float>(-5 * std::sin(radians(10.0)))};
+    wire.z_m = {0};
+    const auto take = [&](const Scan& scan, double from_deg, double to_deg, double time_s) {
+        const std::vector<Label> labels(scan.size(), Label::Roi);
+        LabelledSector sector{scan,   labels,         Sweep{radians(from_deg), radians(to_deg)},
+                              time_s, time_s + 0.001, true,
+                              false,  false,          result};
+        sector.offsets = {radians(4), radians(4)};
+        surroundings.take(sector);
+    };
+    take(wire, 0, 180, 1);
+    take(none, 180, 360, 1.05);
+    take(none, 360, 374.4, 1.1);  // 10.5, the end of its degree, and 4
+    EXPECT_EQ(surroundings.at(1.11, {})[2].state, State::Obstacle);
+    take(none, 374.4, 374.6, 1.104);
+    EXPECT_EQ(surroundings.at(1.11, {})[2].state, State::SeenNothing);
+}
+
 TEST_F(SurroundingsTest, AnObstacleIsForgottenWhenTheNextTurnDoesNotSeeIt) {
     Flight flight;
     flight.poles = {{6, 0}};

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "support/CaptureWriter.h"
+#include "support/OusterModes.h"
 #include "support/OusterPackets.h"
 #include "support/Program.h"
 #include "support/Random.h"
@@ -285,6 +286,28 @@ TEST_F(OusterCaptureTest, MetadataOfAnotherSensorAreNamed) {
     EXPECT_THAT(broken_,
                 HasSubstr("(512 bytes, profile RNG15_RFL8_NIR8); it has 8 other UDP datagrams "
                           "(most: 8 of 1024 bytes to port 7502). Is it another"));
+}
+
+TEST_F(OusterCaptureTest, TurnsOfAnotherModeAreLeftOutAndTold) {
+    test::TurningOuster ouster;
+    std::vector<std::string> packets;
+    const auto add = [&](const test::OusterMode& mode, int turns) {
+        for (int k = 0; k < turns; ++k) {
+            const auto turn = ouster.turn(mode);
+            packets.insert(packets.end(), turn.begin(), turn.end());
+        }
+    };
+    add({1024, 10}, 3);
+    json_ = folder_.write("sensor.json", test::ousterJsonOf({1024, 10}));
+    EXPECT_EQ(read(captureOf(packets).bytes()).size(), 3u);
+    EXPECT_THAT(remarks_[0], Not(HasSubstr("left out")));
+    add({2048, 10}, 2);
+    EXPECT_EQ(read(captureOf(packets).bytes()).size(), 3u);
+    EXPECT_THAT(remarks_[0], HasSubstr("2 turns left out: it is not certain that they have the "
+                                       "columns of the metadata"));
+    json_ = folder_.write("other.json", test::ousterJsonOf({512, 10}));
+    EXPECT_EQ(read(captureOf(packets).bytes()).size(), 0u);
+    EXPECT_THAT(broken_, HasSubstr("a.pcap: its turns do not have the 512 columns of "));
 }
 
 TEST_F(OusterCaptureTest, ACutCaptureGivesWhatIsBeforeTheCut) {

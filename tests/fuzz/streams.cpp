@@ -112,7 +112,7 @@ struct AnyVelodyne : StreamOf<streaming::VelodyneStream> {
     }
     std::size_t counted() const override {
         const auto& c = stream.counts();
-        return c.packets + c.wrong_size + c.other_model + c.repeated + c.unsound;
+        return c.packets + c.wrong_size + c.other_model + c.repeated + c.unsound + c.too_late;
     }
 
     std::uint8_t number;
@@ -143,7 +143,7 @@ struct AnyOuster : StreamOf<streaming::OusterStream> {
     std::size_t counted() const override {
         const auto& c = stream.counts();
         return c.packets + c.wrong_size + c.other_sensor + c.imu + c.repeated + c.unsound +
-               c.too_late;
+               c.too_late + c.uncertain;
     }
 
     packets::OusterSensor sensor;

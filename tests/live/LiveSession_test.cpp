@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/CaptureWriter.h"
+#include "support/OusterModes.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 
@@ -120,6 +121,40 @@ class LiveSessionTest : public testing::Test {
     std::size_t returns_ = 0;
     std::chrono::milliseconds first_sector_takes_{0};
 };
+
+TEST_F(LiveSessionTest, UnsoundBlocksAreCounted) {
+    const test::TemporaryFolder folder;
+    options_.stats = folder / "stats.json";
+    auto packets = turnsOf(1);
+    for (const int block : {3, 4, 8}) packets[20][100 * block] = '\0';
+    GivenPackets source;
+    EXPECT_EQ(run(source.addAll(packets)).unsound_blocks, 3u);
+    EXPECT_THAT(test::readFile(options_.stats), HasSubstr("\"unsound_blocks\": 3,"));
+}
+
+TEST_F(LiveSessionTest, AnotherModeOfAnOusterIsTold) {
+    const test::TemporaryFolder folder;
+    options_.model = "";
+    options_.sensor_json = folder.write("ouster.json", test::ousterJsonOf({1024, 10}));
+    options_.settings.options.columns = 64;
+    options_.settings.options.window_size = 2;
+    options_.settings.options.principal_components = 1;
+    test::TurningOuster ouster;
+    GivenPackets source;
+    source.addAll(ouster.turn({1024, 10})).addAll(ouster.turn({1024, 10}));
+    source.addAll(ouster.turn({512, 10}));
+    source.addAll(ouster.turn({1024, 10})).addAll(ouster.turn({1024, 10}));
+    ++ouster.initialization;
+    source.addAll(ouster.turn({1024, 10})).addAll(ouster.turn({1024, 10}));
+    const LiveReport report = run(source);
+    EXPECT_GE(report.uncertain, 32u + 64u);
+    EXPECT_EQ(report.packets + report.uncertain, 6 * 64u + 32u);
+    ASSERT_EQ(remarks_.size(), 4u);
+    EXPECT_THAT(remarks_[0], HasSubstr("does not turn with the columns of "));
+    EXPECT_THAT(remarks_[1], HasSubstr("turns with the columns of its metadata again"));
+    EXPECT_THAT(remarks_[2], HasSubstr("was started again; it is labelled once it turns with "));
+    EXPECT_EQ(remarks_[3], remarks_[1]);
+}
 
 TEST_F(LiveSessionTest, EverythingIsCountedOnce) {
     auto packets = turnsOf(3);

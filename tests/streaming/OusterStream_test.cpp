@@ -4,11 +4,14 @@
 #include <hagen/packets/OusterScan.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/streaming/OusterStream.h>
+#include <hagen/streaming/SectorDistances.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "support/OusterModes.h"
 #include "support/OusterPackets.h"
 #include "support/Program.h"
 
@@ -76,6 +79,18 @@ TEST_F(OusterStreamTest, EachReturnOfAFrameIsLabelled) {
         EXPECT_NEAR(swept_[p].from_rad, swept_[p - 1].to_rad, 1e-9) << p;
         EXPECT_NEAR(swept_[p].to_rad - swept_[p].from_rad, kPi / 2, 1e-9) << p;
     }
+}
+
+TEST_F(OusterStreamTest, SectorsTellWhereItsPixelsLook) {
+    BeamOffsets offsets;
+    OusterSensor sensor = sensor_;
+    sensor.azimuth_rad = {radians(2.0), radians(-0.5), radians(-3.0), radians(0.1)};
+    OusterStream stream(sensor, settingsOfFourBeams(),
+                        [&](const LabelledSector& sector) { offsets = sector.offsets; });
+    for (const auto& packet : packetsOf(7)) stream.add(bytesOf(packet), packet.size(), 0.01, 0);
+    stream.flush();
+    EXPECT_NEAR(degrees(offsets.behind_rad), 2, 1e-9);  // azimuths are counter-clockwise
+    EXPECT_NEAR(degrees(offsets.ahead_rad), 3, 1e-9);
 }
 
 TEST_F(OusterStreamTest, TheSettingsLimitTheRanges) {
@@ -171,6 +186,20 @@ TEST_F(OusterStreamTest, ASensorThatStartsAgainIsLabelledAgain) {
     EXPECT_EQ(taken, 24);
 }
 
+TEST_F(OusterStreamTest, APacketThatComesTurnsLateIsLeftOut) {
+    std::vector<std::string> late;
+    for (int id = 0; id < 20; ++id) {
+        const auto packets = packetsOf(static_cast<std::uint16_t>(id));
+        if (id == 12) late = packets;
+        for (const auto& packet : packets) EXPECT_EQ(add(packet), Taken::Yes);
+    }
+    for (const auto& packet : late) EXPECT_EQ(add(packet), Taken::Late);
+    for (const auto& packet : packetsOf(20)) EXPECT_EQ(add(packet), Taken::Yes);
+    EXPECT_EQ(stream_.counts().too_late, 4u);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+    EXPECT_EQ(stream_.counts().packets, 84u);
+}
+
 TEST_F(OusterStreamTest, AJumpOfTheTurnsEndsTheContext) {
     for (const auto& packet : packetsOf(1)) add(packet);
     for (const auto& packet : packetsOf(500)) EXPECT_EQ(add(packet), Taken::Yes);
@@ -189,6 +218,49 @@ TEST_F(OusterStreamTest, OtherDatagramsAreRefused) {
     EXPECT_EQ(stream_.counts().other_sensor, 1u);
     EXPECT_EQ(stream_.counts().packets, 0u);
     EXPECT_EQ(stream_.segmenter().sectors(), 0u);
+}
+
+/// Its columns would be placed in wrong directions: nothing is known of any.
+TEST(OusterStreams, AnotherModeInFlightIsLeftOut) {
+    for (const test::OusterMode& mode : {test::OusterMode{2048, 10}, test::OusterMode{512, 10}}) {
+        const OusterSensor sensor = packets::ousterSensorOf(test::ousterJsonOf({1024, 10}), "test");
+        SectorDistances distances(*sensor.model);
+        std::size_t sectors = 0;
+        OusterStream stream(sensor, settingsOfFourBeams(), [&](const LabelledSector& sector) {
+            distances.take(sector);
+            ++sectors;
+        });
+        test::TurningOuster ouster;
+        double time_s = 0;
+        const auto turn = [&](const test::OusterMode& now, std::size_t& taken) {
+            const auto packets = ouster.turn(now);
+            taken = 0;
+            for (const std::string& packet : packets) {
+                time_s += 0.1 / static_cast<double>(packets.size());
+                taken += stream.add(bytesOf(packet), packet.size(), time_s, 0) == Taken::Yes;
+            }
+            stream.complete().clear();
+        };
+        const auto known = [&] {
+            const auto at = distances.at(time_s);
+            return std::count_if(at.begin(), at.end(), [](const auto& direction) {
+                return direction.state != SectorDistances::State::Unknown;
+            });
+        };
+        std::size_t taken = 0;
+        for (int k = 0; k < 3; ++k) turn({1024, 10}, taken);
+        EXPECT_EQ(taken, 64u);
+        EXPECT_GT(known(), 70);
+        for (int k = 0; k < 4; ++k) {
+            turn(mode, taken);
+            EXPECT_EQ(taken, 0u) << mode.text();
+        }
+        EXPECT_EQ(known(), 0) << mode.text();
+        EXPECT_EQ(stream.counts().uncertain, 4 * mode.columns / 16);
+        for (int k = 0; k < 3; ++k) turn({1024, 10}, taken);
+        EXPECT_EQ(taken, 64u);
+        EXPECT_GT(known(), 70);
+    }
 }
 
 TEST(OusterStreams, LabelsOfARealCaptureAreThoseOfWholeTurns) {

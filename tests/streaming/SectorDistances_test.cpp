@@ -68,6 +68,31 @@ TEST_F(SectorDistancesTest, WhatALostPacketWouldHaveSeenIsUnknown) {
     EXPECT_EQ(distances.at(1.1)[2].state, State::SeenNothing);
 }
 
+/// A packet of a degree, as of an HDL-32E with two returns per firing.
+TEST_F(SectorDistancesTest, ALostPacketThatIsNarrowIsNotPassed) {
+    for (const double lost_deg : {12.0, 12.2, 12.5, 12.9}) {
+        SectorDistances distances(sensor_);
+        turn(0, 0.1, {{lost_deg + 0.5, 5}}, distances);
+        take(360, 360 + lost_deg, 0.1, {}, distances);
+        take(360 + lost_deg + 1, 540, 0.104, {}, distances);
+        const int k = static_cast<int>((lost_deg + 0.5) / 5);
+        EXPECT_EQ(distances.at(0.2)[k].state, State::Obstacle) << lost_deg;
+        EXPECT_EQ(distances.at(0.29)[k + 1].state, State::SeenNothing) << lost_deg;
+        EXPECT_EQ(distances.at(0.32)[k].state, State::Unknown) << lost_deg;
+        EXPECT_EQ(distances.at(0.32)[k + 1].state, State::SeenNothing) << lost_deg;
+    }
+}
+
+TEST_F(SectorDistancesTest, WhatALostPacketSawTwoTurnsBeforeIsNotForgotten) {
+    SectorDistances distances(sensor_);
+    turn(0, 0.05, {{12.9, 4}}, distances);
+    for (const int k : {1, 2}) {
+        take(360 * k, 360 * k + 12.5, 0.05 * k, {{12.1, 9}}, distances);
+        take(360 * k + 13.5, 360 * (k + 1), 0.05 * k + 0.01, {}, distances);
+    }
+    EXPECT_NEAR(distances.at(0.15)[2].distance_m, 4, 1e-4);
+}
+
 TEST_F(SectorDistancesTest, NothingIsKnownAtFirst) {
     for (const auto& sector : SectorDistances(sensor_).at(0)) {
         EXPECT_EQ(sector.state, State::Unknown);

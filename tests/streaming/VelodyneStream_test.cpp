@@ -4,12 +4,14 @@
 #include <hagen/observations/ObservationScan.h>
 #include <hagen/observations/VelodyneEncoder.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/streaming/SectorDistances.h>
 #include <hagen/streaming/VelodyneStream.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/CaptureWriter.h"
@@ -219,6 +221,47 @@ TEST_F(VelodyneStreamTest, AClockThatIsSetStartsAgain) {
     EXPECT_EQ(stream_.counts().lost, 0u);
 }
 
+/// What a packet saw that was under way for more than a turn does not replace what is there now.
+TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
+    SectorDistances distances(sensorModel("VLP-16"));
+    const auto nothing_s = [&](double now_s) {
+        const auto at = distances.at(now_s);
+        return std::count_if(at.begin(), at.end(), [](const auto& direction) {
+            return direction.state == SectorDistances::State::SeenNothing;
+        });
+    };
+    VelodyneStream stream(velodyneModel("VLP-16"), {},
+                          [&](const LabelledSector& sector) { distances.take(sector); });
+    addAll(turnsOf(4), stream);
+    const double now_s = 4 * kPackets * 1.33e-3;
+    const auto before = nothing_s(now_s);
+    const std::size_t sectors = stream.segmenter().sectors();
+    for (std::size_t i = 0; i < 15; ++i) {
+        EXPECT_EQ(add(turnsOf(1)[20 + i], now_s + 1e-5, stream), Taken::Late);
+    }
+    EXPECT_EQ(stream.segmenter().sectors(), sectors);
+    addAll(turnsOf(1, 1400000), stream, now_s + 1e-4);
+    EXPECT_EQ(nothing_s(now_s + 1e-4 + kPackets * 1.33e-3), before);
+    EXPECT_EQ(stream.counts().late, 15u);
+    EXPECT_EQ(stream.counts().too_late, 15u);
+    EXPECT_EQ(stream.counts().interruptions, 0u);
+    EXPECT_EQ(stream.counts().packets, 5 * kPackets);
+}
+
+/// Its packets are taken once it is certain that they are not late.
+TEST_F(VelodyneStreamTest, SixteenLatePacketsAreOfAClockThatWasSet) {
+    addAll(turnsOf(2), stream_);
+    const auto again = turnsOf(1, 500000);
+    for (std::size_t i = 0; i < 20; ++i) {
+        EXPECT_EQ(add(again[i], 0.3 + 1e-3 * static_cast<double>(i), stream_),
+                  i < 15 ? Taken::Late : Taken::Yes);
+    }
+    EXPECT_EQ(stream_.counts().packets, 2 * kPackets + 20);
+    EXPECT_EQ(stream_.counts().late, 0u);
+    EXPECT_EQ(stream_.counts().too_late, 0u);
+    EXPECT_EQ(stream_.counts().interruptions, 1u);
+}
+
 TEST_F(VelodyneStreamTest, AGapIsCountedAndSurvived) {
     addAll(turnsOf(2), stream_);
     addAll(turnsOf(2, 1000000 + 360000), stream_, 0.36);  // 0.16 s are missing
@@ -280,6 +323,50 @@ TEST_F(VelodyneStreamTest, APacketThatSweepsMoreThanATurnIsABrokenReading) {
     EXPECT_GT(all_.label.size(), 0u);
 }
 
+/// What an unsound block would have seen is not known: no sweep goes over it.
+TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
+    auto packets = turnsOf(1);
+    const auto setHeader = [&](int block, char value) {
+        packets[20][100 * block] = packets[20][100 * block + 1] = value;
+    };
+    for (const int block : {0, 4, 5, 9}) setHeader(block, '\0');
+    packets[20][100 * 7 + 3] = static_cast<char>(packets[20][100 * 7 + 3] + 8);  // 20 degrees ahead
+    std::vector<Sweep> swept;
+    std::size_t returns = 0;
+    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+        swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
+        returns += sector.returns.size();
+    });
+    addAll(packets, stream);
+    stream.flush();
+    EXPECT_EQ(stream.counts().unsound_blocks, 4u);
+    EXPECT_GT(returns, 10000u);
+    ASSERT_EQ(swept.size(), kPackets + 3);
+    const double block_rad = (swept[21 + 3].from_rad - swept[19].to_rad) / 12;
+    EXPECT_NEAR(degrees(block_rad), 0.4, 0.01);
+    const std::vector<std::pair<int, int>> blocks{{1, 4}, {6, 7}, {8, 9}, {10, 12}};
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const double first_rad = swept[19].to_rad;
+        EXPECT_NEAR((swept[20 + i].from_rad - first_rad) / block_rad, blocks[i].first, 0.06) << i;
+        EXPECT_NEAR((swept[20 + i].to_rad - first_rad) / block_rad, blocks[i].second, 0.06) << i;
+    }
+}
+
+/// Of a firing with two returns, one block does not tell what the other would have seen.
+TEST_F(VelodyneStreamTest, HalfAFiringIsNotSwept) {
+    auto packets = turnsOf(1, 1000000, true);
+    packets[40][100 * 5] = '\0';
+    std::vector<Sweep> swept;
+    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+        swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
+    });
+    addAll(packets, stream);
+    stream.flush();
+    ASSERT_EQ(swept.size(), packets.size() + 1);
+    const double firing_rad = (swept[42].from_rad - swept[39].to_rad) / 6;
+    EXPECT_NEAR(swept[41].from_rad - swept[40].to_rad, firing_rad, 0.06 * firing_rad);
+}
+
 TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     const auto packets = turnsOf(1);
     std::mt19937 random(1);
@@ -295,10 +382,42 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     }
     stream_.flush();
     const auto& counts = stream_.counts();
-    EXPECT_EQ(
-        counts.packets + counts.repeated + counts.unsound + counts.wrong_size + counts.other_model,
-        given);
-    EXPECT_GT(counts.packets, 1000u);
+    EXPECT_EQ(counts.packets + counts.repeated + counts.unsound + counts.wrong_size +
+                  counts.other_model + counts.too_late,
+              given);
+    EXPECT_GT(counts.packets, 500u);  // in any order: many are too late
+}
+
+/// What only one beam sees: laser 9 of a VLP-32C looks 4.2 degrees behind the head.
+TEST(VelodyneStreams, WhatOnlyALaggingBeamSeesStaysAnObstacle) {
+    const auto& model = velodyneModel("VLP-32C");
+    observations::Firings firings = test::fireAt({}, model, {0, 0, 2});
+    firings.range_m.setZero();
+    for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
+        const double azimuth_deg = observations::firingAzimuthDeg(model, firings, 9, firing);
+        const bool is_hit = std::abs(std::remainder(azimuth_deg - 62.5, 360.0)) < 0.8;
+        if (is_hit) firings.range_m(9, firing) = 5;
+    }
+    SectorDistances distances(sensorModel("VLP-32C"));
+    BeamOffsets offsets;
+    VelodyneStream stream(model, {}, [&](const LabelledSector& sector) {
+        distances.take(sector);
+        offsets = sector.offsets;
+    });
+    for (int turn = 0; turn < 4; ++turn) {
+        firings.first_time_us = 1000000 + 100000 * static_cast<std::uint32_t>(turn);
+        const auto packets = encodePackets(model, firings);
+        for (std::size_t i = 0; i < packets.size(); ++i) {
+            const double part = static_cast<double>(i) / static_cast<double>(packets.size());
+            const double time_s = 0.1 * (turn + part);
+            add(test::bytesOf(packets[i]), time_s, stream);
+            if (turn < 2) continue;
+            ASSERT_EQ(distances.at(time_s)[12].state, SectorDistances::State::Obstacle) << time_s;
+            ASSERT_EQ(distances.at(time_s)[40].state, SectorDistances::State::SeenNothing);
+        }
+    }
+    EXPECT_NEAR(degrees(offsets.behind_rad), 4.2, 1e-9);
+    EXPECT_NEAR(degrees(offsets.ahead_rad), 4.2, 1e-9);
 }
 
 TEST(VelodyneStreams, AnHdl64NeedsItsCalibration) {

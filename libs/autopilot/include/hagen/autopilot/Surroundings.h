@@ -3,6 +3,7 @@
 #include <hagen/range_image/SensorModel.h>
 #include <hagen/streaming/FrameCoverage.h>
 #include <hagen/streaming/StreamingSegmenter.h>
+#include <hagen/streaming/TurnCoverage.h>
 #include <Eigen/Geometry>
 
 #include <array>
@@ -60,18 +61,22 @@ class Surroundings {
     /// What remains of a sector.
     struct Seen {
         double first_time_s = 0, last_time_s = 0;
-        std::vector<streaming::Sweep> sweeps;  ///< of its packets; none: of a sensor without turns
-        bool is_all_around = false;            ///< such a one, and FrameCoverage says so
-        double to_rad = 0;                     ///< how far the sensor has turned
-        std::vector<Eigen::Vector3f> roi_m;    ///< in the sensor's frame
+        bool turns = false;
+        std::vector<streaming::TurnCoverage::Swept> swept;  ///< by its packets
+        double ahead_rad = 0;                               ///< of its beams
+        bool is_all_around = false;          ///< it does not turn, and FrameCoverage says so
+        double from_rad = 0, to_rad = 0;     ///< how far the sensor had turned before, and has now
+        std::vector<Eigen::Vector3f> roi_m;  ///< in the sensor's frame
     };
     bool isFresh(const Seen& seen, double now_s) const;
-    enum class Look { None, Near, Passed };
-    Look lookOf(const Seen& seen, const Eigen::Vector3d& ahead) const;
+    double azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edge) const;
+    static bool hasPassed(const Seen& seen, const streaming::TurnCoverage::Arc& arc,
+                          double since_rad);
 
     Settings settings_;
     double lowest_, highest_;                       ///< sines of the elevations of its beams
     std::deque<std::shared_ptr<const Seen>> seen_;  ///< in the order in which they came
+    streaming::TurnCoverage coverage_;
     streaming::FrameCoverage frames_;
     double latest_s_ = -std::numeric_limits<double>::infinity();
 };

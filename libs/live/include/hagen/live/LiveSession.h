@@ -40,16 +40,19 @@ struct LiveOptions {
 
 /// What came so far.
 struct LiveReport {
-    std::size_t datagrams = 0;   ///< all
-    std::size_t packets = 0;     ///< of the sensor, taken
-    std::size_t lost = 0;        ///< missing by the sensor's clock
-    std::size_t late = 0;        ///< came after a later one
-    std::size_t repeated = 0;    ///< came again
-    std::size_t wrong_size = 0;  ///< datagrams that are no data packets
-    std::size_t position = 0;    ///< position packets and those of an IMU
-    std::size_t foreign = 0;     ///< of another model, or of another sensor
-    std::size_t unsound = 0;     ///< without a sound block
-    std::size_t dropped = 0;     ///< the filter was too slow for
+    std::size_t datagrams = 0;       ///< all
+    std::size_t packets = 0;         ///< of the sensor, taken
+    std::size_t lost = 0;            ///< missing by the sensor's clock
+    std::size_t late = 0;            ///< came after a later one
+    std::size_t too_late = 0;        ///< of these: so late that they were left out
+    std::size_t repeated = 0;        ///< came again
+    std::size_t wrong_size = 0;      ///< datagrams that are no data packets
+    std::size_t position = 0;        ///< position packets and those of an IMU
+    std::size_t foreign = 0;         ///< of another model, or of another sensor
+    std::size_t unsound = 0;         ///< without a sound block
+    std::size_t unsound_blocks = 0;  ///< of packets that were taken
+    std::size_t uncertain = 0;  ///< of an Ouster that may be in another mode than its metadata say
+    std::size_t dropped = 0;    ///< the filter was too slow for
     std::size_t interruptions = 0, mode_changes = 0, silences = 0;
     std::size_t rate_changes = 0;  ///< another speed of the motor
     /// How often directions of SectorDistances were in each state, every twentieth of a second.

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/packets/OusterColumns.h>
 #include <hagen/packets/OusterSensor.h>
 
 #include <cstddef>
@@ -17,7 +18,8 @@ struct OusterFrame {
     std::uint16_t id = 0;
     std::int64_t time_ns = 0;  ///< of the capture, at its first packet
     std::size_t columns = 0;
-    std::vector<Column> state;                  ///< by column
+    bool is_uncertain = false;  ///< it may have another number of columns: it will be left out
+    std::vector<Column> state;  ///< by column
     std::vector<std::uint64_t> column_time_ns;  ///< by column, by the sensor's clock
     std::vector<std::uint32_t> range;           ///< pixel * columns + column; in the profile's unit
     std::vector<std::uint8_t> reflectivity;     ///< likewise
@@ -29,7 +31,8 @@ struct OusterFrame {
 
 /// Puts the packets of one sensor together into frames. Two are open at a time, so that packets may
 /// be late by up to a turn. Where sixteen in a row are late by more, the sensor was started again:
-/// its ids are less than before.
+/// its ids are less than before. Turns whose number of columns is not certain to be that of the
+/// metadata are left out (OusterColumns).
 class OusterFrames {
  public:
     struct Counts {
@@ -39,15 +42,16 @@ class OusterFrames {
         std::size_t invalid_columns = 0;
         std::size_t wrong_columns = 0;  ///< with a measurement id that there is not
         std::size_t repeated_columns = 0;
-        std::size_t late_packets = 0;  ///< of a frame that is complete, left out
-        std::size_t lost_frames = 0;   ///< of which no packet came
+        std::size_t late_packets = 0;      ///< of a frame that is complete, left out
+        std::size_t lost_frames = 0;       ///< of which no packet came
+        std::size_t uncertain_frames = 0;  ///< left out: perhaps with another number of columns
     };
 
-    explicit OusterFrames(const OusterSensor& sensor) : sensor_(sensor) {}
+    explicit OusterFrames(const OusterSensor& sensor) : sensor_(sensor), columns_(sensor) {}
 
     /// Takes a packet of OusterSensor::packetBytes(). Returns the frame that it is of, until the
     /// next call, or null if that is complete already; `taken` gets those of the packet's columns
-    /// that it had not yet, in the packet's order.
+    /// that it had not yet, in the packet's order; none of an uncertain frame.
     const OusterFrame* add(const std::uint8_t* packet, std::int64_t time_ns,
                            std::vector<std::size_t>* taken = nullptr);
     /// Ends the frames in progress.
@@ -56,6 +60,8 @@ class OusterFrames {
     /// The frames that are complete, oldest first. The caller takes them out.
     std::deque<OusterFrame>& complete() { return complete_; }
     const Counts& counts() const { return counts_; }
+    /// How often the sensor was started again, by its packets.
+    std::size_t restarts() const { return columns_.restarts(); }
 
  private:
     void restart();
@@ -64,6 +70,7 @@ class OusterFrames {
     void completeFirst();
 
     const OusterSensor& sensor_;
+    OusterColumns columns_;
     std::deque<OusterFrame> open_;  ///< by their ids
     std::size_t late_in_a_row_ = 0;
     bool has_last_ = false;

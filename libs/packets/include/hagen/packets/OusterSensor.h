@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct OusterSensor {
     OusterProfile profile;
     bool has_fusa_header = false;  ///< that of functional safety, with its fields elsewhere
     std::size_t columns_per_frame = 0, columns_per_packet = 0, pixels = 0;
+    double turn_s = 0;  ///< as long as a turn takes, by its mode; 0: not known
     std::size_t first_column = 0, last_column = 0;  ///< of the window; it may wrap around
     std::vector<double> altitude_rad, azimuth_rad;  ///< of each pixel; azimuth counter-clockwise
     std::vector<std::uint8_t> row;                  ///< of each pixel: 0 is the lowest beam
@@ -42,6 +44,9 @@ struct OusterSensor {
     std::size_t packetBytes() const;
     std::size_t columnBytes() const;
     std::size_t windowColumns() const;
+    /// A column of a packet, and whether the sensor says that it is valid.
+    const std::uint8_t* columnOf(const std::uint8_t* packet, std::size_t column) const;
+    bool isValid(const std::uint8_t* column) const;
 };
 
 /// What the header of a packet of OusterSensor::packetBytes() says. LEGACY packets have no header:
@@ -49,6 +54,9 @@ struct OusterSensor {
 bool isOfLidar(const std::uint8_t* packet, const OusterSensor& sensor);
 std::uint64_t serialOf(const std::uint8_t* packet, const OusterSensor& sensor);
 std::uint16_t frameIdOf(const std::uint8_t* packet, const OusterSensor& sensor);  ///< it wraps
+/// Another one each time the sensor starts, for which a change of its mode suffices; none: LEGACY.
+std::optional<std::uint32_t> initializationOf(const std::uint8_t* packet,
+                                              const OusterSensor& sensor);
 
 /// Reads the metadata of a sensor, as the sensor or the maker's tools write it. Profiles: LEGACY,
 /// RNG19_RFL8_SIG16_NIR16, the same with _DUAL and _ZONE16, RNG15_RFL8_NIR8, the same with _DUAL

@@ -9,7 +9,7 @@ namespace hagen::packets {
 /// a time of four bytes, the mode and the model. All numbers are little-endian.
 constexpr std::size_t kVelodynePacketBytes = 1206;
 constexpr int kVelodyneBlocks = 12;
-constexpr int kVelodyneBlockBytes = 100;
+constexpr int kVelodyneBlockBytes = 100, kVelodyneHeaderBytes = 4;  ///< header and azimuth
 constexpr std::size_t kReturnsOfBlock = 32;
 constexpr unsigned kUpperBlock = 0xeeff, kLowerBlock = 0xddff;  ///< headers
 constexpr int kReadingsOfTurn = 36000;                          ///< azimuths are in 0.01 degrees

@@ -18,19 +18,22 @@ namespace hagen::streaming {
 /// Packets that come up to sixteen late are labelled with the sector in progress.
 class OusterStream {
  public:
-    enum class Taken { Yes, WrongSize, OtherSensor, Imu, Repeated, Late, Unsound };
+    enum class Taken { Yes, WrongSize, OtherSensor, Imu, Repeated, Late, Unsound, Uncertain };
 
     struct Counts {
-        std::size_t packets = 0;         ///< taken
-        std::size_t wrong_size = 0;      ///< datagrams that are no packets of this profile
-        std::size_t other_sensor = 0;    ///< with another serial number
-        std::size_t imu = 0;             ///< packets of the IMU, left out
-        std::size_t repeated = 0;        ///< came again, left out
-        std::size_t unsound = 0;         ///< without a valid column, left out
-        std::size_t late = 0;            ///< came after a later one
-        std::size_t too_late = 0;        ///< of these: by more than sixteen packets; no label
-        std::size_t lost = 0;            ///< missing in turns that are complete, but for the first
-        std::size_t interruptions = 0;   ///< jumps by more than two turns
+        std::size_t packets = 0;        ///< taken
+        std::size_t wrong_size = 0;     ///< datagrams that are no packets of this profile
+        std::size_t other_sensor = 0;   ///< with another serial number
+        std::size_t imu = 0;            ///< packets of the IMU, left out
+        std::size_t repeated = 0;       ///< came again, left out
+        std::size_t unsound = 0;        ///< without a valid column, left out
+        std::size_t late = 0;           ///< came after a later one
+        std::size_t too_late = 0;       ///< of these: by more than sixteen packets; no label
+        std::size_t lost = 0;           ///< missing in turns that are complete, but for the first
+        std::size_t interruptions = 0;  ///< jumps by more than two turns
+        /// Left out, since it is not certain that turns have the columns of the metadata.
+        std::size_t uncertain = 0;
+        std::size_t restarts = 0;        ///< of the sensor, by its packets
         std::size_t turns = 0;           ///< complete ones
         std::size_t returns_masked = 0;  ///< of the airframe
     };
@@ -68,7 +71,7 @@ class OusterStream {
     packets::OusterFrames frames_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
     double ahead_rad_ = 0;  ///< clockwise from the sensor's x axis to column 0
-    bool has_last_ = false;
+    bool has_last_ = false, is_uncertain_ = false;
     std::uint16_t last_id_ = 0;  ///< of the latest packet
     long long turn_ = 0;         ///< likewise, counted on
     long long last_at_ = 0;      ///< its first column, counted on

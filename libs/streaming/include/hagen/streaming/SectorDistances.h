@@ -1,9 +1,11 @@
 #pragma once
 #include <hagen/streaming/FrameCoverage.h>
 #include <hagen/streaming/StreamingSegmenter.h>
+#include <hagen/streaming/TurnCoverage.h>
 #include <Eigen/Geometry>
 #include <array>
 #include <limits>
+#include <vector>
 
 namespace hagen::streaming {
 
@@ -11,11 +13,12 @@ namespace hagen::streaming {
 /// of autopilots want it: 72 sectors of 5 degrees in the body frame (x forward, y left, z up).
 ///
 /// **Stale is never free.** A direction that was not swept for 0.3 s is unknown, and so is one that
-/// was swept in part. "Seen nothing" means that the sensor swept all of it, at the horizon of the
-/// body, and that none of the returns is RoI. What an earlier turn saw in a degree is forgotten
-/// once a later one has passed all of it. A sensor that does not turn is taken to look all around
-/// within each tenth of a second, if few of its packets are lost (FrameCoverage); what it saw in a
-/// direction holds for one to two of these.
+/// was swept in part: a lost packet leaves a gap, however narrow it is (TurnCoverage). "Seen
+/// nothing" means that the sensor swept all of it, at the horizon of the body, and that none of the
+/// returns is RoI. What an earlier turn saw in a degree is forgotten once a later one has passed
+/// all of it. A sensor that does not turn is taken to look all around within each tenth of a
+/// second, if few of its packets are lost (FrameCoverage); what it saw in a direction holds for one
+/// to two of these.
 class SectorDistances {
  public:
     static constexpr int kSectors = 72;
@@ -55,34 +58,37 @@ class SectorDistances {
     static constexpr int kParts = 5;  ///< of a sector, a degree each
     static constexpr int kBins = kSectors * kParts;
     static constexpr double kNever = -std::numeric_limits<double>::infinity();
-    static constexpr float kNothing = std::numeric_limits<float>::infinity();
-    /// Between two bins.
-    struct Edge {
-        double swept_s = kNever;  ///< when a packet swept it last, or ended just before it
-        double passed_s = kNever, passed_rad = kNever;  ///< and swept it; how far it had turned
-    };
     /// The nearest RoI return of a turn, or of a period.
     struct Found {
         double time_s = kNever, turned_rad = kNever;
-        float distance_m = kNothing;
+        float distance_m = std::numeric_limits<float>::infinity();
     };
     struct Bin {
-        Found latest, earlier;  ///< of the turn in which it was swept last, and of the one before
+        double begun_s = kNever, begun_rad = kNever;  ///< when a turn looked there first; its begin
+        double swept_s = kNever;                      ///< the same of the turn that swept it last
+        double end_rad = kNever;                      ///< its end in that turn
+        double passed_s = kNever,
+               passed_rad = kNever;  ///< when all was swept; how far it had turned
+        std::vector<Found> found;    ///< by turn, oldest first
     };
 
     void beginFrame(double time_s);
     void noteSwept(const LabelledSector& sector);
-    bool isGone(const Found& found, int bin) const;
+    void noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc, double now_s,
+                   Bin& bin) const;
+    void forgetFound(double now_s, Bin& bin) const;
+    static bool isGone(const Found& found, const Bin& bin);
+    bool isFresh(double time_s, double now_s) const;
 
     Settings settings_;
-    /// Where the sensor sees the edge at which a bin begins, clockwise from 0 up to a turn; NaN:
-    /// not.
-    std::array<double, kBins> sensor_rad_{};
-    std::array<Edge, kBins> edges_{};  ///< the bin's own, at which it begins
+    /// Where the sensor sees the bins; NaN: not.
+    std::array<TurnCoverage::Arc, kBins> arcs_{};
     std::array<Bin, kBins> bins_{};
+    TurnCoverage coverage_;
     FrameCoverage frames_;
     double latest_s_ = kNever;
     double period_start_s_ = kNever;  ///< without turns
+    int period_ = 0;                  ///< likewise: the number of the period
 };
 
 }  // namespace hagen::streaming

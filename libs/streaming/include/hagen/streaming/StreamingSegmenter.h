@@ -52,6 +52,12 @@ struct Sweep {
     double from_rad, to_rad;
 };
 
+/// How far the beams of a sensor that turns look behind its head and ahead of it. What one beam
+/// alone sees (a wire) is seen when that one gets there.
+struct BeamOffsets {
+    double behind_rad = 0, ahead_rad = 0;  ///< not negative
+};
+
 /// The returns of a sector with their labels. References are valid during the call only.
 struct LabelledSector {
     const Scan& returns;               ///< in the order in which they came, as measured
@@ -68,6 +74,7 @@ struct LabelledSector {
     const std::vector<Sweep>* packets = nullptr;
     /// Of a sensor that does not turn: for how long it measured. Infinity: it looked all around.
     double measured_s = std::numeric_limits<double>::infinity();
+    BeamOffsets offsets = {};
 };
 
 /// Labels the returns of a LiDAR sector by sector, while it turns.
@@ -103,6 +110,10 @@ class StreamingSegmenter {
     /// The tilt of the sensor on a level vehicle: the filter takes it while the tilt is unknown.
     /// How the sensor moves is not known by it. Default: none.
     void setMount(const std::optional<Attitude>& tilt);
+
+    /// Sectors have these: a direction was looked at once all beams have passed it. Default: none.
+    /// Throws std::invalid_argument if one is negative or not finite.
+    void setBeamOffsets(const BeamOffsets& offsets);
 
     /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and when it
     /// came, in seconds of any clock. Throws std::invalid_argument if one of these is unsound.
@@ -171,6 +182,7 @@ class StreamingSegmenter {
     TurnMotion turn_motion_;  ///< told while neither tilt nor pose is known
     Take take_;
     std::optional<Attitude> attitude_, mount_;
+    BeamOffsets offsets_;
     std::optional<Eigen::Isometry3d> pose_;
 
     std::deque<Packet> packets_;  ///< of the latest turn, in the order in which they came

@@ -11,17 +11,20 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hagen::streaming {
 
 /// Labels the packets of one Velodyne sector by sector, as they come.
 ///
-/// Packets that come up to sixteen late are labelled with the sector in progress. Nothing throws
-/// because of what a packet holds: each is taken, or refused and counted.
+/// Packets that come up to sixteen late are labelled with the sector in progress. Later ones are
+/// left out: what they saw is not what is there now. Sixteen of these in a row are of a clock that
+/// was set, and are taken then. Nothing throws because of what a packet holds: each is taken, or
+/// refused and counted.
 class VelodyneStream {
  public:
     /// What became of a datagram.
-    enum class Taken { Yes, WrongSize, OtherModel, Repeated, Unsound };
+    enum class Taken { Yes, WrongSize, OtherModel, Repeated, Unsound, Late };
 
     struct Counts {
         std::size_t packets = 0;         ///< taken
@@ -31,6 +34,7 @@ class VelodyneStream {
         std::size_t unsound = 0;         ///< without a sound block, left out
         std::size_t unsound_blocks = 0;  ///< of packets that were taken
         std::size_t late = 0;            ///< came after a later one
+        std::size_t too_late = 0;        ///< of these: by more than sixteen packets, left out
         std::size_t lost = 0;  ///< missing by the sensor's clock; late ones are found again
         std::size_t interruptions = 0;   ///< gaps of more than 50 ms, and jumps of the clock
         std::size_t mode_changes = 0;    ///< between one return and two per firing
@@ -62,16 +66,32 @@ class VelodyneStream {
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
+    /// Sound firings of a packet that follow each other.
+    struct Run {
+        int first, end;
+    };
+
+    struct Held {
+        packets::VelodynePacket packet;
+        double arrival_s;
+    };
+
+    Taken hold(const packets::VelodynePacket& packet, double arrival_s);
+    Taken take(const packets::VelodynePacket& packet, double arrival_s);
     bool isRepeated(const packets::VelodynePacket& packet, double time_us) const;
-    bool readSweep(const packets::VelodynePacket& packet, double elapsed_us, Sweep& sweep) const;
+    void findRuns(const packets::VelodynePacket& packet);
+    bool readSweep(const packets::VelodynePacket& packet, double elapsed_us, Sweep& sweep);
+    void addRuns(const packets::VelodynePacket& packet, const Sweep& sweep, double arrival_s);
 
     const packets::VelodyneModel& model_;
     Settings settings_;
     std::unique_ptr<StreamingSegmenter> segmenter_;
     packets::VelodyneCalibration calibration_;
     packets::DecoderWorkspace decoder_;
-    Scan returns_;
+    Scan returns_, part_;
+    std::vector<Run> runs_;  ///< of the latest packet
     std::deque<packets::VelodynePacket> recent_;
+    std::vector<Held> held_;  ///< too late, in a row
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< by the sensor's clock, of the latest packet
     Sweep last_sweep_{};  ///< likewise
