@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/packets/OusterSensor.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
