@@ -27,12 +27,13 @@ std::string onTerminal(const std::function<void()>& write) {
     write();
     dup2(before, STDERR_FILENO);
     close(before);
-    fcntl(terminal, F_SETFL, O_NONBLOCK);
-    std::string text(10000, 0);
-    const ssize_t size = read(terminal, text.data(), text.size());
     close(program_side);
+    // The kernel hands it over bit by bit; after the last one, reading fails.
+    std::string text, part(1000, 0);
+    for (ssize_t size = 0; (size = read(terminal, part.data(), part.size())) > 0;) {
+        text.append(part, 0, static_cast<std::size_t>(size));
+    }
     close(terminal);
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
     return text;
 }
 
