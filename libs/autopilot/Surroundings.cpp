@@ -88,14 +88,22 @@ double Surroundings::azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edg
     return is_seen ? -std::atan2(ahead.y(), ahead.x()) : std::nan("");
 }
 
-/// Whether all of an arc was swept by the time of this sector, and nothing of it before the head
-/// had turned to `since_rad`: that is too old.
-bool Surroundings::hasPassed(const Seen& seen, const TurnCoverage::Arc& arc, double since_rad) {
-    if (!seen.turns) return seen.is_all_around && !std::isnan(arc.begin_rad);
-    return std::any_of(seen.swept.begin(), seen.swept.end(), [&](TurnCoverage::Swept swept) {
+/// How far a sensor had turned at the end of an arc, if all of it was swept by the time of this
+/// sector, and nothing of it before the head had turned to `since_rad`: that is too old.
+std::optional<double> Surroundings::passedAt(const Seen& seen, const TurnCoverage::Arc& arc,
+                                             double since_rad) {
+    std::optional<double> passed_rad;
+    if (!seen.turns) {
+        if (seen.is_all_around && !std::isnan(arc.begin_rad)) passed_rad = seen.to_rad;
+        return passed_rad;
+    }
+    for (TurnCoverage::Swept swept : seen.swept) {
         swept.since_rad = std::max(swept.since_rad, since_rad + seen.ahead_rad);
-        return endOfArc(swept, arc).has_value();
-    });
+        if (const auto end_rad = endOfArc(swept, arc)) {
+            passed_rad = std::max(*end_rad, passed_rad.value_or(*end_rad));
+        }
+    }
+    return passed_rad;
 }
 
 Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
@@ -113,7 +121,7 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         if (!isFresh(*seen, now_s)) continue;
         // All was swept again, by a later turn.
         const double least_rad = *std::min_element(passed_rad.begin(), passed_rad.end());
-        if (least_rad - seen->to_rad > kPi) continue;
+        if (least_rad - seen->to_rad > streaming::kLaterTurn_rad) continue;
         const auto then = motion.at((seen->first_time_s + seen->last_time_s) / 2);
         const Eigen::Isometry3d level = levelFromSensor(settings_.vehicle_from_sensor, then, now);
         const Eigen::Matrix3d sensor_from_level = level.linear().transpose();
@@ -124,9 +132,8 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
             const double begin_rad = next == bin ? next_rad : azimuthOf(sensor_from_level, bin);
             next = bin + 1;
             next_rad = azimuthOf(sensor_from_level, next);
-            if (hasPassed(*seen, TurnCoverage::between(begin_rad, next_rad), fresh_rad)) {
-                passed_rad[bin] = seen->to_rad;
-            }
+            const auto arc = TurnCoverage::between(begin_rad, next_rad);
+            passed_rad[bin] = passedAt(*seen, arc, fresh_rad).value_or(-kNone);
         }
         const Eigen::Isometry3f move = level.cast<float>();
         for (const Eigen::Vector3f& roi_m : seen->roi_m) {
@@ -136,7 +143,7 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
             clockwise_rad -= kTurn_rad * std::floor(clockwise_rad / kTurn_rad);
             const int bin = std::min(static_cast<int>(clockwise_rad / kPart_rad), kBins - 1);
             // The next turn has passed all of the bin since, without this.
-            if (passed_rad[bin] - seen->to_rad > kPi) continue;
+            if (passed_rad[bin] - seen->to_rad > streaming::kLaterTurn_rad) continue;
             Direction& direction = directions[bin / kParts];
             const float distance_m = at_m.head<2>().norm();
             if (direction.distance_m <= distance_m) continue;

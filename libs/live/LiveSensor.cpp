@@ -147,6 +147,7 @@ class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
     Counts counts() const override {
         Counts counts = commonCounts();
         counts.late += stream_->counts().too_late;
+        counts.too_late = stream_->counts().too_late;
         counts.wrong_size = stream_->counts().foreign;
         counts.position = stream_->counts().imu;
         counts.scans = segmenter().sectors() / 5;  // frames of 20 ms

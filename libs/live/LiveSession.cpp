@@ -45,26 +45,36 @@ double threadCpu_s() { return std::chrono::duration<double>(base::threadCpuTime(
 /// Which of the addresses that send packets of the sensor's model is the sensor's.
 class SensorAddress {
  public:
-    /// Whether a packet from this address is of the sensor. `is_silent`: none of it has come for a
-    /// second.
-    bool take(std::uint32_t ip, bool is_silent);
+    /// Whether a packet from this address is of the sensor. One that sends is not silent, even if
+    /// its packets are of no use.
+    bool take(std::uint32_t ip, double arrival_s);
     /// None: nothing has come.
     std::optional<std::uint32_t> ip() const {
         return own_.empty() ? std::nullopt : std::optional(own_[current_]);
     }
 
  private:
+    bool choose(std::uint32_t ip, bool is_silent);
+
     /// Beyond, nothing takes the sensor's place: those not seen before may be any.
     static constexpr std::size_t kMost = 64;
 
     /// Those that the sensor had, in their order: it may come back with another one.
     std::vector<std::uint32_t> own_;
     std::size_t current_ = 0;  ///< of these
+    double heard_s_ = 0;       ///< when a packet from that one came last
     /// Those that sent while the sensor did, too: of other sensors, which never become ours.
     std::vector<std::uint32_t> others_;
 };
 
-bool SensorAddress::take(std::uint32_t ip, bool is_silent) {
+bool SensorAddress::take(std::uint32_t ip, double arrival_s) {
+    const bool is_silent = arrival_s - heard_s_ >= kSilence_s;
+    const bool is_own = choose(ip, is_silent);
+    if (is_own) heard_s_ = arrival_s;
+    return is_own;
+}
+
+bool SensorAddress::choose(std::uint32_t ip, bool is_silent) {
     if (own_.empty()) own_.push_back(ip);
     if (ip == own_[current_]) return true;
     if (std::find(others_.begin(), others_.end(), ip) != others_.end()) return false;
@@ -143,7 +153,7 @@ void Session::tell(const streaming::LabelledSector& sector) {
 /// Packets of the same model from another address are foreign, unless it is the sensor's new one.
 bool Session::isOfSensor(const Packet& packet) {
     const std::uint32_t before = address_.ip().value_or(packet.from_ip);
-    if (!address_.take(packet.from_ip, packet.arrival_s - last_packet_s_ >= kSilence_s)) {
+    if (!address_.take(packet.from_ip, packet.arrival_s)) {
         ++foreign_ip_;
         return false;
     }

@@ -94,14 +94,7 @@ std::string hex(unsigned value) {
     return text;
 }
 
-/// Only an HDL-64E sends blocks of lower lasers.
-bool areOfHdl64(const VelodynePackets& packets) {
-    const Packet first(packets.at(0));
-    for (int block = 0; block < kBlocks; ++block) {
-        if (first.isLower(block)) return true;
-    }
-    return false;
-}
+bool areOfHdl64(const VelodynePackets& packets) { return isOfHdl64(packets.at(0)); }
 
 /// Returns a scan's own calibration. Throws std::runtime_error if it is none: a laser that points
 /// nowhere, or far offsets, would place returns nowhere.

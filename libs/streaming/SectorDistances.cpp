@@ -70,15 +70,16 @@ void SectorDistances::noteSwept(const LabelledSector& sector) {
         all.looked_to_rad = std::max({all.looked_to_rad, swept.looked_to_rad, swept.to_rad});
     }
     for (int k = 0; k < kBins; ++k) {
-        if (!begunArc(all, arcs_[k])) continue;
-        for (const TurnCoverage::Swept& swept : packets)
+        if (!beginOfArc(all, arcs_[k])) continue;
+        for (const TurnCoverage::Swept& swept : packets) {
             noteSwept(swept, arcs_[k], now_s, bins_[k]);
+        }
     }
 }
 
 void SectorDistances::noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc,
                                 double now_s, Bin& bin) const {
-    const auto begun_rad = begunArc(swept, arc);
+    const auto begun_rad = beginOfArc(swept, arc);
     if (begun_rad && *begun_rad > bin.begun_rad + kPi) {
         bin.begun_rad = *begun_rad;
         bin.begun_s = now_s;
@@ -88,7 +89,6 @@ void SectorDistances::noteSwept(const TurnCoverage::Swept& swept, const TurnCove
     bin.end_rad = *end_rad;
     bin.swept_s = bin.begun_s;
     bin.passed_s = now_s;
-    bin.passed_rad = coverage_.head_rad();
 }
 
 void SectorDistances::take(const LabelledSector& sector) {
@@ -129,7 +129,7 @@ void SectorDistances::forgetFound(double now_s, Bin& bin) const {
 
 /// An obstacle is gone once a later turn has passed all of its bin.
 bool SectorDistances::isGone(const Found& found, const Bin& bin) {
-    return bin.passed_rad - found.turned_rad > kPi && bin.passed_s > found.time_s;
+    return bin.end_rad - found.turned_rad > kLaterTurn_rad && bin.passed_s > found.time_s;
 }
 
 bool SectorDistances::isFresh(double time_s, double now_s) const {

@@ -8,9 +8,9 @@ namespace hagen::streaming {
 namespace {
 
 constexpr double kTurn_rad = 2 * kPi;
-// 0.09 degrees: less than between two firings of most sensors. Packets that follow each other are
-// up to 0.02 degrees apart, by the rounding of azimuths.
-constexpr double kGap_rad = 0.0015;
+// 0.06 degrees: less than between two firings (HDL-32E at 5 Hz: 0.083). Packets that follow each
+// other are up to 0.025 degrees apart, by the rounding of azimuths.
+constexpr double kGap_rad = 0.001;
 constexpr double kRounding_rad = 1e-5;  // of matrices of floats
 // A vehicle that yaws sees a gap between sectors that are none of the sensor's: 3 degrees.
 constexpr double kBeside_rad = 0.05;
@@ -71,7 +71,7 @@ void TurnCoverage::add(const Sweep& sweep, const BeamOffsets& offsets) {
                       since_rad, looked_from_rad, looked_to_rad});
 }
 
-std::optional<double> begunArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc) {
+std::optional<double> beginOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc) {
     const double most_rad = swept.looked_to_rad - kRounding_rad;
     const double turns = std::floor((most_rad - arc.begin_rad) / kTurn_rad);
     const double begin_rad = arc.begin_rad + kTurn_rad * turns;

@@ -356,8 +356,8 @@ TEST_F(SurroundingsTest, AnObstacleIsForgottenWhenTheNextTurnDoesNotSeeIt) {
     EXPECT_EQ(surroundings.at(0.36, flight.motion)[0].state, State::SeenNothing);
 }
 
-/// A sweep counts as that of a later turn if it ended more than half a turn later.
-TEST_F(SurroundingsTest, HalfATurnLaterIsStillTheSameTurn) {
+/// However far the head is: a late packet is of the turn in which it was measured.
+TEST_F(SurroundingsTest, WhatWasSeenIsPassedByTheNextTurnOnly) {
     const auto stateAfter = [&](double turned_rad) {
         Surroundings surroundings(sensor_, {});
         Scan scan;
@@ -380,7 +380,8 @@ TEST_F(SurroundingsTest, HalfATurnLaterIsStillTheSameTurn) {
         return surroundings.at(1.15, {})[0].state;
     };
     EXPECT_EQ(stateAfter(kPi), State::Obstacle);
-    EXPECT_EQ(stateAfter(std::nextafter(kPi, 4)), State::SeenNothing);
+    EXPECT_EQ(stateAfter(radians(360)), State::Obstacle);  // within its degree
+    EXPECT_EQ(stateAfter(radians(361)), State::SeenNothing);
 }
 
 TEST_F(SurroundingsTest, WithoutAttitudeTheSensorIsTakenToBeAsItWas) {

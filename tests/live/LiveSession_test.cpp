@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/CaptureWriter.h"
+#include "support/LivoxPackets.h"
 #include "support/OusterModes.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
@@ -101,6 +102,8 @@ std::vector<std::string> turnsOf(int turns, std::uint32_t first_us = 1000000,
     return packets;
 }
 
+constexpr std::uint32_t kOurs = 0x0a000064, kOther = 0x0a000065, kThird = 0x0a000066;
+
 class LiveSessionTest : public testing::Test {
  protected:
     LiveReport run(GivenPackets& packets) {
@@ -156,6 +159,42 @@ TEST_F(LiveSessionTest, AnotherModeOfAnOusterIsTold) {
     EXPECT_EQ(remarks_[3], remarks_[1]);
 }
 
+/// Both send, though nothing of it is of use: neither is silent, so none takes the other's place.
+TEST_F(LiveSessionTest, ASensorOfAnotherModeIsNotSilent) {
+    const test::TemporaryFolder folder;
+    options_.model = "";
+    std::string json = test::ousterJsonOf({1024, 10});
+    const auto serial = json.find("prod_sn");
+    if (serial != std::string::npos) json.replace(serial, 7, "no_sn__");
+    options_.sensor_json = folder.write("ouster.json", json);
+    options_.settings.options.columns = 64;
+    options_.settings.options.window_size = 2;
+    options_.settings.options.principal_components = 1;
+    test::TurningOuster ours, other;
+    GivenPackets source;
+    for (int turn = 0; turn < 3; ++turn) {
+        const auto of_ours = ours.turn({512, 10}), of_other = other.turn({512, 10});
+        for (std::size_t i = 0; i < of_ours.size(); ++i) {
+            source.add(of_ours[i], kOurs).add(of_other[i], kOther).later(0.1 / 32);
+        }
+        source.later(0.4);
+    }
+    EXPECT_EQ(run(source).foreign, 3u * 32);
+    EXPECT_THAT(remarks_, testing::Each(testing::Not(HasSubstr("the sensor is now"))));
+}
+
+TEST_F(LiveSessionTest, TooLatePacketsOfAMid360AreTold) {
+    options_.model = "Mid-360";
+    GivenPackets source;
+    for (int k = 0; k < 100; ++k) {
+        source.add(test::livoxPacketOfWall(k, 1000000000 + test::kLivoxPacket_ns * k));
+    }
+    source.add(test::livoxPacketOfWall(20, 1000000000 + test::kLivoxPacket_ns * 20 + 1));
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.too_late, 1u);
+    EXPECT_GE(report.late, report.too_late);
+}
+
 TEST_F(LiveSessionTest, EverythingIsCountedOnce) {
     auto packets = turnsOf(3);
     const std::string first = packets[0];
@@ -207,8 +246,6 @@ TEST_F(LiveSessionTest, ASensorThatFallsSilentAndComesBackIsTold) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("the sensor is now at 10.0.0.102")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("packets come again")));
 }
-
-constexpr std::uint32_t kOurs = 0x0a000064, kOther = 0x0a000065, kThird = 0x0a000066;
 
 /// A sensor of the same model that looks elsewhere would be told in our directions.
 TEST_F(LiveSessionTest, AnotherSensorThatSentBesideOursNeverTakesItsPlace) {

@@ -93,6 +93,30 @@ TEST_F(SectorDistancesTest, WhatALostPacketSawTwoTurnsBeforeIsNotForgotten) {
     EXPECT_NEAR(distances.at(0.15)[2].distance_m, 4, 1e-4);
 }
 
+/// Packets of an Ouster with 512 columns, 11 degrees wide: 16 of them are half a turn.
+TEST_F(SectorDistancesTest, APacketThatIsHalfATurnLateDoesNotPassItsOwnTurn) {
+    const auto sweepOf = [](int k) { return Sweep{radians(11.25 * k), radians(11.25 * (k + 1))}; };
+    for (const int late : {1, 14, 15, 16}) {
+        SectorDistances distances(sensor_);
+        const auto timeOf = [](int k) { return 0.1 / 32 * k; };
+        // Each turn, packet 2 sees a pole at its end, in the degree that packet 3 completes.
+        for (int k = 0; k < 67 + late; ++k) {
+            std::vector<Point> points;
+            if (k % 32 == 2) points.push_back({33.6, 5});
+            if (k != 67) take(sweepOf(k), timeOf(k), points, distances);
+        }
+        const double now_s = timeOf(67 + late);
+        EXPECT_EQ(distances.at(now_s)[6].state, State::Obstacle) << late;
+        const Scan none;
+        const std::vector<Label> no_labels;
+        const std::vector<Sweep> packets{sweepOf(67), sweepOf(67 + late)};
+        const Sweep both{packets[0].from_rad, packets[1].to_rad};
+        distances.take(
+            {none, no_labels, both, now_s, now_s, true, false, false, result_, &packets});
+        EXPECT_EQ(distances.at(now_s)[6].state, State::Obstacle) << late;
+    }
+}
+
 TEST_F(SectorDistancesTest, NothingIsKnownAtFirst) {
     for (const auto& sector : SectorDistances(sensor_).at(0)) {
         EXPECT_EQ(sector.state, State::Unknown);

@@ -224,7 +224,7 @@ TEST_F(VelodyneStreamTest, AClockThatIsSetStartsAgain) {
 /// What a packet saw that was under way for more than a turn does not replace what is there now.
 TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
     SectorDistances distances(sensorModel("VLP-16"));
-    const auto nothing_s = [&](double now_s) {
+    const auto countFree = [&](double now_s) {
         const auto at = distances.at(now_s);
         return std::count_if(at.begin(), at.end(), [](const auto& direction) {
             return direction.state == SectorDistances::State::SeenNothing;
@@ -234,14 +234,15 @@ TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
                           [&](const LabelledSector& sector) { distances.take(sector); });
     addAll(turnsOf(4), stream);
     const double now_s = 4 * kPackets * 1.33e-3;
-    const auto before = nothing_s(now_s);
+    const auto before = countFree(now_s);
+    ASSERT_GT(before, 0);
     const std::size_t sectors = stream.segmenter().sectors();
     for (std::size_t i = 0; i < 15; ++i) {
         EXPECT_EQ(add(turnsOf(1)[20 + i], now_s + 1e-5, stream), Taken::Late);
     }
     EXPECT_EQ(stream.segmenter().sectors(), sectors);
     addAll(turnsOf(1, 1400000), stream, now_s + 1e-4);
-    EXPECT_EQ(nothing_s(now_s + 1e-4 + kPackets * 1.33e-3), before);
+    EXPECT_EQ(countFree(now_s + 1e-4 + kPackets * 1.33e-3), before);
     EXPECT_EQ(stream.counts().late, 15u);
     EXPECT_EQ(stream.counts().too_late, 15u);
     EXPECT_EQ(stream.counts().interruptions, 0u);
@@ -423,6 +424,28 @@ TEST(VelodyneStreams, WhatOnlyALaggingBeamSeesStaysAnObstacle) {
 TEST(VelodyneStreams, AnHdl64NeedsItsCalibration) {
     Labelled all;
     EXPECT_THROW(VelodyneStream(packets::hdl64Model(), {}, into(all)), std::invalid_argument);
+}
+
+/// The lower blocks tell an HDL-64E also where their azimuths are unsound.
+TEST(VelodyneStreams, UnsoundLowerBlocksOfAnHdl64EndNothing) {
+    packets::VelodyneCalibration calibration;
+    for (int laser = 0; laser < 64; ++laser) {
+        const double elevation_rad = radians(-24 + 0.4 * laser);
+        packets::VelodyneLaser& of_hdl64 = calibration.lasers.emplace_back();
+        of_hdl64.elevation_sine = std::sin(elevation_rad);
+        of_hdl64.elevation_cosine = std::cos(elevation_rad);
+    }
+    Labelled all;
+    VelodyneStream stream(packets::hdl64Model(), {}, into(all), {}, &calibration);
+    std::string packet(1206, '\0');
+    for (int block = 0; block < 12; ++block) {
+        const unsigned reading = block % 2 == 0 ? 100 + 18 * block : 40000;
+        packet[100 * block] = '\xff';
+        packet[100 * block + 1] = block % 2 == 0 ? '\xee' : '\xdd';
+        packet[100 * block + 2] = static_cast<char>(reading & 255);
+        packet[100 * block + 3] = static_cast<char>(reading >> 8);
+    }
+    EXPECT_NO_THROW(add(packet, 1, stream));
 }
 
 TEST(VelodyneStreams, TheSettingsLimitTheRanges) {

@@ -70,8 +70,8 @@ class Surroundings {
     };
     bool isFresh(const Seen& seen, double now_s) const;
     double azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edge) const;
-    static bool hasPassed(const Seen& seen, const streaming::TurnCoverage::Arc& arc,
-                          double since_rad);
+    static std::optional<double> passedAt(const Seen& seen, const streaming::TurnCoverage::Arc& arc,
+                                          double since_rad);
 
     Settings settings_;
     double lowest_, highest_;                       ///< sines of the elevations of its beams

@@ -65,11 +65,10 @@ class SectorDistances {
     };
     struct Bin {
         double begun_s = kNever, begun_rad = kNever;  ///< when a turn looked there first; its begin
-        double swept_s = kNever;                      ///< the same of the turn that swept it last
-        double end_rad = kNever;                      ///< its end in that turn
-        double passed_s = kNever,
-               passed_rad = kNever;  ///< when all was swept; how far it had turned
-        std::vector<Found> found;    ///< by turn, oldest first
+        double swept_s = kNever;   ///< begun_s of the turn that swept all of it last
+        double end_rad = kNever;   ///< its end in that turn
+        double passed_s = kNever;  ///< when that turn had swept all of it
+        std::vector<Found> found;  ///< by turn, oldest first
     };
 
     void beginFrame(double time_s);

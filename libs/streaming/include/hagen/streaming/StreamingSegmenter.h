@@ -112,7 +112,7 @@ class StreamingSegmenter {
     void setMount(const std::optional<Attitude>& tilt);
 
     /// Sectors have these: a direction was looked at once all beams have passed it. Default: none.
-    /// Throws std::invalid_argument if one is negative or not finite.
+    /// Throws std::invalid_argument unless both are from 0 to a turn.
     void setBeamOffsets(const BeamOffsets& offsets);
 
     /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and when it

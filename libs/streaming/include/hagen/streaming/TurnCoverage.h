@@ -48,9 +48,14 @@ class TurnCoverage {
 };
 
 /// Where an arc begins in the latest turn in which a beam looks there; none: none does.
-std::optional<double> begunArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc);
+std::optional<double> beginOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc);
 /// Where it ends in the latest turn in which the sweep has completed it; none: not all of the arc
 /// was swept without a gap.
 std::optional<double> endOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc);
+
+/// A later turn has passed what was seen when the head was at an angle if the end of its arc is
+/// beyond it by this: the end of the same turn is at or before the head, also of packets that came
+/// late, and that of the next one at least half a turn after it.
+constexpr double kLaterTurn_rad = 1;
 
 }  // namespace hagen::streaming
