@@ -78,7 +78,7 @@ void SectorDistances::noteSwept(const LabelledSector& sector) {
 }
 
 void SectorDistances::noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc,
-                                double now_s, Bin& bin) const {
+                                double now_s, Bin& bin) {
     const auto begun_rad = beginOfArc(swept, arc);
     if (begun_rad && *begun_rad > bin.begun_rad + kPi) {
         bin.begun_rad = *begun_rad;

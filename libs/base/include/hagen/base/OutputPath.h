@@ -70,7 +70,7 @@ class RenamingNote {
 /// What earlier runs left of an output, sorted by name: all partial names of its path that there
 /// are (keepPartial()), and the temporary names of processes that do not run any more, or that had
 /// this one's number. Empty for an empty path.
-std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& path);
+std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 
 /// The same for several outputs, as a sentence for the user; "" if there is nothing.
 std::string leftBehind(const std::vector<std::filesystem::path>& outputs);

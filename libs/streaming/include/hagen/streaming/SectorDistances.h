@@ -73,8 +73,8 @@ class SectorDistances {
 
     void beginFrame(double time_s);
     void noteSwept(const LabelledSector& sector);
-    void noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc, double now_s,
-                   Bin& bin) const;
+    static void noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc,
+                          double now_s, Bin& bin);
     void forgetFound(double now_s, Bin& bin) const;
     static bool isGone(const Found& found, const Bin& bin);
     bool isFresh(double time_s, double now_s) const;
