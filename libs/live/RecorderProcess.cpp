@@ -114,6 +114,14 @@ bool waitsForDisk(pid_t process) {
     return false;
 }
 
+/// How long reading or sending waits on a socket.
+void limitWait(int socket, int direction, double longest_s) {
+    timeval longest{};
+    longest.tv_sec = static_cast<time_t>(longest_s);
+    longest.tv_usec = static_cast<suseconds_t>(1e6 * (longest_s - std::floor(longest_s)));
+    setsockopt(socket, SOL_SOCKET, direction, &longest, sizeof longest);
+}
+
 /// Of a process that takes packets: it changes while one of them is taken.
 int waitingBytes(int socket) {
     int bytes = 0;
@@ -128,6 +136,7 @@ RecorderProcess::RecorderProcess(const LiveOptions& options, bool waits)
       file_(options.recording.file.string()),
       waits_(waits),
       patience_s_(options.recording.patience_s),
+      sending_s_(waits ? kDiskPatience * patience_s_ : patience_s_),
       queue_(kQueue) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -142,8 +151,15 @@ RecorderProcess::RecorderProcess(const LiveOptions& options, bool waits)
                                  " cannot be started: " + std::strerror(failed));
     }
     std::string line, failure;
+    limitWait(socket_, SO_RCVTIMEO, kDiskPatience * patience_s_);
+    errno = 0;
     try {
-        failure = readLine(socket_, line) ? failureIn(line) : howItEnded();
+        if (readLine(socket_, line)) {
+            failure = failureIn(line);
+        } else {
+            if (errno == EAGAIN) endIt("did not begin for ", kDiskPatience * patience_s_);
+            failure = howItEnded();
+        }
     } catch (const std::runtime_error& e) {
         failure = program_ + " answers '" + line.substr(0, 40) + "', which " + e.what();
     }
@@ -153,12 +169,8 @@ RecorderProcess::RecorderProcess(const LiveOptions& options, bool waits)
         waitFor(process_, true);
         throw std::runtime_error(failure);
     }
-    if (!waits_) {
-        timeval patience{};
-        patience.tv_sec = static_cast<time_t>(patience_s_);
-        patience.tv_usec = static_cast<suseconds_t>(1e6 * (patience_s_ - std::floor(patience_s_)));
-        setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-    }
+    limitWait(socket_, SO_RCVTIMEO, 0);  // for ever: its last words come at the end
+    limitWait(socket_, SO_SNDTIMEO, sending_s_);
     try {
         sender_ = std::thread([this] { send(); });
         listener_ = std::thread([this] { listen(); });
@@ -183,7 +195,7 @@ void RecorderProcess::send() {
         if (popped != PacketQueue::Popped::Packet || !is_open) continue;
         is_open = sendPacket(socket_, packet);
         if (is_open) continue;
-        if (errno == EAGAIN) endIt("took no packets for ");
+        if (errno == EAGAIN) endIt("took no packets for ", sending_s_);
         queue_.close();
     }
     shutdown(socket_, SHUT_WR);
@@ -212,7 +224,8 @@ void RecorderProcess::listen() {
 }
 
 /// Something else may hold its end of the socket, so that its death alone wakes no thread.
-void RecorderProcess::endIt(const char* why) {
+void RecorderProcess::endIt(const char* why, double after_s) {
+    ended_after_s_ = after_s;
     why_ended_ = why;
     kill(process_, SIGKILL);
     shutdown(socket_, SHUT_RDWR);
@@ -235,7 +248,8 @@ void RecorderProcess::watchEnd() {
         waiting = now_waiting;
         if (now_s - alive_s <= patience_s_) continue;
         if (now_s - alive_s <= kDiskPatience * patience_s_ && waitsForDisk(process_)) continue;
-        endIt(waitsForDisk(process_) ? "waited for its disk for more than " : "did nothing for ");
+        endIt(waitsForDisk(process_) ? "waited for its disk for more than " : "did nothing for ",
+              patience_s_);
         is_given_up_ = !hasEndedWithin(kDeath);
         return;
     }
@@ -252,7 +266,7 @@ std::string RecorderProcess::howItEnded() const {
     }
     const char* const why = why_ended_;
     const std::string how =
-        why != nullptr ? why + base::fixedText(patience_s_, 1) + " s and was ended" +
+        why != nullptr ? why + base::fixedText(ended_after_s_, 1) + " s and was ended" +
                              (end.si_pid == 0 ? ", but is still there: it waits for its disk" : "")
         : end.si_code == CLD_EXITED ? "ended with exit status " + std::to_string(end.si_status)
                                     : "was killed by signal " + std::to_string(end.si_status) +

@@ -36,12 +36,12 @@ class RecorderProcess {
     void send();
     void listen();
     void watchEnd();
-    void endIt(const char* why);
+    void endIt(const char* why, double after_s);
     std::string howItEnded() const;
 
     const std::string program_, file_;
     const bool waits_;
-    const double patience_s_;
+    const double patience_s_, sending_s_;  ///< at the end, and while it is sent packets
     pid_t process_ = -1;
     int socket_ = -1;
     PacketQueue queue_;
@@ -49,6 +49,7 @@ class RecorderProcess {
     std::size_t left_out_ = 0;
     std::thread sender_, listener_;
     std::atomic<const char*> why_ended_ = nullptr;  ///< by us: what it did for too long
+    std::atomic<double> ended_after_s_ = 0;         ///< how long
     std::atomic<bool> is_given_up_ = false;         ///< it was killed, and is still there
 
     mutable std::mutex mutex_;

@@ -473,6 +473,23 @@ TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {
     EXPECT_THAT(report.recorded.failure, HasSubstr("took no packets for 0.2 s and was ended"));
 }
 
+/// A replay waits for its recorder, but not for ever.
+TEST_F(LiveRecordingTest, ARecorderThatIsStuckInAReplayIsEnded) {
+    recordBy(kReady + std::string("exec sleep 1000"));
+    options_.recording.patience_s = 0.05;
+    GivenPackets source;
+    source.addAll(turnsOf(40));  // more than the queue and a socket hold
+    EXPECT_THAT(run(source).recorded.failure, HasSubstr("took no packets for 0.3 s and was ended"));
+}
+
+TEST_F(LiveRecordingTest, ARecorderThatDoesNotBeginIsEnded) {
+    recordBy("exec sleep 1000");
+    options_.recording.patience_s = 0.05;
+    GivenPackets source;
+    EXPECT_THAT(test::messageOf([&] { run(source.addAll(turnsOf(1))); }),
+                HasSubstr("did not begin for 0.3 s and was ended"));
+}
+
 /// What fits into the socket tells nothing. Another process has that, too.
 TEST_F(LiveRecordingTest, ARecorderThatIsStuckAtTheEndIsEnded) {
     recordBy(kReady + std::string("exec 5<&0\nsleep 5 >/dev/null 2>&1 &\nexec sleep 30"));
