@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "LittleEndian.h"
+
 namespace hagen::packets {
 namespace {
 
@@ -11,15 +13,6 @@ constexpr double kTolerance = 0.15;      // captures have 0.01
 constexpr int kMostNumber = 64;          // from a column to one of the next packet
 constexpr int kMostLateTurns = 16;       // more: the sensor was started again
 constexpr std::uint16_t kMostColumns = 4096;
-
-template <class Number>
-Number little(const std::uint8_t* at) {
-    Number value = 0;
-    for (std::size_t i = 0; i < sizeof value; ++i) {
-        value = static_cast<Number>(value | static_cast<Number>(Number{at[i]} << (8 * i)));
-    }
-    return value;
-}
 
 }  // namespace
 

@@ -2,21 +2,14 @@
 
 #include <algorithm>
 
+#include "LittleEndian.h"
+
 namespace hagen::packets {
 namespace {
 
 constexpr std::size_t kMostOpen = 2;
 constexpr std::size_t kMostLateInARow = 16;  // packets
 constexpr int kLargestStep = 600;  // frames: a minute at ten per second; more: another recording
-
-template <class Number>
-Number little(const std::uint8_t* at) {
-    Number value = 0;
-    for (std::size_t i = 0; i < sizeof value; ++i) {
-        value = static_cast<Number>(value | static_cast<Number>(Number{at[i]} << (8 * i)));
-    }
-    return value;
-}
 
 /// From one frame id to another; ids wrap.
 int stepOf(std::uint16_t from, std::uint16_t to) {
