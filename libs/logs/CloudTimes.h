@@ -23,8 +23,9 @@ struct CloudTimes {
 /// "000042", else one after the other.
 CloudTimes timesOfNames(const std::vector<std::string>& names);
 
-/// The order in which scans with these names were taken: by the numbers at their ends, as the names
-/// that go before "cloud_12" differ in nothing else; otherwise by name, as text.
+/// The indices of names in the order in which their scans were taken: by the numbers at their ends
+/// if all have one and the text before it is the same ("cloud_9", "cloud_12"); otherwise by name,
+/// as text.
 std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names);
 
 }  // namespace hagen::logs
