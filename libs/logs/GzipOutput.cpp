@@ -19,14 +19,6 @@ struct FreeCompressor {
     }
 };
 
-/// One per thread: a compressor is larger than most members.
-libdeflate_compressor* compressor() {
-    thread_local std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor;
-    if (!compressor) compressor.reset(libdeflate_alloc_compressor(kLevel));
-    if (!compressor) throw std::bad_alloc();
-    return compressor.get();
-}
-
 [[noreturn]] void fail(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": cannot be written" +
                              (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
@@ -35,9 +27,14 @@ libdeflate_compressor* compressor() {
 }  // namespace
 
 void packGzipMember(const Bytes& plain, Bytes& packed) {
-    const std::size_t bound = libdeflate_gzip_compress_bound(compressor(), plain.size());
+    // None is kept per thread: a thread that ends needs memory for that, without which glibc
+    // aborts.
+    const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+        libdeflate_alloc_compressor(kLevel));
+    if (!compressor) throw std::bad_alloc();
+    const std::size_t bound = libdeflate_gzip_compress_bound(compressor.get(), plain.size());
     if (packed.size() < bound) packed.resize(bound);
-    const std::size_t size = libdeflate_gzip_compress(compressor(), plain.data(), plain.size(),
+    const std::size_t size = libdeflate_gzip_compress(compressor.get(), plain.data(), plain.size(),
                                                       packed.data(), packed.size());
     if (size == 0) throw std::logic_error("a gzip member exceeds its own bound");
     packed.resize(size);

@@ -84,7 +84,6 @@ mrpt::serialization::CSerializable::Ptr objectOf(
     if (*cloud_class == observations::CloudClass::Simple) {
         const auto points = observations::PortableCloud::Create();
         const mrpt::maps::CPointsMap& all = *cloud->pointcloud;
-        observations::checkMemoryFor(all.size());
         points->setSize(all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
             points->setPointFast(i, all.getPointsBufferRef_x()[i], all.getPointsBufferRef_y()[i],

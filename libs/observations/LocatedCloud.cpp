@@ -1,5 +1,4 @@
 #include <hagen/observations/LocatedCloud.h>
-#include <hagen/observations/MrptCompat.h>
 
 #include <stdexcept>
 #include <utility>
@@ -15,7 +14,6 @@ LocatedCloud::LocatedCloud(const Scan& scan, std::shared_ptr<const SensorModel> 
     if (!other_fields_.fields.empty() && other_fields_.points != scan.size()) {
         throw std::invalid_argument("the fields of a cloud are not those of its points");
     }
-    checkMemoryFor(scan.size());
     setSize(scan.size());
     for (std::size_t i = 0; i < scan.size(); ++i) {
         setPointFast(i, scan.x_m[i], scan.y_m[i], scan.z_m[i]);

@@ -52,7 +52,6 @@ struct Coordinates {
         readNumbers(in, count, z_m);
     }
     void copyTo(CPointsMap& cloud) const {
-        checkMemoryFor(x_m.size());
         cloud.setSize(x_m.size());
         for (std::size_t i = 0; i < x_m.size(); ++i) {
             cloud.setPointFast(i, x_m[i], y_m[i], z_m[i]);
@@ -301,7 +300,6 @@ CPointsMap::Ptr genericCloudOf(const PointTable& table) {
                                     return kept.count(field.name) > 0;
                                 }),
                  others.end());
-    checkMemoryFor(table.points);
     cloud->setSize(table.points);
     for (std::size_t i = 0; i < table.points; ++i) {
         cloud->setPointFast(i, static_cast<float>(x_m[i]), static_cast<float>(y_m[i]),

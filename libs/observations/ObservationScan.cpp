@@ -284,7 +284,6 @@ mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uin
     if (cloud_class == CloudClass::Generic) return genericCloudOf(pointsOf(tableOf(scan), indices));
     // Reserve first: appending points one by one costs several times as much.
     const auto fill = [&](auto points, const auto& set_more) {
-        checkMemoryFor(indices.size());
         points->setSize(indices.size());
         for (std::size_t k = 0; k < indices.size(); ++k) {
             const std::uint32_t i = indices[k];

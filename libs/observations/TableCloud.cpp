@@ -1,4 +1,3 @@
-#include <hagen/observations/MrptCompat.h>
 #include <hagen/observations/PointFields.h>
 #include <hagen/observations/TableCloud.h>
 
@@ -36,7 +35,6 @@ TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::mo
         point_of_return_.push_back(i);
         far += std::hypot(x_m[i], y_m[i], z_m[i]) > kFarthest_m;
     }
-    checkMemoryFor(point_of_return_.size());
     setSize(point_of_return_.size());
     for (std::size_t k = 0; k < point_of_return_.size(); ++k) {
         const std::uint32_t i = point_of_return_[k];

@@ -46,8 +46,19 @@ void checkUpdates(const CampaignPlan& plan) {
 }
 
 constexpr double kLeastSpeed_m_s = 0.1;
-/// The flights of all seeds are listed in memory.
-constexpr std::uint64_t kMostSeeds = 1'000'000;
+
+void checkNumberOfFlights(const CampaignPlan& plan) {
+    double flights = static_cast<double>(plan.last_seed - plan.first_seed) + 1;
+    for (const std::size_t values :
+         {plan.scenarios.size(), plan.speeds_m_s.size(), plan.models.size(), plan.guidances.size(),
+          plan.planners.size(), plan.pose_errors.size(), plan.latency_scales.size(),
+          plan.airs.size(), plan.distances.size(), plan.updates.size()}) {
+        flights *= static_cast<double>(values);
+    }
+    if (flights <= kMostFlights) return;
+    throw std::invalid_argument("at most " + std::to_string(kMostFlights) +
+                                " flights in a plan; fly the others into a folder of their own");
+}
 
 void check(const CampaignPlan& plan, const Shard& shard) {
     checkNames("scenario", plan.scenarios, courseNames(), joined(courseNames()));
@@ -71,9 +82,7 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     if (plan.last_seed < plan.first_seed) {
         throw std::invalid_argument("the last seed is before the first");
     }
-    if (plan.last_seed - plan.first_seed >= kMostSeeds) {
-        throw std::invalid_argument("at most " + std::to_string(kMostSeeds) + " seeds");
-    }
+    checkNumberOfFlights(plan);
     if (shard.of < 1 || shard.number < 1 || shard.number > shard.of) {
         throw std::invalid_argument("a shard must be i/n with i from 1 to n");
     }
@@ -84,10 +93,10 @@ template <class Value, class Field>
 std::vector<TrialSetup> withEach(const std::vector<TrialSetup>& setups,
                                  const std::vector<Value>& values, Field field) {
     std::vector<TrialSetup> all;
-    for (TrialSetup setup : setups) {
+    for (const TrialSetup& setup : setups) {
         for (const Value& value : values) {
-            setup.*field = value;
             all.push_back(setup);
+            all.back().*field = value;
         }
     }
     return all;

@@ -106,6 +106,22 @@ print(hagen.Filter(name).settings)
     assert "zone_m: 7 " in printed
 
 
+def test_mrpt_without_memory_is_an_error_and_no_crash():
+    """The linker tells whose allocation MRPT's clouds use: ours throws, MRPT's returns nullptr."""
+    environment = {**os.environ, "LD_DEBUG": "bindings", "LD_BIND_NOW": "1"}
+    told = subprocess.run(
+        [sys.executable, "-c", "import hagen"], env=environment, check=True, capture_output=True
+    ).stderr.decode(errors="replace")
+    used = [
+        line
+        for line in told.splitlines()
+        if "binding file" in line and "libmrpt-maps" in line.split(" to ")[0]
+        and "aligned_mallocEmm" in line
+    ]
+    assert all("_hagen" in line.split(" to ")[1] for line in used), used
+    assert used
+
+
 @pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
 def test_examples_draw(example, tmp_path):
     pytest.importorskip("matplotlib")

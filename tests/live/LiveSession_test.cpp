@@ -476,10 +476,10 @@ TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {
 /// A replay waits for its recorder, but not for ever.
 TEST_F(LiveRecordingTest, ARecorderThatIsStuckInAReplayIsEnded) {
     recordBy(kReady + std::string("exec sleep 1000"));
-    options_.recording.patience_s = 0.05;
+    options_.recording.patience_s = 0.2;
     GivenPackets source;
-    source.addAll(turnsOf(40));  // more than the queue and a socket hold
-    EXPECT_THAT(run(source).recorded.failure, HasSubstr("took no packets for 0.3 s and was ended"));
+    source.addAll(turnsOf(60));  // 4560 packets, more than the queue and a socket hold
+    EXPECT_THAT(run(source).recorded.failure, HasSubstr("took no packets for 1.2 s and was ended"));
 }
 
 TEST_F(LiveRecordingTest, ARecorderThatDoesNotBeginIsEnded) {

@@ -18,8 +18,6 @@
 #endif
 
 #include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 namespace hagen::observations {
@@ -36,16 +34,6 @@ inline void registerMrptClasses() {
         return true;
     }();
     static_cast<void>(is_done);
-}
-
-/// Throws std::bad_alloc if there is no memory for the coordinates of so many points: MRPT's own
-/// allocation does not look, and crashes. Another thread may take the memory in between.
-inline void checkMemoryFor(std::size_t points) {
-    constexpr std::size_t kColumns = 6, kBesides = 1 << 16;  // with those of derived classes
-    // Volatile: compilers take an unused allocation for one that succeeds.
-    void* volatile memory = std::malloc(kColumns * sizeof(float) * points + kBesides);
-    if (memory == nullptr) throw std::bad_alloc();
-    std::free(memory);
 }
 
 /// The cloud class that every MRPT from 2.5 to 3 can read.

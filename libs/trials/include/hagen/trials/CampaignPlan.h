@@ -7,6 +7,9 @@
 
 namespace hagen::trials {
 
+/// Of a plan, and of all plans of a folder: they are listed in memory.
+constexpr int kMostFlights = 1'000'000;
+
 /// What to fly: every combination of the lists' entries.
 struct CampaignPlan {
     std::vector<std::string> scenarios;
@@ -36,7 +39,8 @@ struct CourseFlights {
 /// The flights of a plan, courses seed by seed, so that a campaign that is stopped early has some
 /// of every scenario. Throws std::invalid_argument for unknown names (and lists the known ones), an
 /// empty list, a last seed before the first, a speed or latency scale outside (0, 100], an invalid
-/// shard, and a model with motion that is to fly with sectors: it follows obstacles of whole scans.
+/// shard, more than kMostFlights, and a model with motion that is to fly with sectors: it follows
+/// obstacles of whole scans.
 std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard = {});
 
 /// Throws std::runtime_error, naming the stage, if the profile lacks one that these flights need.
