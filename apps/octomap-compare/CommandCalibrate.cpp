@@ -111,8 +111,9 @@ void addCalibrate(Program& program) {
         {"all"});
     sub.option("--path-m", flags->path_m, "length of that flight [m]")
         .between(10.0, 10000.0)
+        .needs(memory)
         .showDefault();
-    sub.flag("--quick", flags->is_quick, "one course instead of four");
+    sub.flag("--quick", flags->is_quick, "one course instead of four").needs(file);
     sub.flag("--overwrite", flags->overwrites, "replace existing files");
     sub.does([flags, file, memory] { return run(*flags, file.isGiven() || memory.isGiven()); });
 }

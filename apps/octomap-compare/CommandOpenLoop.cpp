@@ -36,13 +36,22 @@ std::vector<std::string> standardModels(bool has_scene) {
     return models;
 }
 
-/// Prints what limits the figures.
-void printRemarks(const openloop::OpenLoopResult& result) {
-    const auto print = [](std::size_t count, const std::string& what) {
-        if (count > 0) std::cerr << "octomap-compare: " << count << " " << what << "\n";
-    };
+void print(std::size_t count, const std::string& what) {
+    if (count > 0) std::cerr << "octomap-compare: " << count << " " << what << "\n";
+}
+
+/// Prints what is not in the figures.
+void printLosses(const openloop::OpenLoopResult& result) {
     print(result.scans_without_pose, "scans have no pose within 0.2 s and were skipped");
-    print(result.unreadable_scans, "scans could not be read and were skipped");
+    print(result.unreadable_scans,
+          "scans could not be read and were skipped, the first: " + result.why_unreadable);
+    for (const std::string& remark : result.remarks) {
+        std::cerr << "octomap-compare: " << remark << "\n";
+    }
+}
+
+/// Prints what limits the figures.
+void printLimits(const openloop::OpenLoopResult& result) {
     print(
         result.scans_placed_by_one_pose,
         "scans were placed by one pose each, because their returns have no times, or the poses end "
@@ -77,8 +86,9 @@ int run(Flags flags) {
         listener.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
     const auto show = [&](const openloop::OpenLoopResult& result) {
+        printLosses(result);
         if (flags.is_quiet) return;
-        printRemarks(result);
+        printLimits(result);
         std::cout << openloop::tableOf(open_loop, result) << std::flush;
     };
     try {

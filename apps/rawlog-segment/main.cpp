@@ -91,6 +91,7 @@ void declare(Program& app, Flags& flags) {
     app.option("--sensor-label", conversion.sensor_labels,
                "segment only this LiDAR; may be repeated")
         .once()
+        .mayBeEmpty()  // a label may be
         .group("Input");
     app.option("--poses", conversion.poses,
                "vehicle trajectory (TUM), or sensor pose per scan (KITTI); overrides the "

@@ -1,5 +1,7 @@
 #include "Report.h"
 
+#include <hagen/segmentation/OptionKeys.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
@@ -291,12 +293,21 @@ std::string partsOf(const labelled_scans::ScoreTotals& scores) {
     return text;
 }
 
-/// The sensors that nobody named, a line per folder.
+/// The sensors that nobody named, and options that a recording changes, a line per folder.
 std::string sensorsOf(const labelled_scans::Summary& summary) {
     std::string text;
-    for (std::size_t f = 0; f < summary.sensor_texts.size(); ++f) {
-        if (summary.sensor_texts[f].empty()) continue;
-        text += "sensor of " + summary.folder_names[f] + ": " + summary.sensor_texts[f] + "\n";
+    for (std::size_t f = 0; f < summary.folders.size(); ++f) {
+        const std::string of = " of " + summary.folder_names[f] + ": ";
+        if (!summary.sensor_texts[f].empty()) {
+            text += "sensor" + of + summary.sensor_texts[f] + "\n";
+        }
+        std::string changed;
+        for (const OptionKey& key : optionKeys()) {
+            const std::string value = textOf(key, summary.folder_settings[f].options);
+            if (value == textOf(key, summary.settings.options)) continue;
+            changed += (changed.empty() ? "" : ", ") + key.name + " " + value;
+        }
+        if (!changed.empty()) text += "settings" + of + changed + " (of the recording)\n";
     }
     return text.empty() ? "" : text + "\n";
 }

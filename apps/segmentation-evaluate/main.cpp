@@ -182,6 +182,8 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     for (const auto& source : sources) {
         summary.folder_names.push_back(source->name());
         summary.sensor_texts.push_back(source->sensorText());
+        summary.folder_settings.push_back(labelled_scans::settingsOf(*source, summary.settings));
+        summary.folder_remarks.push_back(source->remarks());
     }
     summary.range = options.range;
     summary.label_map = flags.label_map;
@@ -195,6 +197,11 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     outputs.write(outputs.charts,
                   [&](const fs::path& folder) { labelled_scans::drawCharts(folder, summary); });
     endIfInterrupted();
+    for (std::size_t f = 0; f < summary.folders.size(); ++f) {
+        for (const std::string& remark : summary.folder_remarks[f]) {
+            std::cerr << summary.folders[f] << ": " << remark << "\n";
+        }
+    }
     std::cout << reportOf(summary) << std::flush;
     outputs.all.commit();
     tellLeftBehind({flags.json, flags.charts, flags.overlay});

@@ -1,6 +1,5 @@
 #include <hagen/bags/BagPlan.h>
 #include <hagen/captures/Remarks.h>
-#include <hagen/packets/VelodyneModel.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -183,9 +182,20 @@ class Planner {
 
     bool isReadable(const Topic& topic) const {
         if (topic.kind == LidarKind::Ouster) return findOuster(topic) != nullptr;
-        return topic.kind != LidarKind::Velodyne ||
-               (topic.velodyne_id >= 0 &&
-                packets::findVelodyneModel(static_cast<std::uint8_t>(topic.velodyne_id)));
+        return topic.kind != LidarKind::Velodyne || findVelodyne(topic) != nullptr;
+    }
+
+    /// The model of most packets; null: none is known.
+    static const packets::VelodyneModel* findVelodyne(const Topic& topic) {
+        const packets::VelodyneModel* most = nullptr;
+        std::size_t most_packets = 0;
+        for (const auto& [id, count] : topic.velodyne_ids) {
+            const packets::VelodyneModel* const model = packets::findVelodyneModel(id);
+            if (model == nullptr || count <= most_packets) continue;
+            most = model;
+            most_packets = count;
+        }
+        return most;
     }
 
     static bool isSameSensor(const Topic& cloud, const Topic& packets) {
@@ -211,6 +221,7 @@ class Planner {
         sensor.kind = topic.kind;
         sensor.label = labelOf(topic.topic.name, labels_);
         if (topic.kind == LidarKind::Ouster) sensor.ouster = findOuster(topic);
+        if (topic.kind == LidarKind::Velodyne) sensor.velodyne = findVelodyne(topic);
         frame_of_[topic.topic.name] = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
     }
 

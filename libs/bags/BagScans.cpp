@@ -46,7 +46,6 @@ struct TopicState {
     std::size_t points_not_finite = 0;
     std::map<std::string, std::size_t> clouds_with;  ///< by remark
     // Of packets:
-    const packets::VelodyneModel* model = nullptr;
     std::optional<captures::VelodyneTurns> turns;
     std::unique_ptr<packets::OusterFrames> frames;
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
@@ -260,13 +259,10 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
             ++state.other_packets;
         } else if (packets::isOfHdl64(sent.bytes)) {
             ++state.hdl64_packets;
-        } else if (model == nullptr || (state.model != nullptr && state.model != model)) {
+        } else if (model == nullptr || model != state.sensor->velodyne) {
             ++state.unknown_ids[id];
         } else {
-            if (!state.turns) {
-                state.model = model;
-                state.turns.emplace(*model, state.sensor->label);
-            }
+            if (!state.turns) state.turns.emplace(*model, state.sensor->label);
             packets::VelodynePacket packet;
             std::copy_n(sent.bytes, packet.bytes.size(), packet.bytes.begin());
             packet.time_ns = sent.time_ns != 0             ? sent.time_ns
@@ -363,7 +359,8 @@ void BagScans::Reader::finish() {
 std::string BagScans::Reader::textOf(const TopicState& state) {
     std::string text = counted(state.messages, "message");
     if (state.turns) {
-        text += ", " + state.model->name + ", " + captures::textOf(state.turns->counts());
+        text +=
+            ", " + state.sensor->velodyne->name + ", " + captures::textOf(state.turns->counts());
     } else if (state.frames) {
         text += ", " + state.sensor->ouster->name + ", " + captures::textOf(state.frames->counts());
     }

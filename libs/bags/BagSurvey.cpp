@@ -11,6 +11,7 @@ namespace hagen::bags {
 namespace {
 
 constexpr double kLeastApart_ns = 1e7;
+constexpr std::size_t kMostLookedAt = 20;  // messages of a Velodyne: turns
 constexpr std::size_t kMostMetadata = 1 << 20;
 
 bool endsWith(const std::string& text, const std::string& ending) {
@@ -67,7 +68,9 @@ class Surveyor {
     void read(const BagMessage& message, BagSurvey::Topic& topic) {
         const std::string& type = topic.topic.type;
         if (topic.kind != LidarKind::None) {
-            if (topic.frame.empty()) look(message, topic);
+            const bool lacks_model =
+                topic.kind == LidarKind::Velodyne && topic.velodyne_messages < kMostLookedAt;
+            if (topic.frame.empty() || lacks_model) look(message, topic);
         } else if (type == "nav_msgs/Odometry") {
             FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
             take(readOdometry(fields), message, topic.topic, survey_.odometry);
@@ -90,7 +93,7 @@ class Surveyor {
         }
     }
 
-    /// Looks at the first message of a LiDAR.
+    /// Looks at the first messages of a LiDAR. A Velodyne's first packet may be another's.
     void look(const BagMessage& message, BagSurvey::Topic& topic) {
         if (topic.kind == LidarKind::Ouster) return;  // it has no header
         FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
@@ -99,11 +102,13 @@ class Surveyor {
             return;
         }
         const VelodyneScanMessage scan = readVelodyneScan(fields);
-        topic.frame = scan.header.frame;
-        if (scan.packets.empty() || topic.velodyne_id >= 0) return;
-        const std::uint8_t* const packet = scan.packets.front().bytes;
-        if (!packets::isOfHdl64(packet)) {
-            topic.velodyne_id = packet[packets::kVelodyneModelAt];
+        if (topic.frame.empty()) topic.frame = scan.header.frame;
+        topic.velodyne_messages += scan.packets.empty() ? 0 : 1;
+        for (const VelodyneScanMessage::Packet& packet : scan.packets) {
+            const bool is_data =
+                packets::isVelodyneData(packet.bytes, packets::kVelodynePacketBytes);
+            if (!is_data || packets::isOfHdl64(packet.bytes)) continue;
+            ++topic.velodyne_ids[packet.bytes[packets::kVelodyneModelAt]];
         }
     }
 

@@ -119,6 +119,11 @@ SqliteBag::Query SqliteBag::prepare(const std::string& sql) const {
     sqlite3_stmt* raw = nullptr;
     const int state = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr);
     Query query(raw);
+    if ((state & 0xff) == SQLITE_CANTOPEN) {
+        // With a log of changes, SQLite writes an index of these beside it.
+        fail(std::string(sqlite3_errmsg(database_.get())) + "; copy it and " + file_.string() +
+             "-wal into a folder that may be written");
+    }
     if (state != SQLITE_OK) fail(sqlite3_errmsg(database_.get()));
     return query;
 }

@@ -21,7 +21,8 @@ void LivoxScans::add(const packets::LivoxPacket& packet, std::int64_t time_ns) {
     if (is_begun_) {
         const auto step =
             static_cast<std::int16_t>(static_cast<std::uint16_t>(packet.number - last_number_));
-        if (step == 0 && packet.time_ns == last_ns_) {
+        const std::pair<std::uint64_t, std::uint16_t> self{packet.time_ns, packet.number};
+        if (seen_.count(self) > 0 || seen_before_.count(self) > 0) {
             ++counts_.repeated;
             return;
         }
@@ -31,6 +32,7 @@ void LivoxScans::add(const packets::LivoxPacket& packet, std::int64_t time_ns) {
         if (gap_ns > kInterruption_ns) {
             ++counts_.interruptions;
             finish();
+            seen_before_.clear();
         } else if (is_earlier) {
             ++counts_.late;  // its points are as good: they join the scan in progress
             if (step < 0 && counts_.lost > 0) --counts_.lost;
@@ -52,6 +54,7 @@ void LivoxScans::add(const packets::LivoxPacket& packet, std::int64_t time_ns) {
         last_ns_ = packet.time_ns;
         last_number_ = packet.number;
     }
+    seen_.emplace(packet.time_ns, packet.number);
     ++scan_packets_;
     packets::appendPoints(packet, start_ns_, scan_, tags_);
 }
@@ -60,6 +63,7 @@ void LivoxScans::finish() {
     if (!is_begun_) return;
     is_begun_ = false;
     scan_packets_ = 0;
+    seen_before_ = std::exchange(seen_, {});
     ++counts_.scans;
     locateBeams(*model_, scan_);
     auto observation = mrpt::obs::CObservationPointCloud::Create();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "Readers.h"
 
@@ -35,24 +36,31 @@ bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
 }
 
 /// Whether every fifth number is that of a beam, and the coordinates are not such numbers, too, as
-/// those of a grid. Among four numbers per point, every fifth is an x, y, z or intensity by turns.
+/// those of a grid. Among four numbers per point, every fifth is an x, y, z or intensity by turns,
+/// or 0 where there is no return.
 bool haveRings(const Bytes& bytes) {
     constexpr std::size_t kNumbers = 5, kFewestPoints = 16;
     constexpr float kHighestRing = 255.0f;
     const std::size_t points = bytes.size() / (sizeof(float) * kNumbers);
-    if (points < kFewestPoints) return false;
     bool are_all_whole = true;
+    std::size_t returns = 0;
+    std::set<float> rings;
     for (std::size_t i = 0; i < points; ++i) {
         const auto number = [&](std::size_t k) {
             return numberAt<float>(bytes, sizeof(float) * (kNumbers * i + k));
         };
         const float ring = number(4);
         if (!(ring >= 0 && ring <= kHighestRing) || ring != std::floor(ring)) return false;
+        bool is_return = false;
         for (std::size_t k = 0; k < 3; ++k) {
             are_all_whole = are_all_whole && number(k) == std::floor(number(k));
+            is_return = is_return || number(k) != 0;
         }
+        if (!is_return) continue;
+        ++returns;
+        rings.insert(ring);
     }
-    return !are_all_whole;
+    return !are_all_whole && returns >= kFewestPoints && rings.size() > 1;
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kHelpWidth = 80, kHelpColumn = 30;
+constexpr const char* kNotEmpty = "not empty";  // a check's name
 
 /// Breaks a line of --help between words. Its continuations begin where descriptions do.
 std::string wrapped(std::string line) {
@@ -133,6 +134,10 @@ Flag& Flag::showDefault() {
     option_->capture_default_str();
     return *this;
 }
+Flag& Flag::mayBeEmpty() {
+    option_->get_validator(kNotEmpty)->active(false);
+    return *this;
+}
 bool Flag::isGiven() const { return option_->count() > 0; }
 
 namespace {
@@ -175,6 +180,12 @@ Flag Command::option(const std::string& names, Value& value, const std::string& 
     using Number = typename NumberIn<Value>::Type;
     if constexpr (std::is_arithmetic_v<Number>) {
         option->check(CLI::Validator(errorOfNumber<Number>, ""));
+    } else {
+        // A script's variable that is not set: an output that it names would be missing.
+        const auto errorOf = [](const std::string& text) {
+            return text.empty() ? std::string("must not be empty") : std::string();
+        };
+        option->check(CLI::Validator(errorOf, "", kNotEmpty));
     }
     return Flag(*option);
 }

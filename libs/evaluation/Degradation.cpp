@@ -140,8 +140,12 @@ class FieldOfView {
     explicit FieldOfView(const SensorModel& sensor) {
         const std::vector<float>& beams = sensor.elevations_rad;
         const std::size_t top = beams.size() - 1;
-        lowest_sine_ = std::sin(beams[0] - 0.5f * (beams[1] - beams[0]));
-        highest_sine_ = std::sin(beams[top] + 0.5f * (beams[top] - beams[top - 1]));
+        // Beyond straight down or up, the sine would come back.
+        constexpr auto kStraight_rad = static_cast<float>(M_PI / 2);
+        const float lowest_rad = beams[0] - 0.5f * (beams[1] - beams[0]);
+        const float highest_rad = beams[top] + 0.5f * (beams[top] - beams[top - 1]);
+        lowest_sine_ = lowest_rad > -kStraight_rad ? std::sin(lowest_rad) : -2;
+        highest_sine_ = highest_rad < kStraight_rad ? std::sin(highest_rad) : 2;
     }
     bool sees(const Scan& scan, std::size_t i) const {
         const float sine = scan.z_m[i] / scan.range_m[i];

@@ -1,5 +1,6 @@
 #include <hagen/labelled_scans/LabelledFolders.h>
 
+#include <hagen/base/Folder.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/ScanSource.h>
 #include <hagen/observations/ObservationScan.h>
@@ -55,10 +56,13 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     const evaluation::LabelMap& kinds() const override { return kinds_; }
     SensorModel sensor() const override { return settings_.sensorModel(beams_.get()); }
     std::string sensorText() const override;
+    std::vector<std::string> remarks() const override;
+    Settings settingsFor(const Settings& asked) const;
     std::vector<evaluation::Method> makeMethods() const override;
 
  private:
     void readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const;
+    std::vector<std::string> labelsWithoutScans() const;
 
     std::string name_;
     logs::ScanFolder folder_;
@@ -71,6 +75,7 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     bool has_label_map_;               ///< ground-truth labels are derived with `kinds_`
     bool has_kind_files_;              ///< folder semantic/ exists
     std::vector<double> altitudes_m_;
+    std::size_t read_ = 0, with_pose_ = 0;  ///< scans
     observations::ObservedScan observed_;
 };
 
@@ -119,6 +124,47 @@ std::string LabelledFolder::sensorText() const {
     return settings_.sensor.model ? "" : observations::textOf(beams_);
 }
 
+Settings LabelledFolder::settingsFor(const Settings& asked) const {
+    Settings settings = scans_->settingsFor(asked);
+    settings.options = settings.optionsFor(beams_.get());
+    return settings;
+}
+
+std::vector<std::string> LabelledFolder::labelsWithoutScans() const {
+    std::set<std::string> scans;
+    for (std::size_t i = 0; i < folder_.size(); ++i) scans.insert(folder_.name(i));
+    std::vector<std::string> remarks;
+    for (const char* labels : {"labels", "semantic"}) {
+        std::size_t others = 0;
+        std::string first;
+        std::error_code none;  // the folder may have none
+        for (const fs::path& file : base::entriesOf(folder_.path() / labels, none)) {
+            if (file.extension() != ".label" || scans.count(file.stem().string()) > 0) continue;
+            const std::string name = file.filename().string();
+            if (others++ == 0 || name < first) first = name;
+        }
+        if (others == 0) continue;
+        remarks.push_back(std::to_string(others) + " of the files in " +
+                          (folder_.path() / labels).string() + " have no scan, such as " + first);
+    }
+    return remarks;
+}
+
+std::vector<std::string> LabelledFolder::remarks() const {
+    std::vector<std::string> remarks = scans_->remarks();
+    for (const std::string& remark : labelsWithoutScans()) remarks.push_back(remark);
+    if (!fs::exists(folder_.tumFile())) return remarks;
+    const std::string poses = folder_.tumFile().string();
+    if (folder_.times().empty()) {
+        remarks.push_back("has no times.txt, so that " + poses + " is not used");
+    } else if (with_pose_ < read_) {
+        remarks.push_back(poses + " has poses of " + std::to_string(with_pose_) + " of the " +
+                          std::to_string(read_) +
+                          " scans; the others are not levelled by an attitude");
+    }
+    return remarks;
+}
+
 void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const {
     const bool is_by_kind = has_label_map_ && has_kind_files_;
     const fs::path file = is_by_kind ? folder_.kindFile(i) : folder_.labelFile(i);
@@ -134,7 +180,10 @@ void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan)
     } else if (!kinds_.empty()) {
         scan.kinds = readLabelsOf(scan.input.scan, folder_.kindFile(i));
     }
-    scan.objects = readObjectsOf(scan.input.scan, {folder_.labelFile(i), folder_.kindFile(i)});
+    // Predictions number what the filter found.
+    std::vector<fs::path> numbered{folder_.kindFile(i)};
+    if (!folder_.hasPredictions()) numbered.insert(numbered.begin(), folder_.labelFile(i));
+    scan.objects = readObjectsOf(scan.input.scan, numbered);
 }
 
 std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
@@ -147,7 +196,9 @@ std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
     scan.input.scan = observed_.scan;
     readTruth(recorded->entry, scan);
     if (!altitudes_m_.empty()) scan.altitude_m = altitudes_m_[recorded->entry];
+    ++read_;
     if (recorded->pose.sensor_pose) {
+        ++with_pose_;
         scan.input.map_from_sensor =
             recorded->pose.sensor_pose->getRotationMatrix().asEigen().template cast<float>();
     }
@@ -197,6 +248,10 @@ evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folder
                                                            folders.size() == 1));
     }
     return sources;
+}
+
+Settings settingsOf(const evaluation::LabelledScanSource& source, const Settings& asked) {
+    return dynamic_cast<const LabelledFolder&>(source).settingsFor(asked);
 }
 
 }  // namespace hagen::labelled_scans

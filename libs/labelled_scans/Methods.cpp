@@ -56,7 +56,7 @@ std::vector<evaluation::Baseline> allBaselines(float zone_m) {
 /// Splits "5,7.5" into two texts; an empty one is kept, and rejected later as a value.
 std::vector<std::string> valuesOf(const std::string& text) {
     std::vector<std::string> values;
-    std::istringstream stream(text);
+    std::istringstream stream(text + ",");  // what ends in a comma has an empty value at its end
     for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
     return values;
 }
@@ -83,6 +83,11 @@ std::vector<SweepPoint> rowsOf(const Settings& settings, const std::vector<std::
         for (const std::string& value : valuesOf(sweep.substr(equals + 1))) {
             SweepPoint row{key + "=" + value, settings, key, value};
             setOption(key, value, row.settings);
+            for (const SweepPoint& other : rows) {
+                if (other.name == row.name) {
+                    throw SettingsError("--sweep: " + row.name + " is given twice");
+                }
+            }
             rows.push_back(row);
         }
     }

@@ -2,7 +2,7 @@
 
 #include <hagen/base/Json.h>
 #include <hagen/base/WriteFile.h>
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/settings/SettingsJson.h>
 #include <cmath>
 
 namespace hagen::labelled_scans {
@@ -107,17 +107,6 @@ Json json(const HardSetScores& method, const MethodTotals& recorded) {
             {"drone", json(method.drone)}};
 }
 
-Json json(const Settings& settings) {
-    Json keys;
-    for (const OptionKey& key : optionKeys()) {
-        const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
-        const std::string value = textOf(key, settings.options);
-        keys[key.name] = is_word ? Json(value) : Json::parse(value);
-    }
-    keys["sensor.model"] = settings.sensor.model ? Json(*settings.sensor.model) : Json();
-    return keys;
-}
-
 }  // namespace
 
 void writeJson(const std::filesystem::path& file, const Summary& summary) {
@@ -127,9 +116,11 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
         report["folders"].push_back({{"name", summary.folder_names[f]},
                                      {"path", summary.folders[f]},
-                                     {"recovered_sensor", text(summary.sensor_texts[f])}});
+                                     {"recovered_sensor", text(summary.sensor_texts[f])},
+                                     {"settings", jsonOf(summary.folder_settings[f])},
+                                     {"remarks", summary.folder_remarks[f]}});
     }
-    report["settings"] = json(summary.settings);
+    report["settings"] = jsonOf(summary.settings);
     report["label_map"] = text(summary.label_map);
     report["camera"] = text(summary.camera);
     report["max_range_m"] = summary.range.max_range_m;

@@ -62,8 +62,9 @@ CloudFileSource::CloudFileSource(const fs::path& file_or_folder, const SourceOpt
     : ScanSource(options) {
     if (fs::is_directory(file_or_folder)) {
         for (const fs::path& entry : base::entriesOf(file_or_folder)) {
-            if (fs::is_directory(entry)) continue;
-            if (clouds::hasCloudName(entry)) {
+            if (fs::is_directory(entry)) {
+                ++folders_;
+            } else if (clouds::hasCloudName(entry)) {
                 files_.push_back(entry);
             } else {
                 other_files_ += entry.filename() != kCloudsMarker;
@@ -205,6 +206,7 @@ std::vector<std::string> CloudFileSource::remarks() const {
                           " of the folder with another ending than .pcd, .ply, .las, .npy and "
                           ".bin: not read");
     }
+    if (folders_ > 0) remarks.push_back(counted(folders_, "folder") + " in the folder: not read");
     return remarks;
 }
 

@@ -39,7 +39,7 @@ class CloudFileSource : public ScanSource {
     std::vector<std::string> names_;  ///< without extension, unless they would be the same
     std::vector<double> times_s_;
     std::string time_remark_;
-    std::size_t other_files_ = 0;
+    std::size_t other_files_ = 0, folders_ = 0;  ///< beside them
     std::size_t next_ = 0, next_shown_ = 0;
     std::size_t clouds_ = 0, points_not_finite_ = 0, clouds_with_them_ = 0;
     std::vector<std::string> remarks_;                ///< in the order of appearance

@@ -109,11 +109,15 @@ std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
+    // A counter that gets a 13th digit is no time in milliseconds from there on.
+    const bool are_times = std::all_of(names.begin(), names.end(), [](const std::string& name) {
+        return timeOf(numberIn(name)).has_value();
+    });
     std::vector<double> numbers;
     std::set<std::string_view> before;
     for (const std::string& name : names) {
         const NameNumber number = numberIn(name);
-        numbers.push_back(timeOf(number).value_or(valueOf(number)));
+        numbers.push_back(are_times ? *timeOf(number) : valueOf(number));
         before.insert(std::string_view(name).substr(
             0, static_cast<std::size_t>(number.whole.data() - name.data())));
         if (numbers.back() < 0) return order;

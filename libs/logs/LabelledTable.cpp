@@ -1,6 +1,7 @@
 #include "LabelledTable.h"
 
 #include <hagen/clouds/UniqueNames.h>
+#include <hagen/logs/ScanFolder.h>
 #include <hagen/observations/LocatedCloud.h>
 #include <hagen/observations/NewerClouds.h>
 #include <hagen/observations/ObservationScan.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 namespace hagen::logs {
@@ -43,7 +45,7 @@ PointTable withOtherFields(const Scan& scan, const mrpt::obs::CObservation& obse
     const bool has_times = timeFieldOf(*others) != nullptr;
     PointTable table = has_times ? observations::untimedTableOf(scan) : observations::tableOf(scan);
     for (const observations::PointField& field : others->fields) {
-        if (findField(table, {field.name}) != nullptr) continue;
+        if (findExactly(table, field.name) != nullptr) continue;
         addColumn(field.name, field.type, columnOf(*others, field), table);
     }
     return table;
@@ -92,11 +94,14 @@ LabelledTable labelled(const observations::ObservationSegmenter::Output& segment
     LabelledTable labelled;
     labelled.renamed = renameTaken({kLabel, kObstacle}, points.table);
     const LabelledReturns& returns = segmented.result->returns;
+    const std::int32_t most = obstacle_type == NumberType::UInt16
+                                  ? kMaxFileComponent
+                                  : std::numeric_limits<std::int32_t>::max();
     std::vector<double> labels(points.table.points, 0), obstacles(points.table.points, 0);
     for (std::size_t k = 0; k < points.point_of_return.size(); ++k) {
         const std::uint32_t i = points.point_of_return[k];
         labels[i] = static_cast<double>(returns.label[k]);
-        obstacles[i] = std::max(returns.component[k], 0);
+        obstacles[i] = std::clamp(returns.component[k], 0, most);
     }
     addColumn(kLabel, NumberType::UInt8, labels, points.table);
     addColumn(kObstacle, obstacle_type, obstacles, points.table);
@@ -149,7 +154,7 @@ void useCloudsWithFields(const mrpt::obs::CObservation& observation,
         rename("time", "t", points.table);
     }
     const std::vector<std::uint32_t> point_of_return = points.point_of_return;
-    // The class has no uint32, and there are never so many obstacles.
+    // The class has no uint32.
     const PointTable table = labelled(segmented, std::move(points), NumberType::UInt16).table;
     const auto pointsOfReturns = [&](const std::vector<std::uint32_t>& returns) {
         std::vector<std::uint32_t> of_returns;

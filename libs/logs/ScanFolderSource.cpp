@@ -20,7 +20,7 @@ std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
         const std::size_t i = next_++;
         checkInterruption();
         if (skips(i)) continue;
-        has_rings_ = readScan(folder_.scanFile(i), scan_) == 5;
+        has_rings_ |= readScan(folder_.scanFile(i), scan_) == 5;
         const auto time = mrpt::Clock::fromDouble(times_s_[i]);
         RecordedEntry entry;
         entry.number = i;

@@ -1,7 +1,7 @@
 #include <hagen/base/Json.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/logs/Statistics.h>
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/settings/SettingsJson.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,24 +14,6 @@ namespace hagen::logs {
 namespace {
 
 using base::Json;
-
-Json settingsOf(const Settings& settings) {
-    Json json;
-    for (const OptionKey& key : optionKeys()) {
-        const bool is_word = std::holds_alternative<Seeds Options::*>(key.field);
-        const std::string text = textOf(key, settings.options);
-        json[key.name] = is_word ? Json(text) : Json::parse(text);
-    }
-    json["sensor.model"] = settings.sensor.model ? Json(*settings.sensor.model) : Json();
-    json["sensor.mount_roll_deg"] = Json::parse(degreesText(settings.mount.roll_rad));
-    json["sensor.mount_pitch_deg"] = Json::parse(degreesText(settings.mount.pitch_rad));
-    const Settings::AirframeMask& airframe = settings.airframe;
-    json["airframe"] = {
-        {"boxes", airframe.parts.boxes.size()},
-        {"spheres", airframe.parts.spheres.size()},
-        {"learned", airframe.learned.empty() ? Json() : Json(airframe.learned.string())}};
-    return json;
-}
 
 Json recoveredOf(const ConversionReport& report) {
     Json sensors = Json::object();
@@ -98,7 +80,7 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
     }
     for (const auto& path : conversion.octomaps)
         json["outputs"]["octomaps"].push_back(path.string());
-    json["settings"] = settingsOf(report.settings);
+    json["settings"] = jsonOf(report.settings);
     json["sensors"] = report.sensors;
     json["recovered_sensors"] = recoveredOf(report);
     json["poses"] = {{"source", report.poses}, {"scans_with_pose", report.scans_with_pose}};

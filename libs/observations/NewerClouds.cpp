@@ -111,10 +111,9 @@ class GenericCloud : public CPointsMapXYZI {
         for (std::size_t i = 0; i < 3; ++i) {
             const PointField* const field = findField(other_fields, {kColorFields[i]});
             if (field == nullptr) return;
-            color[i] =
-                size() == 0 ? 0.0f : static_cast<float>(columnOf(other_fields, *field)[0]) / 255.0f;
+            if (!empty()) color[i] = static_cast<float>(columnOf(other_fields, *field)[0]) / 255.0f;
         }
-        if (size() > 0) renderOptions.color = {color[0], color[1], color[2]};
+        if (!empty()) renderOptions.color = {color[0], color[1], color[2]};
     }
 
  private:
@@ -212,10 +211,14 @@ class GenericCloud : public CPointsMapXYZI {
         takeColor();
     }
 
+    /// Returns why the field cannot be kept; empty: it is.
     template <class Number>
-    void keep(const std::string& name, const std::vector<double>& values) {
-        if (values.size() != size() || name.empty() || findField(other_fields, {name}) != nullptr) {
-            return;
+    std::string keep(const std::string& name, const std::vector<double>& values) {
+        if (name.empty()) return "it has no name";
+        if (findExactly(other_fields, name) != nullptr) return "there is another of this name";
+        if (values.size() != size()) {
+            return "it has " + std::to_string(values.size()) + " values for " +
+                   std::to_string(size()) + " points";
         }
         const NumberType type = std::is_same_v<Number, float>           ? NumberType::Float32
                                 : std::is_same_v<Number, double>        ? NumberType::Float64
@@ -223,6 +226,7 @@ class GenericCloud : public CPointsMapXYZI {
                                 : std::is_same_v<Number, std::uint8_t>  ? NumberType::UInt8
                                                                         : NumberType::UInt32;
         addColumn(name, type, values, other_fields);
+        return "";
     }
 
     /// The fields of one type.
@@ -240,8 +244,9 @@ class GenericCloud : public CPointsMapXYZI {
                 if (fields_not_kept.size() >= kMostFields) {
                     throw std::runtime_error("a cloud has too many fields");
                 }
-                fields_not_kept.push_back(name);
-                keep<Number>(name, {values.begin(), values.end()});
+                const std::string why = keep<Number>(name, {values.begin(), values.end()});
+                const std::string unless = " (but not this one: " + why + ")";
+                fields_not_kept.push_back(why.empty() ? name : name + unless);
                 continue;
             }
             has_intensity = true;

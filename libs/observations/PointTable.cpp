@@ -104,8 +104,15 @@ void check(const PointTable& table) {
     }
 }
 
+const PointField* findExactly(const PointTable& table, const std::string& name) {
+    const auto field = std::find_if(table.fields.begin(), table.fields.end(),
+                                    [&](const PointField& one) { return one.name == name; });
+    return field == table.fields.end() ? nullptr : &*field;
+}
+
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
+        if (const PointField* const field = findExactly(table, name)) return field;
         const std::string sought = inLowerCase(name);
         for (const PointField& field : table.fields) {
             if (inLowerCase(field.name) == sought) return &field;

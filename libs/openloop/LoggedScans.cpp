@@ -114,9 +114,9 @@ bool LoggedScans::next(LoggedScan& scan) {
         } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::exception& e) {
-            ++unreadable_;
-            why_unreadable_ =
-                "entry " + std::to_string(recorded->entry) + ": " + observations::messageOf(e);
+            if (unreadable_++ == 0) {
+                why_unreadable_ = logs::titleOf(*recorded) + ": " + observations::messageOf(e);
+            }
             continue;
         }
         scan.entry = recorded->entry;

@@ -304,6 +304,8 @@ void Run::agree(const PendingScan& pending) {
 OpenLoopResult Run::finish() {
     while (!waiting_.empty()) scoreOldest();
     result_.unreadable_scans = scans_.unreadableScans();
+    result_.why_unreadable = scans_.whyUnreadable();
+    result_.remarks = scans_.remarks();
     if (result_.scans == 0) {
         const std::string why = why_ended_.empty() ? scans_.whyUnreadable() : why_ended_;
         throw std::runtime_error(open_loop_.source.log.string() +

@@ -120,6 +120,7 @@ Json summaryOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
                 {"scans", result.scans},
                 {"scans_without_pose", result.scans_without_pose},
                 {"unreadable_scans", result.unreadable_scans},
+                {"remarks", result.remarks},
                 {"scans_moved_whole", result.scans_placed_by_one_pose},
                 {"maps_begun_anew", result.model_resets},
                 {"returns", number(median(result.returns))},

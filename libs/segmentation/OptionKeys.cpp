@@ -1,12 +1,14 @@
 #include <hagen/segmentation/OptionKeys.h>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace hagen {
 namespace {
 
-/// The shortest text that reads back as the same number.
+/// The shortest text that a settings file reads back as the same number.
 std::string shortest(float value) {
+    if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, value).ptr;
     return {text, end};
@@ -116,8 +118,9 @@ std::string rangeOf(const OptionKey& key) {
     if (std::holds_alternative<Seeds Options::*>(key.field))
         return "lowest, top_and_nearest, every";
     if (std::holds_alternative<bool Options::*>(key.field)) return "true, false";
+    const bool is_open = std::isinf(key.most);
     return shortest(static_cast<float>(key.least)) + " ... " +
-           shortest(static_cast<float>(key.most));
+           (is_open ? "inf" : shortest(static_cast<float>(key.most)));
 }
 
 }  // namespace hagen

@@ -29,6 +29,12 @@ Array converted(const py::object& values, const std::string& text) {
 
 /// Any object as an array; throws ValueError if it is none of real numbers.
 py::array numbersFrom(const py::object& values, const std::string& expected) {
+    // As an array, it would have what is under the mask.
+    if (py::hasattr(values, "mask") &&
+        py::module_::import("numpy.ma").attr("is_masked")(values).cast<bool>()) {
+        throw py::value_error("expected " + expected +
+                              ", not an array with masked entries; leave them out first");
+    }
     const auto array = converted<py::array>(
         values, "expected " + expected + ", not " + textOf(py::type::of(values)));
     if (std::strchr("fiub", array.dtype().kind()) == nullptr) {

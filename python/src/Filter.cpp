@@ -120,7 +120,10 @@ std::shared_ptr<Segmented> Filter::segment(const PointsView& points,
 std::shared_ptr<Segmented> Filter::segment(const PythonScan& scan,
                                            const std::optional<Attitude>& attitude) {
     const std::lock_guard lock(recorded_.mutex);
-    if (!recorded_.segmenter || recorded_.source.lock() != scan.source) {
+    // A recording that is gone is another one than none.
+    const bool is_same =
+        !recorded_.source.owner_before(scan.source) && !scan.source.owner_before(recorded_.source);
+    if (!recorded_.segmenter || !is_same) {
         recorded_.segmenter = std::make_unique<observations::ObservationSegmenter>();
         recorded_.segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // it is in the remark
         recorded_.segmenter->initialize(scan.source ? scan.source->settingsFor(settings_)

@@ -267,6 +267,16 @@ def test_wrong_points_are_refused(points, text):
         hagen.Filter("vlp16").segment(points)
 
 
+def test_masked_points_are_refused():
+    points = np.ma.array(np.ones((4, 3)), mask=False)
+    assert len(hagen.Filter("vlp16").segment(points).labels) == 4
+    points[2, 0] = np.ma.masked
+    with pytest.raises(ValueError, match="masked entries"):
+        hagen.Filter("vlp16").segment(points)
+    with pytest.raises(ValueError, match="masked entries"):
+        hagen.evaluate(np.ma.array([1, 2], mask=[0, 1]), [1, 2])
+
+
 def test_numbers_that_float32_cannot_hold_are_refused_where_numpy_raises():
     far = np.full((3, 3), 1e300)
     segmenter = hagen.Filter("vlp16")

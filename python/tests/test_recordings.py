@@ -31,6 +31,23 @@ def test_labels_are_those_of_the_program(poles_labels):
     assert scans == len(files) == 10
 
 
+def test_settings_of_a_recording_hold_for_its_scans_alone(poles_labels, tmp_path):
+    """Also once it is gone, and scans that nobody recorded come."""
+    folder = tmp_path / "near"
+    (folder / "velodyne").mkdir(parents=True)
+    scan = sorted((poles_labels / "velodyne").glob("*.bin"))[0]
+    (folder / "velodyne" / scan.name).write_bytes(scan.read_bytes())
+    (folder / "sensor.yaml").write_text("sensor: {model: VLP-16}\nzone_m: 3\n")
+    simulated = next(hagen.simulate("orchard", seed=1))
+    expected = hagen.Filter("vlp16").segment(simulated).labels.copy()
+    segmenter = hagen.Filter("vlp16")
+    near = segmenter.segment(next(iter(hagen.open(folder)))).labels  # both are gone here
+    assert np.count_nonzero(near == hagen.ROI) < np.count_nonzero(
+        hagen.Filter("vlp16").segment(next(iter(hagen.open(poles_labels)))).labels == hagen.ROI
+    )
+    np.testing.assert_array_equal(segmenter.segment(simulated).labels, expected)
+
+
 def test_points_alone_give_nearly_the_same():
     """Without the packets' own rows and azimuths, single returns change their pixel."""
     segmenter = hagen.Filter("vlp16")

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -122,6 +123,16 @@ TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
     folder_.write("empty.tum", "# nothing\n");
     expectFailure(with(log, {"--poses", path("empty.tum"), "-o", path("no")}), 1,
                   "contains no poses");
+}
+
+TEST_F(OpenLoopCommand, WhatIsNotReadIsToldAlsoWhereItIsQuiet) {
+    simulate(4);
+    std::ofstream(path("gap/velodyne/000009.BIN")) << "1234";
+    const auto outcome = run(with({"-i", path("gap"), "-o", path("out"), "-q"}, kModels));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("do not end in .bin, such as 000009.BIN"));
+    const auto summary = nlohmann::json::parse(test::readFile(path("out/summary.json")));
+    EXPECT_EQ(summary["remarks"].size(), 1u);
 }
 
 TEST_F(OpenLoopCommand, RefusesWrongUsage) {

@@ -117,6 +117,50 @@ TEST_F(SegmentationEvaluate, ASweepWinsOverTheFoldersSettings) {
     EXPECT_EQ(f1(report, 1), 1);
 }
 
+TEST_F(SegmentationEvaluate, TellsTheSettingsThatARecordingChanges) {
+    const std::string pole = labelledPole();
+    std::ofstream(folder_ / "pole/sensor.yaml", std::ios::app) << "zone_m: 3\n";
+    const auto report = json({"-i", pole});
+    EXPECT_EQ(report["settings"]["zone_m"], 20);
+    EXPECT_EQ(report["folders"][0]["settings"]["zone_m"], 3);
+    EXPECT_EQ(report["folders"][0]["settings"]["sensor.model"], "custom");
+    EXPECT_THAT(run({"-i", pole}).out, HasSubstr("settings of pole: zone_m 3 (of the recording)"));
+}
+
+TEST_F(SegmentationEvaluate, TellsWhatOfAFolderIsNotUsed) {
+    const std::string pole = labelledPole();
+    fs::remove(folder_ / "pole/times.txt");
+    folder_.write("pole/poses.tum", "0 0 0 2 0 0 0 1\n");
+    folder_.write("pole/velodyne/000001.BIN", std::string(16, '\0'));
+    fs::copy(folder_ / "pole/labels/000000.label", folder_ / "pole/labels/000007.label");
+    const auto outcome = run({"-i", pole, "--json", (folder_ / "told.json").string()});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("do not end in .bin, such as 000001.BIN"));
+    EXPECT_THAT(outcome.err, HasSubstr("pole/labels have no scan, such as 000007.label"));
+    EXPECT_THAT(outcome.err, HasSubstr("has no times.txt, so that " + pole + "/poses.tum"));
+    const auto report = nlohmann::json::parse(test::readFile(folder_ / "told.json"));
+    EXPECT_EQ(report["folders"][0]["remarks"].size(), 3u);
+    folder_.write("pole/times.txt", "9\n");
+    EXPECT_THAT(run({"-i", pole}).err,
+                HasSubstr("poses.tum has poses of 0 of the 1 scans; the others are not levelled"));
+}
+
+/// With a label map, such a folder can be scored; numbers of obstacles are those of the truth.
+TEST_F(SegmentationEvaluate, ObstaclesAreNotThoseThatTheFilterFound) {
+    const std::string pole = poleWithKinds();
+    const std::string found = (folder_ / "found").string();
+    ASSERT_EQ(test::run(HAGEN_RAWLOG_SEGMENT, {"-i", pole, "--kitti", found}).exit_code, 0);
+    fs::copy(folder_ / "pole/semantic", folder_ / "found/semantic");
+    const auto report = json({"-i", found, "--label-map", pole + "/kinds.yaml"});
+    EXPECT_TRUE(report["methods"][0]["drone"]["obstacles"].is_null());
+}
+
+TEST_F(SegmentationEvaluate, EmptyNamesAreRefused) {
+    const std::string pole = labelledPole();
+    expectFailure({"-i", pole, "--json", ""}, 2, "--json: must not be empty");
+    expectFailure({"-i", pole, "--label-map", ""}, 2, "--label-map: must not be empty");
+}
+
 TEST_F(SegmentationEvaluate, RecoversASensorThatNobodyNamed) {
     const std::string pole = labelledPole(), other = labelledPole("other");
     EXPECT_THAT(run({"-i", pole}).out, testing::Not(HasSubstr("recovered")));
@@ -495,6 +539,8 @@ TEST_F(SegmentationEvaluate, RefusesWrongUsage) {
     expectFailure({}, 2, "--input");
     expectFailure({"-i", "x", "--sweep", "beta_deg"}, 2, "KEY=VALUE");
     expectFailure({"-i", labelledPole(), "--sweep", "beta=5"}, 2, "'beta_deg'");
+    expectFailure({"-i", labelledPole(), "--sweep", "zone_m=5,20,5"}, 2, "zone_m=5 is given twice");
+    expectFailure({"-i", labelledPole(), "--sweep", "zone_m=5,"}, 2, "zone_m");
     expectFailure({"-i", labelledPole(), "--max-range-m", "-3"}, 2, "--max-range-m");
     expectFailure({"-i", labelledPole(), "-c", "none.yaml"}, 2, "none.yaml");
     expectFailure({"-i", labelledPole(), "--sweep", "window_size=16"}, 2, "window_size (16)");

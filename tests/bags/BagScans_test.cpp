@@ -233,6 +233,24 @@ TEST_F(BagScansTest, PacketsArePreferredToCloudsOfTheSameSensor) {
     EXPECT_THAT(none.failed_because, HasSubstr("packets of an unknown Velodyne (model id 0x61)"));
 }
 
+TEST_F(BagScansTest, AVelodynesFirstMessageDoesNotDecideAlone) {
+    const auto scan = test::poleScanFrom(1, "lidar");
+    const auto sent = [&](double after_s, const CObservationVelodyneScan& packets) {
+        return test::velodyneMessage("/packets", kStart_s + after_s, "velodyne", packets, 1.3e-3);
+    };
+    CObservationVelodyneScan none, other = *scan, unknown = *scan;
+    for (CObservationVelodyneScan* one : {&other, &unknown}) one->scan_packets.resize(1);
+    reinterpret_cast<char*>(&other.scan_packets[0])[1205] = '\x21';  // an HDL-32E
+    reinterpret_cast<char*>(&unknown.scan_packets[0])[1205] = '\x61';
+    for (const CObservationVelodyneScan& first : {none, other, unknown}) {
+        const ReadBag bag = read({sent(0, first), sent(0.1, *scan)});
+        ASSERT_EQ(bag.of("packets").size(), 1u) << bag.failed_because;
+        EXPECT_EQ(dynamic_cast<const CObservationVelodyneScan&>(*bag.of("packets")[0])
+                      .scan_packets.size(),
+                  scan->scan_packets.size());
+    }
+}
+
 TEST_F(BagScansTest, CloudsThatDoNotMoveWithTheVehicleAreNotRead) {
     const ReadBag bag = read(
         {cloud("/points"), cloud("/registered", 0, "camera_init"), cloud("/map_cloud", 0, "map"),

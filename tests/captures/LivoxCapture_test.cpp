@@ -165,6 +165,19 @@ TEST_F(LivoxCaptureTest, RepeatedPacketsAreLeftOutAndCounted) {
     EXPECT_THAT(remarks_[0], HasSubstr("100 packets in 1 scan, 1 packet repeated, left out"));
 }
 
+TEST_F(LivoxCaptureTest, CopiesThatComeLaterAreLeftOutAndHideNoLoss) {
+    const auto sent = packets(300);
+    auto all = sent;
+    all.erase(all.begin() + 50, all.begin() + 53);
+    for (const std::size_t i : {20u, 100u, 250u}) all.insert(all.begin() + i + 10, sent[i]);
+    std::size_t points = 0;
+    for (const auto& scan : read(captureOf(all).bytes())) points += observedOf(*scan).scan.size();
+    EXPECT_EQ(points, 297u);
+    EXPECT_THAT(remarks_[0], HasSubstr("297 packets"));
+    EXPECT_THAT(remarks_[0], HasSubstr("3 packets lost"));
+    EXPECT_THAT(remarks_[0], HasSubstr("3 packets repeated, left out"));
+}
+
 TEST_F(LivoxCaptureTest, LostAndLatePacketsAndJumpsAreCountedAndNoPointGetsLost) {
     auto all = packets(300);
     std::swap(all[20], all[21]);

@@ -56,6 +56,15 @@ TEST(CommandLine, AValueWithoutAFlagGetsAHintIfOneIsKnown) {
                 HasSubstr("to name several, repeat the flag: -c one -c two"));
 }
 
+TEST(CommandLine, TextsMayNotBeEmpty) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"-i", ""}, {"--input", ""}, {"-c", "a", "-c", ""}}) {
+        const Ran ran = runWith(words);
+        EXPECT_EQ(ran.exit_code, kWrongUsage) << words[0];
+        EXPECT_THAT(ran.err, HasSubstr("must not be empty"));
+    }
+}
+
 TEST(CommandLine, WritesItsManualAndCompletions) {
     const Ran page = runWith({"--hagen-manual", "man", "2026-01-31"});
     EXPECT_EQ(page.exit_code, kDone);

@@ -221,6 +221,21 @@ TEST(Degradation, UpsideDownIsTheSameForAMirroredSensor) {
     EXPECT_FALSE(Degradation("roll_deg=20").mirrorsSensor());
 }
 
+TEST(Degradation, ASensorThatLooksStraightDownSeesWhatIsThere) {
+    SensorModel down = kSensor;
+    down.elevations_rad = {-1.5708f, -1.0472f, -0.5236f, 0};
+    auto scan = randomScan();
+    Scan& returns = scan.input.scan;
+    for (std::size_t i = 0; i < returns.size(); ++i) {  // 88 degrees down
+        returns.x_m[i] = 0.035f;
+        returns.y_m[i] = 0;
+        returns.z_m[i] = -1;
+    }
+    locateBeams(down, returns);
+    const auto same = Degradation("roll_deg=0").apply(scan, down, 1);
+    EXPECT_EQ(same.truth.size(), scan.truth.size());
+}
+
 TEST(Degradation, FieldsOfViewAreCut) {
     const auto scan = randomScan();
     expectPart(scan, degraded(scan, "fov_deg=180"),

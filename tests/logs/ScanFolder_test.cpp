@@ -89,6 +89,41 @@ TEST_F(ScanFolderTest, PointsOfNuScenesAreReadWithoutTheirRings) {
                 HasSubstr("cut.pcd.bin: 804 bytes are not a multiple of 20-byte points"));
 }
 
+/// Among zeros, a return at any place looks like a point of five numbers to who only looks at every
+/// fifth.
+TEST_F(ScanFolderTest, PointsWithoutReturnsAreNoPointsOfNuScenes) {
+    Scan scan;
+    for (std::vector<float>* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity}) {
+        values->resize(4000);
+    }
+    for (std::size_t i = 100; i < 4000; i += i < 200 ? 5 : 1) {
+        scan.x_m[i] = 5.25f;
+        scan.y_m[i] = 0.5f;
+        scan.intensity[i] = 7;
+    }
+    Scan again;
+    EXPECT_EQ(readScan(
+                  [&] {
+                      writeScan(folder_ / "a.bin", scan);
+                      return folder_ / "a.bin";
+                  }(),
+                  again),
+              4u);
+    EXPECT_EQ(again.x_m, scan.x_m);
+}
+
+TEST_F(ScanFolderTest, CountersThatGetADigitMoreStayInOrder) {
+    for (const char* name : {"999700000000", "999900000000", "1000100000000", "1000300000000"}) {
+        fs::create_directories(folder_ / "s/velodyne");
+        folder_.write(std::string("s/velodyne/") + name + ".bin", std::string(16, '\0'));
+    }
+    const ScanFolder folder(folder_ / "s");
+    EXPECT_EQ(folder.name(0), "999700000000");
+    EXPECT_EQ(folder.name(1), "999900000000");
+    EXPECT_EQ(folder.name(2), "1000100000000");
+    EXPECT_EQ(folder.name(3), "1000300000000");
+}
+
 TEST_F(ScanFolderTest, FilesThatAreSomethingElseAreNamed) {
     Scan scan;
     const auto picture = folder_.write("a.bin", "\xff\xd8\xff\xe0" + std::string(28, '\xee'));

@@ -498,10 +498,12 @@ TEST_F(ScanSourceTest, OfAFolderOfRecordingsOneIsToBeNamed) {
 TEST_F(ScanSourceTest, ARecordingAmongCloudsDoesNotHideThem) {
     folder_.write("clouds/000000.npy", "");
     folder_.write("clouds/segmented.mcap", "\x89MCAP0\r\n");
+    std::filesystem::create_directory(folder_ / "clouds/more");
     const auto source = openRecording(folder_ / "clouds");
     EXPECT_EQ(source->entriesKnown(), 1u);
     EXPECT_THAT(source->remarks(),
                 testing::Contains(HasSubstr("1 file of the folder with another ending")));
+    EXPECT_THAT(source->remarks(), testing::Contains("1 folder in the folder: not read"));
 }
 
 TEST_F(ScanSourceTest, OtherFilesAmongTheScansOfAFolderAreTold) {

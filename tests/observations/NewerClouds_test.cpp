@@ -168,6 +168,25 @@ PointTable tableOfAllTypes() {
     return table;
 }
 
+TEST(NewerClouds, FieldsAreKeptLetterByLetterOrTheRemarkSaysWhyNot) {
+    const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(objectOf(
+        kGeneric, 3,
+        coordinates() + raw(std::uint32_t{2}) + field<float>("T", {20, 21}) +
+            field<float>("t", {0, 0.1f}) + raw(std::uint32_t{2}) + field<double>("short", {1}) +
+            field<double>("T", {1, 2}) + kNone + kNone + options())));
+    const PointTable& others = *otherFieldsOf(*cloud);
+    EXPECT_EQ(namesOf(others), "T, t");
+    EXPECT_THAT(columnOf(others, others.fields[0]), ElementsAre(20, 21));
+    EXPECT_THAT(fieldsNotKept(*cloud),
+                ElementsAre("T", "t", "short (but not this one: it has 1 values for 2 points)",
+                            "T (but not this one: there is another of this name)"));
+    mrpt::obs::CObservationPointCloud observation;
+    observation.pointcloud = cloud;
+    ObservedScan observed;
+    readObservation(observation, {}, observed);
+    EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));  // not the temperature
+}
+
 TEST(NewerClouds, ATableIsWrittenAsVersion3OfAGenericCloud) {
     const auto cloud = genericCloudOf(tableOfAllTypes());
     cloud->insertionOptions.horizontalTolerance = 0.001f;

@@ -83,6 +83,11 @@ TEST(PointTable, FieldsAreFoundWithoutRegardToCaseInTheOrderOfTheNames) {
     EXPECT_EQ(findField(table, {"line", "X", "ring"}), &table.fields[1]);
     EXPECT_EQ(findField(table, {"y"}), nullptr);
     EXPECT_EQ(namesOf(table), "Ring, x");
+    PointTable both = table;
+    both.fields[1].name = "ring";
+    EXPECT_EQ(findField(both, {"ring"}), &both.fields[1]);
+    EXPECT_EQ(findField(both, {"RING"}), &both.fields[0]);
+    EXPECT_EQ(findExactly(both, "RING"), nullptr);
 }
 
 TEST(PointTable, WhatDoesNotFitIsRefused) {

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/base/Json.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <hagen/settings/AirframeFile.h>
 #include <hagen/settings/Settings.h>
+#include <hagen/settings/SettingsJson.h>
 
 #include <cmath>
 #include <filesystem>
@@ -135,6 +137,16 @@ TEST_F(SettingsTest, EveryKeyOfTheTableIsReadAndCheckedAtBothEnds) {
         refusalOf(key.name + ": .nan");
         if (std::isfinite(key.most)) refusalOf(key.name + ": 1000000000");
     }
+}
+
+TEST_F(SettingsTest, WhatIsInfiniteIsReadAgainAndATextInReports) {
+    const Settings settings = settingsOf("context_m: .inf");
+    EXPECT_THAT(dumpSettings(settings), HasSubstr("context_m: .inf "));
+    EXPECT_EQ(settingsOf(dumpSettings(settings)).options.context_m, settings.options.context_m);
+    const base::Json json = jsonOf(settings);
+    EXPECT_EQ(json.at("context_m").text(), ".inf");
+    EXPECT_EQ(json.at("zone_m").number(), 20);
+    EXPECT_EQ(base::Json::parse(json.dump()).at("context_m").text(), ".inf");
 }
 
 TEST_F(SettingsTest, SwitchesAreTrueOrFalse) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/bags/BagSurvey.h>
 #include <hagen/packets/OusterSensor.h>
+#include <hagen/packets/VelodyneModel.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <cstddef>
@@ -26,6 +27,7 @@ struct BagSensor {
     bool has_its_own_poses = false;   ///< BagPlan::poses are taken for those of the sensor
     bool is_vehicle = false;          ///< its own frame is that of the vehicle, which moves
     std::shared_ptr<const packets::OusterSensor> ouster;  ///< of Ouster packets; otherwise null
+    const packets::VelodyneModel* velodyne = nullptr;     ///< of a Velodyne's packets
 };
 
 /// What is read of a bag.

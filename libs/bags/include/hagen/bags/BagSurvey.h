@@ -57,8 +57,10 @@ struct BagSurvey {
         BagTopic topic;
         std::size_t messages = 0;
         LidarKind kind = LidarKind::None;
-        std::string frame;     ///< of the first message that could be read; of LiDAR topics only
-        int velodyne_id = -1;  ///< model in the first packet of a Velodyne; -1: none
+        std::string frame;  ///< of the first message that could be read; of LiDAR topics only
+        /// Models in packets of the first messages of a Velodyne, and how many of each.
+        std::map<std::uint8_t, std::size_t> velodyne_ids;
+        std::size_t velodyne_messages = 0;  ///< that these are of
     };
     std::vector<Topic> topics;  ///< in the order of the bag
     /// By topic: those of nav_msgs/Odometry, then of geometry_msgs/PoseStamped and

@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hagen::captures {
@@ -27,8 +29,8 @@ class LivoxScans {
     /// Scans get this sensor label.
     explicit LivoxScans(std::string label);
 
-    /// `time_ns` is when the packet came; a scan has that of its first packet. A packet that comes
-    /// twice in a row is left out; late ones join the scan in progress.
+    /// `time_ns` is when the packet came; a scan has that of its first packet. A packet that has
+    /// come in this scan or the one before is left out; late ones join the scan in progress.
     void add(const packets::LivoxPacket& packet, std::int64_t time_ns);
     /// Ends the scan in progress.
     void finish();
@@ -50,6 +52,8 @@ class LivoxScans {
     Scan scan_;                                 ///< in progress
     std::vector<std::uint8_t> tags_;            ///< of its points
     std::size_t scan_packets_ = 0;
+    /// Times and numbers of its packets, and of those of the scan before.
+    std::set<std::pair<std::uint64_t, std::uint16_t>> seen_, seen_before_;
     std::deque<mrpt::obs::CObservationPointCloud::Ptr> complete_;
 };
 

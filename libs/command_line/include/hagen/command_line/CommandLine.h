@@ -52,6 +52,7 @@ class Flag {
     Flag& existingPath();
     /// `errorOf` returns what is wrong with a value, or ""; `type` is shown by --help.
     Flag& check(std::function<std::string(const std::string&)> errorOf, const std::string& type);
+    Flag& mayBeEmpty();  ///< of texts, which otherwise may not
     /// Rewrites values before they are checked.
     Flag& transform(std::function<std::string(const std::string&)> rewrite);
 

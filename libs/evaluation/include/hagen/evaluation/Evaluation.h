@@ -25,6 +25,8 @@ class LabelledScanSource {
     virtual SensorModel sensor() const = 0;       ///< that its scans are located for
     /// How certain its sensor is, for the user; empty if the recording or the settings name it.
     virtual std::string sensorText() const { return ""; }
+    /// What of it was not used; complete after the last scan.
+    virtual std::vector<std::string> remarks() const { return {}; }
     /// Creates the methods for its sensor; every source must return the same names in the same
     /// order.
     virtual std::vector<Method> makeMethods() const = 0;

@@ -17,4 +17,8 @@ evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folder
                                           const MethodSet& rows,
                                           const std::optional<evaluation::LabelMap>& label_map);
 
+/// The settings with those of the recording merged in, and those that fit its recovered sensor.
+/// `source` is one of sourcesOf().
+Settings settingsOf(const evaluation::LabelledScanSource& source, const Settings& asked);
+
 }  // namespace hagen::labelled_scans

@@ -65,7 +65,10 @@ struct Summary {
     std::vector<std::string> folders;       ///< paths
     std::vector<std::string> folder_names;  ///< short
     std::vector<std::string> sensor_texts;  ///< of each folder; empty: settings name the sensor
-    Settings settings;
+    /// Of each folder: the settings with those of its recording, and what was not used as asked.
+    std::vector<Settings> folder_settings;
+    std::vector<std::vector<std::string>> folder_remarks;
+    Settings settings;  ///< as asked for
     evaluation::RangeBands range;
     std::string label_map, camera;  ///< files, or empty
     evaluation::BootstrapOptions bootstrap;

@@ -8,10 +8,10 @@ namespace hagen::labelled_scans {
 
 /// Writes the entire summary as JSON:
 ///
-///     {"hagen": version, "compiler": ..., "command_line": [...], "folders": [{name, path}, ...],
-///      "settings": {key: value, ...}, "label_map": FILE or null, "camera": FILE or null,
-///      "max_range_m": x, "scans": n, "bootstrap": {"resamples": n, "seed": n, "level": 0.95},
-///      "methods": [{"name": ..., "sweep": {"key", "value"} or null,
+///     {"hagen": version, "compiler": ..., "command_line": [...], "folders": [FOLDER, ...],
+///      "settings": {key: value, ...} as asked for, "label_map": FILE or null, "camera": FILE or
+///      null, "max_range_m": x, "scans": n, "bootstrap": {"resamples": n, "seed": n, "level":
+///      0.95}, "methods": [{"name": ..., "sweep": {"key", "value"} or null,
 ///                   "latency_ms": {"runs", "mean", "sd", "p50", "p95", "p99", "max"} or null,
 ///                   "drone": DRONE,
 ///                   "returns": {"all": SCORES, "by_range": [SCORES, ...], "by_altitude": [...],
@@ -21,6 +21,8 @@ namespace hagen::labelled_scans {
 ///                     "methods": [{"name", "returns": SCORES, "roi_f1_change_points": x,
 ///                                  "rou_f1_change_points": x, "drone": DRONE}, ...]}, ...]}
 ///
+///     FOLDER: {"name", "path", "recovered_sensor", "settings": {key: value, ...} with those of the
+///              recording, as without a sweep, "remarks": [what was not used, ...]}
 ///     SCORES: {"name", "scans": n, "returns": n, "correct": x, "correct_interval": [low, high],
 ///              "roi": CLASS, "rou": CLASS}
 ///     DRONE: {"returns_above_half_metre": MISSED,

@@ -50,7 +50,10 @@ constexpr std::size_t kMostNumbersPerPoint = 65536;
 /// reads it.
 void check(const PointTable& table);
 
-/// The first of these names that is a field, without regard to case; null if there is none.
+/// The field of this name, letter by letter; null if there is none.
+const PointField* findExactly(const PointTable& table, const std::string& name);
+/// The first of these names that is a field: letter by letter or, if there is none such, without
+/// regard to case. Null if there is none.
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names);
 
 /// The numbers of a field of a checked table, one per point: those at `element` of its count.

@@ -54,9 +54,11 @@ class LoggedScans {
     /// Number of scans in the log, and of those without a pose, which are skipped.
     std::size_t scans() const { return scans_; }
     std::size_t scansWithoutPose() const { return without_pose_; }
-    /// Number of scans so far that could not be read, and the error of the last of them.
+    /// Number of scans so far that could not be read, and the error of the first of them.
     std::size_t unreadableScans() const { return unreadable_; }
     const std::string& whyUnreadable() const { return why_unreadable_; }
+    /// What the user should know of the log as a whole (ScanSource::remarks()).
+    std::vector<std::string> remarks() const { return source_->remarks(); }
     /// Contains the vehicle's position at every scan.
     const Eigen::AlignedBox3f& flight_m() const { return flight_m_; }
 

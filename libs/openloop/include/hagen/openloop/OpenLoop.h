@@ -67,7 +67,9 @@ struct OpenLoopModel {
 struct OpenLoopResult {
     std::size_t scans = 0;                                     ///< processed
     std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< skipped
-    std::size_t scans_placed_by_one_pose = 0;                  ///< see LoggedScan
+    std::string why_unreadable;                                ///< of the first; empty: none
+    std::vector<std::string> remarks;          ///< what of the log as a whole was not used
+    std::size_t scans_placed_by_one_pose = 0;  ///< see LoggedScan
     std::size_t model_resets = 0;  ///< because the vehicle came near the border of the maps
     std::string poses;
     bool poses_have_horizon = true;
