@@ -46,8 +46,8 @@ void printProfile(const trials::LatencyProfile& profile) {
 
 int run(const Flags& flags, bool has_output) {
     if (!has_output) throw UsageError("an output is required (-o or --memory)");
-    std::vector<std::string> models = flags.models;
-    if (models == std::vector<std::string>{"all"}) models = avoidance::worldModelNames();
+    const std::vector<std::string> models =
+        namesFrom("--models", flags.models, avoidance::worldModelNames());
     base::checkApart({flags.file, flags.memory}, {});
     std::optional<base::OutputPath> profile_file, memory_file;
     if (!flags.file.empty()) {

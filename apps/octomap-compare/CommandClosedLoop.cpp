@@ -29,11 +29,6 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// Replaces "all" by all names.
-void expandAll(std::vector<std::string>& names, const std::vector<std::string>& all) {
-    if (names == std::vector<std::string>{"all"}) names = all;
-}
-
 std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     trials::CampaignPlan& plan = flags.plan;
     const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
@@ -44,24 +39,29 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     const auto shard = base::numbersFrom<int>(flags.shard, '/');
     if (!shard) throw UsageError("--shard", "'" + flags.shard + "' is not i/n (part i of n)");
     plan.brakes_in_known_space = flags.unknown == "brake-known";
+    requireOnce("--speed", plan.speeds_m_s);
+    requireOnce("--latency-scale", plan.latency_scales);
+    requireOnce("--pose-error", flags.pose_errors);
     plan.pose_errors.clear();
     for (const std::string& name : flags.pose_errors)
         plan.pose_errors.push_back(trials::poseErrorFrom(name));
-    expandAll(flags.airs, {"dusty", "clear"});
     plan.airs.clear();
-    for (const std::string& name : flags.airs) plan.airs.push_back(trials::airFrom(name));
-    expandAll(flags.distances, {"unbiased", "as-stored"});
+    for (const std::string& name : namesFrom("--air", flags.airs, {"dusty", "clear"})) {
+        plan.airs.push_back(trials::airFrom(name));
+    }
     plan.distances.clear();
-    for (const std::string& name : flags.distances) {
+    for (const std::string& name :
+         namesFrom("--distance", flags.distances, {"unbiased", "as-stored"})) {
         plan.distances.push_back(trials::distanceFrom(name));
     }
-    expandAll(flags.updates, {"scans", "sectors"});
     plan.updates.clear();
-    for (const std::string& name : flags.updates) plan.updates.push_back(trials::updatesFrom(name));
-    expandAll(plan.scenarios, trials::courseNames());
-    expandAll(plan.models, avoidance::worldModelNames());
-    expandAll(plan.guidances, avoidance::guidanceNames());
-    expandAll(plan.planners, avoidance::plannerNames());
+    for (const std::string& name : namesFrom("--updates", flags.updates, {"scans", "sectors"})) {
+        plan.updates.push_back(trials::updatesFrom(name));
+    }
+    plan.scenarios = namesFrom("--scenario", plan.scenarios, trials::courseNames());
+    plan.models = namesFrom("--models", plan.models, avoidance::worldModelNames());
+    plan.guidances = namesFrom("--guidance", plan.guidances, avoidance::guidanceNames());
+    plan.planners = namesFrom("--planner", plan.planners, avoidance::plannerNames());
     try {
         return trials::flightsOf(plan, {shard->first, shard->second});
     } catch (const std::invalid_argument& e) {

@@ -24,12 +24,11 @@ struct Flags {
 };
 
 std::vector<std::string> modelsFrom(const Flags& flags) {
-    if (flags.models != std::vector<std::string>{"all"}) return flags.models;
-    std::vector<std::string> models;
+    std::vector<std::string> all;
     for (const std::string& model : avoidance::worldModelNames()) {
-        if (!avoidance::needsTruth(model)) models.push_back(model);
+        if (!avoidance::needsTruth(model)) all.push_back(model);
     }
-    return models;
+    return namesFrom("--models", flags.models, all);
 }
 
 int run(const Flags& flags) {

@@ -1,6 +1,11 @@
 #pragma once
 #include <hagen/command_line/CommandLine.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
 namespace hagen {
 
 using namespace command_line;  // Program, Command, Flag, UsageError
@@ -8,6 +13,21 @@ using namespace command_line;  // Program, Command, Flag, UsageError
 /// Lets a flag take world models by name or by displayed name, such as W-RoI and "RoI window".
 /// Rejects any other text except those in `also`, and lists the names.
 void takesWorldModels(Flag flag, const std::vector<std::string>& also = {});
+
+/// What is given twice would be flown or measured twice. Throws UsageError.
+template <class Value>
+void requireOnce(const std::string& flag, const std::vector<Value>& values) {
+    for (auto value = values.begin(); value != values.end(); ++value) {
+        if (std::find(values.begin(), value, *value) == value) continue;
+        std::ostringstream text;
+        text << *value;
+        throw UsageError(flag, text.str() + " is given twice");
+    }
+}
+/// The names, or those that "all" stands for. Throws UsageError for names given twice, and for
+/// others beside "all".
+std::vector<std::string> namesFrom(const std::string& flag, const std::vector<std::string>& names,
+                                   const std::vector<std::string>& all);
 
 // Each adds a subcommand with its flags.
 void addClosedLoop(Program& program);

@@ -13,8 +13,6 @@ using streaming::TurnCoverage;
 namespace {
 
 constexpr double kTurn_rad = 2 * kPi;
-// A sensor without turns looks all around within half of this time.
-constexpr double kFrames_s = 0.2;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kPart_rad = kTurn_rad / 360, kHalf_rad = kTurn_rad / 72 / 2;
 
@@ -42,6 +40,7 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
     if (went_back) {
         seen_.clear();
         coverage_.clear();
+        all_around_since_s_ = -kNone;
     }
     Seen seen;
     seen.first_time_s = sector.first_time_s;
@@ -59,7 +58,8 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
         seen.roi_m.emplace_back(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
     }
     if (!sector.sweep) {
-        seen.is_all_around = frames_.add(sector.first_time_s, sector.measured_s);
+        seen.all_around_since_s = frames_.add(sector.first_time_s, sector.measured_s);
+        all_around_since_s_ = seen.all_around_since_s.value_or(all_around_since_s_);
     }
     latest_s_ = went_back ? sector.last_time_s : std::max(latest_s_, sector.last_time_s);
     while (!seen_.empty() && !isFresh(*seen_.front(), sector.last_time_s)) seen_.pop_front();
@@ -68,9 +68,9 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
 
 bool Surroundings::isFresh(const Seen& seen, double now_s) const {
     const double age_s = now_s - seen.first_time_s;
-    const double longest_s =
-        seen.turns ? settings_.stale_s : std::min(kFrames_s, settings_.stale_s);
-    return age_s >= 0 && age_s <= longest_s;
+    if (!(age_s >= 0 && age_s <= settings_.stale_s)) return false;
+    const double looked_again_s = all_around_since_s_ - seen.first_time_s;
+    return seen.turns || looked_again_s <= streaming::FrameCoverage::kForgotten_s;
 }
 
 /// Where the sensor, as it was then, saw an edge between two degrees; NaN: it did not.
@@ -94,7 +94,7 @@ std::optional<double> Surroundings::passedAt(const Seen& seen, const TurnCoverag
                                              double since_rad) {
     std::optional<double> passed_rad;
     if (!seen.turns) {
-        if (seen.is_all_around && !std::isnan(arc.begin_rad)) passed_rad = seen.to_rad;
+        if (!std::isnan(arc.begin_rad)) passed_rad = seen.to_rad;
         return passed_rad;
     }
     for (TurnCoverage::Swept swept : seen.swept) {
@@ -124,10 +124,14 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         if (least_rad - seen->to_rad > streaming::kLaterTurn_rad) continue;
         const auto then = motion.at((seen->first_time_s + seen->last_time_s) / 2);
         const Eigen::Isometry3d level = levelFromSensor(settings_.vehicle_from_sensor, then, now);
+        // What was seen since is at least as fresh.
+        const bool is_swept =
+            seen->turns ||
+            (seen->all_around_since_s && now_s - *seen->all_around_since_s <= settings_.stale_s);
         const Eigen::Matrix3d sensor_from_level = level.linear().transpose();
         double next_rad = 0;
         int next = -1;  // the edge of which this is the azimuth
-        for (int bin = 0; bin < kBins; ++bin) {
+        for (int bin = 0; bin < kBins && is_swept; ++bin) {
             if (passed_rad[bin] > -kNone) continue;
             const double begin_rad = next == bin ? next_rad : azimuthOf(sensor_from_level, bin);
             next = bin + 1;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <limits>
@@ -323,6 +324,8 @@ int caught(const std::function<int()>& program) noexcept {
 }  // namespace
 
 int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
+    // Who starts a program may have it ignore this; nobody could then wait for its children.
+    std::signal(SIGCHLD, SIG_DFL);
     const auto call = [&] { return program(argc, argv); };
     const auto work = [&] { return caught(std::cref(call)); };  // a reference takes no memory
     return withRoomyStacks(std::cref(work));

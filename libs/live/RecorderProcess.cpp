@@ -88,6 +88,7 @@ int spawn(std::vector<std::string> arguments, int socket, pid_t& pid) {
 siginfo_t waitFor(pid_t process, bool reaps, int how = 0) {
     siginfo_t end{};
     how |= reaps ? WEXITED : WEXITED | WNOWAIT;
+    errno = 0;
     while (waitid(P_PID, static_cast<id_t>(process), &end, how) < 0 && errno == EINTR) {
     }
     return end;
@@ -262,12 +263,14 @@ std::string RecorderProcess::howItEnded() const {
     siginfo_t end{};
     while (end.si_pid == 0 && !is_given_up_) {
         end = waitFor(process_, false, WNOHANG);
+        if (end.si_pid == 0 && errno == ECHILD) break;  // somebody else took its status
         if (end.si_pid == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     const char* const why = why_ended_;
     const std::string how =
         why != nullptr ? why + base::fixedText(ended_after_s_, 1) + " s and was ended" +
                              (end.si_pid == 0 ? ", but is still there: it waits for its disk" : "")
+        : end.si_pid == 0           ? "ended"
         : end.si_code == CLD_EXITED ? "ended with exit status " + std::to_string(end.si_status)
                                     : "was killed by signal " + std::to_string(end.si_status) +
                                           " (" + strsignal(end.si_status) + ")";

@@ -219,9 +219,12 @@ std::string RawlogTrial::cannotBeRead(const std::string& why) const {
 
 std::string RawlogTrial::whyItEnded() {
     int status = 0;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    pid_t ended = 0;
+    while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
     }
     process_ = -1;
+    // Somebody else took its status, such as a program that ignores SIGCHLD.
+    if (ended < 0) return cannotBeRead("MRPT's reader crashes on it, or ends at it");
     return cannotBeRead("MRPT's reader " +
                         (WIFSIGNALED(status)
                              ? std::string("crashes on it (") + strsignal(WTERMSIG(status)) + ")"

@@ -208,6 +208,10 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     if (!(rotation * rotation.transpose()).isIdentity(1e-3)) {
         throw std::runtime_error("'lidar_to_sensor_transform' is not a rigid transformation");
     }
+    // Rows and the direction of the sweep would be others. A mount belongs into the settings.
+    if (!(rotation(2, 2) > 0.999) || !(rotation.determinant() > 0)) {
+        throw std::runtime_error("'lidar_to_sensor_transform' does more than turn about z");
+    }
 }
 
 /// The rows of the pixels, and the beams as a sensor.

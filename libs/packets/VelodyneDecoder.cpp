@@ -147,7 +147,8 @@ const VelodyneCalibration& calibrationOf(const VelodyneModel& model,
 }
 
 /// Returns the rotation of the sensor from one firing's block to the next, in 0.01 degrees: the
-/// median over the scan, so that neither rounded azimuths nor a broken block shift returns.
+/// median over the scan, so that neither rounded azimuths nor a broken block shift returns. It does
+/// not turn back: a motor that hardly turns has readings that do.
 int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
     turns.clear();
     for (std::size_t p = 0; p < packets.count; ++p) {
@@ -155,14 +156,16 @@ int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
         const int step = packet.blocksPerFiring();
         for (int b = 0; b + step < kBlocks; ++b) {
             if (!packet.isValid(b) || !packet.isValid(b + step)) continue;
-            const int turn = packet.azimuth(b + step) - packet.azimuth(b);
-            turns.push_back(turn < 0 ? turn + kTurn : turn);
+            int turn = packet.azimuth(b + step) - packet.azimuth(b);
+            if (turn <= -kTurn / 2) turn += kTurn;
+            if (turn > kTurn / 2) turn -= kTurn;
+            turns.push_back(turn);
         }
     }
     if (turns.empty()) return 0;
     const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
     std::nth_element(turns.begin(), middle, turns.end());
-    return *middle;
+    return std::max(*middle, 0);
 }
 
 BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,

@@ -234,13 +234,16 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
         stages.charts = {"stages"};
         sections.push_back(stages);
     }
-    if (!report.flown.measured.empty()) {
-        sections.push_back({"Memory and CPU time measured during the flights",
-                            {"Medians over runs, measured on the machine that flew the campaign, "
-                             "possibly with several processes at a time. Flights draw their "
-                             "latencies from the profile, not from these times. Peak heap is the "
-                             "maximum that a model held during a run."},
-                            {measuredTable(report.flown.measured)}});
+    const pages::Table measured = measuredTable(report.flown.measured, reference);
+    if (!measured.rows.empty()) {
+        sections.push_back(
+            {"Memory and CPU time measured during the flights at " + nameOf(reference),
+             {"Medians over runs, measured on the machine that flew the campaign, "
+              "possibly with several processes at a time. Flights draw their "
+              "latencies from the profile, not from these times. Peak heap is the "
+              "maximum that a model held during a run. Contenders flew different "
+              "numbers of courses of each scenario."},
+             {measured}});
     }
     if (!report.memory.empty()) {
         Section memory{

@@ -267,16 +267,18 @@ pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& pr
     return table;
 }
 
-pages::Table measuredTable(const trials::MeasuredByModel& measured) {
-    pages::Table table{{"world model", "runs", "peak heap median, MB", "peak heap max, MB"}, {}};
+pages::Table measuredTable(const trials::MeasuredByContender& measured,
+                           const trials::Condition& condition) {
+    pages::Table table{{"contender", "runs", "peak heap median, MB", "peak heap max, MB"}, {}};
     std::set<std::string> stages;
-    for (const auto& [model, runs] : measured) {
+    for (const auto& [what, runs] : measured) {
         for (const auto& [stage, values] : runs.p50_ms) stages.insert(stage);
     }
     for (const std::string& stage : stages) table.header.push_back(stage + " p50, ms");
-    for (const auto& [model, runs] : measured) {
+    for (const auto& [what, runs] : measured) {
+        if (!(what.first == condition)) continue;
         const std::vector<double>& bytes = runs.peak_model_bytes;
-        std::vector<std::string> row{avoidance::displayName(model), std::to_string(bytes.size()),
+        std::vector<std::string> row{nameOf(what.second), std::to_string(bytes.size()),
                                      pages::figure(1e-6 * base::quantile(bytes, 0.5), 2),
                                      pages::figure(1e-6 * base::quantile(bytes, 1), 2)};
         for (const std::string& stage : stages) {

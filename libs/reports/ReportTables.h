@@ -30,8 +30,9 @@ pages::Table effortTable(const Summary& summary,
                          const trials::Condition& condition);  ///< latency, drops, ...
 /// p50, p95 and maximum of each stage of the models that flew.
 pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& profile);
-/// CPU time and heap of each model, measured during the flights.
-pages::Table measuredTable(const trials::MeasuredByModel& measured);
+/// CPU time and heap of each contender, measured during its flights under this condition.
+pages::Table measuredTable(const trials::MeasuredByContender& measured,
+                           const trials::Condition& condition);
 pages::Table memoryTable(const std::vector<trials::HeapCurve>& memory);
 
 /// The stages of a contender's planning step, in order, by their names in the profile. Stages that

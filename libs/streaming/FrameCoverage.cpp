@@ -2,13 +2,14 @@
 
 namespace hagen::streaming {
 
-bool FrameCoverage::add(double time_s, double measured_s) {
+std::optional<double> FrameCoverage::add(double time_s, double measured_s) {
     if (!frames_.empty() && time_s < frames_.back().time_s) frames_.clear();
     frames_.push_back({time_s, measured_s});
     while (time_s - frames_.front().time_s >= kPeriod_s) frames_.pop_front();
     double all_s = 0;
     for (const Frame& frame : frames_) all_s += frame.measured_s;
-    return all_s >= kLeastMeasured_s;
+    if (all_s < kLeastMeasured_s) return std::nullopt;
+    return frames_.front().time_s;
 }
 
 }  // namespace hagen::streaming

@@ -8,10 +8,6 @@ namespace hagen::streaming {
 namespace {
 
 constexpr double kTurn_rad = 2 * kPi;
-constexpr double kPeriod_s = 0.1;  // of a sensor without turns
-
-/// The periods of a sensor without turns count as turns.
-double turnOf(int period) { return kTurn_rad * period; }
 
 }  // namespace
 
@@ -35,29 +31,16 @@ SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& sett
     }
 }
 
-/// Without turns: what was seen in the period before the last one is forgotten.
-void SectorDistances::beginFrame(double time_s) {
-    const double since_s = time_s - period_start_s_;
-    if (since_s >= 0 && since_s < kPeriod_s) return;
-    period_start_s_ = time_s;
-    ++period_;
-    const int last = since_s >= 0 && since_s < 2 * kPeriod_s ? period_ - 1 : period_;
-    for (Bin& bin : bins_) {
-        bin.found.erase(
-            std::remove_if(bin.found.begin(), bin.found.end(),
-                           [&](const Found& found) { return found.turned_rad < turnOf(last); }),
-            bin.found.end());
-    }
-}
-
 /// What a lost packet would have seen is not known: a degree was swept if all of it was, without a
 /// gap.
 void SectorDistances::noteSwept(const LabelledSector& sector) {
     const double now_s = sector.first_time_s;
     if (!sector.sweep) {
-        if (!frames_.add(now_s, sector.measured_s)) return;
+        const std::optional<double> since_s = frames_.add(now_s, sector.measured_s);
+        if (!since_s) return;
+        all_around_since_s_ = *since_s;
         for (int k = 0; k < kBins; ++k) {
-            if (!std::isnan(arcs_[k].begin_rad)) bins_[k].swept_s = now_s;
+            if (!std::isnan(arcs_[k].begin_rad)) bins_[k].swept_s = *since_s;
         }
         return;
     }
@@ -95,11 +78,12 @@ void SectorDistances::take(const LabelledSector& sector) {
     if (sector.first_time_s < latest_s_) {
         bins_.fill({});
         coverage_.clear();
+        all_around_since_s_ = kNever;
     }
     latest_s_ = sector.first_time_s;
-    if (!sector.sweep) beginFrame(sector.first_time_s);
     noteSwept(sector);
-    const double now_rad = sector.sweep ? coverage_.head_rad() : turnOf(period_);
+    if (!sector.sweep) frames_rad_ += kTurn_rad;  // each frame counts as a turn
+    const double now_rad = sector.sweep ? coverage_.head_rad() : frames_rad_;
     const Scan& scan = sector.returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (sector.label[i] != Label::Roi) continue;
@@ -127,8 +111,10 @@ void SectorDistances::forgetFound(double now_s, Bin& bin) const {
     bin.found.erase(std::remove_if(bin.found.begin(), bin.found.end(), isOver), bin.found.end());
 }
 
-/// An obstacle is gone once a later turn has passed all of its bin.
-bool SectorDistances::isGone(const Found& found, const Bin& bin) {
+/// An obstacle is gone once a later turn has passed all of its bin, or a sensor without turns has
+/// looked all around since.
+bool SectorDistances::isGone(const Found& found, const Bin& bin) const {
+    if (all_around_since_s_ - found.time_s > FrameCoverage::kForgotten_s) return true;
     return bin.end_rad - found.turned_rad > kLaterTurn_rad && bin.passed_s > found.time_s;
 }
 

@@ -37,7 +37,7 @@ bool holdsNothing(const fs::path& folder) {
 /// What measured.csv would have of a run must be readable there.
 void checkMeasured(const Run& run, const std::string& row) {
     if (row.empty()) return;
-    MeasuredByModel ignored;
+    MeasuredByContender ignored;
     addMeasured(fullMeasuredHeader(), fullMeasuredRowOf(row), ignored);
     if (keyOfMeasuredRow(row) != keyOf(run)) {
         throw std::runtime_error("what was measured is of another run");

@@ -1,5 +1,6 @@
 #include <hagen/trials/DealRuns.h>
 #include <algorithm>
+#include <utility>
 
 namespace hagen::trials {
 namespace {
@@ -7,6 +8,7 @@ namespace {
 /// Runs of one share end within a few minutes, and their keys fit on a command line.
 constexpr std::size_t kMostRuns = 200;
 
+/// Courses of more runs than fit into a share come in parts.
 std::vector<RunShare> runsByCourse(const std::vector<CourseFlights>& flights,
                                    const std::function<bool(const Run&)>& is_flown) {
     std::vector<RunShare> courses;
@@ -17,7 +19,9 @@ std::vector<RunShare> runsByCourse(const std::vector<CourseFlights>& flights,
             run.scenario = course.scenario;
             run.seed = course.seed;
             run.setup = setup;
-            if (!is_flown(run)) keys.push_back(keyOf(run));
+            if (is_flown(run)) continue;
+            if (keys.size() == kMostRuns) courses.push_back(std::exchange(keys, {}));
+            keys.push_back(keyOf(run));
         }
         if (!keys.empty()) courses.push_back(keys);
     }

@@ -1,10 +1,11 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/base/ReadFile.h>
 #include <hagen/trials/Measured.h>
-#include <hagen/trials/Updates.h>
 
 #include <fstream>
 #include <stdexcept>
+
+#include "Words.h"
 
 namespace hagen::trials {
 namespace {
@@ -21,25 +22,46 @@ std::vector<std::string> fieldsOf(const std::string& line) {
     return fields;
 }
 
-void add(const std::string& text, std::vector<double>& values) {
-    if (text.empty()) return;
+double numberIn(const std::string& text) {
     const auto value = base::numberFrom<double>(text);
     if (!value) throw std::runtime_error("\"" + text + "\" is not a number");
-    values.push_back(*value);
+    return *value;
+}
+
+void add(const std::string& text, std::vector<double>& values) {
+    if (!text.empty()) values.push_back(numberIn(text));
+}
+
+/// What flew, and under which condition. Tables without air and distance are older.
+Run runOf(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
+    Run run{};
+    TrialSetup& setup = run.setup;
+    setup.air = Air::Clear;
+    setup.distance = ModelDistance::AsStored;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        const std::string &name = names[c], &text = fields[c];
+        if (name == "model") setup.model = text;
+        if (name == "guidance") setup.guidance = text;
+        if (name == "planner") setup.planner = text;
+        if (name == "speed") setup.speed_m_s = numberIn(text);
+        if (name == "latency_scale") setup.latency_scale = numberIn(text);
+        if (name == "pose_error") setup.pose_error = poseErrorFrom(text);
+        if (name == "unknown") setup.brakes_in_known_space = wordFrom<int>(text, kUnknowns) == 1;
+        if (name == "air") setup.air = airFrom(text);
+        if (name == "distance") setup.distance = distanceFrom(text);
+        if (name == "updates") setup.updates = updatesFrom(text);
+    }
+    return run;
 }
 
 }  // namespace
 
-void addMeasured(const std::string& header, const std::string& row, MeasuredByModel& all) {
+void addMeasured(const std::string& header, const std::string& row, MeasuredByContender& all) {
     const std::vector<std::string> names = fieldsOf(header), fields = fieldsOf(row);
     if (fields.size() != names.size())
         throw std::runtime_error("number of fields differs from the header");
-    std::string model;
-    for (std::size_t c = 0; c < names.size(); ++c) {
-        if (names[c] == "model") model = fields[c];
-        if (names[c] == "updates" && fields[c] != nameOf(Updates::Scans)) return;
-    }
-    MeasuredRuns& runs = all[model];
+    const Run run = runOf(names, fields);
+    MeasuredRuns& runs = all[{conditionOf(run), contenderOf(run)}];
     const std::string median = "_p50_ms";
     for (std::size_t c = 0; c < names.size(); ++c) {
         const std::string& name = names[c];
@@ -51,9 +73,9 @@ void addMeasured(const std::string& header, const std::string& row, MeasuredByMo
     }
 }
 
-MeasuredByModel readMeasured(const std::filesystem::path& file) {
+MeasuredByContender readMeasured(const std::filesystem::path& file) {
     std::ifstream in = base::openToRead(file);
-    MeasuredByModel all;
+    MeasuredByContender all;
     std::string header, row;
     base::nextLine(in, header, file);
     for (int line = 2; base::nextLine(in, row, file); ++line) {

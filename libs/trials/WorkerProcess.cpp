@@ -12,6 +12,8 @@
 namespace hagen::trials {
 namespace {
 
+constexpr int kStatusLost = 255;  // no exit status of the programs
+
 /// Starts a program whose stderr goes to a file. Returns 0 or an errno.
 int spawn(const std::string& program, std::vector<std::string> arguments, std::FILE* errors,
           pid_t& pid) {
@@ -54,8 +56,12 @@ WorkerProcess::~WorkerProcess() {
 }
 
 bool WorkerProcess::hasEnded() {
+    if (status_) return true;
     int status = 0;
-    if (!status_ && waitpid(pid_, &status, WNOHANG) == pid_) status_ = status;
+    const pid_t ended = waitpid(pid_, &status, WNOHANG);
+    if (ended == pid_) status_ = status;
+    // Somebody else took its status, such as a parent that ignores SIGCHLD.
+    if (ended < 0 && errno == ECHILD) status_ = W_EXITCODE(kStatusLost, 0);
     return status_.has_value();
 }
 

@@ -266,6 +266,15 @@ TEST(ClosedLoopFlights, AWorkerThatDiesIsToldWithTheRunThatItFlew) {
                       HasSubstr(" finished runs are kept in ")));
 }
 
+TEST(ClosedLoopFlights, AParentThatIgnoresTheEndsOfChildrenCostsNothing) {
+    const TemporaryFolder folder;
+    std::string command = "trap '' CHLD; exec '" + std::string(HAGEN_OCTOMAP_COMPARE) + "'";
+    for (const std::string& word : flying(folder, "ignoring")) command += " '" + word + "'";
+    const Outcome outcome = test::run("/bin/bash", {"-c", command});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "ignoring/runs.csv"));
+}
+
 TEST(ClosedLoopFlights, AFullDiskIsNamedAndWhatWasFinishedIsKept) {
     const TemporaryFolder folder;
     auto arguments = flying(folder, "full", {"--jobs", "1"});
@@ -307,6 +316,10 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     fails({"--shard", "4294967297/4294967298"}, "shard");
     fails({"--shard", "0/2"}, "shard");
     fails({"--jobs", "0"}, "--jobs");
+    fails({"--air", "all,clear"}, "--air: all is given beside other values");
+    failsInstead("--models", "W-RoI,all", "--models: all is given beside other values");
+    failsInstead("--models", "W-RoI,RoI window", "W-RoI is given twice");
+    failsInstead("--speed", "4,4.0", "--speed: 4 is given twice");
     fails({"--pose-error", "wild"}, "wild");
     fails({"--updates", "turns"}, "turns");
     fails({"--updates", "scans,sectors", "--models", "W-RoI+motion"}, "follows the obstacles");

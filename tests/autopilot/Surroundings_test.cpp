@@ -450,7 +450,34 @@ TEST_F(SurroundingsTest, OfASensorWithoutTurnsLostPacketsLookedNobodyKnowsWhere)
     EXPECT_EQ(stateAfter(0.0005, 50), Direction::State::Unknown);  // one packet of 42
 }
 
-TEST_F(SurroundingsTest, ASensorWithoutTurnsSeesAllAroundFor200Ms) {
+/// Freedom rests on a look all around that began after the obstacle was seen, however packets stop.
+TEST_F(SurroundingsTest, OfASensorWithoutTurnsAnObstacleIsNotFreeBeforeAnotherLook) {
+    Scan pole, nothing;
+    pole.x_m = {5};
+    pole.y_m = {0};
+    pole.z_m = {0};
+    const SegmentationResult result;
+    for (const int last_with_pole : {1, 5}) {      // of the frames from 0 to 5
+        for (const double lost_s : {0.0, 5e-4}) {  // silence, or a packet of 42 after that
+            Surroundings surroundings(sensorModel("Mid-360"), {});
+            for (int k = 0; k < 25; ++k) {
+                const double time_s = 1 + 0.02 * k;
+                const bool is_pole = k == 1 || k == last_with_pole;
+                if (k <= 5 || lost_s > 0) {
+                    surroundings.take({is_pole ? pole : nothing,
+                                       is_pole ? std::vector{Label::Roi} : std::vector<Label>{},
+                                       std::nullopt, time_s, time_s, true, false, false, result,
+                                       nullptr, k <= 5 ? 0.019 : lost_s});
+                }
+                if (k < 1) continue;
+                EXPECT_NE(surroundings.at(time_s + 1e-3, {})[0].state, State::SeenNothing)
+                    << last_with_pole << " " << lost_s << " " << k;
+            }
+        }
+    }
+}
+
+TEST_F(SurroundingsTest, ASensorWithoutTurnsSeesAllAroundFor300Ms) {
     Surroundings surroundings(sensorModel("Mid-360"), {});
     Scan scan;
     scan.x_m = {6};
@@ -460,7 +487,14 @@ TEST_F(SurroundingsTest, ASensorWithoutTurnsSeesAllAroundFor200Ms) {
     surroundings.take({scan, {Label::Roi}, std::nullopt, 1, 1.02, true, false, false, result});
     EXPECT_EQ(surroundings.at(1.1, {})[0].state, State::Obstacle);
     EXPECT_EQ(surroundings.at(1.1, {})[36].state, State::SeenNothing);
-    EXPECT_EQ(surroundings.at(1.21, {})[0].state, State::Unknown);
+    EXPECT_EQ(surroundings.at(1.31, {})[0].state, State::Unknown);
+    EXPECT_EQ(surroundings.at(1.31, {})[36].state, State::Unknown);
+    // It looks again.
+    for (int k = 0; k < 2; ++k) {
+        const double time_s = 1.31 + 0.1 * k;
+        surroundings.take({{}, {}, std::nullopt, time_s, time_s, true, false, false, result});
+    }
+    EXPECT_EQ(surroundings.at(1.42, {})[0].state, State::SeenNothing);
 }
 
 }  // namespace

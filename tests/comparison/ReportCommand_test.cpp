@@ -74,12 +74,16 @@ TEST_F(ReportCommand, TellsOfRunsAsPageJsonCsvAndMarkdown) {
 TEST_F(ReportCommand, TellsWhatRunsCostAsMeasured) {
     writeRuns(threeContenders());
     folder_.write("measured.csv",
-                  "model,filter_p50_ms,filter_p95_ms,update_p50_ms,peak_model_bytes\n"
-                  "W-RoI,0.8,9,1.25,2000000\nW-RoI,0.6,9,1.75,4000000\nG-Full,,,14,1\n");
+                  "model,air,distance,speed,filter_p50_ms,filter_p95_ms,update_p50_ms,"
+                  "peak_model_bytes\n"
+                  "W-RoI,dusty,unbiased,4,0.8,9,1.25,2000000\n"
+                  "W-RoI,dusty,unbiased,4,0.6,9,1.75,4000000\n"
+                  "W-RoI,dusty,unbiased,10,6,90,17,40000000\n"  // another condition
+                  "G-Full,dusty,unbiased,4,,,14,1\n");
     ASSERT_EQ(run({"report", folder(), "--markdown", path("a.md")}).exit_code, 0);
     const std::string text = test::readFile(path("a.md"));
-    EXPECT_THAT(text, HasSubstr("| RoI window | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"));
-    EXPECT_THAT(text, HasSubstr("| occupancy grid 0.2 m | 1 | 0.00 | 0.00 | - | 14.00 |"));
+    EXPECT_THAT(text, HasSubstr("| RoI window, A* | 2 | 3.00 | 4.00 | 0.70 | 1.50 |"));
+    EXPECT_THAT(text, HasSubstr("| occupancy grid 0.2 m, A* | 1 | 0.00 | 0.00 | - | 14.00 |"));
 }
 
 TEST_F(ReportCommand, NamesTheLineThatContradictsAnother) {
@@ -117,7 +121,7 @@ TEST_F(ReportCommand, TellsHowMuchOfACampaignIsFlown) {
     const std::string text = test::readFile(path("a.md"));
     EXPECT_THAT(text, HasSubstr("| 4 m/s | RoI window, A* | 4 | 10 |"));
     EXPECT_THAT(text, HasSubstr("| 4 m/s | occupancy grid 0.2 m, A* | 0 | 10 |"));
-    EXPECT_THAT(text, HasSubstr("| RoI window | 3 | 2.00 | 3.00 |"));  // measured
+    EXPECT_THAT(text, HasSubstr("| RoI window, A* | 3 | 2.00 | 3.00 |"));  // measured
     std::ifstream in(path("summary.json"));
     EXPECT_EQ(nlohmann::json::parse(in)["missing_runs"], 16);
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <deque>
 #include <string>
 #include <thread>
@@ -471,6 +472,18 @@ TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {
     const LiveReport report = run(source);
     EXPECT_EQ(report.packets + report.dropped, 20u * 76);
     EXPECT_THAT(report.recorded.failure, HasSubstr("took no packets for 0.2 s and was ended"));
+}
+
+/// As of a program that is started by one that ignores its children's ends.
+TEST_F(LiveRecordingTest, ARecorderWhoseEndNobodyIsToldIsNotWaitedFor) {
+    const auto before = std::signal(SIGCHLD, SIG_IGN);
+    recordBy("exit 3");
+    GivenPackets source;
+    EXPECT_THAT(test::messageOf([&] { run(source.addAll(turnsOf(1))); }),
+                HasSubstr("a.rawlog: its recorder"));
+    recordBy(kReady + std::string("exit 3"));
+    EXPECT_THAT(run(source).recorded.failure, HasSubstr("a.rawlog: its recorder"));
+    std::signal(SIGCHLD, before);
 }
 
 /// A replay waits for its recorder, but not for ever.

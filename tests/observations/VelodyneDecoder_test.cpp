@@ -329,6 +329,24 @@ TEST(VelodyneDecoder, DecodesTheSameOnEveryInstructionSet) {
     }
 }
 
+/// A motor that hardly turns has readings that go back by 0.01 degrees.
+TEST(VelodyneDecoder, ReadingsThatStepBackDoNotTurnReturnsAround) {
+    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(66, model, 24, 0.0));
+    ASSERT_EQ(observation->scan_packets.size(), 1u);
+    for (int block = 0; block < 12; ++block) {
+        const int reading = block % 2 == 0 ? 18000 : 17999;
+        setByte(*observation, 0, 100 * block + 2, static_cast<std::uint8_t>(reading & 0xff));
+        setByte(*observation, 0, 100 * block + 3, static_cast<std::uint8_t>(reading >> 8));
+    }
+    Scan scan;
+    decodePackets(*observation, scan);
+    ASSERT_EQ(scan.size(), 24u * 16);
+    for (const float azimuth_rad : scan.azimuth_rad) {
+        ASSERT_NEAR(degrees(std::abs(azimuth_rad)), 180, 0.02);
+    }
+}
+
 TEST(VelodyneDecoder, IntensitiesAreBytesOver255) {
     const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
     Firings firings = randomFirings(65, model, 16, 0.0);

@@ -152,6 +152,11 @@ TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
                 HasSubstr("'columns_per_packet' is 16, not 1 ... 8"));
     EXPECT_THAT(messageWith("[0, 63]", "[0, 64]"), HasSubstr("'column_window'"));
     EXPECT_THAT(messageWith("[40.0, 15.0", "[40.0, 40.0"), HasSubstr("beam_altitude_angles"));
+    for (const char* other :
+         {"[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 36", "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36"}) {
+        EXPECT_THAT(messageWith("[-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36", other),
+                    HasSubstr("'lidar_to_sensor_transform' does more than turn about z"));
+    }
     EXPECT_THAT(messageWith("[40.0", "[\"up\""),
                 HasSubstr("sensor.json: not metadata of an Ouster: 'beam_altitude_angles': item 1 "
                           "of 4: expected a number, not: \"up\""));

@@ -280,6 +280,32 @@ TEST_F(SectorDistancesTest, WithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
     EXPECT_EQ(stateAfter(0, 50), State::Unknown);
 }
 
+/// Freedom rests on a look all around that began after the obstacle was seen, however packets stop.
+TEST_F(SectorDistancesTest, WithoutTurnsAnObstacleIsNotFreeBeforeAnotherLook) {
+    Scan pole, nothing;
+    pole.x_m = {5};
+    pole.y_m = {-0.1f};
+    pole.z_m = {0};
+    for (const int last_with_pole : {1, 5}) {      // of the frames from 0 to 5
+        for (const double lost_s : {0.0, 5e-4}) {  // silence, or a packet of 42 after that
+            SectorDistances distances(sensorModel("Mid-360"));
+            for (int k = 0; k < 25; ++k) {
+                const double time_s = 1 + 0.02 * k;
+                const bool is_pole = k == 1 || k == last_with_pole;
+                if (k <= 5 || lost_s > 0) {
+                    distances.take({is_pole ? pole : nothing,
+                                    is_pole ? std::vector{Label::Roi} : std::vector<Label>{},
+                                    std::nullopt, time_s, time_s, true, false, false, result_,
+                                    nullptr, k <= 5 ? 0.019 : lost_s});
+                }
+                if (k < 1) continue;
+                EXPECT_NE(distances.at(time_s + 1e-3)[0].state, State::SeenNothing)
+                    << last_with_pole << " " << lost_s << " " << k;
+            }
+        }
+    }
+}
+
 TEST_F(SectorDistancesTest, WithoutTurnsWhatWasSeenHoldsForATenthOfASecond) {
     SectorDistances distances(sensorModel("Mid-360"));
     take(std::nullopt, 1.00, {{2, 4}}, distances);

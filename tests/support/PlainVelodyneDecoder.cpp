@@ -103,13 +103,14 @@ int turnOfBlocks(const CObservationVelodyneScan& observation) {
         const int step = packet.blocksPerFiring();
         for (int b = 0; b + step < kBlocks; ++b) {
             if (!packet.isSound(b) || !packet.isSound(b + step)) continue;
-            turns.push_back(wrapTurn(packet.azimuth(b + step) - packet.azimuth(b)));
+            const int turn = wrapTurn(packet.azimuth(b + step) - packet.azimuth(b));
+            turns.push_back(turn > kTurn / 2 ? turn - kTurn : turn);
         }
     }
     if (turns.empty()) return 0;
     const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
     std::nth_element(turns.begin(), middle, turns.end());
-    return *middle;
+    return std::max(0, *middle);
 }
 
 /// A laser's calibration, as the decoder needs it.

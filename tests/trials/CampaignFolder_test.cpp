@@ -143,8 +143,12 @@ TEST(CampaignFolder, RunsWithSectorsComeToOneOfWholeScans) {
     EXPECT_EQ(readFile(place / "c/runs.csv"), all);
     EXPECT_EQ(readFile(place / "c/measured.csv"), all_measured);
     EXPECT_EQ(readPlans(place / "c").size(), 2u);
-    // The report's costs are of whole scans.
-    EXPECT_EQ(readMeasured(place / "c/measured.csv").at("W-RoI").p50_ms.at("update").size(), 1u);
+    // The report's costs are told apart, too.
+    const auto costs = readMeasured(place / "c/measured.csv");
+    ASSERT_EQ(costs.size(), 2u);
+    EXPECT_EQ(costs.begin()->first.first.updates, Updates::Scans);
+    EXPECT_EQ(costs.begin()->first.second.model, "W-RoI");
+    EXPECT_EQ(costs.begin()->second.p50_ms.at("update").size(), 1u);
     EXPECT_EQ(measured.find("updates"), std::string::npos);
 }
 

@@ -10,6 +10,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace hagen::autopilot {
@@ -33,7 +34,8 @@ using Directions = std::array<Direction, 72>;
 /// vehicle that rolls sees an obstacle on its right on its right. **Stale is never free**: what was
 /// not swept within 0.3 s is unknown, and so is a direction in which the sensor, as it was tilted
 /// then, has no beam at the horizon. An obstacle is forgotten when a later turn has passed all of
-/// its degree, or after 0.3 s. (streaming::SectorDistances is the same for a sensor that stays.)
+/// its degree, or a sensor without turns has looked all around since, or after 0.3 s.
+/// (streaming::SectorDistances is the same for a sensor that stays.)
 ///
 /// A copy is cheap: it shares what sectors saw, which does not change.
 class Surroundings {
@@ -64,7 +66,8 @@ class Surroundings {
         bool turns = false;
         std::vector<streaming::TurnCoverage::Swept> swept;  ///< by its packets
         double ahead_rad = 0;                               ///< of its beams
-        bool is_all_around = false;          ///< it does not turn, and FrameCoverage says so
+        /// It does not turn, and FrameCoverage says that it has looked all around since then.
+        std::optional<double> all_around_since_s;
         double from_rad = 0, to_rad = 0;     ///< how far the sensor had turned before, and has now
         std::vector<Eigen::Vector3f> roi_m;  ///< in the sensor's frame
     };
@@ -78,6 +81,8 @@ class Surroundings {
     std::deque<std::shared_ptr<const Seen>> seen_;  ///< in the order in which they came
     streaming::TurnCoverage coverage_;
     streaming::FrameCoverage frames_;
+    /// When the last period of a sensor without turns that was measured began.
+    double all_around_since_s_ = -std::numeric_limits<double>::infinity();
     double latest_s_ = -std::numeric_limits<double>::infinity();
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <optional>
 
 namespace hagen::streaming {
 
@@ -8,10 +9,14 @@ namespace hagen::streaming {
 class FrameCoverage {
  public:
     static constexpr double kPeriod_s = 0.1, kLeastMeasured_s = 0.08;
+    /// What was seen is forgotten once a period has been measured that began so much later: it
+    /// looked there again, and the pattern of the beams had time for a second look.
+    static constexpr double kForgotten_s = kPeriod_s + 0.01;
 
-    /// Adds a frame, by when it came and LabelledSector::measured_s. Returns whether the period
-    /// that ends with it has been measured. A time before the last one begins anew.
-    bool add(double time_s, double measured_s);
+    /// Adds a frame, by when it came and LabelledSector::measured_s. If the period that ends with
+    /// it has been measured, returns when its first frame came. A time before the last one begins
+    /// anew.
+    std::optional<double> add(double time_s, double measured_s);
 
  private:
     struct Frame {

@@ -17,8 +17,8 @@ namespace hagen::streaming {
 /// nothing" means that the sensor swept all of it, at the horizon of the body, and that none of the
 /// returns is RoI. What an earlier turn saw in a degree is forgotten once a later one has passed
 /// all of it. A sensor that does not turn is taken to look all around within each tenth of a
-/// second, if few of its packets are lost (FrameCoverage); what it saw in a direction holds for one
-/// to two of these.
+/// second, if few of its packets are lost (FrameCoverage). What it saw is forgotten once it has
+/// looked all around in a tenth of a second that began that much later, or after 0.3 s.
 class SectorDistances {
  public:
     static constexpr int kSectors = 72;
@@ -58,25 +58,24 @@ class SectorDistances {
     static constexpr int kParts = 5;  ///< of a sector, a degree each
     static constexpr int kBins = kSectors * kParts;
     static constexpr double kNever = -std::numeric_limits<double>::infinity();
-    /// The nearest RoI return of a turn, or of a period.
+    /// The nearest RoI return of a turn, or of a frame.
     struct Found {
         double time_s = kNever, turned_rad = kNever;
         float distance_m = std::numeric_limits<float>::infinity();
     };
     struct Bin {
         double begun_s = kNever, begun_rad = kNever;  ///< when a turn looked there first; its begin
-        double swept_s = kNever;   ///< begun_s of the turn that swept all of it last
+        double swept_s = kNever;   ///< when the turn or period that swept all of it last began
         double end_rad = kNever;   ///< its end in that turn
         double passed_s = kNever;  ///< when that turn had swept all of it
         std::vector<Found> found;  ///< by turn, oldest first
     };
 
-    void beginFrame(double time_s);
     void noteSwept(const LabelledSector& sector);
     static void noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc,
                           double now_s, Bin& bin);
     void forgetFound(double now_s, Bin& bin) const;
-    static bool isGone(const Found& found, const Bin& bin);
+    bool isGone(const Found& found, const Bin& bin) const;
     bool isFresh(double time_s, double now_s) const;
 
     Settings settings_;
@@ -86,8 +85,8 @@ class SectorDistances {
     TurnCoverage coverage_;
     FrameCoverage frames_;
     double latest_s_ = kNever;
-    double period_start_s_ = kNever;  ///< without turns
-    int period_ = 0;                  ///< likewise: the number of the period
+    // Without turns: when the last period that was measured began, and 2 pi per frame.
+    double all_around_since_s_ = kNever, frames_rad_ = 0;
 };
 
 }  // namespace hagen::streaming

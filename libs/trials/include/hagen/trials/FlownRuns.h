@@ -15,10 +15,10 @@ struct Shortfall {
 
 /// The runs of a campaign folder, finished or not.
 struct FlownRuns {
-    std::vector<Run> runs;     ///< finished runs, sorted, including those in journals
-    MeasuredByModel measured;  ///< cost of the runs; empty if not measured
-    int planned = 0;           ///< according to campaign.json; 0 without it
-    int missing = 0;           ///< planned runs that are not done
+    std::vector<Run> runs;         ///< finished runs, sorted, including those in journals
+    MeasuredByContender measured;  ///< cost of the runs; empty if not measured
+    int planned = 0;               ///< according to campaign.json; 0 without it
+    int missing = 0;               ///< planned runs that are not done
     std::vector<Shortfall> shortfalls;
 };
 

@@ -17,4 +17,14 @@ void takesWorldModels(Flag flag, const std::vector<std::string>& also) {
     flag.transform(avoidance::worldModelFrom).check(errorOf, "");
 }
 
+std::vector<std::string> namesFrom(const std::string& flag, const std::vector<std::string>& names,
+                                   const std::vector<std::string>& all) {
+    if (names == std::vector<std::string>{"all"}) return all;
+    if (std::find(names.begin(), names.end(), "all") != names.end()) {
+        throw UsageError(flag, "all is given beside other values");
+    }
+    requireOnce(flag, names);
+    return names;
+}
+
 }  // namespace hagen
