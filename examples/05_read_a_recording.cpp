@@ -19,7 +19,11 @@ int main(int argc, char** argv) try {
     while (const auto scan = source->nextScan()) {
         hagen::observations::ObservationSegmenter::Output out;
         if (!segmenter.process(*scan->observation, out, scan->pose, scan->beams)) continue;
-        float nearest_m = 1000;
+        if (out.result->returns.roi.empty()) {
+            std::printf("%s: no RoI points\n", titleOf(*scan).c_str());
+            continue;
+        }
+        float nearest_m = out.scan->range_m[out.result->returns.roi.front()];
         for (const auto i : out.result->returns.roi) {
             nearest_m = std::min(nearest_m, out.scan->range_m[i]);
         }

@@ -2,7 +2,6 @@
 
 #include <hagen/range_image/Angle.h>
 
-#include <cstdio>
 #include <map>
 #include <stdexcept>
 
@@ -84,15 +83,17 @@ std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& fl
     return opened;
 }
 
-void printLink(const autopilot::AutopilotLink& link) {
+std::string summaryOf(const autopilot::AutopilotLink& link) {
     std::map<std::string, std::size_t> n;
     for (const auto& [name, number] : link.counts()) n[name] = number;
-    std::printf(
-        "MAVLink: %zu messages sent (%zu OBSTACLE_DISTANCE, %zu of them unknown in all "
-        "directions), %zu not sent; %zu received, %zu refused\n",
-        n["obstacle_distance"] + n["obstacle_distance_3d"] + n["distance_sensor"] + n["heartbeat"],
-        n["obstacle_distance"], n["all_unknown"], n["not_sent"], n["received"],
-        n["refused"] + n["bad_checksum"] + n["incompatible"]);
+    const std::size_t sent =
+        n["obstacle_distance"] + n["obstacle_distance_3d"] + n["distance_sensor"] + n["heartbeat"];
+    return "MAVLink: " + std::to_string(sent) + " messages sent (" +
+           std::to_string(n["obstacle_distance"]) + " OBSTACLE_DISTANCE, " +
+           std::to_string(n["all_unknown"]) + " of them unknown in all directions), " +
+           std::to_string(n["not_sent"]) + " not sent; " + std::to_string(n["received"]) +
+           " received, " + std::to_string(n["refused"] + n["bad_checksum"] + n["incompatible"]) +
+           " refused\n";
 }
 
 }  // namespace hagen

@@ -29,6 +29,7 @@ void checkAutopilot(const AutopilotFlags& flags);
 std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
                                                         const Settings& settings,
                                                         live::LiveListener& listener);
-void printLink(const autopilot::AutopilotLink& link);
+/// What it sent and received, a line.
+std::string summaryOf(const autopilot::AutopilotLink& link);
 
 }  // namespace hagen

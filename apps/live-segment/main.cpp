@@ -5,15 +5,18 @@
 #include <unistd.h>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include <hagen/base/NumberText.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/TextStream.h>
+#include <hagen/command_line/BackgroundPrinter.h>
 #include <hagen/command_line/CommandLine.h>
 #include <hagen/command_line/Interrupt.h>
-#include <hagen/command_line/Terminal.h>
 
 #include "Autopilot.h"
 
@@ -33,9 +36,6 @@ struct Flags {
 };
 
 void declare(Program& app, Flags& flags) {
-    const auto not_empty = [](const std::string& name) {
-        return name.empty() ? "the name is empty" : "";
-    };
     app.option("--listen", flags.listen,
                "IPv4 address of this machine and port that the sensor sends to, such as "
                "0.0.0.0:2368; a multicast group is joined")
@@ -65,7 +65,6 @@ void declare(Program& app, Flags& flags) {
         .group("Input");
     const Flag record = app.option("--record", flags.live.recording.file,
                                    "segmented rawlog of the turns, as rawlog-segment writes it")
-                            .check(not_empty, "PATH")
                             .group("Output");
     app.option("--rotate-mb", flags.rotate_mb,
                "a new file whenever one is this long: NAME.0001.rawlog and so on")
@@ -74,7 +73,6 @@ void declare(Program& app, Flags& flags) {
         .needs(record)
         .group("Output");
     app.option("--stats", flags.live.stats, "JSON: packets, losses, latencies, nearest obstacles")
-        .check(not_empty, "PATH")
         .group("Output");
     app.flag("--overwrite", flags.overwrite, "replace existing outputs").group("Output");
     app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
@@ -109,12 +107,15 @@ void check(Flags& flags) {
     }
 }
 
+using To = BackgroundPrinter::To;
+
 /// The status, on one line of the terminal.
 class StatusLine {
  public:
     explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
-    void show(const live::LiveReport& report, const live::LiveStatus& status) const {
+    void show(const live::LiveReport& report, const live::LiveStatus& status,
+              BackgroundPrinter& printer) const {
         if (!is_shown_) return;
         char text[200];
         std::snprintf(text, sizeof text,
@@ -124,44 +125,67 @@ class StatusLine {
                       1e3 * status.max_s, report.lost, report.late,
                       report.foreign + report.wrong_size, static_cast<double>(status.nearest_m),
                       status.is_silent ? ", silent" : "");
-        std::cerr << clearLine << text << std::flush;
+        printer.printIfIdle(To::ErrorsInPlace, text);
     }
-    void clear() const {
-        if (is_shown_) std::cerr << clearLine << std::flush;
-    }
+    /// Where to print what replaces the status.
+    To instead() const { return is_shown_ ? To::ErrorsInPlace : To::Errors; }
 
  private:
     bool is_shown_;
 };
 
-void printSummary(const live::LiveReport& r) {
-    std::printf("%zu packets in %zu turns, %zu lost, %zu late, %zu repeated, %zu dropped\n",
-                r.packets, r.scans, r.lost, r.late, r.repeated, r.dropped);
-    std::printf(
-        "left out: %zu datagrams of another size, %zu of other sensors, %zu of position or IMU, "
-        "%zu without valid data, %zu too late, %zu of an uncertain mode\n",
-        r.wrong_size, r.foreign, r.position, r.unsound, r.too_late, r.uncertain);
-    std::printf("%zu sectors, %zu returns, %zu RoI\n", r.sectors, r.returns, r.roi);
+std::string summaryOf(const live::LiveReport& r) {
+    base::TextStream text;
+    text << r.packets << " packets in " << r.scans << " turns, " << r.lost << " lost, " << r.late
+         << " late, " << r.repeated << " repeated, " << r.dropped
+         << " dropped\nleft out: " << r.wrong_size << " datagrams of another size, " << r.foreign
+         << " of other sensors, " << r.position << " of position or IMU, " << r.unsound
+         << " without valid data, " << r.too_late << " too late, " << r.uncertain
+         << " of an uncertain mode\n"
+         << r.sectors << " sectors, " << r.returns << " returns, " << r.roi << " RoI\n";
     if (r.latency.count() > 0) {
-        std::printf(
-            "from a sector's last packet to its labels: p50 %.2f, p99 %.2f, p99.9 %.2f, "
-            "max %.2f ms\n",
-            1e3 * r.latency.quantile_s(0.5), 1e3 * r.latency.quantile_s(0.99),
-            1e3 * r.latency.quantile_s(0.999), 1e3 * r.latency.max_s());
+        const auto ms = [](double time_s) { return base::fixedText(1e3 * time_s, 2); };
+        text << "from a sector's last packet to its labels: p50 " << ms(r.latency.quantile_s(0.5))
+             << ", p99 " << ms(r.latency.quantile_s(0.99)) << ", p99.9 "
+             << ms(r.latency.quantile_s(0.999)) << ", max " << ms(r.latency.max_s()) << " ms\n";
     }
-    for (const auto& file : r.recorded.files) std::cout << "recorded: " << file.string() << "\n";
+    for (const auto& file : r.recorded.files) text << "recorded: " << file.string() << "\n";
     for (const auto& file : r.recorded.older_files) {
-        std::cout << "of an earlier recording: " << file.string() << "\n";
+        text << "of an earlier recording: " << file.string() << "\n";
     }
     if (r.recorded.left_out > 0) {
-        std::cout << r.recorded.left_out << " turns are not recorded: "
-                  << (r.recorded.failure.empty() ? "the disk was too slow\n"
-                                                 : "the recording had ended\n");
+        text << r.recorded.left_out << " turns are not recorded: "
+             << (r.recorded.failure.empty() ? "the disk was too slow\n"
+                                            : "the recording had ended\n");
     }
     if (r.recorded.packets_left_out > 0) {
-        std::cout << r.recorded.packets_left_out
-                  << " packets are not recorded: the recorder did not take them\n";
+        text << r.recorded.packets_left_out
+             << " packets are not recorded: the recorder did not take them\n";
     }
+    return text.str();
+}
+
+/// What failed in a session; empty: nothing.
+std::string failureOf(const live::LiveReport& report, const live::LiveOptions& options) {
+    std::string failure = report.recorded.failure;
+    if (!report.stats_failure.empty()) {
+        failure += (failure.empty() ? "" : "; ") + report.stats_failure;
+    }
+    if (!failure.empty() || report.packets > 0) return failure;
+    const std::string sensor = options.model.empty()
+                                   ? "the Ouster of " + options.sensor_json.string()
+                                   : "a " + options.model;
+    std::string problem = "no packet of " + sensor + " has come";
+    if (report.foreign > 0) {
+        problem += ", but " + std::to_string(report.foreign) + " of other sensors: see " +
+                   (options.model.empty() ? "--sensor-json" : "--model");
+    }
+    if (report.uncertain > 0) {
+        problem += ", but " + std::to_string(report.uncertain) +
+                   " of one that does not turn with the columns of the metadata: is it in "
+                   "another mode?";
+    }
+    return problem;
 }
 
 int run(const Program& program, Flags& flags) {
@@ -186,44 +210,32 @@ int run(const Program& program, Flags& flags) {
             if (!flags.is_quiet) std::cerr << "listening on " << flags.listen << "\n";
         }
         catchSignals();
+        BackgroundPrinter printer;  // a terminal that is stopped must not stop labels
         const StatusLine line(flags.is_quiet);
         live::LiveListener listener;
         listener.keep_going = [] { return !isInterrupted(); };
         listener.status = [&](const auto& report, const auto& status) {
-            line.show(report, status);
+            line.show(report, status, printer);
         };
-        std::mutex remarks;  // the autopilot's thread has some, too
-        listener.remark = [&](const std::string& remark) {
-            const std::lock_guard lock(remarks);
-            line.clear();
-            if (!flags.is_quiet) std::cerr << remark << "\n";
+        listener.remark = [&](const std::string& remark) {  // the autopilot's thread, too
+            if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
-        const auto link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
+        auto link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
         const live::LiveReport report = live::runLive(*source, flags.live, listener);
-        line.clear();
-        if (!flags.is_quiet) printSummary(report);
-        if (!flags.is_quiet && link) printLink(*link);
-        if (!flags.is_quiet) tellLeftBehind({flags.live.recording.file, flags.live.stats});
-        std::string failure = report.recorded.failure;
-        if (!report.stats_failure.empty()) {
-            failure += (failure.empty() ? "" : "; ") + report.stats_failure;
+        printer.print(line.instead(), "");
+        if (!flags.is_quiet) {
+            printer.print(To::Output, summaryOf(report) + (link ? hagen::summaryOf(*link) : ""));
         }
-        if (!failure.empty()) return program.fail(kFailed, failure);
-        if (report.packets > 0) return kDone;
-        const std::string sensor = flags.live.model.empty()
-                                       ? "the Ouster of " + flags.live.sensor_json.string()
-                                       : "a " + flags.live.model;
-        std::string problem = "no packet of " + sensor + " has come";
-        if (report.foreign > 0) {
-            problem += ", but " + std::to_string(report.foreign) + " of other sensors: see " +
-                       (flags.live.model.empty() ? "--sensor-json" : "--model");
+        const std::string failure = failureOf(report, flags.live);
+        const std::string left = base::leftBehind({flags.live.recording.file, flags.live.stats});
+        if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
+        if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");
+        if (!printer.finish()) {
+            // Nobody reads. All files are complete; to end as usual would print what is left.
+            link.reset();
+            std::_Exit(failure.empty() ? kDone : kFailed);
         }
-        if (report.uncertain > 0) {
-            problem += ", but " + std::to_string(report.uncertain) +
-                       " of one that does not turn with the columns of the metadata: is it in "
-                       "another mode?";
-        }
-        return program.fail(kFailed, problem);
+        return failure.empty() ? kDone : kFailed;
     } catch (const SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }

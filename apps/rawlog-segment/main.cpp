@@ -61,9 +61,6 @@ struct Flags {
 
 void declare(Program& app, Flags& flags) {
     logs::Conversion& conversion = flags.conversion;
-    const auto not_empty = [](const std::string& name) {
-        return name.empty() ? "the name is empty" : "";
-    };
 
     app.option("-i,--input", conversion.input,
                "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 "
@@ -101,7 +98,6 @@ void declare(Program& app, Flags& flags) {
 
     const Flag rawlog = app.option("-o,--output", conversion.rawlog,
                                    "segmented rawlog: all entries, plus two clouds per scan")
-                            .check(not_empty, "PATH")
                             .group("Output");
     app.flag("--preview", conversion.preview, "add a coloured scene for RawLogViewer to each scan")
         .needs(rawlog)
@@ -119,13 +115,11 @@ void declare(Program& app, Flags& flags) {
     app.option("--kitti", conversion.folder,
                "scan folder: velodyne/*.bin, labels/*.label; one subfolder per LiDAR if there "
                "are several")
-        .check(not_empty, "PATH")
         .group("Output");
     const Flag labelled_clouds =
         app.option("--clouds", conversion.clouds,
                    "folder of labelled clouds, one file per scan: all fields of the input, label "
                    "(0, 1 ROU, 2 RoI) and obstacle; one subfolder per LiDAR if there are several")
-            .check(not_empty, "PATH")
             .group("Output");
     app.choice<clouds::OutputFormat>(
            "--cloud-format", conversion.cloud_format,
@@ -148,7 +142,6 @@ void declare(Program& app, Flags& flags) {
     const Flag pictures =
         app.option("--pictures", conversion.pictures,
                    "folder of PNGs, one subfolder per scan: the result of each stage")
-            .check(not_empty, "PATH")
             .group("Output");
     app.option("--picture-azimuth", conversion.picture_azimuth_deg,
                "column whose principal components are drawn: degrees left of straight ahead "
@@ -186,7 +179,6 @@ void declare(Program& app, Flags& flags) {
         .needs(octomap)
         .group("Output");
     app.option("--stats", conversion.stats, "JSON: settings, counts, latencies, per-scan data")
-        .check(not_empty, "PATH")
         .group("Output");
     const Flag learn =
         app.option("--learn-airframe", flags.learned_airframe,

@@ -19,9 +19,6 @@ using namespace hagen;
 using namespace hagen::command_line;
 
 void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
-    const auto not_empty = [](const std::string& name) {
-        return name.empty() ? "the name is empty" : "";
-    };
     std::string known;
     for (const std::string& scenario : simulation::scenarioNames()) {
         known += (known.empty() ? "" : ", ") + scenario;
@@ -80,15 +77,11 @@ void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
 
     app.option("-o,--output", log.rawlog,
                "rawlog with the packets (Mid-360: cloud) of each scan and poses")
-        .check(not_empty, "PATH")
         .group("Output");
     app.option("--kitti", log.folder,
                "scan folder with ground truth: labels/, semantic/, kinds.yaml, altitudes.txt")
-        .check(not_empty, "PATH")
         .group("Output");
-    app.option("--poses", log.poses, "vehicle trajectory (TUM)")
-        .check(not_empty, "PATH")
-        .group("Output");
+    app.option("--poses", log.poses, "vehicle trajectory (TUM)").group("Output");
     app.flag("--overwrite", log.overwrite, "replace existing outputs").group("Output");
     app.flag("-q,--quiet", is_quiet, "print errors only").group("Output");
     app.version(HAGEN_VERSION);

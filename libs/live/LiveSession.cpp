@@ -387,7 +387,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     if (stats) {
         try {
             writeStats(report, options, listener, *stats);
-        } catch (const std::runtime_error& e) {  // the session has been flown all the same
+        } catch (const std::exception& e) {  // the session has been flown all the same
             report.stats_failure = e.what();
         }
     }

@@ -60,7 +60,12 @@ void addMeasured(const std::string& header, const std::string& row, MeasuredByCo
     const std::vector<std::string> names = fieldsOf(header), fields = fieldsOf(row);
     if (fields.size() != names.size())
         throw std::runtime_error("number of fields differs from the header");
-    const Run run = runOf(names, fields);
+    Run run;
+    try {
+        run = runOf(names, fields);
+    } catch (const std::invalid_argument& e) {  // of a word
+        throw std::runtime_error(e.what());
+    }
     MeasuredRuns& runs = all[{conditionOf(run), contenderOf(run)}];
     const std::string median = "_p50_ms";
     for (std::size_t c = 0; c < names.size(); ++c) {

@@ -255,6 +255,17 @@ TEST_F(LiveSegment, AFullDiskEndsTheRecordingOnly) {
 }
 
 /// live-segment in the background, with packets that come to it until this ends.
+/// A terminal that is stopped, or a pipe that nobody reads.
+TEST_F(LiveSegment, ItEndsAlsoIfNobodyReadsItsErrors) {
+    const std::string command =
+        "mkfifo '" + path("fifo") + "'; exec 3<>'" + path("fifo") +
+        "'; head -c 65536 /dev/zero >&3; exec timeout 20 '" + HAGEN_LIVE_SEGMENT + "' --replay '" +
+        capture() + "' --model HDL-32E --speed 20 --stats '" + path("stats.json") + "' 2>&3";
+    const auto outcome = test::run("/bin/bash", {"-c", command});
+    EXPECT_EQ(outcome.exit_code, 1);  // it is no HDL-32E
+    EXPECT_TRUE(stats().is_object());  // it is whole
+}
+
 class LiveSegmentKilled : public LiveSegment {
  protected:
     LiveSegmentKilled() {

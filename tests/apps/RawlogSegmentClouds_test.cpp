@@ -267,7 +267,7 @@ TEST_F(RawlogSegmentClouds, WrongUsageIsToldFromFailure) {
     const std::string file = write("a.pcd", pcdOf(poles()));
     expectFailure({"-i", file, "--clouds", path("out"), "--cloud-format", "las"}, 2, "las");
     expectFailure({"-i", file, "--kitti", path("out"), "--cloud-format", "pcd"}, 2, "--clouds");
-    expectFailure({"-i", file, "--clouds", ""}, 2, "the name is empty");
+    expectFailure({"-i", file, "--clouds", ""}, 2, "must not be empty");
     expectFailure({"-i", file, "--clouds", path("none") + "/out"}, 1, "none");
     fs::create_directory(path("taken"));
     expectFailure({"-i", file, "--clouds", path("taken")}, 1, "taken exists");

@@ -167,7 +167,7 @@ TEST_F(RawlogSegmentMcap, WhatCannotBeWrittenIsNamed) {
     expectFailure({"-i", recording(), "--mcap", path("none") + "/out.mcap"}, 1,
                   "none: no such folder");
     expectFailure({"-i", recording(), "--mcap", path("out.bag")}, 2, "does not end in .mcap");
-    expectFailure({"-i", recording(), "--mcap", ""}, 2, "does not end in .mcap");
+    expectFailure({"-i", recording(), "--mcap", ""}, 2, "must not be empty");
 }
 
 TEST_F(RawlogSegmentMcap, AFullDiskLeavesNothing) {

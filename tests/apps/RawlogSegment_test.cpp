@@ -483,8 +483,8 @@ TEST_F(RawlogSegment, RefusesToRunWithoutInputOrOutput) {
 }
 
 TEST_F(RawlogSegment, RefusesOutputsWithoutAName) {
-    expectFailure({"-i", kRecording, "-o", ""}, 2, "the name is empty");
-    expectFailure({"-i", kRecording, "--kitti", ""}, 2, "the name is empty");
+    expectFailure({"-i", kRecording, "-o", ""}, 2, "must not be empty");
+    expectFailure({"-i", kRecording, "--kitti", ""}, 2, "must not be empty");
 }
 
 TEST_F(RawlogSegment, RefusesUnknownFlags) {

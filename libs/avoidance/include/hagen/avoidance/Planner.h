@@ -47,8 +47,8 @@ class Planner {
 /// each followed by braking.
 /// "3dvfh": polar histogram with 6 degree cells (3DVFH+).
 /// Both brake if no motion is free or contact is near (mustStop); where obstacles move and braking
-/// is not safe, "primitives" evades instead, and "3dvfh" ranks directions by the world as it is at
-/// the time of the scan. makePlanner() throws std::invalid_argument for other names.
+/// is not safe, "primitives" evades instead. makePlanner() throws std::invalid_argument for other
+/// names.
 const std::vector<std::string>& plannerNames();
 std::unique_ptr<Planner> makePlanner(const std::string& name);
 

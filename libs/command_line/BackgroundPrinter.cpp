@@ -1,0 +1,82 @@
+#include <hagen/command_line/BackgroundPrinter.h>
+#include <hagen/command_line/Terminal.h>
+
+#include <condition_variable>
+#include <deque>
+#include <iostream>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace hagen::command_line {
+
+struct BackgroundPrinter::Waiting {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<std::pair<To, std::string>> texts;
+    std::size_t left_out = 0;
+    bool is_printing = false, is_over = false;
+
+    bool isIdle() const { return texts.empty() && !is_printing; }
+
+    void add(To to, std::string&& text) {
+        if (is_over || texts.size() >= kMostWaiting) {
+            ++left_out;
+            return;
+        }
+        if (left_out > 0) {
+            const std::size_t count = std::exchange(left_out, 0);
+            texts.emplace_back(To::Errors, std::to_string(count) +
+                                               " messages were left out, as nobody read them\n");
+        }
+        texts.emplace_back(to, std::move(text));
+        changed.notify_all();
+    }
+
+    /// The thread's work.
+    void run() {
+        std::unique_lock lock(mutex);
+        for (;;) {
+            changed.wait(lock, [&] { return is_over || !texts.empty(); });
+            if (texts.empty()) return;
+            const auto [to, text] = std::move(texts.front());
+            texts.pop_front();
+            is_printing = true;
+            lock.unlock();
+            // This may wait.
+            if (to == To::ErrorsInPlace) std::cerr << clearLine;
+            (to == To::Output ? std::cout : std::cerr) << text << std::flush;
+            lock.lock();
+            is_printing = false;
+            changed.notify_all();
+        }
+    }
+};
+
+BackgroundPrinter::BackgroundPrinter() : waiting_(std::make_shared<Waiting>()) {
+    std::thread([waiting = waiting_] { waiting->run(); }).detach();
+}
+
+BackgroundPrinter::~BackgroundPrinter() { finish(); }
+
+void BackgroundPrinter::print(To to, std::string text) {
+    const std::lock_guard lock(waiting_->mutex);
+    waiting_->add(to, std::move(text));
+}
+
+void BackgroundPrinter::printIfIdle(To to, std::string text) {
+    const std::lock_guard lock(waiting_->mutex);
+    if (waiting_->isIdle()) waiting_->add(to, std::move(text));
+}
+
+bool BackgroundPrinter::finish(std::chrono::milliseconds longest) {
+    std::unique_lock lock(waiting_->mutex);
+    const bool is_printed =
+        waiting_->changed.wait_for(lock, longest, [&] { return waiting_->isIdle(); });
+    waiting_->is_over = true;
+    if (!is_printed) waiting_->texts.clear();
+    waiting_->changed.notify_all();
+    return is_printed;
+}
+
+}  // namespace hagen::command_line

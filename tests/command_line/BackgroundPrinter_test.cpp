@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+#include <hagen/command_line/BackgroundPrinter.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+
+namespace hagen::command_line {
+namespace {
+
+using std::chrono::milliseconds;
+using To = BackgroundPrinter::To;
+
+TEST(BackgroundPrinter, PrintsInOrder) {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    BackgroundPrinter printer;
+    for (int i = 0; i < 100; ++i) {
+        printer.print(i % 2 == 0 ? To::Output : To::Errors, std::to_string(i) + " ");
+    }
+    EXPECT_TRUE(printer.finish(std::chrono::seconds(60)));
+    printer.print(To::Output, "late");
+    std::string even, odd;
+    for (int i = 0; i < 100; ++i) (i % 2 == 0 ? even : odd) += std::to_string(i) + " ";
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), even);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), odd);
+}
+
+/// Standard error is a pipe that is full, and then read.
+TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    fcntl(ends[1], F_SETPIPE_SZ, 4096);
+    const std::string before(4096, '.');
+    ASSERT_EQ(write(ends[1], before.data(), before.size()), 4096);
+    const int usual = dup(STDERR_FILENO);
+    dup2(ends[1], STDERR_FILENO);
+    {
+        BackgroundPrinter printer;
+        const std::size_t texts = BackgroundPrinter::kMostWaiting + 50;
+        for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
+        printer.printIfIdle(To::Errors, "status\n");
+        std::string got(4096 + 2 * 900, '\0');
+        for (std::size_t at = 0; at < got.size();) {
+            const ssize_t size = read(ends[0], got.data() + at, got.size() - at);
+            ASSERT_GT(size, 0);
+            at += static_cast<std::size_t>(size);
+        }
+        EXPECT_EQ(got.find("status"), std::string::npos);
+        printer.print(To::Errors, "the last\n");
+        EXPECT_TRUE(printer.finish(std::chrono::seconds(60)));
+    }
+    dup2(usual, STDERR_FILENO);
+    close(usual);
+    close(ends[1]);
+    std::string rest, part(4096, '\0');
+    for (ssize_t size = 0; (size = read(ends[0], part.data(), part.size())) > 0;) {
+        rest.append(part, 0, static_cast<std::size_t>(size));
+    }
+    close(ends[0]);
+    EXPECT_NE(rest.find(" messages were left out, as nobody read them\nthe last\n"),
+              std::string::npos)
+        << rest;
+}
+
+}  // namespace
+}  // namespace hagen::command_line
