@@ -262,7 +262,7 @@ TEST_F(LiveSegment, ItEndsAlsoIfNobodyReadsItsErrors) {
         "'; head -c 65536 /dev/zero >&3; exec timeout 20 '" + HAGEN_LIVE_SEGMENT + "' --replay '" +
         capture() + "' --model HDL-32E --speed 20 --stats '" + path("stats.json") + "' 2>&3";
     const auto outcome = test::run("/bin/bash", {"-c", command});
-    EXPECT_EQ(outcome.exit_code, 1);  // it is no HDL-32E
+    EXPECT_EQ(outcome.exit_code, 1);   // it is no HDL-32E
     EXPECT_TRUE(stats().is_object());  // it is whole
 }
 
