@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <set>
 
 namespace hagen {
 namespace {
@@ -224,6 +225,19 @@ std::string kindTable(const std::vector<labelled_scans::GroupTotals>& kinds) {
     return text;
 }
 
+/// Names of the methods that fit into a column; if their beginnings are the same, their ends.
+std::vector<std::string> headsOf(const labelled_scans::Summary& summary, std::size_t width) {
+    std::vector<std::string> begins, ends;
+    for (const labelled_scans::MethodTotals& method : summary.methods) {
+        const std::string& name = method.name;
+        begins.push_back(name.substr(0, width));
+        ends.push_back(name.size() <= width ? name : ".." + name.substr(name.size() - (width - 2)));
+    }
+    const bool are_unique =
+        std::set<std::string>(begins.begin(), begins.end()).size() == begins.size();
+    return are_unique ? begins : ends;
+}
+
 /// One row per group, one column per method. `groupsOf` returns the groups of a method.
 template <class Groups, class Cell>
 std::string matrix(const std::string& title, const std::string& heading,
@@ -233,9 +247,7 @@ std::string matrix(const std::string& title, const std::string& heading,
     if (groups.empty()) return "";
     const std::size_t width = widthOf(heading, groups);
     std::string heads = left(heading, width), text = "\n" + title + "\n";
-    for (const labelled_scans::MethodTotals& method : summary.methods) {
-        heads += "  " + left(method.name, 15).substr(0, 15);
-    }
+    for (const std::string& head : headsOf(summary, 15)) heads += "  " + left(head, 15);
     text += trimmed(heads);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::string line = left(groups[g], width);

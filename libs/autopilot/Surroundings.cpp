@@ -62,15 +62,24 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
         all_around_since_s_ = seen.all_around_since_s.value_or(all_around_since_s_);
     }
     latest_s_ = went_back ? sector.last_time_s : std::max(latest_s_, sector.last_time_s);
-    while (!seen_.empty() && !isFresh(*seen_.front(), sector.last_time_s)) seen_.pop_front();
+    while (!seen_.empty() && !matters(*seen_.front(), sector.last_time_s)) seen_.pop_front();
     seen_.push_back(std::make_shared<const Seen>(std::move(seen)));
 }
 
 bool Surroundings::isFresh(const Seen& seen, double now_s) const {
     const double age_s = now_s - seen.first_time_s;
-    if (!(age_s >= 0 && age_s <= settings_.stale_s)) return false;
+    return age_s >= 0 && age_s <= settings_.stale_s && matters(seen, now_s);
+}
+
+/// Whether it may be used, or what it saw makes directions unknown: a sensor without turns has not
+/// looked there again, and growing old makes no obstacle free.
+bool Surroundings::matters(const Seen& seen, double now_s) const {
+    constexpr double kForgotten_s = streaming::FrameCoverage::kForgotten_s;
+    const double age_s = now_s - seen.first_time_s;
+    if (seen.turns) return age_s >= 0 && age_s <= settings_.stale_s;
     const double looked_again_s = all_around_since_s_ - seen.first_time_s;
-    return seen.turns || looked_again_s <= streaming::FrameCoverage::kForgotten_s;
+    return age_s >= 0 && age_s <= settings_.stale_s + kForgotten_s &&
+           looked_again_s <= kForgotten_s;
 }
 
 /// Where the sensor, as it was then, saw an edge between two degrees; NaN: it did not.
@@ -111,6 +120,7 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
     std::array<double, kBins> passed_rad;
     passed_rad.fill(-kNone);
     Directions directions;
+    std::array<bool, 72> is_doubtful{};  // an obstacle was there, and nobody has looked again
     const std::optional<VehiclePose> now = motion.at(now_s);
     double fresh_rad = kNone;  // what it swept before is stale
     for (const auto& seen : seen_) {
@@ -118,7 +128,8 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
     }
     for (auto each = seen_.rbegin(); each != seen_.rend(); ++each) {
         const Seen* const seen = each->get();
-        if (!isFresh(*seen, now_s)) continue;
+        if (!matters(*seen, now_s)) continue;
+        const bool is_fresh = isFresh(*seen, now_s);
         // All was swept again, by a later turn.
         const double least_rad = *std::min_element(passed_rad.begin(), passed_rad.end());
         if (least_rad - seen->to_rad > streaming::kLaterTurn_rad) continue;
@@ -148,6 +159,10 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
             const int bin = std::min(static_cast<int>(clockwise_rad / kPart_rad), kBins - 1);
             // The next turn has passed all of the bin since, without this.
             if (passed_rad[bin] - seen->to_rad > streaming::kLaterTurn_rad) continue;
+            if (!is_fresh) {
+                is_doubtful[bin / kParts] = true;
+                continue;
+            }
             Direction& direction = directions[bin / kParts];
             const float distance_m = at_m.head<2>().norm();
             if (direction.distance_m <= distance_m) continue;
@@ -155,7 +170,7 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         }
     }
     for (int k = 0; k < 72; ++k) {
-        bool is_all = true;
+        bool is_all = !is_doubtful[k];
         for (int bin = k * kParts; bin < (k + 1) * kParts; ++bin) {
             is_all = is_all && passed_rad[bin] > -kNone;
         }

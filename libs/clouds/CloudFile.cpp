@@ -38,9 +38,12 @@ std::optional<CloudFormat> formatOf(const Bytes& start, std::size_t size) {
     if (startsWith(start, "LASF")) return CloudFormat::Las;
     if (startsWith(start, "\x93NUMPY")) return CloudFormat::Npy;
     if (isPcd(start)) return CloudFormat::Pcd;
-    const std::size_t numbers = numbersPerBinPoint(start);
-    if (numbers > 0 && size % (sizeof(float) * numbers) == 0) return CloudFormat::Bin;
-    return std::nullopt;
+    const BinPoint point = binPointOf(start);
+    const bool may_be_four = point == BinPoint::Four || point == BinPoint::FourOrFive;
+    const bool may_be_five = point == BinPoint::Five || point == BinPoint::FourOrFive;
+    const bool is_bin = (may_be_four && size % (4 * sizeof(float)) == 0) ||
+                        (may_be_five && size % (5 * sizeof(float)) == 0);
+    return is_bin ? std::optional(CloudFormat::Bin) : std::nullopt;
 }
 
 std::string extensionOf(const std::filesystem::path& file) {
@@ -74,8 +77,8 @@ CloudFile read(const std::filesystem::path& file) {
     const auto format = formatOf(start, bytes.size());
     if (!format) {
         // An empty .bin is a scan without returns, and one that was cut still a .bin.
-        const bool is_cut =
-            numbersPerBinPoint(start) > 0 || (bytes.size() % 16 != 0 && otherKindOf(start).empty());
+        const bool is_cut = binPointOf(start) != BinPoint::None ||
+                            (bytes.size() % 16 != 0 && otherKindOf(start).empty());
         if (extensionOf(file) == ".bin" && (bytes.empty() || is_cut)) {
             return readBin(file, std::move(bytes));
         }
@@ -122,10 +125,11 @@ BinStart startOfBin(const std::filesystem::path& file) {
     Bytes bytes(kStart);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
-    const std::size_t numbers = numbersPerBinPoint(bytes);
+    const BinPoint point = binPointOf(bytes);
     BinStart start;
-    if (numbers == 5) start.floats_per_point = 5;
-    if (numbers == 0) start.other_kind = otherKindOf(bytes);
+    if (point == BinPoint::None) start.other_kind = otherKindOf(bytes);
+    if (point == BinPoint::FourOrFive) bytes = readBytes(file);
+    start.floats_per_point = numbersPerBinPoint(point, bytes);
     return start;
 }
 

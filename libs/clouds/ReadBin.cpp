@@ -35,40 +35,66 @@ bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
     return !is_all_zero;
 }
 
-/// Whether every fifth number is that of a beam, and the coordinates are not such numbers, too, as
-/// those of a grid. Among four numbers per point, every fifth is an x, y, z or intensity by turns,
-/// or 0 where there is no return.
-bool haveRings(const Bytes& bytes) {
-    constexpr std::size_t kNumbers = 5, kFewestPoints = 16;
+/// What the fifth numbers of points say, if each has five.
+struct Fifths {
+    bool are_whole = true;  ///< and 0 to 255, as the numbers of beams
+    bool are_coordinates_whole = true;
+    std::size_t returns = 0;  ///< points that are not at zero
+    std::set<float> of_returns;
+};
+
+Fifths fifthsOf(const Bytes& bytes) {
+    constexpr std::size_t kNumbers = 5;
     constexpr float kHighestRing = 255.0f;
+    Fifths fifths;
     const std::size_t points = bytes.size() / (sizeof(float) * kNumbers);
-    bool are_all_whole = true;
-    std::size_t returns = 0;
-    std::set<float> rings;
     for (std::size_t i = 0; i < points; ++i) {
         const auto number = [&](std::size_t k) {
             return numberAt<float>(bytes, sizeof(float) * (kNumbers * i + k));
         };
         const float ring = number(4);
-        if (!(ring >= 0 && ring <= kHighestRing) || ring != std::floor(ring)) return false;
+        if (!(ring >= 0 && ring <= kHighestRing) || ring != std::floor(ring)) {
+            fifths.are_whole = false;
+            return fifths;
+        }
         bool is_return = false;
         for (std::size_t k = 0; k < 3; ++k) {
-            are_all_whole = are_all_whole && number(k) == std::floor(number(k));
+            if (number(k) != std::floor(number(k))) fifths.are_coordinates_whole = false;
             is_return = is_return || number(k) != 0;
         }
         if (!is_return) continue;
-        ++returns;
-        rings.insert(ring);
+        ++fifths.returns;
+        fifths.of_returns.insert(ring);
     }
-    return !are_all_whole && returns >= kFewestPoints && rings.size() > 1;
+    return fifths;
+}
+
+/// Among four numbers per point, every fifth is an x, y, z or intensity by turns, or 0 where there
+/// is no return: with so many returns, not all are whole. Those of a grid are.
+bool areRings(const Fifths& fifths) {
+    constexpr std::size_t kFewestReturns = 16;
+    return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kFewestReturns;
 }
 
 }  // namespace
 
-std::size_t numbersPerBinPoint(const Bytes& start) {
-    if (isPacked(start)) return 0;
-    if (arePoints(start, 5) && haveRings(start)) return 5;
-    return arePoints(start, 4) ? 4 : 0;
+BinPoint binPointOf(const Bytes& start) {
+    if (isPacked(start)) return BinPoint::None;
+    const bool may_be_four = arePoints(start, 4);
+    if (arePoints(start, 5)) {
+        const Fifths fifths = fifthsOf(start);
+        if (areRings(fifths) && fifths.of_returns.size() > 1) return BinPoint::Five;
+        // One beam only, or few returns: the rest tells.
+        if (fifths.are_whole && (may_be_four || start.size() >= kStart))
+            return BinPoint::FourOrFive;
+    }
+    return may_be_four ? BinPoint::Four : BinPoint::None;
+}
+
+std::size_t numbersPerBinPoint(BinPoint of_start, const Bytes& all) {
+    const bool is_five =
+        of_start == BinPoint::Five || (of_start == BinPoint::FourOrFive && areRings(fifthsOf(all)));
+    return is_five ? 5 : 4;
 }
 
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
@@ -79,7 +105,7 @@ CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
                           {"y", NumberType::Float32, 4, 1},
                           {"z", NumberType::Float32, 8, 1},
                           {"intensity", NumberType::Float32, 12, 1}};
-    if (numbersPerBinPoint(start) == 5) {
+    if (numbersPerBinPoint(binPointOf(start), bytes) == 5) {
         cloud.table.fields.push_back({"ring", NumberType::Float32, 16, 1});
     }
     const std::size_t bytes_per_point = sizeof(float) * cloud.table.fields.size();

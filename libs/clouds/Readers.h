@@ -12,8 +12,13 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readNpy(const std::filesystem::path& file, Bytes bytes);
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes);
 
-/// How many float32 a point of a .bin has, by the first bytes of the file: 4 (x, y, z, intensity,
-/// as of KITTI) or 5 (with the ring, as of nuScenes); 0: these are no points of a LiDAR.
-std::size_t numbersPerBinPoint(const Bytes& start);
+/// How many float32 a point of a .bin has: 4 (x, y, z, intensity, as of KITTI) or 5 (with the ring,
+/// as of nuScenes). None: these are no points of a LiDAR.
+enum class BinPoint { None, Four, Five, FourOrFive };
+
+/// What the first bytes of a file tell.
+BinPoint binPointOf(const Bytes& start);
+/// The number, once all bytes are there.
+std::size_t numbersPerBinPoint(BinPoint of_start, const Bytes& all);
 
 }  // namespace hagen::clouds

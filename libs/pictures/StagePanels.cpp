@@ -37,7 +37,8 @@ StagePanelWriter::StagePanelWriter(const StageView& view, const StageData& data)
       data_(data),
       columns_(static_cast<int>(view.result.labels.cols())),
       rows_(static_cast<int>(view.result.labels.rows())),
-      far_m_(std::max(view.options.zone_m, view.options.context_m)) {
+      far_m_(std::max(view.options.zone_m,
+                      std::min(view.options.context_m, view.sensor.max_range_m))) {
     text_ << "set encoding utf8\n" << data.blocks;
 }
 

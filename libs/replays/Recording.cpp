@@ -78,12 +78,15 @@ class ModelHistory {
     std::map<std::array<int, 3>, std::vector<ModelCell>> cells_;
 };
 
-RecordedStep recorded(const trials::TrialStep& step, const RecordingLimits& limits) {
+RecordedStep recorded(const trials::TrialStep& step,
+                      const avoidance::WorldModel::Obstacles& obstacles,
+                      const RecordingLimits& limits) {
     RecordedStep kept{step.time_s,
                       step.latency_ms,
                       step.plan.command_m_s,
                       step.carrot.at_m,
                       step.plan.is_emergency,
+                      obstacles.centre_m.size(),
                       {},
                       {},
                       {},
@@ -132,8 +135,9 @@ Recording record(const trials::Run& run, const trials::LatencyProfile& profile,
     listener.keeps_candidates = true;
     listener.step = [&](const trials::TrialStep& step) {
         continuing();
-        model.add(step.world.obstacles(), static_cast<int>(recording.steps.size()));
-        recording.steps.push_back(recorded(step, limits));
+        const avoidance::WorldModel::Obstacles obstacles = step.world.obstacles();
+        model.add(obstacles, static_cast<int>(recording.steps.size()));
+        recording.steps.push_back(recorded(step, obstacles, limits));
     };
     listener.moved = [&](double time_s, const avoidance::VehicleState& state) {
         now_s = time_s;

@@ -184,6 +184,7 @@ class PageWriter {
                  {rounded(step.command_m_s.x()), rounded(step.command_m_s.y()),
                   rounded(step.command_m_s.z())}},
                 {"emergency", step.is_emergency},
+                {"model_size", step.model_size},
                 {"roi", points(step.roi_m)},
                 {"rou", points(step.rou_m)},
                 {"path", points(step.path_m)},
@@ -199,8 +200,8 @@ class PageWriter {
 std::string headingOf(const Recording& recording) {
     const trials::Run& run = recording.run;
     return run.scenario + ", seed " + std::to_string(run.seed) + ", " +
-           trials::nameOf(trials::Contender{run.setup.model, run.setup.guidance}) + ", " +
-           pages::figure(run.setup.speed_m_s, 1) + " m/s: " + trials::nameOf(run.result.outcome);
+           trials::nameOf(trials::contenderOf(run)) + ", " +
+           trials::nameOf(trials::conditionOf(run)) + ": " + trials::nameOf(run.result.outcome);
 }
 
 }  // namespace

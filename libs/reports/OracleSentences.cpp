@@ -43,7 +43,7 @@ std::string ceilingText(const Summary& summary, const Cell& oracle) {
 }
 
 std::string gapText(const Summary& summary, const Cell& oracle, const std::vector<Pairing>& gaps) {
-    std::vector<std::string> below, above, undecided, chance, close, alike;
+    std::vector<std::string> below, above, undecided, chance, close, saturated, alike;
     for (const Pairing& gap : gaps) {
         const std::string text =
             avoidance::displayName(gap.first.model) + " (" + figuresOf(gap) + ")";
@@ -57,7 +57,7 @@ std::string gapText(const Summary& summary, const Cell& oracle, const std::vecto
                 below.push_back(text);
                 break;
             case Answer::Saturated:
-                alike.push_back(text);
+                (gap.discordant() == 0 ? alike : saturated).push_back(text);
                 break;
             case Answer::NotInferior:
                 close.push_back(text);
@@ -75,6 +75,8 @@ std::string gapText(const Summary& summary, const Cell& oracle, const std::vecto
     append("Not inferior to the true scene, with a margin of " + marginText(), close);
     append("Undecided", undecided);
     append("Undecided, may be chance", chance);
+    append("Saturated, both succeed on at least " + std::to_string(kCeilingPercent) + " %",
+           saturated);
     append("No gap", alike);
     return text;
 }
@@ -90,7 +92,7 @@ std::vector<std::string> oracleSentences(const Summary& summary,
     std::vector<std::string> sentences;
     for (const trials::Contender& contender : contendersUnder(summary, condition)) {
         if (contender.model != kOracle) continue;
-        std::vector<std::string> without_gap;
+        std::vector<std::string> without_gap, at_ceiling;
         for (const std::string& scenario : summary.scenarios) {
             std::vector<Pairing> gaps;
             for (const Pairing& gap : summary.to_oracle) {
@@ -103,15 +105,25 @@ std::vector<std::string> oracleSentences(const Summary& summary,
             if (std::all_of(gaps.begin(), gaps.end(), [](const Pairing& gap) {
                     return answerOf(gap) == Answer::Saturated;
                 })) {
-                without_gap.push_back(scenario);
+                const bool is_alike = std::all_of(gaps.begin(), gaps.end(), [](const Pairing& gap) {
+                    return gap.discordant() == 0;
+                });
+                (is_alike ? without_gap : at_ceiling).push_back(scenario);
             } else {
                 sentences.push_back(
                     gapText(summary, *find(summary, scenario, condition, contender), gaps));
             }
         }
+        const std::string at =
+            "At " + nameOf(condition) + " " + guidanceText(contender.guidance) + ", ";
         if (!without_gap.empty()) {
-            sentences.push_back("At " + nameOf(condition) + " " + guidanceText(contender.guidance) +
-                                ", no gap to the true scene shows in " + listed(without_gap) + ".");
+            sentences.push_back(at + "no model differs from the true scene on any course of " +
+                                listed(without_gap) + ".");
+        }
+        if (!at_ceiling.empty()) {
+            sentences.push_back(at + "all comparisons with the true scene are saturated in " +
+                                listed(at_ceiling) + ": both succeed on at least " +
+                                std::to_string(kCeilingPercent) + " %, or differ on no course.");
         }
     }
     return sentences;

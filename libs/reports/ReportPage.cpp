@@ -220,10 +220,13 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
     Section effort{
         "Latency from sensor to command at " + nameOf(reference),
         {"From the end of a scan to the command, including waiting and all stages: "
-         "medians of the p50 and p95 of each run over all runs of a contender. A waiting "
-         "scan is dropped when a newer one arrives. Contenders with different guidance "
-         "flew different scenarios, so compare only contenders with the same guidance."},
-        {effortTable(summary, reference)}};
+         "medians of the p50 and p95 of each run, over the courses that all contenders of a table "
+         "flew, whatever the outcome. A waiting scan is dropped when a newer one arrives."},
+        {}};
+    for (const SharedCourses& shared : sharedCourses(report.flown.runs, summary, reference)) {
+        effort.paragraphs.push_back(flownTogetherSentence(shared));
+        if (shared.flown > 0) effort.tables.push_back(effortTable(shared));
+    }
     effort.charts = {"command"};
     sections.push_back(effort);
     if (report.profile) {
@@ -261,9 +264,8 @@ void addEffort(const Report& report, std::vector<Section>& sections) {
 std::string captionOf(const replays::OverheadView& view) {
     const trials::Run& run = view.run;
     std::string text = run.scenario + ", seed " + std::to_string(run.seed) + ", " +
-                       nameOf(trials::Contender{run.setup.model, run.setup.guidance}) + ", " +
-                       pages::figure(run.setup.speed_m_s, 1) +
-                       " m/s: " + nameOf(run.result.outcome) + " after " +
+                       nameOf(trials::contenderOf(run)) + ", " + nameOf(trials::conditionOf(run)) +
+                       ": " + nameOf(run.result.outcome) + " after " +
                        pages::figure(run.result.time_s, 1) + " s, minimum clearance " +
                        pages::figure(run.result.min_clearance_m, 2) + " m.";
     if (!view.is_same) text += " Flown again, the result differs: another version or machine?";
@@ -338,6 +340,26 @@ std::string html(const Section& section) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+/// Latencies on courses that all contenders of a guidance flew, in milliseconds.
+Json latenciesOf(const Report& report) {
+    Json groups = Json::array();
+    for (const SharedCourses& shared :
+         sharedCourses(report.flown.runs, report.summary, report.summary.conditions.front())) {
+        if (shared.flown == 0) continue;
+        Json bars = Json::array();
+        for (const Cell& cell : shared.flown_cells) {
+            bars.push_back({{"model", cell.contender.model},
+                            {"guidance", cell.contender.guidance},
+                            {"p50_ms", number(cell.latency_p50_ms.median)},
+                            {"p95_ms", number(cell.latency_p95_ms.median)},
+                            {"max_ms", number(cell.latency_max_ms)}});
+        }
+        groups.push_back(
+            {{"guidance", shared.guidance}, {"courses", shared.flown}, {"bars", bars}});
+    }
+    return groups;
+}
+
 /// The distribution of minimum clearances on courses that all contenders of a guidance flew:
 /// quantiles at 0, 0.02, ..., 1.
 Json clearancesOf(const Report& report) {
@@ -389,6 +411,7 @@ Json dataOf(const Report& report) {
     }
     data["reference"] = nameOf(report.summary.conditions.front());
     data["clearances"] = clearancesOf(report);
+    data["latencies"] = latenciesOf(report);
     data["stages"] = stagesJson(report);
     data["memory"] = Json::array();
     for (const trials::HeapCurve& curve : report.memory) {

@@ -47,16 +47,29 @@ std::vector<std::string> flightSentences(const Report& report) {
     return sentences;
 }
 
-std::string sharedCoursesSentence(const SharedCourses& shared) {
+namespace {
+
+/// "With A*: both contenders flew the same 10 courses".
+std::string whoFlew(const SharedCourses& shared) {
     const std::string guidance =
         shared.guidance == "astar" ? "With A*: " : "With straight guidance: ";
     const std::size_t count = shared.contenders.size();
     const std::string who = count == 1   ? avoidance::displayName(shared.contenders.front().model)
                             : count == 2 ? "both contenders"
                                          : "all " + std::to_string(count) + " contenders";
-    if (shared.flown == 0) return guidance + "no course was flown by " + who + ".";
-    const std::string text = guidance + who + " flew " + (count == 1 ? "" : "the same ") +
-                             counted(shared.flown, "course") + "; ";
+    if (shared.flown == 0) return guidance + "no course was flown by " + who;
+    return guidance + who + " flew " + (count == 1 ? "" : "the same ") +
+           counted(shared.flown, "course");
+}
+
+}  // namespace
+
+std::string flownTogetherSentence(const SharedCourses& shared) { return whoFlew(shared) + "."; }
+
+std::string sharedCoursesSentence(const SharedCourses& shared) {
+    const std::size_t count = shared.contenders.size();
+    if (shared.flown == 0) return whoFlew(shared) + ".";
+    const std::string text = whoFlew(shared) + "; ";
     const std::string all = count == 1 ? "it" : count == 2 ? "both" : "all";
     if (shared.arrived == 0) {
         return text + (count == 1 ? "it never reached the goal."

@@ -203,14 +203,14 @@ pages::Table shortfallTable(const trials::FlownRuns& flown) {
     return table;
 }
 
-pages::Table effortTable(const Summary& summary, const trials::Condition& condition) {
-    pages::Table table{{"contender", "latency p50, ms", "latency p95, ms", "latency max, ms",
-                        "dropped scans, %", "emergency stops per km"},
+pages::Table effortTable(const SharedCourses& shared) {
+    pages::Table table{{"contender", "courses", "latency p50, ms", "latency p95, ms",
+                        "latency max, ms", "dropped scans, %", "emergency stops per km"},
                        {}};
-    for (const trials::Contender& contender : contendersUnder(summary, condition)) {
-        const Cell& cell = *find(summary, "", condition, contender);
+    for (const Cell& cell : shared.flown_cells) {
         table.rows.push_back(
-            {nameOf(contender), pages::figure(cell.latency_p50_ms.median, 1),
+            {nameOf(cell.contender), std::to_string(cell.runs),
+             pages::figure(cell.latency_p50_ms.median, 1),
              pages::figure(cell.latency_p95_ms.median, 1), pages::figure(cell.latency_max_ms, 1),
              pages::figure(cell.dropped_percent, 2), pages::figure(cell.stops_per_km, 1)});
     }
@@ -220,6 +220,8 @@ pages::Table effortTable(const Summary& summary, const trials::Condition& condit
 std::vector<std::string> stageNamesOf(const trials::Contender& contender,
                                       const std::string& planner,
                                       const trials::LatencyProfile& profile) {
+    const std::vector<std::string>& known = avoidance::worldModelNames();
+    if (std::find(known.begin(), known.end(), contender.model) == known.end()) return {};
     trials::TrialSetup setup;
     setup.model = contender.model;
     setup.guidance = contender.guidance;

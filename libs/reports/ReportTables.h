@@ -26,8 +26,7 @@ pages::Table flightTable(const SharedCourses& shared);         ///< clearance, p
 pages::Table wiresTable(const Summary& summary,
                         const trials::Condition& condition);  ///< one row per contender
 pages::Table shortfallTable(const trials::FlownRuns& flown);
-pages::Table effortTable(const Summary& summary,
-                         const trials::Condition& condition);  ///< latency, drops, ...
+pages::Table effortTable(const SharedCourses& shared);  ///< latency, drops, ...
 /// p50, p95 and maximum of each stage of the models that flew.
 pages::Table stageTable(const Summary& summary, const trials::LatencyProfile& profile);
 /// CPU time and heap of each contender, measured during its flights under this condition.

@@ -33,7 +33,7 @@ const std::vector<Doubt>& doubts() {
     return all;
 }
 
-enum class Side { Better, NotInferior, SlightlyWorse, Worse, Undecided };
+enum class Side { Better, NotInferior, Worse, WorseByMargin, Undecided };
 
 Side sideOf(const Pairing& pairing) {
     switch (answerOf(pairing)) {
@@ -42,10 +42,10 @@ Side sideOf(const Pairing& pairing) {
         case Answer::NotInferior:
             return Side::NotInferior;
         case Answer::LessWithinMargin:
-            return Side::SlightlyWorse;
-        case Answer::LessByMargin:
         case Answer::LessOften:
             return Side::Worse;
+        case Answer::LessByMargin:
+            return Side::WorseByMargin;
         default:
             return Side::Undecided;
     }
@@ -54,8 +54,8 @@ Side sideOf(const Pairing& pairing) {
 /// Whether both answers cannot be true.
 bool areOpposite(Side a, Side b) {
     const auto isOneWay = [](Side x, Side y) {
-        return (x == Side::Better && (y == Side::Worse || y == Side::SlightlyWorse)) ||
-               (x == Side::NotInferior && y == Side::Worse);
+        return (x == Side::Better && (y == Side::Worse || y == Side::WorseByMargin)) ||
+               (x == Side::NotInferior && y == Side::WorseByMargin);
     };
     return isOneWay(a, b) || isOneWay(b, a);
 }
@@ -111,7 +111,7 @@ void addSentences(const Summary& summary, const Doubt& doubt, std::vector<std::s
     const auto append = [&](int count, const std::string& what) {
         if (count > 0) text += ", " + std::to_string(count) + " " + what;
     };
-    append(alike, "decided alike");
+    append(alike, "decided in both without a contradiction");
     append(only_usual, std::string("decided only ") + doubt.usual);
     append(only_other, std::string("decided only ") + doubt.other);
     append(neither, "decided neither way");

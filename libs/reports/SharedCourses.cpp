@@ -37,8 +37,8 @@ SharedCourses sharedBy(const std::vector<trials::Contender>& contenders,
     shared.guidance = contenders.front().guidance;
     shared.contenders = contenders;
     shared.min_clearances_m.resize(contenders.size());
-    std::vector<std::vector<const trials::Run*>> arrived(contenders.size()),
-        reacted(contenders.size());
+    std::vector<std::vector<const trials::Run*>> flown(contenders.size()),
+        arrived(contenders.size()), reacted(contenders.size());
     for (const auto& [course, by_contender] : courses) {
         const std::vector<const trials::Run*> flights = flightsOf(contenders, by_contender);
         if (flights.empty()) continue;
@@ -54,10 +54,13 @@ SharedCourses sharedBy(const std::vector<trials::Contender>& contenders,
         for (std::size_t c = 0; c < contenders.size(); ++c) {
             const trials::Run* run = flights[c];
             shared.min_clearances_m[c].push_back(run->result.min_clearance_m);
+            flown[c].push_back(run);
             if (all_arrived) arrived[c].push_back(run);
             if (all_reacted) reacted[c].push_back(run);
         }
     }
+    if (shared.flown == 0) return shared;
+    for (const auto& runs : flown) shared.flown_cells.push_back(cellOf("", runs));
     if (shared.arrived == 0) return shared;
     for (std::size_t c = 0; c < contenders.size(); ++c) {
         Cell cell = cellOf("", arrived[c]);

@@ -84,6 +84,11 @@ int mostRuns(const Summary& summary, const trials::Condition& condition) {
     return most;
 }
 
+/// The RoI window against another model, not against itself with another guidance.
+bool isOfRoiWindow(const Pairing& pairing) {
+    return pairing.first.model == kMappingFree && pairing.second.model != kMappingFree;
+}
+
 }  // namespace
 
 std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall) {
@@ -101,8 +106,7 @@ std::vector<Pairing> splitByWires(const Summary& summary, const Pairing& overall
 std::vector<Pairing> lossesOf(const Summary& summary) {
     std::vector<Pairing> losses;
     for (const Pairing& pairing : summary.pairings) {
-        const bool is_of_roi_window = pairing.first.model == kMappingFree;
-        if (is_of_roi_window && pairing.difference < 0) losses.push_back(pairing);
+        if (isOfRoiWindow(pairing) && pairing.difference < 0) losses.push_back(pairing);
     }
     std::stable_sort(losses.begin(), losses.end(), [](const Pairing& a, const Pairing& b) {
         return a.difference < b.difference;
@@ -147,8 +151,7 @@ std::string lossesSentence(const Summary& summary) {
         ++(!excludesZero(loss) ? chance : isSignificant(loss) ? significant : disputed);
     }
     const auto comparisons =
-        std::count_if(summary.pairings.begin(), summary.pairings.end(),
-                      [](const Pairing& p) { return p.first.model == kMappingFree; });
+        std::count_if(summary.pairings.begin(), summary.pairings.end(), isOfRoiWindow);
     std::string text = "Of " + counted(static_cast<int>(comparisons), "comparison") +
                        " in single scenarios, the RoI window succeeds less often in " +
                        std::to_string(losses.size()) + ".";

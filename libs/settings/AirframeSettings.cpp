@@ -67,7 +67,8 @@ AirframeSphere parseSphere(const YAML::Node& node) {
     return sphere;
 }
 
-void parsePart(const fs::path& file, const YAML::Node& part, Settings::AirframeMask& mask) {
+void parsePart(const fs::path& file, const YAML::Node& part, SettingsOrigin origin,
+               Settings::AirframeMask& mask) {
     if (!part.IsMap() || part.size() != 1) {
         throw SettingsError("each part of airframe must be one of " + kForms);
     }
@@ -83,6 +84,10 @@ void parsePart(const fs::path& file, const YAML::Node& part, Settings::AirframeM
         }
         if (!value.IsScalar() || value.Scalar().empty()) {
             throw SettingsError("airframe.learned must be a file name");
+        }
+        if (origin == SettingsOrigin::Recording && fs::path(value.Scalar()).has_parent_path()) {
+            throw SettingsError("airframe.learned is '" + value.Scalar() +
+                                "'; settings of a recording name files of their own folder only");
         }
         mask.learned = fs::absolute(file.parent_path() / value.Scalar()).lexically_normal();
         mask.parts.bin_range_m = readAirframeBins(mask.learned);
@@ -101,7 +106,8 @@ std::string textOf(const Eigen::Vector3f& point_m) {
 
 }  // namespace
 
-Settings::AirframeMask parseAirframe(const fs::path& file, const YAML::Node& section) {
+Settings::AirframeMask parseAirframe(const fs::path& file, const YAML::Node& section,
+                                     SettingsOrigin origin) {
     if (!section.IsSequence()) {
         throw SettingsError(at(file, section) + "airframe must be a list, each part one of " +
                             kForms);
@@ -109,7 +115,7 @@ Settings::AirframeMask parseAirframe(const fs::path& file, const YAML::Node& sec
     Settings::AirframeMask mask;
     for (const YAML::Node& part : section) {
         try {
-            parsePart(file, part, mask);
+            parsePart(file, part, origin, mask);
         } catch (const std::exception& e) {
             throw SettingsError(at(file, part) + e.what());
         }

@@ -249,7 +249,7 @@ void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
         if (name == "sensor") {
             parseSensor(file, entry.second, settings);
         } else if (name == "airframe") {
-            settings.airframe = parseAirframe(file, entry.second);
+            settings.airframe = parseAirframe(file, entry.second, includes.origin);
             if (!settings.airframe.learned.empty()) {
                 settings.files.push_back(settings.airframe.learned);
             }

@@ -105,8 +105,10 @@ void SectorDistances::take(const LabelledSector& sector) {
 }
 
 void SectorDistances::forgetFound(double now_s, Bin& bin) const {
+    // A period that ends this one's doubt may still be fresh (at()).
+    const double oldest_s = now_s - settings_.stale_s - FrameCoverage::kForgotten_s;
     const auto isOver = [&](const Found& found) {
-        return isGone(found, bin) || !isFresh(found.time_s, now_s);
+        return isGone(found, bin) || !(found.time_s >= oldest_s && found.time_s <= now_s);
     };
     bin.found.erase(std::remove_if(bin.found.begin(), bin.found.end(), isOver), bin.found.end());
 }
@@ -133,8 +135,11 @@ std::array<SectorDistances::Sector, SectorDistances::kSectors> SectorDistances::
         for (int part = k * kParts; part < (k + 1) * kParts; ++part) {
             const Bin& bin = bins_[part];
             for (const Found& found : bin.found) {
-                const bool is_there = isFresh(found.time_s, now_s) && !isGone(found, bin);
-                if (!is_there || !std::isfinite(found.distance_m)) continue;
+                if (isGone(found, bin) || !std::isfinite(found.distance_m)) continue;
+                if (!isFresh(found.time_s, now_s)) {
+                    is_swept = false;  // growing old makes no obstacle free
+                    continue;
+                }
                 nearest_m = std::min(nearest_m, static_cast<double>(found.distance_m));
                 oldest_s = std::min(oldest_s, found.time_s);
             }

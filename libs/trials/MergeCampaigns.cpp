@@ -1,5 +1,7 @@
+#include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/CampaignFolder.h>
 #include <hagen/trials/MergeCampaigns.h>
+#include <hagen/trials/SettingsHash.h>
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -30,6 +32,12 @@ std::size_t mergeCampaigns(const std::vector<fs::path>& folders, const fs::path&
             return fs::equivalent(part.path(), folder);
         });
         if (is_known) continue;
+        if (readCampaignFile(folder).settings_hash != hashOfSettings(profileOf(folder))) {
+            throw std::runtime_error(
+                folder.string() +
+                ": was flown by another version of this program (filter, vehicle, sensor or "
+                "guidance differ), or its profile.json was changed; merge it with that version");
+        }
         CampaignFolder part(folder, profileOf(folder), false);
         for (const CampaignFolder& earlier : parts) earlier.checkJoins(part);
         parts.push_back(std::move(part));

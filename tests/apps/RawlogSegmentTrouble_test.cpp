@@ -367,6 +367,8 @@ TEST_F(RawlogSegmentTrouble, IncludesOfARecordingsSettingsAreLimited) {
     for (const std::string& elsewhere : {std::string("../secret.yaml"), path("secret.yaml")}) {
         folder_.write("scans/sensor.yaml", "include: " + elsewhere + "\n");
         expectFailure(flags, 2, "of their own folder only");
+        folder_.write("scans/sensor.yaml", "airframe:\n  - learned: " + elsewhere + "\n");
+        expectFailure(flags, 2, "of their own folder only");
     }
     folder_.write("scans/sensor.yaml", "# " + std::string(1 << 20, 'x'));
     expectFailure(flags, 2, "larger than 1 MiB");

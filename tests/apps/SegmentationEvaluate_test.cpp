@@ -16,6 +16,7 @@
 namespace hagen {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -202,6 +203,12 @@ TEST_F(SegmentationEvaluate, ASweepHasARowForEachValue) {
     EXPECT_EQ(row(outcome.out, "zone_m=5").at(1), 0.0) << outcome.out;  // the pole is farther
     EXPECT_EQ(row(outcome.out, "zone_m=20").at(1), 1.0);
     EXPECT_EQ(row(outcome.out, "beta_deg=10").at(1), 1.0);
+}
+
+TEST_F(SegmentationEvaluate, ColumnsOfOneSettingAreToldApart) {
+    const auto outcome = run({"-i", labelledPole(), "--sweep", "ground_tolerance_m=0.1,0.25"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("..lerance_m=0.1"), HasSubstr("..erance_m=0.25")));
 }
 
 TEST_F(SegmentationEvaluate, BaselinesStandBesideTheFilter) {

@@ -457,21 +457,22 @@ TEST_F(SurroundingsTest, OfASensorWithoutTurnsAnObstacleIsNotFreeBeforeAnotherLo
     pole.y_m = {0};
     pole.z_m = {0};
     const SegmentationResult result;
-    for (const int last_with_pole : {1, 5}) {      // of the frames from 0 to 5
+    // Of the frames from 0 to 5 or 7: once with a period that outlives the pole.
+    for (const auto& [last_with_pole, last] : {std::pair{1, 5}, {5, 5}, {1, 7}}) {
         for (const double lost_s : {0.0, 5e-4}) {  // silence, or a packet of 42 after that
             Surroundings surroundings(sensorModel("Mid-360"), {});
             for (int k = 0; k < 25; ++k) {
                 const double time_s = 1 + 0.02 * k;
                 const bool is_pole = k == 1 || k == last_with_pole;
-                if (k <= 5 || lost_s > 0) {
+                if (k <= last || lost_s > 0) {
                     surroundings.take({is_pole ? pole : nothing,
                                        is_pole ? std::vector{Label::Roi} : std::vector<Label>{},
                                        std::nullopt, time_s, time_s, true, false, false, result,
-                                       nullptr, k <= 5 ? 0.019 : lost_s});
+                                       nullptr, k <= last ? 0.019 : lost_s});
                 }
                 if (k < 1) continue;
                 EXPECT_NE(surroundings.at(time_s + 1e-3, {})[0].state, State::SeenNothing)
-                    << last_with_pole << " " << lost_s << " " << k;
+                    << last_with_pole << " " << last << " " << lost_s << " " << k;
             }
         }
     }

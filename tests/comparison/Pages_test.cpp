@@ -2,13 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <string>
 
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/pages/Page.h>
 #include <hagen/pages/Table.h>
 #include <hagen/replays/Overhead.h>
 #include <hagen/reports/Figures.h>
 #include <hagen/reports/Report.h>
+#include <hagen/trials/Calibration.h>
 #include <nlohmann/json.hpp>
 #include "SampleRuns.h"
 
@@ -87,12 +91,37 @@ TEST(Pages, ChartsOfAReportHaveTheirPlacesAndTheirData) {
         nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
     EXPECT_EQ(data["memory"][0]["megabytes_by_m"],
               nlohmann::json::parse("[[0.0, 1.0], [500.0, 2.5]]"));
+    EXPECT_EQ(data["latencies"][0]["courses"], 10);
+    EXPECT_EQ(data["latencies"][0]["bars"][1]["p95_ms"], 6.0);
     // Clearances of the ten courses are 0, 0.1 ... 0.9 m.
     const auto& quantiles_m = data["clearances"][0]["curves"][0]["quantiles_m"];
     ASSERT_EQ(quantiles_m.size(), 51u);
     for (std::size_t i = 0; i <= 50; ++i) {
         EXPECT_NEAR(quantiles_m[i].get<double>(), 0.9 * static_cast<double>(i) / 50, 1e-9);
     }
+}
+
+TEST(Pages, EveryWorldModelHasAColourOfItsOwn) {
+    reports::Report report;
+    report.flown.runs = threeContenders();
+    report.summary = reports::summarize(report.flown.runs);
+    const std::string script = reports::reportPage(report);
+    std::set<std::string> colours;
+    for (const std::string& model : avoidance::worldModelNames()) {
+        const std::string before = "'" + model + "': ['";
+        const std::size_t at = script.find(before);
+        ASSERT_NE(at, std::string::npos) << model;
+        EXPECT_TRUE(colours.insert(script.substr(at + before.size(), 7)).second) << model;
+    }
+}
+
+TEST(Pages, AModelOfAnotherVersionHasNoStages) {
+    reports::Report report;
+    report.flown.runs = threeContenders();
+    report.flown.runs.push_back(test::runOf("gap", 0, "Q-Full", "astar", test::kWon));
+    report.summary = reports::summarize(report.flown.runs);
+    report.profile = trials::constantProfile(1);
+    EXPECT_THAT(reports::reportPage(report), HasSubstr("Q-Full"));
 }
 
 TEST(WorstRuns, AreCollisionsThenTimeoutsThenByClearanceOneOfAKind) {

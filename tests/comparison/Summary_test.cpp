@@ -133,6 +133,13 @@ TEST(SharedCourses, AreThoseOnWhichAllArrived) {
         EXPECT_EQ(cell.first_reaction_m.count, 6);
     }
     EXPECT_EQ(shared[0].min_clearances_m[1].size(), 10u);
+    ASSERT_EQ(shared[0].flown_cells.size(), 2u);
+    for (const reports::Cell& cell : shared[0].flown_cells) {
+        EXPECT_EQ(cell.runs, 10);  // W-RoI flew 11
+        EXPECT_NEAR(cell.stops_per_km, 2 / 0.044, 1e-9);
+    }
+    EXPECT_EQ(reports::flownTogetherSentence(shared[0]),
+              "With A*: both contenders flew the same 10 courses.");
     EXPECT_EQ(
         reports::sharedCoursesSentence(shared[0]),
         "With A*: both contenders flew the same 10 courses; both reached the goal on 7 of them "

@@ -384,14 +384,23 @@ TEST(OracleSentence, NamesTheScenariosWithoutAGap) {
     Table table;
     table.add("gap", "oracle", {80, 0, 0, 20}).add("orchard", "oracle", {100, 0, 0, 0});
     table.add("street", "oracle", {80, 0, 20, 0});
-    EXPECT_THAT(table.verdict(), Contains("At 4 m/s with A*, no gap to the true scene shows in gap "
-                                          "and orchard."));
+    EXPECT_THAT(table.verdict(), Contains("At 4 m/s with A*, no model differs from the true scene "
+                                          "on any course of gap and orchard."));
     EXPECT_THAT(table.verdict(), Contains(StartsWith("In street at 4 m/s, the true scene with A* "
                                                      "succeeds on all 100 courses")));
     // Nobody flew it.
     for (const std::string& sentence : Table{}.add("gap", "G-Full", {80, 0, 0, 20}).verdict()) {
         EXPECT_THAT(sentence, Not(HasSubstr("true scene")));
     }
+}
+
+TEST(OracleSentence, CallsNoGapWhatIsOnlyNearTheCeiling) {
+    Table table;
+    table.add("gap", "oracle", {198, 0, 2, 0}).add("street", "oracle", {80, 0, 20, 0});
+    EXPECT_THAT(table.verdict(),
+                Contains("At 4 m/s with A*, all comparisons with the true scene are saturated in "
+                         "gap: both succeed on at least 99 %, or differ on no course."));
+    EXPECT_THAT(table.verdict(), Not(Contains(HasSubstr("no model differs"))));
 }
 
 TEST(OracleSentence, SaysWhatMotionIsWorthIfItFlewTheSameCourses) {
@@ -455,9 +464,15 @@ TEST(SensitivitySentence, AnAnswerThatDoesNotFlipIsCounted) {
     };
     const Counts better{60, 30, 0, 10}, open{50, 5, 5, 40}, slightly_worse{1900, 0, 20, 80},
         not_inferior{380, 3, 3, 14};
-    EXPECT_THAT(verdictOf(better, better), Contains(counted + "decided alike."));
-    EXPECT_THAT(verdictOf(better, not_inferior), Contains(counted + "decided alike."));
-    EXPECT_THAT(verdictOf(slightly_worse, not_inferior), Contains(counted + "decided alike."));
+    EXPECT_THAT(verdictOf(better, better),
+                Contains(counted + "decided in both without a contradiction."));
+    EXPECT_THAT(verdictOf(better, not_inferior),
+                Contains(counted + "decided in both without a contradiction."));
+    EXPECT_THAT(verdictOf(slightly_worse, not_inferior),
+                Contains(counted + "decided in both without a contradiction."));
+    // Whether the loss is more than the margin is open.
+    EXPECT_THAT(verdictOf(not_inferior, {170, 0, 8, 22}),
+                Contains(counted + "decided in both without a contradiction."));
     EXPECT_THAT(verdictOf(better, open), Contains(counted + "decided only in dusty air."));
     EXPECT_THAT(verdictOf(open, better), Contains(counted + "decided only in clear air."));
     EXPECT_THAT(verdictOf(open, open), Contains(counted + "decided neither way."));

@@ -84,6 +84,18 @@ TEST(Verdict, UsesTheSingular) {
     EXPECT_THAT(words[8], HasSubstr("after 0 collisions in 1 run of a scenario, the true"));
 }
 
+TEST(Verdict, TheRoiWindowLosesNothingToItself) {
+    std::vector<test::Row> runs;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        runs.push_back(test::runOf("gap", seed, "W-RoI", "astar", kHit));
+        runs.push_back(test::runOf("gap", seed, "W-RoI", "straight", kWon));
+        runs.push_back(test::runOf("gap", seed, "G-Full", "astar", kHit));
+    }
+    const reports::Summary summary = reports::summarize(runs);
+    EXPECT_TRUE(reports::lossesOf(summary).empty());
+    EXPECT_THAT(reports::lossesSentence(summary), StartsWith("Of 2 comparisons in single"));
+}
+
 TEST(Verdict, CallsNoLossWhatTheCorrectedTestDoesNot) {
     // The interval excludes 3 points, but among so many comparisons the test does not.
     reports::Pairing pairing{"", kReference, {"W-RoI", "astar"}, {"G-Full", "astar"}};

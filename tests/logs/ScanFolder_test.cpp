@@ -112,6 +112,32 @@ TEST_F(ScanFolderTest, PointsWithoutReturnsAreNoPointsOfNuScenes) {
     EXPECT_EQ(again.x_m, scan.x_m);
 }
 
+/// The first 4096 bytes are of one beam, or of fewer than 16 returns.
+TEST_F(ScanFolderTest, PointsWithAFifthNumberAreToldByTheWholeFile) {
+    const auto numbersOf = [&](auto isReturn, auto fifth) {
+        test::Random random(7);
+        std::vector<float> numbers;
+        for (int i = 0; i < 4000; ++i) {
+            const float is = isReturn(i) ? 1.0f : 0.0f;
+            for (int k = 0; k < 3; ++k) numbers.push_back(is * random.real(1, 50));
+            numbers.insert(numbers.end(), {is * 7, is * fifth(i)});
+        }
+        const std::string text(reinterpret_cast<const char*>(numbers.data()),
+                               numbers.size() * sizeof(float));
+        Scan scan;
+        return readScan(folder_.write("a.bin", text), scan);
+    };
+    const auto all = [](int) { return true; };
+    const auto few = [](int i) { return i % 60 == 20; };
+    const auto beamByBeam = [](int i) { return static_cast<float>(i / 1000); };
+    const auto zero = [](int) { return 0.0f; };
+    EXPECT_EQ(numbersOf(all, beamByBeam), 5u);
+    EXPECT_EQ(numbersOf(all, zero), 5u);
+    EXPECT_EQ(numbersOf(few, beamByBeam), 5u);
+    EXPECT_EQ(numbersOf(few, zero), 5u);
+    EXPECT_EQ(numbersOf(all, [](int i) { return i < 3000 ? 3.0f : 0.5f; }), 4u);
+}
+
 TEST_F(ScanFolderTest, CountersThatGetADigitMoreStayInOrder) {
     for (const char* name : {"999700000000", "999900000000", "1000100000000", "1000300000000"}) {
         fs::create_directories(folder_ / "s/velodyne");

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -248,7 +249,7 @@ TEST(StagePictures, ReturnsThatAreNoNumbersAreLeftOut) {
 
 TEST(StagePictures, ManyBeamsAndOtherOptionsAreDrawn) {
     Options options;
-    options.context_m = 80;
+    options.context_m = std::numeric_limits<float>::infinity();
     options.window_size = options.principal_components = 20;
     options.persistence_m = 0.01f;
     EXPECT_NO_THROW(Drawn(scanOf(poleAt(9, 4), "HDL-64E"), "", options, sensorModel("HDL-64E")));

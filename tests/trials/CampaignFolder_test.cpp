@@ -20,7 +20,9 @@
 namespace hagen::trials {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace fs = std::filesystem;
 using test::messageOf;
@@ -335,6 +337,14 @@ TEST(CampaignFolder, TwoProgramsDoNotWriteToOne) {
     const CampaignFolder folder(place / "c", constantProfile(1), false);
     EXPECT_THAT(messageOf([&] { CampaignFolder(place / "c", constantProfile(1), false); }),
                 HasSubstr("another"));
+}
+
+TEST(MergeCampaigns, SaysThatAnotherVersionFlewAPart) {
+    const TemporaryFolder place;
+    { const CampaignFolder folder(place / "a", constantProfile(1), false); }
+    place.write("a/profile.json", textOf(constantProfile(2)));
+    EXPECT_THAT(messageOf([&] { mergeCampaigns({place / "a"}, place / "m", true); }),
+                AllOf(HasSubstr("another version"), Not(HasSubstr("--overwrite"))));
 }
 
 TEST(MergeCampaigns, JoinsWhatAgreesAndRefusesWhatContradicts) {

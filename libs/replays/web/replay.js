@@ -325,7 +325,7 @@ function showFigures() {
   figures.clearance.className = clearance < data.radius_m ? 'alarm' : '';
   figures.speed.textContent = moments > 0 ? speeds[moment].toFixed(1) + ' m/s' : '-';
   figures.latency.textContent = step ? step.latency_ms.toFixed(1) + ' ms' : '-';
-  figures['model size'].textContent = held + (edge > 0 ? ' voxels' : ' points');
+  figures['model size'].textContent = (step ? step.model_size : 0) + (edge > 0 ? ' voxels' : ' points');
   const over = time >= ends;
   figures.state.textContent = over ? data.outcome : step && step.emergency ? 'emergency stop' : 'flying';
   figures.state.className = (over && data.outcome !== 'success') || (step && step.emergency) ? 'alarm' : '';

@@ -6,14 +6,17 @@ const summary = data.summary;
 
 // Okabe and Ito's colours, each with a mark, so that nothing depends on colour alone.
 const looks = {
-  'W-RoI+motion': ['#0B3D66', 'rectRounded'], 'W-RoI': ['#0072B2', 'circle'], 'W-Full': ['#56B4E9', 'rect'], 'G-Full': ['#009E73', 'triangle'],
-  'O-Full-0.2': ['#D55E00', 'rectRot'], 'O-Full-0.4': ['#E69F00', 'rectRot'],
+  'W-RoI': ['#0072B2', 'circle'], 'W-RoI+motion': ['#0B3D66', 'rectRounded'],
+  'W-Full': ['#56B4E9', 'rect'], 'W-Full+motion': ['#3A7D9E', 'rectRounded'],
+  'G-Full': ['#009E73', 'triangle'], 'G-Full+motion': ['#00543D', 'star'],
+  'R-Full-0.1': ['#C4907C', 'circle'], 'R-Full-0.2': ['#8C4F3A', 'rect'], 'R-Full-0.2+motion': ['#57291B', 'triangle'],
+  'D-Full': ['#7B52AB', 'crossRot'], 'O-Full-0.2': ['#D55E00', 'rectRot'], 'O-Full-0.4': ['#E69F00', 'rectRot'],
   'O-RoI-0.2': ['#CC79A7', 'star'], 'O-RoI-0.4': ['#A0527F', 'star'],
   'O-RoI+rays-0.2': ['#7A6A00', 'cross'], 'O-RoI+rays-0.4': ['#B3A000', 'cross'],
   'oracle': ['#333333', 'crossRot'], 'oracle+motion': ['#777777', 'star']
 };
 const look = who => {
-  const [color, mark] = looks[who.model] || ['#777777', 'circle'];
+  const [color, mark] = looks[who.model] || ['#B00020', 'line'];  // of another version
   return {color, mark, dash: who.guidance === 'astar' ? [] : [6, 4]};
 };
 const modelOf = who => (data.model_names || {})[who.model] || who.model;
@@ -79,6 +82,9 @@ const percent = share => 100 * share;
 /// The lower end of an axis of rates, so that no interval is cut off.
 const lowest = datasets => Math.max(0, Math.min(...datasets.flatMap(
     set => set.data.map(point => 10 * Math.floor(point.low / 10)))));
+/// Whether two conditions are the same but for the speed.
+const alike = (a, b) => ['planner', 'pose_error', 'latency_scale', 'unknown', 'air', 'distance', 'updates'].every(
+    key => a[key] === b[key]);
 const inReference = cell => cell.condition.name === data.reference;
 
 withPlace('success', place => {
@@ -111,19 +117,18 @@ withPlace('success', place => {
 });
 
 withPlace('speed', place => {
-  const scenarios = [...new Set(summary.speed_limits.map(limit => limit.scenario))];
+  const limits = summary.speed_limits.filter(limit => alike(limit, summary.conditions[0]));
+  const scenarios = [...new Set(limits.map(limit => limit.scenario))];
   for (const scenario of scenarios) {
     const who = summary.contenders.filter(
-        one => summary.speed_limits.some(l => l.scenario === scenario && same(l, one)));
+        one => limits.some(l => l.scenario === scenario && same(l, one)));
     const datasets = who.map((one, w) => ({
       label: nameOf(one), borderColor: look(one).color, backgroundColor: look(one).color,
       clip: 8, borderDash: look(one).dash, pointStyle: look(one).mark, pointRadius: 5,
       data: summary.cells.filter(cell => cell.scenario === scenario && same(cell, one) &&
-          cell.condition.planner === 'primitives' && cell.condition.pose_error === 'none' &&
-          cell.condition.latency_scale === 1 && cell.condition.unknown === 'optimistic' &&
-          cell.condition.air === summary.conditions[0].air &&
-          cell.condition.distance === summary.conditions[0].distance)
-        .map(cell => ({x: cell.condition.speed_m_s + 0.06 * (w - (who.length - 1) / 2),
+                                         alike(cell.condition, summary.conditions[0]))
+        // Beside one another, but never far from their speed.
+        .map(cell => ({x: cell.condition.speed_m_s + Math.min(0.06, 0.3 / who.length) * (w - (who.length - 1) / 2),
                        y: percent(cell.success.share), low: percent(cell.success.interval[0]),
                        high: percent(cell.success.interval[1])}))
         .sort((a, b) => a.x - b.x)
@@ -169,19 +174,18 @@ withPlace('clearance', place => {
 });
 
 withPlace('command', place => {
-  const cells = summary.cells.filter(cell => inReference(cell) && !cell.scenario &&
-                                     cell.latency_p50_ms.median !== null);
-  const bars = (label, color, value) => ({
-    label, backgroundColor: color, borderColor: color,
-    data: cells.map(cell => value(cell)), barPercentage: 0.8});
-  draw(place, 'Latency from sensor to command (logarithmic)', 90 + 46 * cells.length, {
-    type: 'bar',
-    data: {labels: cells.map(nameOf), datasets: [
-      bars('p50', '#0072B2', cell => cell.latency_p50_ms.median),
-      bars('p95', '#56B4E9', cell => cell.latency_p95_ms.median),
-      bars('max', '#B8C4CE', cell => cell.latency_max_ms)]},
-    options: {indexAxis: 'y', scales: {x: axis('ms', {type: 'logarithmic'})}}
-  }, true);
+  for (const group of data.latencies) {
+    const bars = (label, color, key) => ({
+      label, backgroundColor: color, borderColor: color,
+      data: group.bars.map(bar => bar[key]), barPercentage: 0.8});
+    draw(place, `Latency from sensor to command (logarithmic), on the same ${group.courses} ` +
+                `course${group.courses === 1 ? '' : 's'}`, 90 + 46 * group.bars.length, {
+      type: 'bar',
+      data: {labels: group.bars.map(nameOf), datasets: [
+        bars('p50', '#0072B2', 'p50_ms'), bars('p95', '#56B4E9', 'p95_ms'), bars('max', '#B8C4CE', 'max_ms')]},
+      options: {indexAxis: 'y', scales: {x: axis('ms', {type: 'logarithmic'})}}
+    }, true);
+  }
 });
 
 withPlace('stages', place => {

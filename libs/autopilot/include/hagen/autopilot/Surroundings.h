@@ -34,7 +34,8 @@ using Directions = std::array<Direction, 72>;
 /// vehicle that rolls sees an obstacle on its right on its right. **Stale is never free**: what was
 /// not swept within 0.3 s is unknown, and so is a direction in which the sensor, as it was tilted
 /// then, has no beam at the horizon. An obstacle is forgotten when a later turn has passed all of
-/// its degree, or a sensor without turns has looked all around since, or after 0.3 s.
+/// its degree, or a sensor without turns has looked all around since. Where neither happened, its
+/// direction is unknown after 0.3 s.
 /// (streaming::SectorDistances is the same for a sensor that stays.)
 ///
 /// A copy is cheap: it shares what sectors saw, which does not change.
@@ -72,6 +73,7 @@ class Surroundings {
         std::vector<Eigen::Vector3f> roi_m;  ///< in the sensor's frame
     };
     bool isFresh(const Seen& seen, double now_s) const;
+    bool matters(const Seen& seen, double now_s) const;
     double azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edge) const;
     static std::optional<double> passedAt(const Seen& seen, const streaming::TurnCoverage::Arc& arc,
                                           double since_rad);

@@ -37,14 +37,15 @@ struct CloudFile {
 /// The format of a file by its content; none if it is none of these. A .bin has no magic: its size
 /// is a multiple of 16 or 20, no other format begins like it, and the first 4096 bytes are points
 /// that a LiDAR can see: not farther than 1 km, or not finite, and not all zero. Its points have a
-/// ring if there are 16 or more, every fifth number is a whole one up to 255, and not all
-/// coordinates are. None if it cannot be read.
+/// ring if every fifth number is a whole one up to 255, not all coordinates are, and there are 16
+/// or more returns: in the first 4096 bytes, of two rings or more, or else in the whole file.
+/// None if it cannot be read.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
 /// Whether a name ends like those of cloud files: .pcd, .ply, .las, .laz, .npy, .bin.
 bool hasCloudName(const std::filesystem::path& file);
 
-/// What the first 4096 bytes of a .bin tell.
+/// What a .bin is, by its first 4096 bytes, or by all of them if these do not tell.
 struct BinStart {
     std::size_t floats_per_point = 4;  ///< 5: with a ring, as of nuScenes
     /// "it seems to be a JPEG picture", if the first points are none that a LiDAR sees; empty: not

@@ -26,6 +26,7 @@ struct RecordedStep {
     double time_s, latency_ms;
     Eigen::Vector3d command_m_s, carrot_m;
     bool is_emergency;
+    std::size_t model_size;  ///< voxels or points that the model held, all of them
     std::vector<Eigen::Vector3f> roi_m, rou_m;  ///< returns of the scan
     std::vector<Eigen::Vector3f> path_m;        ///< of guidance
     std::vector<RecordedMotion> motions;

@@ -16,4 +16,7 @@ std::vector<std::string> flightSentences(const Report& report);
 /// How many courses the contenders have in common, and on how many all reached the goal.
 std::string sharedCoursesSentence(const SharedCourses& shared);
 
+/// The same without how many arrived.
+std::string flownTogetherSentence(const SharedCourses& shared);
+
 }  // namespace hagen::reports

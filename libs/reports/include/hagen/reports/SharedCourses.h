@@ -17,6 +17,7 @@ struct SharedCourses {
     /// One per contender, over the `arrived` courses; first reactions over the `reacted` ones.
     /// Empty if there is no such course.
     std::vector<Cell> cells;
+    std::vector<Cell> flown_cells;  ///< the same over all `flown` courses; empty if there are none
     /// Minimum clearances [m] of all `flown` courses, whatever the outcome; one list per contender,
     /// in the order of `contenders`.
     std::vector<std::vector<double>> min_clearances_m;

@@ -18,7 +18,8 @@ namespace hagen::streaming {
 /// returns is RoI. What an earlier turn saw in a degree is forgotten once a later one has passed
 /// all of it. A sensor that does not turn is taken to look all around within each tenth of a
 /// second, if few of its packets are lost (FrameCoverage). What it saw is forgotten once it has
-/// looked all around in a tenth of a second that began that much later, or after 0.3 s.
+/// looked all around in a tenth of a second that began that much later. Where that did not happen,
+/// the direction is unknown after 0.3 s.
 class SectorDistances {
  public:
     static constexpr int kSectors = 72;
