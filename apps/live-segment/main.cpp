@@ -220,22 +220,36 @@ int run(const Program& program, Flags& flags) {
         listener.remark = [&](const std::string& remark) {  // the autopilot's thread, too
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
-        auto link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
-        const live::LiveReport report = live::runLive(*source, flags.live, listener);
-        printer.print(line.instead(), "");
-        if (!flags.is_quiet) {
-            printer.print(To::Output, summaryOf(report) + (link ? hagen::summaryOf(*link) : ""));
+        std::unique_ptr<autopilot::AutopilotLink> link;
+        std::string failure;
+        int failed = kFailed;
+        try {
+            link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
+            const live::LiveReport report = live::runLive(*source, flags.live, listener);
+            printer.print(line.instead(), "");
+            if (!flags.is_quiet) {
+                printer.print(To::Output,
+                              summaryOf(report) + (link ? hagen::summaryOf(*link) : ""));
+            }
+            failure = failureOf(report, flags.live);
+        } catch (const UsageError&) {
+            throw;
+        } catch (const SettingsError& e) {
+            failure = e.what();
+            failed = kWrongUsage;
+        } catch (const std::exception& e) {  // told by the printer, which does not wait either
+            failure = program.messageOf(e);
         }
-        const std::string failure = failureOf(report, flags.live);
         const std::string left = base::leftBehind({flags.live.recording.file, flags.live.stats});
         if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
         if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");
         if (!printer.finish()) {
             // Nobody reads. All files are complete; to end as usual would print what is left.
             link.reset();
-            std::_Exit(failure.empty() ? kDone : kFailed);
+            const bool is_done = failure.empty() && printer.isOutputPrinted();
+            std::_Exit(is_done ? kDone : failure.empty() ? kFailed : failed);
         }
-        return failure.empty() ? kDone : kFailed;
+        return failure.empty() ? kDone : failed;
     } catch (const SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }

@@ -124,7 +124,8 @@ const std::vector<StageRow>& ownStages() {
              findLevelPixels(g.pixels, g.cells, is_level, work().evidence);
              keepLevelRou(c.result.labels, is_level, work().candidates);
              tolerance_m = g.tolerance_m;
-             requireEvidence(g.pixels, g.cells, g.height_m, is_level, tolerance_m, work().evidence);
+             requireEvidence(g.pixels, g.cells, g.height_m, is_level, tolerance_m, g.has_evidence,
+                             work().evidence);
          }},
         {"own: ground surface", false, false,
          [](Case& c) {

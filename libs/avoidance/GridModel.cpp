@@ -62,6 +62,11 @@ void GridModel::update(const mapping::MappedScan& scan) {
             is_hit ? point_m : scan.origin_m + ray * (kMaxRange_m / range_m);
         insertRay(*map_, origin, pointOf(end_m), is_hit);
     }
+    for (const Eigen::Vector3f& to_m : scan.passed_to_m) {
+        const Eigen::Vector3f ray = to_m - scan.origin_m;
+        const float share = std::min(1.0f, kMaxRange_m / ray.norm());
+        insertRay(*map_, origin, pointOf(scan.origin_m + ray * share), false);
+    }
     obstacles_.rebuild(occupied_m());
 }
 

@@ -4,6 +4,9 @@
 namespace hagen::avoidance {
 namespace {
 
+constexpr float kBefore_m = 0.2f;  // a cell
+
+/// Of obstacles that are left out, the rays up to them remain: they clear what was there before.
 mapping::MappedScan withoutObstacles(const mapping::MappedScan& scan,
                                      const std::vector<bool>& is_left_out) {
     mapping::MappedScan rest;
@@ -11,7 +14,14 @@ mapping::MappedScan withoutObstacles(const mapping::MappedScan& scan,
     rest.origin_m = scan.origin_m;
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
         const auto obstacle = static_cast<std::size_t>(scan.obstacles[i]);
-        if (obstacle < is_left_out.size() && is_left_out[obstacle]) continue;
+        if (obstacle < is_left_out.size() && is_left_out[obstacle]) {
+            const Eigen::Vector3f ray = scan.points_m[i] - rest.origin_m;
+            const float range_m = ray.norm();
+            if (range_m > kBefore_m) {
+                rest.passed_to_m.push_back(rest.origin_m + ray * (1 - kBefore_m / range_m));
+            }
+            continue;
+        }
         rest.points_m.push_back(scan.points_m[i]);
         rest.labels.push_back(scan.labels[i]);
         rest.obstacles.push_back(scan.obstacles[i]);

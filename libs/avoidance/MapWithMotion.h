@@ -5,7 +5,8 @@
 namespace hagen::avoidance {
 
 /// A map of what stands, and the obstacles that move where they will be (Movers). What moves is not
-/// entered into the map; what was entered before it was known to move stays until rays clear it.
+/// entered into the map, but for the rays up to it; what was entered before it was known to move
+/// stays until rays clear it.
 class MapWithMotion : public WorldModel {
  public:
     MapWithMotion(std::unique_ptr<WorldModel> map, float farthest_m)

@@ -60,13 +60,13 @@ void RollingGridModel::markEnds(const mapping::MappedScan& scan) {
     const Eigen::Array3f origin = box_.inVoxels(scan.origin_m);
     const Eigen::Array3f size = box_.size().cast<float>();
     const float range = max_range_m_ / box_.edge_m();
-    for (const Eigen::Vector3f& point_m : scan.points_m) {
+    const auto markEnd = [&](const Eigen::Vector3f& point_m, bool is_return) {
         const Eigen::Array3f at = box_.inVoxels(point_m);
         const Eigen::Array3f ray = at - origin;
         const float beyond = ray.matrix().norm() / range;
-        const bool is_hit = beyond <= 1 && box_.holds(at);
+        const bool is_inside = beyond <= 1 && box_.holds(at), is_hit = is_inside && is_return;
         Eigen::Array3i end;
-        if (is_hit) {
+        if (is_inside) {
             end = at.cast<int>();
         } else {
             const Eigen::Array3f wall = (ray > 0).select(size - origin, -origin);
@@ -77,12 +77,14 @@ void RollingGridModel::markEnds(const mapping::MappedScan& scan) {
         const std::uint32_t index = box_.indexOf(end);
         // The ray enters the voxel where it is cut.
         const std::int8_t mark = is_hit ? kIsHit : kPassed;
-        if (marks_[index] >= mark) continue;
+        if (marks_[index] >= mark) return;
         marks_[index] = mark;
         is_marked_[index / 64] = 1;
         ends_.push_back(end);
         if (is_hit) hits_.push_back(index);
-    }
+    };
+    for (const Eigen::Vector3f& point_m : scan.points_m) markEnd(point_m, true);
+    for (const Eigen::Vector3f& to_m : scan.passed_to_m) markEnd(to_m, false);
 }
 
 /// Marks the voxels from the origin to the end (without it) as passed (Amanatides & Woo 1987). The

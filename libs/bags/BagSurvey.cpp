@@ -103,13 +103,16 @@ class Surveyor {
         }
         const VelodyneScanMessage scan = readVelodyneScan(fields);
         if (topic.frame.empty()) topic.frame = scan.header.frame;
-        topic.velodyne_messages += scan.packets.empty() ? 0 : 1;
+        bool tells_model = false;
         for (const VelodyneScanMessage::Packet& packet : scan.packets) {
             const bool is_data =
                 packets::isVelodyneData(packet.bytes, packets::kVelodynePacketBytes);
             if (!is_data || packets::isOfHdl64(packet.bytes)) continue;
-            ++topic.velodyne_ids[packet.bytes[packets::kVelodyneModelAt]];
+            const std::uint8_t id = packet.bytes[packets::kVelodyneModelAt];
+            ++topic.velodyne_ids[id];
+            tells_model = tells_model || packets::findVelodyneModel(id) != nullptr;
         }
+        topic.velodyne_messages += tells_model ? 1 : 0;
     }
 
     static void take(const PoseMessage& pose, const BagMessage& message, const BagTopic& topic,

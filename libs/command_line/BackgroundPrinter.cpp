@@ -16,6 +16,7 @@ struct BackgroundPrinter::Waiting {
     std::deque<std::pair<To, std::string>> texts;
     std::size_t left_out = 0;
     bool is_printing = false, is_over = false;
+    bool is_printing_output = false, is_output_left = false;
 
     bool isIdle() const { return texts.empty() && !is_printing; }
 
@@ -42,12 +43,13 @@ struct BackgroundPrinter::Waiting {
             const auto [to, text] = std::move(texts.front());
             texts.pop_front();
             is_printing = true;
+            is_printing_output = to == To::Output;
             lock.unlock();
             // This may wait.
             if (to == To::ErrorsInPlace) std::cerr << clearLine;
             (to == To::Output ? std::cout : std::cerr) << text << std::flush;
             lock.lock();
-            is_printing = false;
+            is_printing = is_printing_output = false;
             changed.notify_all();
         }
     }
@@ -74,9 +76,18 @@ bool BackgroundPrinter::finish(std::chrono::milliseconds longest) {
     const bool is_printed =
         waiting_->changed.wait_for(lock, longest, [&] { return waiting_->isIdle(); });
     waiting_->is_over = true;
-    if (!is_printed) waiting_->texts.clear();
+    waiting_->is_output_left = waiting_->is_output_left || waiting_->is_printing_output;
+    for (const auto& [to, text] : waiting_->texts) {
+        if (to == To::Output) waiting_->is_output_left = true;
+    }
+    waiting_->texts.clear();
     waiting_->changed.notify_all();
     return is_printed;
+}
+
+bool BackgroundPrinter::isOutputPrinted() const {
+    const std::lock_guard lock(waiting_->mutex);
+    return !waiting_->is_output_left;
 }
 
 }  // namespace hagen::command_line

@@ -377,8 +377,8 @@ int Program::printed(int exit_code, const std::string& what) const {
 
 int Program::run(int argc, char** argv, const std::function<int()>& work) {
     constexpr double kGb = 1e9;
-    double memory_gb = static_cast<double>(base::machineBytes()) / 2 / kGb;
-    option("--memory-limit", memory_gb,
+    memory_gb_ = static_cast<double>(base::machineBytes()) / 2 / kGb;
+    option("--memory-limit", memory_gb_,
            "memory that the program may take, in GB (default: half of the machine's)")
         .between(0.05, 1e6)
         .valueName("GB");
@@ -392,7 +392,7 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     }
     try {
         app_->parse(argc, argv);
-        base::limitMemory(static_cast<std::uint64_t>(memory_gb * kGb));
+        base::limitMemory(static_cast<std::uint64_t>(memory_gb_ * kGb));
         return printed(work ? work() : work_(), printed_);
     } catch (const CLI::Success& e) {  // --help, --version
         app_->exit(e);
@@ -410,14 +410,20 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     } catch (const UsageError& e) {
         app_->exit(CLI::ValidationError(e.what()));
         return kWrongUsage;
-    } catch (const std::bad_alloc&) {
-        return fail(kFailed, "out of memory: more than the " + std::to_string(memory_gb) +
-                                 " GB of --memory-limit");
-    } catch (const fs::filesystem_error& e) {
-        return fail(kFailed, e.path1().string() + ": " + e.code().message());
     } catch (const std::exception& e) {
-        return fail(kFailed, e.what());
+        return fail(kFailed, messageOf(e));
     }
+}
+
+std::string Program::messageOf(const std::exception& e) const {
+    if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr) {
+        return "out of memory: more than the " + std::to_string(memory_gb_) +
+               " GB of --memory-limit";
+    }
+    if (const auto* of_file = dynamic_cast<const fs::filesystem_error*>(&e)) {
+        return of_file->path1().string() + ": " + of_file->code().message();
+    }
+    return e.what();
 }
 
 void tellLeftBehind(const std::vector<std::filesystem::path>& outputs) {

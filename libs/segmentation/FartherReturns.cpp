@@ -1,4 +1,7 @@
 #include <hagen/segmentation/FartherReturns.h>
+#include <hagen/segmentation/HeightLabels.h>
+#include <cmath>
+#include "BlockSums.h"
 
 namespace hagen {
 namespace {
@@ -45,6 +48,16 @@ void locate(const Scan& scan, const Eigen::Isometry3f& ground_from_sensor, std::
     }
 }
 
+/// Whether the surface at a place is ground, or nobody asked.
+bool hasEvidence(const std::vector<std::uint8_t>& of_block, float x_m, float y_m) {
+    if (of_block.empty()) return true;
+    constexpr float kBlock_m = kBlockCells * GroundSurface::kCell_m, kMiddle = 0.5f * kBlocks;
+    const float i = std::floor(x_m / kBlock_m + kMiddle);
+    const float j = std::floor(y_m / kBlock_m + kMiddle);
+    const bool is_on_grid = i >= 0 && i < kBlocks && j >= 0 && j < kBlocks;
+    return is_on_grid && of_block[static_cast<std::size_t>(j * kBlocks + i)] != 0;
+}
+
 }  // namespace
 
 void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground& ground,
@@ -65,10 +78,12 @@ void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground
     for (std::size_t k = 0; k < n; ++k) {
         const float tolerance_m = ground.tolerance_m.data()[image.depth_mapper[list[k]]];
         const bool is_high = work.height_m[k] > tolerance_m;
+        const bool is_ground = work.height_m[k] >= kLowestGround_m &&
+                               hasEvidence(ground.has_evidence, work.x_m[k], work.y_m[k]);
         const bool is_close =
             needs_clearance &&
             clearance.isViolatedBy(ground, {work.x_m[k], work.y_m[k], work.z_m[k]});
-        own_label[list[k]] = is_high || is_close ? Label::Roi : Label::Rou;
+        own_label[list[k]] = is_high || !is_ground || is_close ? Label::Roi : Label::Rou;
     }
 }
 

@@ -53,8 +53,10 @@ void findSurface(const Image<Label>& labels, const Options& o, const JudgedPart*
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
         g.from_sensor.translation().z(), g.tolerance_m, w.tolerance, area);
     if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, g.tolerance_m, area);
+    g.has_evidence.clear();
     if (o.ground_evidence) {
-        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m, w.evidence);
+        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m, g.has_evidence,
+                        w.evidence);
     }
 }
 

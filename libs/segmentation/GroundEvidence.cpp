@@ -225,7 +225,8 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
 
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
-                     Image<float>& tolerance_m, GroundEvidenceWorkspace& work) {
+                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence,
+                     GroundEvidenceWorkspace& work) {
     const auto size = static_cast<std::size_t>(height_m.size());
     work.close.resize(size);
     HWY_DYNAMIC_DISPATCH(CloseIn)
@@ -238,10 +239,11 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
 
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
     BlocksAndNone<float> least_m;
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-        least_m[k] = blocks[k].isGround() ? 0.0f : kNothing;
+    has_evidence.assign(least_m.size(), 0);
+    for (std::size_t k = 0; k < blocks.size(); ++k) has_evidence[k] = blocks[k].isGround();
+    for (std::size_t k = 0; k < least_m.size(); ++k) {
+        least_m[k] = has_evidence[k] != 0 ? 0.0f : kNothing;
     }
-    least_m.back() = kNothing;
     HWY_DYNAMIC_DISPATCH(WithdrawIn)
     (size, cells.block.data(), least_m.data(), tolerance_m.data());
 }

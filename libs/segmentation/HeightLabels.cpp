@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kCells = GroundSurface::kCells;
 constexpr float kLeastTolerance_m = 0.04f;
-constexpr float kLowest_m = -1.5f;  // ground is never this far below the surface
 constexpr float kTallest_m = 1.1f;  // taller objects do not reduce the tolerance further
 constexpr float kShallow = 3;       // distance per height of the sensor from which they fully do
 
@@ -84,7 +83,7 @@ void LabelByHeightIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
         const auto has_value = hn::RebindMask(di, hn::Eq(h_m, h_m));
         const auto is_high =
             hn::RebindMask(di, hn::Or(hn::Gt(h_m, hn::LoadU(d, tolerance_m + pixel)),
-                                      hn::Lt(h_m, hn::Set(d, kLowest_m))));
+                                      hn::Lt(h_m, hn::Set(d, kLowestGround_m))));
         const auto is = [&](Label what)
                             HAGEN_INLINE { return hn::Set(di, static_cast<std::int32_t>(what)); };
         const auto rou_or_roi = hn::IfThenElse(is_high, is(Label::Roi), is(Label::Rou));

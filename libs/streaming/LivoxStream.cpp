@@ -41,15 +41,6 @@ void LivoxStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_senso
     segmenter_->setPose(map_from_sensor);
 }
 
-/// A copy may come after later packets, as by a second path. It measured nothing: where packets are
-/// lost, copies of others do not make up for them.
-bool LivoxStream::isRepeated(const packets::LivoxPacket& packet) const {
-    const auto end = recent_.begin() + static_cast<std::ptrdiff_t>(std::min(recent_at_, kRecent));
-    return std::any_of(recent_.begin(), end, [&](const Recent& other) {
-        return other.time_ns == packet.time_ns && other.number == packet.number;
-    });
-}
-
 /// By a packet that is too late. One that is alone waited in a network; several in a row, one
 /// shortly after the other, are of a clock that was set back: nothing else comes any more.
 bool LivoxStream::wentBack(std::uint64_t time_ns) {
@@ -77,11 +68,14 @@ LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size,
         ++counts_.foreign;
         return Taken::Foreign;
     }
-    if (isRepeated(*packet)) {
+    // A copy measured nothing: where packets are lost, copies of others do not make up for them.
+    const std::uint64_t key = packet->time_ns << 16 | packet->number;
+    if (recent_.has(key, arrival_s)) {
+        too_late_in_a_row_ = 0;
         ++counts_.repeated;
         return Taken::Repeated;
     }
-    recent_[recent_at_++ % kRecent] = {packet->time_ns, packet->number};
+    recent_.add(key, arrival_s);
     bool is_late = false;
     if (has_last_) {
         const auto step =
@@ -89,7 +83,7 @@ LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size,
         const bool is_earlier = packet->time_ns < last_ns_;
         const std::uint64_t gap_ns =
             is_earlier ? last_ns_ - packet->time_ns : packet->time_ns - last_ns_;
-        const bool is_too_late = is_earlier && gap_ns > kMostLate_ns && gap_ns <= kInterruption_ns;
+        const bool is_too_late = is_earlier && gap_ns > kMostLate_ns;
         if (is_too_late && !wentBack(packet->time_ns)) {
             ++counts_.too_late;
             return Taken::TooLate;

@@ -8,6 +8,7 @@ namespace hagen::streaming {
 namespace {
 
 constexpr double kTurn_rad = 2 * kPi;
+constexpr double kLeastParallax_rad = 1e-3;  // less is rounding
 
 }  // namespace
 
@@ -100,7 +101,13 @@ void SectorDistances::take(const LabelledSector& sector) {
             bin.found.push_back({sector.first_time_s, now_rad, distance_m});
         }
         Found& found = bin.found.back();
-        found = {sector.first_time_s, now_rad, std::min(found.distance_m, distance_m)};
+        const Eigen::Vector2f from_sensor =
+            (at - settings_.body_from_sensor.translation()).head<2>();
+        const double parallax_rad = std::abs(std::remainder(
+            static_cast<double>(std::atan2(from_sensor.y(), from_sensor.x())) + clockwise_rad,
+            kTurn_rad));
+        found = {sector.first_time_s, now_rad, std::min(found.distance_m, distance_m),
+                 std::max(found.parallax_rad, parallax_rad)};
     }
 }
 
@@ -114,10 +121,14 @@ void SectorDistances::forgetFound(double now_s, Bin& bin) const {
 }
 
 /// An obstacle is gone once a later turn has passed all of its bin, or a sensor without turns has
-/// looked all around since.
+/// looked all around since. What is near a body beside the sensor is seen in another direction than
+/// that of its bin: the turn must have passed that, too.
 bool SectorDistances::isGone(const Found& found, const Bin& bin) const {
     if (all_around_since_s_ - found.time_s > FrameCoverage::kForgotten_s) return true;
-    return bin.end_rad - found.turned_rad > kLaterTurn_rad && bin.passed_s > found.time_s;
+    const bool has_looked_there = found.parallax_rad < kLeastParallax_rad ||
+                                  coverage_.head_rad() - found.turned_rad > kTurn_rad;
+    return has_looked_there && bin.passed_s > found.time_s &&
+           bin.end_rad - found.turned_rad > kLaterTurn_rad + found.parallax_rad;
 }
 
 bool SectorDistances::isFresh(double time_s, double now_s) const {

@@ -26,7 +26,7 @@ const std::vector<std::size_t>& Thinning::of(const Scan& packet, float up) {
         const auto group = static_cast<unsigned>(column) / static_cast<unsigned>(every_);
         const std::size_t pixel = group * static_cast<std::size_t>(rows_) + packet.row[i];
         pixel_[i] = pixel;
-        if (column != static_cast<int>(group) * every_) continue;
+        if (column != static_cast<int>(group) * every_ || !hasValue(packet.range_m[i])) continue;
         std::size_t& at = at_pixel_[pixel];
         if (at == kNone) {
             at = kept_.size();
@@ -39,7 +39,8 @@ const std::vector<std::size_t>& Thinning::of(const Scan& packet, float up) {
     }
     for (std::size_t i = 0; i < packet.size(); ++i) {
         const std::size_t at = at_pixel_[pixel_[i]];
-        if (at == kNone || !(up * packet.z_m[i] < kept_pixels_[at].below_m)) continue;
+        if (at == kNone || !hasValue(packet.range_m[i])) continue;  // or masked
+        if (!(up * packet.z_m[i] < kept_pixels_[at].below_m)) continue;
         kept_[at] = i;
         kept_pixels_[at].below_m = up * packet.z_m[i];
     }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "CheckTime.h"
@@ -69,6 +71,12 @@ std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
     return returns;
 }
 
+/// Its bytes, with the time by the sensor's clock.
+std::uint64_t keyOf(const VelodynePacket& packet) {
+    const auto* const bytes = reinterpret_cast<const char*>(packet.bytes.data());
+    return std::hash<std::string_view>()({bytes, packet.bytes.size()});
+}
+
 }  // namespace
 
 VelodyneStream::VelodyneStream(const packets::VelodyneModel& model, const Settings& settings,
@@ -99,12 +107,6 @@ void VelodyneStream::setAttitude(const std::optional<Attitude>& attitude) {
 
 void VelodyneStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
     segmenter_->setPose(map_from_sensor);
-}
-
-bool VelodyneStream::isRepeated(const VelodynePacket& packet, double time_us) const {
-    return std::any_of(recent_.begin(), recent_.end(), [&](const VelodynePacket& other) {
-        return other.sensorTimeUs() == time_us && other.bytes == packet.bytes;
-    });
 }
 
 /// The firings whose blocks are all sound, in runs that turn on as a sensor does. What an unsound
@@ -214,7 +216,8 @@ VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t
     VelodynePacket packet;
     std::copy_n(bytes, size, packet.bytes.begin());
     const double time_us = packet.sensorTimeUs();
-    if (isRepeated(packet, time_us)) {
+    if (recent_.has(keyOf(packet), arrival_s)) {
+        held_.clear();  // what comes late, comes by another path
         ++counts_.repeated;
         return Taken::Repeated;
     }
@@ -267,8 +270,7 @@ VelodyneStream::Taken VelodyneStream::take(const VelodynePacket& packet, double 
         ++counts_.unsound;
         return Taken::Unsound;
     }
-    recent_.push_back(packet);
-    if (recent_.size() > kMostLate) recent_.pop_front();
+    recent_.add(keyOf(packet), arrival_s);
     if (has_last_ && is_dual != is_dual_) ++counts_.mode_changes;
     is_dual_ = is_dual;
     const bool is_late = has_last_ && elapsed_us < 0;

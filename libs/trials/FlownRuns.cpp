@@ -51,13 +51,15 @@ std::map<std::string, Run> plannedRuns(const fs::path& folder) {
                     planned.try_emplace(keyOf(run), run);
                 }
             }
-            if (planned.size() > kMostFlights) {
-                throw std::invalid_argument("more than " + std::to_string(kMostFlights) +
-                                            " flights are planned");
-            }
         } catch (const std::invalid_argument& e) {
             throw std::runtime_error((folder / "campaign.json").string() + ": " + e.what() +
                                      "; was it written by another version, or changed by hand?");
+        }
+        if (planned.size() > kMostFlights) {
+            throw std::runtime_error(folder.string() + ": has plans of more than " +
+                                     std::to_string(kMostFlights) +
+                                     " flights together, which are not reported in one; fly or "
+                                     "merge parts of them into folders of their own");
         }
     }
     return planned;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/logs/RawlogReader.h>
+#include <hagen/packets/VelodynePacket.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -38,7 +40,17 @@ class LiveSegment : public test::ProgramTest {
         std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> all;
         while (const auto entry = reader.next()) {
             const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
-            if (scan) all.push_back(scan);
+            if (!scan) continue;
+            // The recording repeats a turn, with its times; a sensor's clock goes on.
+            for (auto& packet : scan->scan_packets) {
+                auto* const at =
+                    reinterpret_cast<std::uint8_t*>(&packet) + packets::kVelodyneTimeAt;
+                std::uint32_t time_us = 0;
+                std::memcpy(&time_us, at, sizeof time_us);
+                time_us += static_cast<std::uint32_t>(100000 * all.size());
+                std::memcpy(at, &time_us, sizeof time_us);
+            }
+            all.push_back(scan);
         }
         return all;
     }

@@ -509,6 +509,19 @@ TEST(WorldModel, RaysClearWhatMovedAway) {
     }
 }
 
+TEST(WorldModel, RaysThatOnlyPassClearToo) {
+    for (const std::string name : {"G-Full", "R-Full-0.1", "R-Full-0.2"}) {
+        const auto model = avoidance::makeWorldModel(name, setting());
+        for (int i = 0; i < 2; ++i) model->update(scanOf(board()));
+        ASSERT_LT(model->clearance_m({2.1f, 0.1f, 1.1f}), 1.1f) << name;
+        mapping::MappedScan passed = scanOf({});
+        passed.passed_to_m = wall(7.1f);
+        for (int i = 0; i < 12; ++i) model->update(passed);
+        EXPECT_GT(model->clearance_m({2.1f, 0.1f, 1.1f}), 2.0f) << name;
+        EXPECT_GT(model->clearance_m({6.9f, 0.1f, 1.1f}), 1.0f) << name;  // there is no wall
+    }
+}
+
 TEST(WorldModel, ObstaclesAreWhereClearanceEnds) {
     for (const std::string& name : modelsThatLearn()) {
         const auto model = avoidance::makeWorldModel(name, setting());

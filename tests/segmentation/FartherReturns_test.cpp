@@ -90,6 +90,31 @@ TEST(FartherReturns, TheToleranceIsThePixels) {
     EXPECT_EQ(example.judged({example.on(0, 3), example.on(0, 7)})[1], Label::Roi);
 }
 
+TEST(FartherReturns, WhatIsFarBelowTheSurfaceIsRoi) {
+    TwoMetresUp example;
+    const std::vector<Eigen::Vector3f> points{example.on(0, 3), example.on(0, 7)};  // 0.19 m up
+    example.ground.surface.height_m.setConstant(1.68f);
+    EXPECT_EQ(example.judged(points)[1], Label::Rou);
+    example.ground.surface.height_m.setConstant(1.7f);
+    EXPECT_EQ(example.judged(points)[1], Label::Roi);
+}
+
+// On the beam, 7 m away are 6.8 m from the sensor along the ground: (5.8, 3.4) m, in the second
+// block along x and in the second along y.
+TEST(FartherReturns, WithoutEvidenceOfGroundWhereItIsAReturnIsRoi) {
+    TwoMetresUp example;
+    const auto labelWithout = [&](const std::vector<std::size_t>& blocks) {
+        example.ground.has_evidence.assign(PixelCells::kNoBlock + 1u, 1);
+        for (const std::size_t block : blocks) example.ground.has_evidence[block] = 0;
+        return example.judged({example.on(0, 3), example.on(0, 7)})[1];
+    };
+    constexpr std::size_t kSide = 32, kOwn = 17 * kSide + 17;
+    EXPECT_EQ(labelWithout({}), Label::Rou);
+    EXPECT_EQ(labelWithout({kOwn}), Label::Roi);
+    EXPECT_EQ(labelWithout({kOwn - 1, kOwn + 1, kOwn - kSide, kOwn + kSide, PixelCells::kNoBlock}),
+              Label::Rou);
+}
+
 TEST(FartherReturns, BeyondTheZoneNoneIsJudged) {
     const TwoMetresUp example;
     EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 19.9), example.on(8, 20.1)}),

@@ -227,7 +227,15 @@ std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
     }
     PixelCells cells;
     findPixelCells(pixels, cells);
-    requireEvidence(pixels, cells, pixels.z_m, is_level, tolerance_m, work);
+    std::vector<std::uint8_t> has_evidence(7, 1);  // of an earlier scan
+    requireEvidence(pixels, cells, pixels.z_m, is_level, tolerance_m, has_evidence, work);
+    EXPECT_EQ(has_evidence.size(), PixelCells::kNoBlock + 1u);
+    EXPECT_EQ(has_evidence.back(), 0);
+    for (Eigen::Index i = 0; i < tolerance_m.size(); ++i) {
+        const float m = tolerance_m.data()[i];
+        if (!hasValue(m)) continue;
+        EXPECT_EQ(has_evidence[cells.block.data()[i]], m == 0.5f ? 1 : 0) << i;
+    }
     return {tolerance_m.data(), tolerance_m.data() + tolerance_m.size()};
 }
 

@@ -95,6 +95,7 @@ struct Judged {
     Image<std::uint8_t> is_level;
     GroundSurface surface;
     Image<float> height_m, tolerance_m;
+    std::vector<std::uint8_t> has_evidence;
     CellTops tops;
     Image<Label> labels;
 };
@@ -113,7 +114,8 @@ Judged judged(const Sight& sight) {
     toleratedHeights(pixels, j.cells, j.tops, kTolerance, j.frame.translation().z(), j.tolerance_m,
                      work.tolerance);
     tolerateCanopy(j.cells, j.tops, j.tolerance_m);
-    requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.tolerance_m, work.evidence);
+    requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.tolerance_m, j.has_evidence,
+                    work.evidence);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
     growFeet(pixels, j.height_m, j.labels, work.feet);
     removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels, work.specks);
@@ -222,7 +224,8 @@ TEST(GroundStages, EvidenceIsThatOfPlainLoops) {
             keepLevelRou(sight.labels, fast, work.candidates);
             EXPECT_TRUE((work.candidates == candidates).all()) << name;
             Image<float> fast_m = before_m;
-            requireEvidence(pixels, cells, height_m, fast, fast_m, work.evidence);
+            std::vector<std::uint8_t> has_evidence;
+            requireEvidence(pixels, cells, height_m, fast, fast_m, has_evidence, work.evidence);
             EXPECT_TRUE(test::same(fast_m, plain_m)) << name;
         });
     });

@@ -608,7 +608,7 @@ TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
         if ((switches & 1) != 0) tolerateCanopy(g.cells, g.tops, g.tolerance_m);
         if (needs_evidence) {
             requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m,
-                            work.evidence);
+                            g.has_evidence, work.evidence);
         }
         labelByHeight(g.height_m, g.tolerance_m, labels);
         if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels, work.feet);

@@ -83,7 +83,9 @@ TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
     };
     double time_s = 0;
     for (const int i : {0, 1, 1, 2, 5, 6, 8, 7, 9}) add(packet(i), time_s += 5e-4);
-    add(packet(10, -4000000000), time_s += 5e-4);  // the clock was set
+    for (const int i : {10, 11, 12, 13}) {  // the clock was set
+        add(packet(i, -4000000000), time_s += 5e-4);
+    }
     const auto& counts = stream_.counts();
     EXPECT_EQ(counts.repeated, 1u);
     EXPECT_EQ(counts.lost, 2u);
@@ -133,7 +135,12 @@ TEST_F(LivoxStreamTest, PacketsThatAreFarTooLateAreLeftOut) {
     EXPECT_EQ(add(packet(501), time_s += 4.8e-4), Taken::Yes);
     EXPECT_EQ(add(packet(423), time_s += 4.8e-4), Taken::TooLate);
     EXPECT_EQ(add(packet(490), time_s += 4.8e-4), Taken::Yes);
-    EXPECT_EQ(stream_.counts().too_late, 4u);
+    EXPECT_EQ(add(packetOf(502, 5000000000 - 1200000000), time_s += 4.8e-4), Taken::TooLate);
+    EXPECT_EQ(add(packet(503), time_s += 4.8e-4), Taken::Yes);
+    for (int i = 0; i < 300; ++i) {  // copies, as by a slower path
+        EXPECT_EQ(add(packet(i), time_s += 1e-6), Taken::Repeated);
+    }
+    EXPECT_EQ(stream_.counts().too_late, 5u);
     EXPECT_EQ(stream_.counts().late, 1u);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
 }

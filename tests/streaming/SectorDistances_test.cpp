@@ -257,6 +257,30 @@ TEST_F(SectorDistancesTest, AnObstacleStaysUntilALaterTurnHasPassedIt) {
     }
 }
 
+/// The sensor is 1 m ahead of the body: what it sees behind itself can be ahead of the body, whose
+/// direction the head passes up to half a turn later.
+TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStays) {
+    for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
+        SectorDistances::Settings settings;
+        settings.body_from_sensor.translation().x() = 1;
+        SectorDistances distances(sensor_, settings);
+        double azimuth_deg = degrees(-std::atan2(y_m, x_m - 1));
+        if (azimuth_deg < 0) azimuth_deg += 360;
+        const Point near{azimuth_deg, std::hypot(x_m - 1, y_m)};
+        double in_body_deg = degrees(-std::atan2(y_m, x_m));
+        if (in_body_deg < 0) in_body_deg += 360;
+        const int bin = static_cast<int>(in_body_deg / 5);
+        for (int k = 0; k < 72; ++k) {  // sectors of 20 degrees
+            const bool has_it = azimuth_deg >= 20 * (k % 18) && azimuth_deg < 20 * (k % 18 + 1);
+            const double time_s = 0.1 * k / 18;
+            take(20.0 * k, 20.0 * (k + 1), time_s,
+                 has_it ? std::vector{near} : std::vector<Point>{}, distances);
+            if (k < 18) continue;
+            EXPECT_EQ(distances.at(time_s + 0.005)[bin].state, State::Obstacle) << x_m << " " << k;
+        }
+    }
+}
+
 TEST_F(SectorDistancesTest, WithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
     const auto takeFrames = [&](double measured_s, int frames, SectorDistances& distances) {
         const Scan scan;

@@ -72,6 +72,18 @@ TEST(Thinning, KeepsWhatTheDefinitionSays) {
     }
 }
 
+/// maskAirframe() leaves them without a range.
+TEST(Thinning, MaskedReturnsTakeNoPlace) {
+    Scan scan;
+    add(10, 3, kNoValue, 0, scan);
+    add(10, 3, 8, 2, scan);
+    add(11, 3, kNoValue, 0.07f, scan);
+    add(15, 4, 6, 2, scan);
+    add(16, 4, kNoValue, 0.07f, scan);
+    Thinning thinning(kRows, kColumns, 5);
+    EXPECT_THAT(thinning.of(scan), ElementsAre(1, 3));
+}
+
 TEST(Thinning, LowGroundInAGapTakesThePlaceOfACrown) {
     Thinning thinning(kRows, kColumns, 5);
     Scan scan;

@@ -26,6 +26,8 @@ class BackgroundPrinter {
     /// Waits until all is printed, but not longer than this; returns whether it is. Later texts are
     /// left out.
     bool finish(std::chrono::milliseconds longest = std::chrono::seconds(2));
+    /// After finish(): whether all texts of To::Output were printed.
+    bool isOutputPrinted() const;
 
  private:
     struct Waiting;

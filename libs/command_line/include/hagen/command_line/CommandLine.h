@@ -120,6 +120,8 @@ class Program : public Command {
     int run(int argc, char** argv, const std::function<int()>& work = nullptr);
     /// Prints a message after the program's name; returns the exit code.
     int fail(int exit_code, const std::string& message) const;
+    /// What run() says of an exception.
+    std::string messageOf(const std::exception& e) const;
 
  private:
     explicit Program(std::unique_ptr<CLI::App> app, std::string name);
@@ -128,6 +130,7 @@ class Program : public Command {
     std::unique_ptr<CLI::App> owned_;
     std::function<int()> work_;
     std::string name_, printed_ = "summary", help_ = "text";
+    double memory_gb_ = 0;
 };
 
 /// Tells on standard error what earlier runs left of these outputs (base::leftBehind()).

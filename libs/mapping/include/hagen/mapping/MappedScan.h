@@ -17,6 +17,8 @@ struct MappedScan {
     std::vector<std::int32_t> obstacles;
     std::vector<float> age_s;  ///< from each return to `time_s`. Empty: not known.
     double turns = 1;          ///< how far the sensor turned meanwhile; 1: a whole revolution
+    /// Ends of more rays, along which there was nothing.
+    std::vector<Eigen::Vector3f> passed_to_m{};
 };
 
 }  // namespace hagen::mapping

@@ -20,9 +20,11 @@ struct FartherReturnsWorkspace {
 
 /// Labels returns behind the closest one of their pixel. A pixel may have several returns; its
 /// label is that of the closest. A return more than 0.3 m behind it gets its own label: RoI if its
-/// height above the ground exceeds the pixel's tolerance or if it violates the clearance, otherwise
-/// ROU. Returns farther away than `zone_m` are ROU in any case and get none. Without a ground
-/// surface, no return gets one. Requires `image` and `ground` of this scan.
+/// height above the ground exceeds the pixel's tolerance, if it is more than 1.5 m below the
+/// surface, if there is no evidence that the surface at its place is ground (GroundEvidence.h), or
+/// if it violates the clearance; otherwise ROU. Returns farther away than `zone_m` are ROU in any
+/// case and get none. Without a ground surface, no return gets one. Requires `image` and `ground`
+/// of this scan.
 void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground& ground,
                          const Clearance& clearance, float zone_m, OwnLabels& own_labels,
                          FartherReturnsWorkspace& work);

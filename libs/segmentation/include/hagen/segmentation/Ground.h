@@ -5,6 +5,7 @@
 #include <hagen/segmentation/PixelPoints.h>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <vector>
 
 namespace hagen {
 
@@ -23,6 +24,9 @@ struct Ground {
     Image<float> height_m;         ///< of each pixel above the surface
     CellTops tops;                 ///< the highest point in each cell
     Image<float> tolerance_m;      ///< pixels up to this height are ground
+    /// Per block (PixelCells.h), and last for places beyond the grid: whether the surface there is
+    /// ground (requireEvidence()). Empty if that was not asked.
+    std::vector<std::uint8_t> has_evidence;
 };
 
 }  // namespace hagen

@@ -9,6 +9,9 @@
 
 namespace hagen {
 
+/// What is farther below the surface shows that this is not the ground.
+constexpr float kLowestGround_m = -1.5f;
+
 /// The maximum height above ground at which a return is still ground.
 struct HeightTolerance {
     float near_m = 0.17f;       ///< at the sensor
@@ -33,8 +36,8 @@ void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const 
                       Image<float>& tolerance_m, ToleranceWorkspace& work,
                       const CellArea& area = {});
 
-/// RoI if a pixel is higher than its tolerance or more than 1.5 m below the surface, which is then
-/// not the ground; otherwise ROU. Unclassified if it is empty.
+/// RoI if a pixel is higher than its tolerance or more than 1.5 m below the surface; otherwise ROU.
+/// Unclassified if it is empty.
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels);
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <hagen/packets/LivoxPacket.h>
 #include <hagen/settings/Settings.h>
+#include <hagen/streaming/RecentPackets.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,8 +24,8 @@ class LivoxStream {
         std::size_t late = 0;      ///< came after a later one; they join the frame in progress
         std::size_t too_late = 0;  ///< by more than sixteen packets; left out
         std::size_t lost = 0;      ///< missing by their numbers
-        /// Jumps of the sensor's clock by more than a second, and back by more than sixteen
-        /// packets.
+        /// Jumps of the sensor's clock: ahead by more than a second, or back by more than sixteen
+        /// packets, four packets in a row.
         std::size_t interruptions = 0;
         std::size_t returns_masked = 0;  ///< of the airframe
     };
@@ -49,13 +49,6 @@ class LivoxStream {
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 
  private:
-    struct Recent {
-        std::uint64_t time_ns;
-        std::uint16_t number;
-    };
-    static constexpr std::size_t kRecent = 512;  // packets: a quarter of a second
-
-    bool isRepeated(const packets::LivoxPacket& packet) const;
     bool wentBack(std::uint64_t time_ns);
 
     Settings settings_;
@@ -66,8 +59,7 @@ class LivoxStream {
     std::uint64_t too_late_ns_ = 0;      ///< the time of the latest packet that was too late
     std::size_t too_late_in_a_row_ = 0;  ///< up to now
     std::uint16_t last_number_ = 0;
-    std::array<Recent, kRecent> recent_{};  ///< a ring
-    std::size_t recent_at_ = 0;             ///< packets that were written to it
+    RecentPackets recent_;
     std::size_t packets_of_frame_ = 0;
     double first_arrival_s_ = 0, last_arrival_s_ = 0;  ///< of the frame
     double measured_s_ = 0;                            ///< by the packets of the frame

@@ -63,6 +63,7 @@ class SectorDistances {
     struct Found {
         double time_s = kNever, turned_rad = kNever;
         float distance_m = std::numeric_limits<float>::infinity();
+        double parallax_rad = 0;  ///< at most, between its directions from the body and the sensor
     };
     struct Bin {
         double begun_s = kNever, begun_rad = kNever;  ///< when a turn looked there first; its begin

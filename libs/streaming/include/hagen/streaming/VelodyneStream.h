@@ -4,11 +4,11 @@
 #include <hagen/packets/VelodyneModel.h>
 #include <hagen/packets/VelodynePacket.h>
 #include <hagen/settings/Settings.h>
+#include <hagen/streaming/RecentPackets.h>
 #include <hagen/streaming/StreamingSegmenter.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,8 +19,8 @@ namespace hagen::streaming {
 ///
 /// Packets that come up to sixteen late are labelled with the sector in progress. Later ones are
 /// left out: what they saw is not what is there now. Sixteen of these in a row are of a clock that
-/// was set, and are taken then. Nothing throws because of what a packet holds: each is taken, or
-/// refused and counted.
+/// was set, and are taken then, but for copies of packets of the last 0.3 s. Nothing throws because
+/// of what a packet holds: each is taken, or refused and counted.
 class VelodyneStream {
  public:
     /// What became of a datagram.
@@ -78,7 +78,6 @@ class VelodyneStream {
 
     Taken hold(const packets::VelodynePacket& packet, double arrival_s);
     Taken take(const packets::VelodynePacket& packet, double arrival_s);
-    bool isRepeated(const packets::VelodynePacket& packet, double time_us) const;
     void findRuns(const packets::VelodynePacket& packet);
     bool readSweep(const packets::VelodynePacket& packet, double elapsed_us, Sweep& sweep);
     void addRuns(const packets::VelodynePacket& packet, const Sweep& sweep, double arrival_s);
@@ -90,7 +89,7 @@ class VelodyneStream {
     packets::DecoderWorkspace decoder_;
     Scan returns_, part_;
     std::vector<Run> runs_;  ///< of the latest packet
-    std::deque<packets::VelodynePacket> recent_;
+    RecentPackets recent_;
     std::vector<Held> held_;  ///< too late, in a row
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< by the sensor's clock, of the latest packet
