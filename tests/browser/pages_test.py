@@ -54,7 +54,7 @@ def check_report(folder):
         with Browser(width, 900) as browser:
             browser.open(page)
             painted = browser.run(PAINTED)
-            check(len(painted) == 12, f"{width} px: all charts are there ({len(painted)})")
+            check(len(painted) == 15, f"{width} px: all charts are there ({len(painted)})")
             check(min(painted) > 300, f"{width} px: no chart is blank ({min(painted)} pixels)")
             overflow = browser.run(
                 "return document.documentElement.scrollWidth - window.innerWidth;")
