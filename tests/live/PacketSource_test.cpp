@@ -103,6 +103,8 @@ TEST(UdpSource, PacketsThatWaitedForSecondsAreAsOldAsTheyAre) {
     const std::uint16_t port = freePort();
     UdpSource source({0x7f000001, port});
     const Sender sender;
+    // The kernel begins to note times of arrival a moment after the first socket asks for them.
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
     sender.send("abc", "127.0.0.1", port);
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
     sender.send("abc", "127.0.0.1", port);
