@@ -238,6 +238,7 @@ int run(const Program& program, Flags& flags) {
             failure = e.what();
             failed = kWrongUsage;
         } catch (const std::exception& e) {  // told by the printer, which does not wait either
+            printer.print(line.instead(), "");
             failure = program.messageOf(e);
         }
         const std::string left = base::leftBehind({flags.live.recording.file, flags.live.stats});

@@ -85,6 +85,7 @@ void SectorDistances::take(const LabelledSector& sector) {
     noteSwept(sector);
     if (!sector.sweep) frames_rad_ += kTurn_rad;  // each frame counts as a turn
     const double now_rad = sector.sweep ? coverage_.head_rad() : frames_rad_;
+    const Eigen::Vector2f beside_m = settings_.body_from_sensor.translation().head<2>();
     const Scan& scan = sector.returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (sector.label[i] != Label::Roi) continue;
@@ -101,11 +102,13 @@ void SectorDistances::take(const LabelledSector& sector) {
             bin.found.push_back({sector.first_time_s, now_rad, distance_m});
         }
         Found& found = bin.found.back();
-        const Eigen::Vector2f from_sensor =
-            (at - settings_.body_from_sensor.translation()).head<2>();
-        const double parallax_rad = std::abs(std::remainder(
-            static_cast<double>(std::atan2(from_sensor.y(), from_sensor.x())) + clockwise_rad,
-            kTurn_rad));
+        double parallax_rad = 0;
+        if (!beside_m.isZero(0)) {
+            const Eigen::Vector2f from_sensor = at.head<2>() - beside_m;
+            const auto azimuth_rad =
+                static_cast<double>(std::atan2(from_sensor.y(), from_sensor.x()));
+            parallax_rad = std::abs(std::remainder(azimuth_rad + clockwise_rad, kTurn_rad));
+        }
         found = {sector.first_time_s, now_rad, std::min(found.distance_m, distance_m),
                  std::max(found.parallax_rad, parallax_rad)};
     }

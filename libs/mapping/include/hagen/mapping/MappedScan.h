@@ -17,7 +17,7 @@ struct MappedScan {
     std::vector<std::int32_t> obstacles;
     std::vector<float> age_s;  ///< from each return to `time_s`. Empty: not known.
     double turns = 1;          ///< how far the sensor turned meanwhile; 1: a whole revolution
-    /// Ends of more rays, along which there was nothing.
+    /// Ends of more rays, along which there was nothing: grids clear them, other maps ignore them.
     std::vector<Eigen::Vector3f> passed_to_m{};
 };
 
