@@ -107,6 +107,7 @@ install(FILES ${PROJECT_BINARY_DIR}/package/hagenConfig.cmake
 if(NOT HAGEN_DEBIAN_PACKAGES)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT dev)
 endif()
-if(HAGEN_BUILD_APPS)
+# What presetFile() of hagen::settings finds, also without the programs. In one Debian package only: no two may have a file.
+if(NOT HAGEN_FILTER_ONLY)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen/config COMPONENT tools)
 endif()

@@ -62,7 +62,8 @@ set(CPACK_DEBIAN_DEV_DESCRIPTION "obstacle detection in sparse LiDAR scans: deve
 ${about}
 This package has headers, CMake packages, pkg-config files and examples. The
 filter needs Eigen only; other components of find_package(hagen) need
-libhagen-mrpt and the other recommended packages.")
+libhagen-mrpt and the other recommended packages. The presets of sensors are
+in hagen-tools.")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "obstacle detection in sparse LiDAR scans: programs
 ${about}
 This package has programs that segment recordings (rawlogs of MRPT, network
@@ -78,7 +79,7 @@ set(CPACK_DEBIAN_MRPT_PACKAGE_DEPENDS "libhagen ${same}")
 # Not libhagen-mrpt: who uses the filter alone needs no MRPT.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhagen ${same}, libeigen3-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
-    "libhagen-mrpt ${same}, libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
+    "libhagen-mrpt ${same}, hagen-tools ${same}, libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")

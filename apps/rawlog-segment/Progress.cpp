@@ -68,7 +68,10 @@ void Progress::tell(const std::string& entry, const std::string& what) {
 void Progress::remark(const std::string& entry, const std::string& remark) {
     if (is_quiet_) return;
     Remark& known = remarks_[remark];
-    if (known.times++ > 0) return;
+    if (known.times++ > 0) {
+        if (!known.is_told) ++kinds_[kindOf(remark)].untold;
+        return;
+    }
     Kind& kind = kinds_[kindOf(remark)];
     known.is_told = kind.told < kMostRemarks;
     if (known.is_told) {

@@ -266,6 +266,11 @@ void learn(const Flags& flags) {
     listener.unreadable = [&](const std::string& entry, const std::string& why) {
         std::cerr << conversion.input.string() << ": " << entry << ": left out: " << why << "\n";
     };
+    listener.remark = [&](const std::string& what) {
+        if (!flags.is_quiet) {
+            std::cerr << conversion.input.string() << ": the recording: " << what << "\n";
+        }
+    };
     const logs::AirframeReport report = logs::learnAirframe(learning, listener);
     if (!flags.is_quiet) printAirframe(learning, report);
     if (!flags.is_quiet) tellLeftBehind({learning.file, report.picture});

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kNone = std::numeric_limits<double>::infinity();
+// How long an obstacle is in doubt where packets are lost again and again.
+constexpr double kLongestDoubt_s = 0.7;
 constexpr double kPart_rad = kTurn_rad / 360, kHalf_rad = kTurn_rad / 72 / 2;
 
 /// From the sensor's frame to the vehicle's level one of now.
@@ -26,6 +28,13 @@ Eigen::Isometry3d levelFromSensor(const Eigen::Matrix3d& vehicle_from_sensor,
     level.linear() = levelFromVehicle(*then) * vehicle_from_sensor;
     if (now) level = levelBetween(*then, *now) * level;
     return level;
+}
+
+/// Of a direction, clockwise from ahead; the first degree begins so much before that.
+int degreeOf(const Eigen::Vector2f& at_m, double before_rad) {
+    double clockwise_rad = before_rad - static_cast<double>(std::atan2(at_m.y(), at_m.x()));
+    clockwise_rad -= kTurn_rad * std::floor(clockwise_rad / kTurn_rad);
+    return std::min(static_cast<int>(clockwise_rad / kPart_rad), 359);
 }
 
 }  // namespace
@@ -58,7 +67,8 @@ void Surroundings::take(const streaming::LabelledSector& sector) {
         seen.roi_m.emplace_back(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
     }
     if (!sector.sweep) {
-        seen.all_around_since_s = frames_.add(sector.first_time_s, sector.measured_s);
+        seen.all_around_since_s =
+            frames_.add(sector.first_time_s, sector.measured_s, sector.sensor_time_s);
         all_around_since_s_ = seen.all_around_since_s.value_or(all_around_since_s_);
     }
     latest_s_ = went_back ? sector.last_time_s : std::max(latest_s_, sector.last_time_s);
@@ -71,12 +81,12 @@ bool Surroundings::isFresh(const Seen& seen, double now_s) const {
     return age_s >= 0 && age_s <= settings_.stale_s && matters(seen, now_s);
 }
 
-/// Whether it may be used, or what it saw makes directions unknown: a sensor without turns has not
-/// looked there again, and growing old makes no obstacle free.
+/// Whether it may be used, or what it saw makes directions unknown: the sensor has not looked there
+/// again, and growing old makes no obstacle free.
 bool Surroundings::matters(const Seen& seen, double now_s) const {
     constexpr double kForgotten_s = streaming::FrameCoverage::kForgotten_s;
     const double age_s = now_s - seen.first_time_s;
-    if (seen.turns) return age_s >= 0 && age_s <= settings_.stale_s;
+    if (seen.turns) return age_s >= 0 && age_s <= settings_.stale_s + kLongestDoubt_s;
     const double looked_again_s = all_around_since_s_ - seen.first_time_s;
     return age_s >= 0 && age_s <= settings_.stale_s + kForgotten_s &&
            looked_again_s <= kForgotten_s;
@@ -119,7 +129,12 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
     // How far the sensor had turned when it passed a degree last.
     std::array<double, kBins> passed_rad;
     passed_rad.fill(-kNone);
+    // The same of the degrees of the sensor as it is now. When it is tilted, it looks at what is
+    // below the horizon and at the horizon straight above that at different times.
+    std::array<double, kBins> passed_by_sensor_rad;
+    passed_by_sensor_rad.fill(-kNone);
     Directions directions;
+    if (now_s < latest_s_ - settings_.stale_s) return directions;  // a clock that went back
     std::array<bool, 72> is_doubtful{};  // an obstacle was there, and nobody has looked again
     const std::optional<VehiclePose> now = motion.at(now_s);
     double fresh_rad = kNone;  // what it swept before is stale
@@ -131,15 +146,30 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         if (!matters(*seen, now_s)) continue;
         const bool is_fresh = isFresh(*seen, now_s);
         // All was swept again, by a later turn.
-        const double least_rad = *std::min_element(passed_rad.begin(), passed_rad.end());
+        const double least_rad =
+            std::min(*std::min_element(passed_rad.begin(), passed_rad.end()),
+                     *std::min_element(passed_by_sensor_rad.begin(), passed_by_sensor_rad.end()));
         if (least_rad - seen->to_rad > streaming::kLaterTurn_rad) continue;
         const auto then = motion.at((seen->first_time_s + seen->last_time_s) / 2);
         const Eigen::Isometry3d level = levelFromSensor(settings_.vehicle_from_sensor, then, now);
         // What was seen since is at least as fresh.
-        const bool is_swept =
-            seen->turns ||
-            (seen->all_around_since_s && now_s - *seen->all_around_since_s <= settings_.stale_s);
+        const bool is_swept = seen->turns
+                                  ? is_fresh
+                                  : (seen->all_around_since_s &&
+                                     now_s - *seen->all_around_since_s <= settings_.stale_s);
         const Eigen::Matrix3d sensor_from_level = level.linear().transpose();
+        Eigen::Matrix3d now_from_level = sensor_from_level;
+        if (now) {
+            now_from_level = (levelFromVehicle(*now) * settings_.vehicle_from_sensor).transpose();
+        }
+        const Eigen::Matrix3f sensor_from_level_now = now_from_level.cast<float>();
+        const Eigen::Vector3d ahead_then = now_from_level * level.linear().col(0);
+        const double yawed_rad = std::atan2(ahead_then.y(), ahead_then.x());
+        for (int degree = 0; degree < kBins && is_swept; ++degree) {
+            if (passed_by_sensor_rad[degree] > -kNone) continue;
+            const TurnCoverage::Arc arc{degree * kPart_rad + yawed_rad, kPart_rad};
+            passed_by_sensor_rad[degree] = passedAt(*seen, arc, fresh_rad).value_or(-kNone);
+        }
         double next_rad = 0;
         int next = -1;  // the edge of which this is the azimuth
         for (int bin = 0; bin < kBins && is_swept; ++bin) {
@@ -151,14 +181,19 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
             passed_rad[bin] = passedAt(*seen, arc, fresh_rad).value_or(-kNone);
         }
         const Eigen::Isometry3f move = level.cast<float>();
+        const auto isPassed = [&](double at_rad) {
+            return at_rad - seen->to_rad > streaming::kLaterTurn_rad;
+        };
         for (const Eigen::Vector3f& roi_m : seen->roi_m) {
             const Eigen::Vector3f at_m = move * roi_m;
             if (!(std::abs(at_m.z()) <= settings_.height_m)) continue;
-            double clockwise_rad = kHalf_rad - static_cast<double>(std::atan2(at_m.y(), at_m.x()));
-            clockwise_rad -= kTurn_rad * std::floor(clockwise_rad / kTurn_rad);
-            const int bin = std::min(static_cast<int>(clockwise_rad / kPart_rad), kBins - 1);
-            // The next turn has passed all of the bin since, without this.
-            if (passed_rad[bin] - seen->to_rad > streaming::kLaterTurn_rad) continue;
+            const int bin = degreeOf(at_m.head<2>(), kHalf_rad);
+            // The next turn has passed it since, without this.
+            const Eigen::Vector3f from_sensor_m = sensor_from_level_now * at_m;
+            if (isPassed(passed_rad[bin]) &&
+                isPassed(passed_by_sensor_rad[degreeOf(from_sensor_m.head<2>(), 0)])) {
+                continue;
+            }
             if (!is_fresh) {
                 is_doubtful[bin / kParts] = true;
                 continue;

@@ -1,5 +1,6 @@
 #include <hagen/bags/BagPlan.h>
 #include <hagen/captures/Remarks.h>
+#include <hagen/observations/Trajectory.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -12,7 +13,7 @@ namespace {
 using Topic = BagSurvey::Topic;
 using mrpt::poses::CPose3D;
 
-constexpr double kFarApart_s = 0.5;
+constexpr double kFarApart_s = 0.5, kLeastApart_ns = 1e7;
 constexpr int kDeepest = 64;                       // frames on frames
 constexpr const char* kOusterFrame = "os_sensor";  // of the maker's driver, whose packets name none
 
@@ -58,6 +59,74 @@ bool isStill(const PoseSeries& series) {
                pose.qw == first.qw && pose.qx == first.qx && pose.qy == first.qy &&
                pose.qz == first.qz;
     });
+}
+
+/// Whether a frame moves with no vehicle, by the words of its name: "odom", "robot1/odom_combined".
+bool isWorld(const std::string& frame) {
+    for (std::size_t at = 0; at < frame.size();) {
+        const std::size_t end = std::min(frame.find_first_of("/_", at), frame.size());
+        const std::string word = frame.substr(at, end - at);
+        if (word == "map" || word == "odom" || word == "world" || word == "earth") return true;
+        at = end + 1;
+    }
+    return false;
+}
+
+/// Whether a frame is one of the vehicle, by the end of its name: "base_link", "robot1/base".
+bool isOfVehicle(const std::string& frame) {
+    const std::string name = frame.substr(frame.rfind('/') + 1);
+    return name == "base" || name.compare(0, 5, "base_") == 0;
+}
+
+CPose3D poseOf(const RecordedPose& pose) {
+    return CPose3D(mrpt::math::CQuaternionDouble(pose.qw, pose.qx, pose.qy, pose.qz), pose.x_m,
+                   pose.y_m, pose.z_m);
+}
+
+/// One of several series that move a frame one after the other, and where in its child frame the
+/// series before it are.
+struct MovingStep {
+    CPose3D in_child;
+    const PoseSeries* series;
+};
+
+/// The poses of the first step's child in `top`, where the last one's parent is at `in_top`, at the
+/// times of any step that all of them cover.
+PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top,
+                    const CPose3D& in_top) {
+    PoseSeries whole;
+    whole.parent = top;
+    whole.child = steps.front().series->child;
+    whole.source = "transforms from " + whole.parent + " to " + whole.child;
+    std::vector<observations::Trajectory> trajectories(steps.size());
+    std::vector<std::int64_t> times_ns;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        for (const RecordedPose& pose : steps[i].series->poses) {
+            trajectories[i].add(captures::timeOf(pose.time_ns), poseOf(pose));
+            times_ns.push_back(pose.time_ns);
+        }
+    }
+    std::sort(times_ns.begin(), times_ns.end());
+    for (const std::int64_t time_ns : times_ns) {
+        // As doubles: times of a broken file may be too far apart for integers.
+        if (!whole.poses.empty() &&
+            static_cast<double>(time_ns) - static_cast<double>(whole.poses.back().time_ns) <
+                kLeastApart_ns) {
+            continue;
+        }
+        std::optional<CPose3D> pose = CPose3D();
+        for (std::size_t i = 0; i < steps.size() && pose; ++i) {
+            const auto of_step = trajectories[i].at(captures::timeOf(time_ns));
+            pose = of_step ? std::optional(*of_step + (steps[i].in_child + *pose)) : std::nullopt;
+        }
+        if (!pose) continue;
+        *pose = in_top + *pose;
+        mrpt::math::CQuaternionDouble q;
+        pose->getAsQuaternion(q);
+        whole.poses.push_back(
+            {time_ns, pose->x(), pose->y(), pose->z(), q.r(), q.x(), q.y(), q.z()});
+    }
+    return whole;
 }
 
 class Planner {
@@ -285,51 +354,157 @@ class Planner {
                            });
     }
 
+    /// Frames of the LiDARs that may be read.
+    std::vector<std::string> framesOfLidars() const {
+        std::vector<std::string> frames;
+        for (const Topic& topic : survey_.topics) {
+            if (!mayBeRead(topic)) continue;
+            frames.push_back(topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame);
+        }
+        return frames;
+    }
+
     using Way = std::vector<const PoseSeries*>;
 
-    /// The first transforms that move, on the way from a frame up the tree; null: none. Those
-    /// before them, which never change, are added to `way`.
-    const PoseSeries* firstMoving(const std::string& frame, Way& way) const {
-        std::string at = frame;
+    /// What leads from a frame up the tree.
+    struct Climb {
+        Way still;                       ///< transforms that never change, before the first moving
+        std::vector<MovingStep> moving;  ///< from the first that moves on
+        std::string top;                 ///< the frame where it ends
+        CPose3D in_top;                  ///< of the last step's parent
+        bool is_at_goal = false, is_circle = false;
+    };
+
+    /// Up to `goal`, or to what hangs on it without moving; without a goal up to a frame that moves
+    /// with no vehicle, or has no parent.
+    Climb climb(const std::string& frame, const std::string& goal = "") const {
+        Climb climb;
+        climb.top = frame;
         for (int depth = 0; depth < kDeepest; ++depth) {
-            const auto next = survey_.transforms.find(frames_.rootOf(at));
-            if (next == survey_.transforms.end() || next->second.poses.empty()) return nullptr;
-            if (!isStill(next->second)) return &next->second;
-            way.push_back(&next->second);
-            at = next->second.parent;
+            const std::string at = climb.top;
+            if (const auto pose = goal.empty() ? std::nullopt : frames_.poseIn(at, goal)) {
+                climb.top = goal;
+                climb.in_top = *pose + climb.in_top;
+                climb.is_at_goal = true;
+                return climb;
+            }
+            const auto ends_at = [&](const std::string& end) {
+                return !climb.moving.empty() && isWorld(end);
+            };
+            const std::string root = frames_.rootOf(at);
+            const auto in_root = frames_.poseIn(at, root);  // none: static frames in a circle
+            if (ends_at(at) || !in_root) return climb;
+            climb.top = root;
+            climb.in_top = *in_root + climb.in_top;
+            const auto next = survey_.transforms.find(root);
+            const bool is_root = next == survey_.transforms.end() || next->second.poses.empty();
+            if (is_root || ends_at(root)) return climb;
+            const PoseSeries& series = next->second;
+            climb.top = series.parent;
+            if (isStill(series)) {
+                climb.in_top = poseOf(series.poses.front()) + climb.in_top;
+                if (climb.moving.empty()) climb.still.push_back(&series);
+                continue;
+            }
+            climb.is_circle =
+                std::any_of(climb.moving.begin(), climb.moving.end(),
+                            [&](const MovingStep& step) { return step.series == &series; });
+            if (climb.is_circle) return climb;
+            // The poses are those of the first step's child itself.
+            climb.moving.push_back({climb.moving.empty() ? CPose3D() : climb.in_top, &series});
+            climb.in_top = CPose3D();
         }
-        return nullptr;
+        climb.is_circle = true;
+        return climb;
     }
 
     void addAsStatic(const Way& way) {
         for (const PoseSeries* step : way) {
-            const RecordedPose& pose = step->poses.front();
-            frames_.add(step->parent, step->child,
-                        CPose3D(mrpt::math::CQuaternionDouble(pose.qw, pose.qx, pose.qy, pose.qz),
-                                pose.x_m, pose.y_m, pose.z_m));
+            frames_.add(step->parent, step->child, poseOf(step->poses.front()));
         }
+    }
+
+    /// False, and nothing is taken, for steps that have no times in common.
+    bool takeComposed(const std::vector<MovingStep>& steps, const std::string& top,
+                      const CPose3D& in_top, const std::string& source = "") {
+        auto poses = std::make_shared<PoseSeries>(composed(steps, top, in_top));
+        if (poses->poses.empty()) return false;
+        if (!source.empty()) poses->source = source;
+        plan_.composed = poses;
+        plan_.poses = poses.get();
+        return true;
     }
 
     /// The transforms that move the frame on which a LiDAR hangs. Only if nothing moves they are
     /// some that never change: the vehicle stands still.
     void takeTransforms() {
         if (plan_.poses != nullptr) return;
-        std::vector<std::string> frames;
-        for (const Topic& topic : survey_.topics) {
-            if (!mayBeRead(topic)) continue;
-            frames.push_back(topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame);
-        }
+        std::vector<std::string> frames = framesOfLidars();
         frames.insert(frames.end(), {"base_link", "base_footprint"});
-        const PoseSeries* moving = nullptr;
-        const PoseSeries* still = nullptr;
+        std::optional<Climb> moving;
+        Way still;  // up to one that is no frame of the vehicle in another
         for (const std::string& frame : frames) {
-            Way way;
-            const PoseSeries* const found = firstMoving(frame, way);
-            if (still == nullptr && !way.empty()) still = way.front();
-            if (moving == nullptr) moving = found;
-            if (found != nullptr && found == moving) addAsStatic(way);
+            const Climb found = climb(frame);
+            const auto outside =
+                std::find_if(found.still.begin(), found.still.end(),
+                             [](const PoseSeries* series) { return !isOfVehicle(series->parent); });
+            if (still.empty() && outside != found.still.end()) {
+                still.assign(found.still.begin(), outside + 1);
+            }
+            if (found.moving.empty()) continue;
+            if (!moving) moving = found;
+            const bool is_same = found.moving.front().series == moving->moving.front().series;
+            if (is_same) addAsStatic(found.still);
         }
-        plan_.poses = moving != nullptr ? moving : still;
+        if (moving) {
+            takeMoving(*moving);
+        } else if (!still.empty()) {
+            plan_.poses = still.back();
+            still.pop_back();
+            addAsStatic(still);
+        }
+    }
+
+    void takeMoving(const Climb& climb) {
+        const PoseSeries& first = *climb.moving.front().series;
+        const std::string& parent = climb.moving.back().series->parent;
+        // What never changes above the last that moves matters only within the vehicle.
+        const bool is_within = isOfVehicle(parent);
+        const std::string& top = is_within ? climb.top : parent;
+        std::string why;
+        if (climb.is_circle) {
+            why = "go round in a circle";
+        } else if (isOfVehicle(top)) {
+            why = "say nothing of where '" + top + "' is";
+        } else if (climb.moving.size() == 1 && !is_within) {
+            plan_.poses = &first;
+        } else if (!takeComposed(climb.moving, top, is_within ? climb.in_top : CPose3D())) {
+            why = "have no times in common";
+        }
+        if (why.empty()) return;
+        plan_.remarks.push_back("the transforms from '" + top + "' to '" + first.child + "' " +
+                                why + ": they give no poses");
+    }
+
+    /// Poses of a frame against which the LiDARs move are not theirs: transforms lead to the frame
+    /// on which the first of them hangs.
+    void carryPosesToLidars() {
+        if (plan_.poses == nullptr || plan_.poses->child.empty()) return;
+        const std::string& child = plan_.poses->child;
+        std::optional<Climb> way;
+        for (const std::string& frame : framesOfLidars()) {
+            const Climb found = climb(frame, child);
+            if (!found.is_at_goal) continue;
+            if (found.moving.empty()) return;  // one hangs on it
+            if (!way) way = found;
+        }
+        if (!way) return;
+        std::vector<MovingStep> steps = way->moving;
+        steps.push_back({way->in_top, plan_.poses});
+        const std::string source = plan_.poses->source + " and transforms from " + child + " to " +
+                                   steps.front().series->child;
+        const std::string parent = plan_.poses->parent;
+        if (takeComposed(steps, parent, CPose3D(), source)) addAsStatic(way->still);
     }
 
     void choosePoses() {
@@ -339,6 +514,7 @@ class Planner {
         takeTransforms();
         takeMost(survey_.odometry, false);
         takeMost(survey_.poses, false);
+        carryPosesToLidars();
     }
 
     /// In ROS 1, transforms that never change are often repeated on tf. They count as static if
@@ -368,11 +544,9 @@ class Planner {
 
     /// The pose of a frame on the vehicle; none if the bag does not say it.
     std::optional<CPose3D> onVehicle(const std::string& frame) const {
-        std::vector<std::string> vehicles;
-        if (plan_.poses != nullptr && !plan_.poses->child.empty()) {
-            vehicles.push_back(plan_.poses->child);
-        }
-        vehicles.insert(vehicles.end(), {"base_link", "base_footprint"});
+        std::vector<std::string> vehicles{"base_link", "base_footprint"};
+        // These may move against the frame that the poses are of.
+        if (plan_.poses != nullptr && !plan_.poses->child.empty()) vehicles = {plan_.poses->child};
         for (const std::string& vehicle : vehicles) {
             if (const auto pose = frames_.poseIn(frame, vehicle)) return pose;
         }

@@ -17,9 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 
-/// "file:/a%20b.db3": characters with a meaning in such names are written as codes.
+/// "file:///a%20b.db3": characters with a meaning in such names are written as codes. Without an
+/// empty authority, that of a path from "//" on would be its first folder.
 std::string uriOf(const fs::path& file) {
-    std::string uri = "file:";
+    std::string uri = "file://";
     for (const char c : fs::absolute(file).string()) {
         const bool is_plain = std::string_view("%?# ").find(c) == std::string_view::npos;
         constexpr std::string_view kHex = "0123456789ABCDEF";
@@ -47,6 +48,16 @@ std::string whyCut(const fs::path& file) {
     if (!is_known || fs::file_size(file) >= due) return "";
     return "it is cut off: it has " + std::to_string(fs::file_size(file)) + " of " +
            std::to_string(due) + " bytes";
+}
+
+/// Whether the journal of a transaction that did not end waits beside a database. One that ended
+/// may stay, with zeros at its start.
+bool hasHotJournal(const fs::path& journal) {
+    constexpr std::string_view kJournal{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
+    std::array<char, kJournal.size()> start{};
+    std::ifstream stream(journal, std::ios::binary);
+    stream.read(start.data(), start.size());
+    return stream && std::string_view(start.data(), start.size()) == kJournal;
 }
 
 std::string textAt(sqlite3_stmt* row, int column) {
@@ -93,6 +104,15 @@ void SqliteBag::fail(const std::string& why) const {
 }
 
 void SqliteBag::open() {
+    // Only who may write can undo the changes, and without that pages of before and after are
+    // mixed.
+    const std::string journal = file_.string() + "-journal";
+    if (hasHotJournal(journal)) {
+        fail("it is being written, or whoever wrote it was interrupted: " + journal +
+             " undoes what is not complete. Wait, or copy both into a folder that may be written, "
+             "and there run: sqlite3 " +
+             file_.filename().string() + " 'SELECT count(*) FROM messages'");
+    }
     // Without changes that wait beside it, nothing needs to be written to read it.
     std::error_code none;
     const fs::path log = file_.string() + "-wal";

@@ -97,20 +97,6 @@ std::size_t bytesOfCharacter(char first) {
     return code < 0xe0 ? 2 : code < 0xf0 ? 3 : 4;
 }
 
-/// UTF-8, the last character of which may be cut.
-bool isText(std::string_view bytes) {
-    if (bytes.empty()) return false;
-    for (std::size_t at = 0; at < bytes.size();) {
-        const std::size_t count = bytesOfCharacter(bytes[at]);
-        if (count == 0) return false;
-        for (std::size_t i = at + 1; i < std::min(at + count, bytes.size()); ++i) {
-            if ((static_cast<unsigned char>(bytes[i]) & 0xc0) != 0x80) return false;
-        }
-        at += count;
-    }
-    return true;
-}
-
 bool areNumbers(std::string_view text) {
     return text.find_first_of("0123456789") != std::string_view::npos &&
            text.find_first_not_of("0123456789+-.eE \t,;\r\n") == std::string_view::npos;
@@ -135,6 +121,19 @@ FileKind kindOfText(std::string_view text) {
 std::string FileKind::text() const {
     if (what.empty()) return "";
     return "it seems to be " + what + (advice.empty() ? "" : ": " + advice);
+}
+
+bool isText(std::string_view bytes) {
+    if (bytes.empty()) return false;
+    for (std::size_t at = 0; at < bytes.size();) {
+        const std::size_t count = bytesOfCharacter(bytes[at]);
+        if (count == 0) return false;
+        for (std::size_t i = at + 1; i < std::min(at + count, bytes.size()); ++i) {
+            if ((static_cast<unsigned char>(bytes[i]) & 0xc0) != 0x80) return false;
+        }
+        at += count;
+    }
+    return true;
 }
 
 FileKind kindOfBytes(std::string_view start) {

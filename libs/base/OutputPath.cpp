@@ -12,6 +12,8 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -65,6 +67,10 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
                                  "', which is not part of " + kind.what +
                                  ", so it is not replaced; choose another name");
     }
+    if (kind.is_made != nullptr && !entriesOf(path).empty() && !kind.is_made(path)) {
+        throw std::runtime_error(path.string() + ": is not " + kind.what +
+                                 " of an earlier run, so it is not replaced; choose another name");
+    }
 }
 
 /// Returns `stem` `mark` `extension`, with a number after the mark if needed: the first free name.
@@ -107,12 +113,6 @@ void syncFolder(const fs::path& folder, const fs::path& named) {
     if (error != 0) throwWriteError(named, error);
 }
 
-/// Throws std::filesystem::filesystem_error.
-void removeOld(const fs::path& path) {
-    const std::error_code error = removeAll(path);
-    if (error) throw fs::filesystem_error("cannot be removed", path, error);
-}
-
 /// When a process began, in seconds since 1970; none if /proc does not tell.
 std::optional<double> startOf_s(pid_t process) {
     std::ifstream in("/proc/" + std::to_string(process) + "/stat");
@@ -146,8 +146,47 @@ bool mayWrite(pid_t process, const fs::path& file) {
     return *start_s <= static_cast<double>(written.st_mtim.tv_sec) + kRounding_s;
 }
 
+/// The outputs of this process that are being written: their names by temporary name.
+class Living {
+ public:
+    void add(const fs::path& temporary, const fs::path& name) {
+        const std::lock_guard lock(mutex_);
+        names_.emplace(temporary.string(), name.string());
+    }
+    void remove(const fs::path& temporary) {
+        const std::lock_guard lock(mutex_);
+        names_.erase(temporary.string());
+    }
+    bool has(const fs::path& file) const {
+        const std::lock_guard lock(mutex_);
+        return std::any_of(names_.begin(), names_.end(), [&](const auto& each) {
+            return fs::path(each.first).filename() == file.filename();
+        });
+    }
+    std::string named(std::string text) const {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [temporary, name] : names_) {
+            for (std::size_t at = text.find(temporary); at != std::string::npos;
+                 at = text.find(temporary, at + name.size())) {
+                text.replace(at, temporary.size(), name);
+            }
+        }
+        return text;
+    }
+
+ private:
+    mutable std::mutex mutex_;
+    std::map<std::string, std::string> names_;
+};
+
+Living& living() {
+    static Living all;
+    return all;
+}
+
 /// Whether a temporary file is of a process that does not run any more.
 bool isLeftBehind(const fs::path& file, const std::string& output) {
+    if (living().has(file)) return false;
     const std::string name = file.filename().string();
     const std::string start = output + kTemporaryMark;
     if (name.rfind(start, 0) != 0) return false;
@@ -185,9 +224,13 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     }
     temporary_ = secretName(path_, kTemporaryMark);
     reserveForRemoval();
+    living().add(temporary_, path_);
 }
 
-OutputPath::~OutputPath() { removeAll(temporary_); }
+OutputPath::~OutputPath() {
+    removeAll(temporary_);
+    living().remove(temporary_);
+}
 
 void OutputPath::checkFree() const {
     if (!fs::exists(fs::symlink_status(path_))) return;
@@ -197,14 +240,14 @@ void OutputPath::checkFree() const {
     checkReplaceable(path_, kind_);
 }
 
-/// False if the name is taken, by someone else since the constructor's check.
-bool OutputPath::renameToFreeName() const {
-    if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0) {
+/// False if the name is taken, by someone else since it was looked at.
+bool OutputPath::renameToFreeName(const fs::path& name) const {
+    if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) == 0) {
         return true;
     }
     if (errno == EEXIST) return false;
-    if (fs::exists(fs::symlink_status(path_))) return false;
-    fs::rename(temporary_, path_);  // some file systems do not know that flag
+    if (fs::exists(fs::symlink_status(name))) return false;
+    fs::rename(temporary_, name);  // some file systems do not know that flag
     return true;
 }
 
@@ -219,7 +262,7 @@ void OutputPath::commit() {
     std::string taken;
     try {
         checkFree();
-        if (!overwrites_ && !renameToFreeName()) taken = path_.string() + " exists now";
+        if (!overwrites_ && !renameToFreeName(path_)) taken = path_.string() + " exists now";
     } catch (const fs::filesystem_error&) {
         throw;
     } catch (const std::runtime_error& e) {
@@ -228,23 +271,24 @@ void OutputPath::commit() {
     if (!taken.empty()) {
         throw std::runtime_error(taken + "; this run's output is " + keepPartial().string());
     }
-    if (!is_folder) {
-        if (overwrites_) fs::rename(temporary_, path_);
-        syncFile(fs::absolute(path_).parent_path(), path_);
-        return;
-    }
-    if (!overwrites_) return;
-    if (!fs::is_directory(path_)) {
+    const fs::path old = overwrites_ ? replace(is_folder) : fs::path();
+    kept_ = path_;
+    syncFile(fs::absolute(path_).parent_path(), path_);
+    if (!old.empty()) removeOld(old);
+}
+
+/// Gives the output its name. Returns where an older folder is now, if there was one.
+fs::path OutputPath::replace(bool is_folder) const {
+    if (!is_folder || !fs::is_directory(path_)) {
         fs::rename(temporary_, path_);
-        return;
+        return {};
     }
     // rename() does not replace a non-empty folder. Exchanged, the name always has one of the two.
     if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) {
-        removeOld(temporary_);
-        return;
+        return temporary_;
     }
     // Some file systems cannot exchange.
-    const fs::path old = secretName(path_, ".old-");
+    fs::path old = secretName(path_, ".old-");
     fs::rename(path_, old);
     try {
         fs::rename(temporary_, path_);
@@ -252,7 +296,17 @@ void OutputPath::commit() {
         fs::rename(old, path_);
         throw;
     }
-    removeOld(old);
+    return old;
+}
+
+/// This run's output has its name.
+void OutputPath::removeOld(const fs::path& old) {
+    const std::error_code error = removeAll(old);
+    if (!error) return;
+    living().remove(temporary_);  // the message means this name
+    throw std::runtime_error(path_.string() +
+                             ": is complete, but the older one cannot be removed and is " +
+                             old.string() + " now: " + error.message());
 }
 
 fs::path OutputPath::keepPartial() {
@@ -260,10 +314,15 @@ fs::path OutputPath::keepPartial() {
     const bool is_folder = fs::is_directory(temporary_);
     fs::path stem = path_;
     if (!is_folder) stem.replace_extension();
-    fs::path name = freeName(stem, ".partial", is_folder ? fs::path() : path_.extension());
-    fs::rename(temporary_, name);
-    return kept_ = name;
+    for (;;) {
+        const fs::path name =
+            freeName(stem, ".partial", is_folder ? fs::path() : path_.extension());
+        // Another run may end at the same time.
+        if (renameToFreeName(name)) return kept_ = name;
+    }
 }
+
+std::string withOutputNames(std::string message) { return living().named(std::move(message)); }
 
 RenamingNote::RenamingNote(const std::vector<fs::path>& outputs) {
     if (outputs.size() < 2) return;

@@ -30,11 +30,8 @@ void OutputSet::attempt(Member& member, const std::function<void()>& step) {
         why = e.what();
     }
     member.is_given_up = true;
-    const std::string name = member.path.string(), temporary = member.temporary.string();
-    for (std::size_t at = why.find(temporary); at != std::string::npos;
-         at = why.find(temporary, at + name.size())) {
-        why.replace(at, temporary.size(), name);
-    }
+    const std::string name = member.path.string();
+    why = withOutputNames(std::move(why));
     if (why.find(name) == std::string::npos) why = name + ": " + why;
     failures_ += (failures_.empty() ? "" : "; ") + why;
 }

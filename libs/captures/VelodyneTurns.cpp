@@ -13,7 +13,7 @@ namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
 
-constexpr std::size_t kMostWaiting = 16;
+constexpr std::size_t kMostWaiting = 16, kOfSetClock = 16;
 constexpr double kHourUs = 3600e6, kSecondUs = 1e6;
 constexpr double kEndOfTurnUs = 50e3;       // without packets
 constexpr double kLongestTurnUs = 250e3;    // the slowest sensors turn five times per second
@@ -37,12 +37,28 @@ void VelodyneTurns::add(const packets::VelodynePacket& packet) {
     const double latest_us = waiting_.empty() ? time_us : waiting_.back().sensorTimeUs();
     const double ahead_us = elapsedUs(latest_us, time_us);
     const double most_late_us = kMostWaiting * model_.packetPeriodUs(packet.isDual());
-    if (ahead_us < -most_late_us) {  // too far back to be late: the clock was set
-        flush();
-        endTurn();
-        has_last_ = false;
-        ++counts_.interruptions;
+    if (ahead_us >= -most_late_us) {
+        counts_.too_late += held_.size();
+        held_.clear();
+        insert(packet);
+        return;
     }
+    held_.push_back(packet);
+    if (held_.size() >= kOfSetClock) setClock();
+}
+
+/// So far back, one packet waited in a network, or is a copy. Several in a row are of a clock that
+/// was set.
+void VelodyneTurns::setClock() {
+    flush();
+    endTurn();
+    has_last_ = false;
+    ++counts_.interruptions;
+    for (const packets::VelodynePacket& packet : std::exchange(held_, {})) add(packet);
+}
+
+void VelodyneTurns::insert(const packets::VelodynePacket& packet) {
+    const double time_us = packet.sensorTimeUs();
     auto place = waiting_.end();
     while (place != waiting_.begin() && elapsedUs(std::prev(place)->sensorTimeUs(), time_us) < 0) {
         --place;
@@ -66,6 +82,7 @@ void VelodyneTurns::flush() {
 }
 
 void VelodyneTurns::finish() {
+    while (!held_.empty()) setClock();  // each leaves fewer
     flush();
     endTurn();
 }
@@ -123,6 +140,7 @@ std::string textOf(const VelodyneTurns::Counts& counts) {
     addCount(counts.dual, "packet", "with dual returns", text);
     addCount(counts.lost, "packet", "lost", text);
     addCount(counts.out_of_order, "packet", "out of order, put back", text);
+    addCount(counts.too_late, "packet", "more than sixteen packets late, left out", text);
     addCount(counts.repeated, "packet", "repeated, left out", text);
     addCount(counts.interruptions, "interruption", "or jump of the sensor's clock", text);
     return text;

@@ -2,6 +2,7 @@
 
 #include <hagen/base/NumberText.h>
 #include <hagen/base/ReadFile.h>
+#include <hagen/range_image/MostReturns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +53,8 @@ Bytes readBytes(const std::filesystem::path& file) {
     in.seekg(0, std::ios::end);
     const auto size = static_cast<std::size_t>(in.tellg());
     if (size > kMostFileBytes) {
-        throw BrokenCloud(file.string() + ": is larger than 2 GiB; a cloud has at most 16777216 " +
-                          "points");
+        throw BrokenCloud(file.string() + ": is larger than 2 GiB; a cloud has at most " +
+                          std::to_string(kMostReturns) + " points");
     }
     Bytes bytes(size);
     in.seekg(0);
@@ -122,9 +123,17 @@ bool putNumber(std::string_view word, NumberType type, std::uint8_t* to) {
     return false;
 }
 
+void checkNumber(const std::filesystem::path& file, std::size_t points) {
+    if (points <= kMostReturns) return;
+    throw BrokenCloud(file.string() + ": has " + std::to_string(points) +
+                      " points, more than the " + std::to_string(kMostReturns) +
+                      " that a scan may have; is it a map of many scans?");
+}
+
 void checkRoom(const std::filesystem::path& file, std::size_t points, std::size_t bytes_per_point,
                std::size_t there) {
-    if (points == 0 || (bytes_per_point > 0 && points <= there / bytes_per_point)) return;
+    if (points == 0) return;
+    if (bytes_per_point > 0 && points <= there / bytes_per_point) return checkNumber(file, points);
     throw BrokenCloud(file.string() + ": the header says " + std::to_string(points) +
                       " points of " + std::to_string(bytes_per_point) + " bytes, but " +
                       std::to_string(there) + " bytes are there; is it truncated?");

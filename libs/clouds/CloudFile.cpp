@@ -40,7 +40,8 @@ std::optional<CloudFormat> formatOf(const Bytes& start, std::size_t size) {
     if (isPcd(start)) return CloudFormat::Pcd;
     const BinPoint point = binPointOf(start);
     const bool may_be_four = point == BinPoint::Four || point == BinPoint::FourOrFive;
-    const bool may_be_five = point == BinPoint::Five || point == BinPoint::FourOrFive;
+    const bool may_be_five =
+        point == BinPoint::Five || point == BinPoint::FourOrFive || point == BinPoint::FiveOrNone;
     const bool is_bin = (may_be_four && size % (4 * sizeof(float)) == 0) ||
                         (may_be_five && size % (5 * sizeof(float)) == 0);
     return is_bin ? std::optional(CloudFormat::Bin) : std::nullopt;
@@ -59,27 +60,17 @@ std::string otherKindOf(const Bytes& start) {
     return base::kindOfBytes({reinterpret_cast<const char*>(start.data()), start.size()}).text();
 }
 
-/// What is said of a file in no format that is read.
-std::string whyNoCloud(const Bytes& start) {
-    if (start.empty()) return "is empty";
-    const std::string known = otherKindOf(start);
-    return "is no point cloud: " +
-           (known.empty() ? "its first numbers are no points that a LiDAR sees" : known) +
-           ". Known are PCD, PLY, LAS, NPY, and .bin of float32 x, y, z, intensity (KITTI), or "
-           "also "
-           "ring (nuScenes)";
-}
-
 CloudFile read(const std::filesystem::path& file) {
     Bytes bytes = readBytes(file);
     const Bytes start(bytes.begin(),
                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
     const auto format = formatOf(start, bytes.size());
     if (!format) {
-        // An empty .bin is a scan without returns, and one that was cut still a .bin.
-        const bool is_cut = binPointOf(start) != BinPoint::None ||
-                            (bytes.size() % 16 != 0 && otherKindOf(start).empty());
-        if (extensionOf(file) == ".bin" && (bytes.empty() || is_cut)) {
+        // An empty .bin, or of zeros, is a scan without returns, and one that was cut still a .bin.
+        const bool may_be_bin = bytes.size() % 16 != 0 || isAllZero(start);
+        const bool is_bin = bytes.empty() || binPointOf(start) != BinPoint::None ||
+                            (may_be_bin && otherKindOf(start).empty());
+        if (extensionOf(file) == ".bin" && is_bin) {
             return readBin(file, std::move(bytes));
         }
         throw BrokenCloud(file.string() + ": " + whyNoCloud(start));
@@ -100,6 +91,15 @@ CloudFile read(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::string whyNoCloud(const Bytes& start) {
+    if (start.empty()) return "is empty";
+    const std::string known = otherKindOf(start);
+    return "is no point cloud: " +
+           (known.empty() ? "its first numbers are no points that a LiDAR sees" : known) +
+           ". Known are PCD, PLY, LAS, NPY, and .bin of float32 x, y, z, intensity (KITTI), or "
+           "also ring (nuScenes)";
+}
 
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
     std::error_code error;
@@ -125,11 +125,13 @@ BinStart startOfBin(const std::filesystem::path& file) {
     Bytes bytes(kStart);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
-    const BinPoint point = binPointOf(bytes);
+    BinPoint point = binPointOf(bytes);
+    if (point == BinPoint::FourOrFive || point == BinPoint::FiveOrNone) {
+        point = binPointOf(point, readBytes(file));
+    }
     BinStart start;
     if (point == BinPoint::None) start.other_kind = otherKindOf(bytes);
-    if (point == BinPoint::FourOrFive) bytes = readBytes(file);
-    start.floats_per_point = numbersPerBinPoint(point, bytes);
+    start.floats_per_point = point == BinPoint::Five ? 5 : 4;
     return start;
 }
 

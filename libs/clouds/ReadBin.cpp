@@ -76,7 +76,23 @@ bool areRings(const Fifths& fifths) {
     return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kFewestReturns;
 }
 
+/// The bytes that tell what the points are: the first ones, or if these are zero, as in a scan that
+/// begins with rows of sky, those from the first return on.
+Bytes tellingBytes(const Bytes& bytes) {
+    constexpr std::size_t kBothPoints = 80;  // points of 16 and of 20 bytes
+    const auto first =
+        std::find_if(bytes.begin(), bytes.end(), [](auto byte) { return byte != 0; });
+    auto from = static_cast<std::size_t>(first - bytes.begin());
+    from = from < kStart || first == bytes.end() ? 0 : from / kBothPoints * kBothPoints;
+    const auto start = bytes.begin() + static_cast<std::ptrdiff_t>(from);
+    return {start, start + static_cast<std::ptrdiff_t>(std::min(bytes.size() - from, kStart))};
+}
+
 }  // namespace
+
+bool isAllZero(const Bytes& bytes) {
+    return std::all_of(bytes.begin(), bytes.end(), [](auto byte) { return byte == 0; });
+}
 
 BinPoint binPointOf(const Bytes& start) {
     if (isPacked(start)) return BinPoint::None;
@@ -85,27 +101,32 @@ BinPoint binPointOf(const Bytes& start) {
         const Fifths fifths = fifthsOf(start);
         if (areRings(fifths) && fifths.of_returns.size() > 1) return BinPoint::Five;
         // One beam only, or few returns: the rest tells.
-        if (fifths.are_whole && (may_be_four || start.size() >= kStart))
-            return BinPoint::FourOrFive;
+        if (fifths.are_whole && may_be_four) return BinPoint::FourOrFive;
+        if (fifths.are_whole && start.size() >= kStart) return BinPoint::FiveOrNone;
     }
     return may_be_four ? BinPoint::Four : BinPoint::None;
 }
 
-std::size_t numbersPerBinPoint(BinPoint of_start, const Bytes& all) {
-    const bool is_five =
-        of_start == BinPoint::Five || (of_start == BinPoint::FourOrFive && areRings(fifthsOf(all)));
-    return is_five ? 5 : 4;
+BinPoint binPointOf(BinPoint of_start, const Bytes& all) {
+    if (of_start != BinPoint::FourOrFive && of_start != BinPoint::FiveOrNone) return of_start;
+    if (areRings(fifthsOf(all))) return BinPoint::Five;
+    return of_start == BinPoint::FourOrFive ? BinPoint::Four : BinPoint::None;
 }
 
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
-    const Bytes start(bytes.begin(),
-                      bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
+    const Bytes start = tellingBytes(bytes);
+    const BinPoint of_start = binPointOf(start), point = binPointOf(of_start, bytes);
+    // One that is cut may have no whole point.
+    const bool may_be_cut = of_start == BinPoint::None && bytes.size() % 16 != 0;
+    if (point == BinPoint::None && !may_be_cut && !isAllZero(start)) {
+        throw BrokenCloud(file.string() + ": " + whyNoCloud(start));
+    }
     CloudFile cloud;
     cloud.table.fields = {{"x", NumberType::Float32, 0, 1},
                           {"y", NumberType::Float32, 4, 1},
                           {"z", NumberType::Float32, 8, 1},
                           {"intensity", NumberType::Float32, 12, 1}};
-    if (numbersPerBinPoint(binPointOf(start), bytes) == 5) {
+    if (point == BinPoint::Five) {
         cloud.table.fields.push_back({"ring", NumberType::Float32, 16, 1});
     }
     const std::size_t bytes_per_point = sizeof(float) * cloud.table.fields.size();
@@ -114,6 +135,7 @@ CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
                           " bytes are not a multiple of " + std::to_string(bytes_per_point) +
                           "-byte points; is it truncated?");
     }
+    checkNumber(file, bytes.size() / bytes_per_point);
     cloud.table.bytes_per_point = bytes_per_point;
     cloud.table.points = bytes.size() / bytes_per_point;
     cloud.table.bytes = std::move(bytes);

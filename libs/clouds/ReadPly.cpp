@@ -157,12 +157,15 @@ class BinaryRows {
             const std::size_t size = element.size();
             if (element.count > left() / size) failCut(file_, element, left() / size);
             if (table != nullptr) {
+                checkNumber(file_, element.count);
                 const auto from = bytes_.begin() + static_cast<std::ptrdiff_t>(at_);
                 table->bytes.assign(from, from + static_cast<std::ptrdiff_t>(element.count * size));
             }
             at_ += element.count * size;
             return;
         }
+        // With more rows than bytes it is cut.
+        if (table != nullptr && element.count <= left()) checkNumber(file_, element.count);
         for (std::size_t row = 0; row < element.count; ++row) {
             for (const Property& property : element.properties) {
                 if (!readProperty(property, table)) failCut(file_, element, row);
@@ -215,6 +218,7 @@ class AsciiRows {
         if (element.properties.empty()) return;
         if (table != nullptr) {
             if (element.count > left()) failCut(file_, element, 0);
+            checkNumber(file_, element.count);
             // Two bytes of text make a number of at most eight.
             table->bytes.reserve(std::min(element.count * table->bytes_per_point, 4 * left() + 8));
         }

@@ -14,11 +14,16 @@ CloudFile readBin(const std::filesystem::path& file, Bytes bytes);
 
 /// How many float32 a point of a .bin has: 4 (x, y, z, intensity, as of KITTI) or 5 (with the ring,
 /// as of nuScenes). None: these are no points of a LiDAR.
-enum class BinPoint { None, Four, Five, FourOrFive };
+enum class BinPoint { None, Four, Five, FourOrFive, FiveOrNone };
 
 /// What the first bytes of a file tell.
 BinPoint binPointOf(const Bytes& start);
-/// The number, once all bytes are there.
-std::size_t numbersPerBinPoint(BinPoint of_start, const Bytes& all);
+/// Which of two it is, once all bytes are there.
+BinPoint binPointOf(BinPoint of_start, const Bytes& all);
+
+bool isAllZero(const Bytes& bytes);
+
+/// What is said of a file in no format that is read.
+std::string whyNoCloud(const Bytes& start);
 
 }  // namespace hagen::clouds

@@ -23,6 +23,7 @@ struct BackgroundPrinter::Waiting {
     void add(To to, std::string&& text) {
         if (is_over || texts.size() >= kMostWaiting) {
             ++left_out;
+            is_output_left = is_output_left || to == To::Output;
             return;
         }
         if (left_out > 0) {

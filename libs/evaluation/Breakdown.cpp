@@ -11,11 +11,14 @@ struct Band {
     const char* name;
     double from_m, to_m;
 };
-constexpr std::array<Band, 5> kAltitudes{{{"0-2 m", 0, 2},
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Altitudes are of a file, which may have any.
+constexpr std::array<Band, 6> kAltitudes{{{"below 0 m", -kInfinity, 0},
+                                          {"0-2 m", 0, 2},
                                           {"2-3 m", 2, 3},
                                           {"3-5 m", 3, 5},
                                           {"5-10 m", 5, 10},
-                                          {"10+ m", 10, std::numeric_limits<double>::infinity()}}};
+                                          {"10+ m", 10, kInfinity}}};
 
 std::vector<Group> withoutEmpty(std::vector<Group> groups) {
     const auto is_empty = [](const Group& group) { return group.sum().returns() == 0; };

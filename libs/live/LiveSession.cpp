@@ -139,7 +139,7 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     sensor_ =
         makeLiveSensor(options, [this](const streaming::LabelledSector& sector) { tell(sector); });
     const streaming::StreamingSegmenter& segmenter = sensor_->segmenter();
-    figures_.emplace(segmenter.sensor(), report_);
+    figures_.emplace(segmenter.sensor(), options_.settings.mount, report_);
     listener_.begin(segmenter.sensor(), segmenter.options());
     if (options.recording.file.empty()) return;
     recorder_ = std::make_unique<RecorderProcess>(options, !is_live);

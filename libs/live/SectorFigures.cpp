@@ -15,10 +15,18 @@ constexpr double kDirections_s = 0.05;
 constexpr double kLeastTime_s = 0.125;  // of a rate
 constexpr double kOtherRate = 0.2;      // is told
 
+SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
+    SectorDistances::Settings settings;
+    settings.body_from_sensor.linear() = vehicle_from_sensor;
+    return settings;
+}
+
 }  // namespace
 
-SectorFigures::SectorFigures(const SensorModel& sensor, LiveReport& report)
-    : report_(report), distances_(sensor) {
+SectorFigures::SectorFigures(const SensorModel& sensor, const Attitude& mount, LiveReport& report)
+    : report_(report),
+      vehicle_from_sensor_(levelFromSensor(mount)),
+      distances_(sensor, settingsFor(vehicle_from_sensor_)) {
     report_.nearest_m.fill(std::numeric_limits<float>::infinity());
 }
 
@@ -49,12 +57,13 @@ void SectorFigures::noteNearest(const streaming::LabelledSector& sector) {
     const Scan& scan = sector.returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (sector.label[i] != Label::Roi) continue;
-        const double clockwise_rad = -static_cast<double>(scan.azimuth_rad[i]);
+        const Eigen::Vector3f at_m =
+            vehicle_from_sensor_ * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+        const double clockwise_rad = -static_cast<double>(std::atan2(at_m.y(), at_m.x()));
         const double share = clockwise_rad / (2 * kPi) + (clockwise_rad < 0 ? 1 : 0);
         const int k = std::min(static_cast<int>(share * SectorDistances::kSectors),
                                SectorDistances::kSectors - 1);
-        const float distance_m = std::sqrt(scan.x_m[i] * scan.x_m[i] + scan.y_m[i] * scan.y_m[i]);
-        report_.nearest_m[k] = std::min(report_.nearest_m[k], distance_m);
+        report_.nearest_m[k] = std::min(report_.nearest_m[k], at_m.head<2>().norm());
     }
 }
 

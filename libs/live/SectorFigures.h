@@ -13,7 +13,8 @@ struct RateChange {
 /// What the report has of the sectors, and the status of the last half second.
 class SectorFigures {
  public:
-    SectorFigures(const SensorModel& sensor, LiveReport& report);
+    /// Directions are of the vehicle, on which the sensor is tilted by `mount`.
+    SectorFigures(const SensorModel& sensor, const Attitude& mount, LiveReport& report);
 
     /// A sector that got its labels at `now_s`.
     void take(const streaming::LabelledSector& sector, double now_s);
@@ -33,6 +34,7 @@ class SectorFigures {
     void noteNearest(const streaming::LabelledSector& sector);
 
     LiveReport& report_;
+    Eigen::Matrix3f vehicle_from_sensor_;
     streaming::SectorDistances distances_;
     double counted_s_ = 0;
     LatencyHistogram recent_;

@@ -44,6 +44,9 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     std::vector<fs::path> inputs = conversion.settings.files;
     inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
                                  conversion.calibration});
+    const fs::path externals = externalsOf(conversion.input);
+    std::error_code no_such;
+    if (fs::is_directory(externals, no_such)) inputs.push_back(externals);
     base::checkApart(outputs, inputs);
     useExternals(conversion, listener);
     return Converter(conversion, listener).run();

@@ -22,6 +22,11 @@ Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) 
     return {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)};
 }
 
+/// Also of "folder/".
+std::string nameOf(const fs::path& input) {
+    return (input.has_filename() ? input : input.parent_path()).filename().string();
+}
+
 std::string textOf(const fs::path& name) { return name.string(); }
 std::string textOf(const std::string& names) { return names; }
 
@@ -56,14 +61,15 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
     }
 }
 
-// Each part's steps run on one thread at a time. The flag is seen by the next.
+// Members are packed on several threads; all other steps of a part run on one at a time. The flag
+// is seen by the next.
 template <class Step>
 void ConversionOutputs::attempt(Part part, Step step) {
     if (is_given_up_[part]) return;
     try {
         step();
     } catch (const std::bad_alloc&) {
-        giveUp(part, pathOf(part).string() + ": out of memory");
+        giveUp(part, nullptr);
     } catch (const std::exception& e) {
         giveUp(part, e.what());
     }
@@ -88,9 +94,17 @@ const fs::path& ConversionOutputs::pathOf(Part part) const {
     }
 }
 
-void ConversionOutputs::giveUp(Part part, const std::string& why) {
-    why_[part] = why;
+/// The first reason is kept; null, or no memory for its text: out of memory.
+void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
+    const std::lock_guard lock(why_mutex_);
+    if (is_given_up_[part]) return;
     is_given_up_[part] = true;
+    if (why == nullptr) return;
+    try {
+        why_[part] = base::withOutputNames(why);
+    } catch (const std::bad_alloc&) {
+        why_[part].clear();
+    }
 }
 
 /// Calls act(part, output) for the outputs that there are.
@@ -130,9 +144,9 @@ void ConversionOutputs::insertIntoMap(const mapping::MappedScan& scan) {
     try {
         map_->insert(scan);
     } catch (const mapping::MapFull& e) {
-        giveUp(kMap, pathOf(kMap).string() + ": " + e.what());
+        giveUp(kMap, (pathOf(kMap).string() + ": " + e.what()).c_str());
     } catch (const std::bad_alloc&) {
-        giveUp(kMap, pathOf(kMap).string() + ": out of memory; use larger voxels");
+        giveUp(kMap, nullptr);
     }
 }
 
@@ -180,8 +194,8 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
     const std::string name = is_named ? recorded.name : scanName(recorded.entry);
     fs::path folder = pictures_->folderOf(label) / name;
     while (!fs::create_directory(folder)) folder += "_";  // a second scan in a sensory frame
-    const std::string title = conversion_.input.filename().string() + ", " + label +
-                              (is_named ? ", scan " : ", entry ") + name;
+    const std::string title =
+        nameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
     pictures::drawStages({*segmented.scan, *segmented.sensor, *segmented.options, *segmented.result,
                           title, conversion_.picture_azimuth_deg},
                          folder);
@@ -225,7 +239,10 @@ std::string ConversionOutputs::whatFailed() {
     std::string text;
     forEach([&](Part part, auto& output) {
         if (!is_given_up_[part]) return;
-        text += (text.empty() ? "" : "; ") + why_[part];
+        text += text.empty() ? "" : "; ";
+        text += !why_[part].empty() ? why_[part]
+                : part == kMap      ? pathOf(part).string() + ": out of memory; use larger voxels"
+                                    : pathOf(part).string() + ": out of memory";
         if (!hasWholeParts(part)) return;
         try {
             if (part == kFolders) finishFolders();

@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ class ConversionOutputs {
     /// in it.
     bool wantsMap() const { return map_.has_value(); }
     void insertIntoMap(const mapping::MappedScan& scan);
-    void giveUpMap(const std::string& why) { giveUp(kMap, why); }
+    void giveUpMap(const std::string& why) { giveUp(kMap, why.c_str()); }
 
     /// False once all outputs that were asked for are given up: there is nothing to convert for.
     bool hasAny() const;
@@ -69,7 +70,7 @@ class ConversionOutputs {
     /// Does a step of an output; if it fails, gives the output up.
     template <class Step>
     void attempt(Part part, Step step);
-    void giveUp(Part part, const std::string& why);
+    void giveUp(Part part, const char* why) noexcept;
     template <class Do>
     void forEach(Do act);
 
@@ -93,6 +94,7 @@ class ConversionOutputs {
     std::optional<MapOutput> map_;
     std::optional<base::OutputPath> stats_;
     std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< steps run on several threads
+    std::mutex why_mutex_;
     std::array<std::string, kParts> why_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
     std::map<std::string, std::size_t> scans_;                ///< written so far

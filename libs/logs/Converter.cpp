@@ -498,8 +498,11 @@ void Converter::keepWhatThereIs() {
         throw Interrupted(e.what() + kept);
     } catch (const std::bad_alloc&) {
         throw std::runtime_error(conversion_.input.string() + ": out of memory" + kept);
+    } catch (const TooManySensors& e) {
+        throw std::runtime_error(conversion_.input.string() + ": " + e.what() + kept);
     } catch (const std::exception& e) {
-        throw std::runtime_error(observations::messageOf(e) + kept);
+        const std::string why = observations::messageOf(e);
+        throw std::runtime_error((why.empty() ? "MRPT gives no reason" : why) + kept);
     }
 }
 

@@ -60,9 +60,12 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
         if (entries_ == 0) throw BrokenRawlog(file_.string() + ": contains no rawlog entries");
         return nullptr;
     } catch (const std::bad_alloc&) {
-        throw broken("it asks for more memory at byte " + std::to_string(stream_.getPosition()) +
-                     " than an entry there can need: a count is wrong, or the entry exceeds " +
-                     std::to_string(kMostEntryBytes >> 20) + " MiB");
+        if (!stream_.fault().empty()) throw broken("");
+        throw AsksTooMuch(
+            broken("it asks for more memory at byte " + std::to_string(stream_.getPosition()) +
+                   " than an entry there can need: a count is wrong, or the entry exceeds " +
+                   std::to_string(kMostEntryBytes >> 20) + " MiB")
+                .what());
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);
         if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {

@@ -8,6 +8,11 @@ namespace hagen::logs {
 /// returns with all fields.
 constexpr std::uint64_t kMostEntryBytes = std::uint64_t{1} << 30;
 
+/// More memory than there is: a count is wrong, or the limit is too low.
+struct AsksTooMuch : BrokenRawlog {
+    using BrokenRawlog::BrokenRawlog;
+};
+
 /// Reads a rawlog by MRPT's reader, which trusts what it reads: a wrong count may take all memory,
 /// an object that is missing may crash it. RawlogReader is the safe way.
 class EntryReader {
@@ -16,7 +21,8 @@ class EntryReader {
     /// @param opened what is opened: the file, by this or another name.
     EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened);
 
-    /// The next entry, or nullptr at the end. Throws BrokenRawlog.
+    /// The next entry, or nullptr at the end. Throws BrokenRawlog; AsksTooMuch, if that is all that
+    /// is wrong.
     mrpt::serialization::CSerializable::Ptr next();
 
     std::size_t entries() const { return entries_; }

@@ -62,6 +62,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
         learner.add(observed.scan);
         ++report.scans;
     }
+    for (const std::string& remark : source->remarks()) listener.remark(remark);
 }
 
 }  // namespace
@@ -77,8 +78,10 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
 
     AirframeLearner learner;
     addScans(learning, listener, learner, report);
-    const std::string origin = learning.input.filename().string() + ", " + report.sensor_label +
-                               ", " + std::to_string(report.scans) + " scans";
+    const fs::path& input = learning.input;  // "folder/" has no file name
+    const fs::path named = input.has_filename() ? input : input.parent_path();
+    const std::string origin = named.filename().string() + ", " + report.sensor_label + ", " +
+                               std::to_string(report.scans) + " scans";
     LearnedAirframe learned;
     try {
         learned = learner.learn();

@@ -80,10 +80,18 @@ void MapOutput::throwFailures() const {
     if (!failures_.empty()) throw std::runtime_error(failures_);
 }
 
+/// The tree may fill the memory, so it is not copied: what changes it most is written last.
 void MapOutput::write() {
-    for (const base::OutputPath& file : files_) {
+    std::vector<const base::OutputPath*> files;
+    for (const char* ending : {".3Dscene", ".ot", ".bt"}) {
+        for (const base::OutputPath& file : files_) {
+            if (file.path().extension() == ending) files.push_back(&file);
+        }
+    }
+    for (const base::OutputPath* const each : files) {
+        const base::OutputPath& file = *each;
         try {
-            mapping::saveMap(map_.tree(), file.temporary(), file.path());
+            mapping::saveMapInPlace(map_.tree(), file.temporary(), file.path());
         } catch (const std::bad_alloc&) {
             giveUp(file, file.path().string() + ": out of memory");
         } catch (const std::runtime_error& e) {

@@ -64,7 +64,7 @@ struct PackedInput::Stream {
             const bool is_sound = unpacker->unpack(step);
             const bool is_stuck =
                 in_before > 0 && step.in_size == in_before && step.out_size == out_before;
-            if (!is_sound || is_stuck) fault = "the compressed data is corrupt";
+            if (!is_sound || is_stuck) fault = unpacker->fault();
             packed_at = packed_end - step.in_size;
             unpacked_end = unpacked.size() - step.out_size;
             may_hold_more = step.out_size == 0 && unpacker->isInMember();

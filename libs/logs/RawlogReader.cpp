@@ -47,7 +47,12 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     const EntryVerdict verdict = parts_->trial.next();
     if (verdict.kind == EntryVerdict::Kind::End) return nullptr;
     if (verdict.kind == EntryVerdict::Kind::Broken) throw BrokenRawlog(verdict.why);
-    auto object = parts_->reader.next();
+    mrpt::serialization::CSerializable::Ptr object;
+    try {
+        object = parts_->reader.next();
+    } catch (const AsksTooMuch&) {  // the trial had what it asks for
+        throw std::bad_alloc();
+    }
     if (!object || parts_->reader.stream().getPosition() != verdict.end) {
         throw BrokenRawlog(parts_->file.string() + ": changed while it was read, at entry " +
                            std::to_string(entries()));

@@ -92,25 +92,28 @@ bool hasSomething(int pipe, std::chrono::milliseconds patience) {
 }
 
 /// Limits what the next entry may take: no more than its bytes in the rest of the file can need.
-void limitMemory(const PackedInput& stream, const rlimit& of_program) {
+/// Returns whether the program's own limit is lower.
+bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // of a sanitizer
     const std::uint64_t now = dataBytes();
-    if (now == 0 || now > kShadow) return;
+    if (now == 0 || now > kShadow) return false;
     const std::uint64_t left = std::min(stream.mostBytesLeft(), kMostEntryBytes);
     const std::uint64_t more = std::min(kMostEntryBytes, kMemoryBesides + kMemoryPerByte * left);
     const rlimit limit{std::min<rlim_t>(now + more, of_program.rlim_cur), of_program.rlim_max};
     setrlimit(RLIMIT_DATA, &limit);
+    return of_program.rlim_cur < now + more;
 }
 
 /// The process: reads all entries and sends what comes of each.
 [[noreturn]] void tryAll(const std::filesystem::path& file, const std::filesystem::path& opened,
                          int pipe) {
+    bool is_limit_of_program = false;
     try {
         rlimit limit{};
         getrlimit(RLIMIT_DATA, &limit);
         EntryReader reader(file, opened);
         for (;;) {
-            limitMemory(reader.stream(), limit);
+            is_limit_of_program = limitMemory(reader.stream(), limit);
             const auto object = reader.next();
             const std::uint64_t end = reader.stream().getPosition();
             if (!object) {
@@ -119,6 +122,10 @@ void limitMemory(const PackedInput& stream, const rlimit& of_program) {
             }
             send(pipe, EntryVerdict::Kind::Sound, end);
         }
+    } catch (const AsksTooMuch& e) {
+        const char* const limit =
+            is_limit_of_program ? ", or more than --memory-limit leaves for it" : "";
+        send(pipe, EntryVerdict::Kind::Broken, 0, std::string(e.what()) + limit);
     } catch (const std::exception& e) {
         send(pipe, EntryVerdict::Kind::Broken, 0, e.what());
     }

@@ -76,7 +76,8 @@ std::vector<double> readNumberPerScan(const fs::path& file, const std::string& u
 }  // namespace
 
 const base::OutputKind kScanFolders{
-    "a scan folder", [](const fs::path& within) {
+    "a scan folder",
+    [](const fs::path& within) {
         static const std::set<std::string> kFiles{"times.txt",  "poses.txt",     "poses.tum",
                                                   "kinds.yaml", "altitudes.txt", "sensor.yaml"};
         const fs::path folder = within.parent_path().filename();
@@ -84,6 +85,16 @@ const base::OutputKind kScanFolders{
                (folder == "velodyne" && within.extension() == ".bin") ||
                ((folder == "labels" || folder == "semantic") && within.extension() == ".label") ||
                kFiles.count(within.filename().string()) > 0;
+    },
+    nullptr,
+    // Of each sensor a folder, or of the only one. Users have labelled folders, too.
+    [](const fs::path& folder) {
+        const auto isMade = [](const fs::path& of_sensor) {
+            return fs::exists(of_sensor / ScanFolder::kMadeBy) ||
+                   fs::exists(of_sensor / "kinds.yaml");
+        };
+        const std::vector<fs::path> entries = base::entriesOf(folder);
+        return isMade(folder) || std::any_of(entries.begin(), entries.end(), isMade);
     }};
 
 ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {

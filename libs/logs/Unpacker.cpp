@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <cstring>
@@ -74,9 +75,19 @@ class ZstdUnpacker : public Unpacker {
         const std::size_t code = ZSTD_decompressStream(context_.get(), &out, &in);
         step = {step.in + in.pos, step.in_size - in.pos, step.out + out.pos,
                 step.out_size - out.pos};
-        if (ZSTD_isError(code) != 0) return false;
+        if (ZSTD_isError(code) != 0) {
+            is_too_large_ = ZSTD_getErrorCode(code) == ZSTD_error_frameParameter_windowTooLarge;
+            return false;
+        }
         is_in_member_ = code != 0;
         return true;
+    }
+
+    const char* fault() const override {
+        return is_too_large_
+                   ? "it was compressed with a window of more than 128 MiB; decompress it "
+                     "first (zstd -d --long=31)"
+                   : Unpacker::fault();
     }
 
     std::uint64_t mostOutOf(std::uint64_t) const override {
@@ -88,6 +99,7 @@ class ZstdUnpacker : public Unpacker {
         void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
     };
     std::unique_ptr<ZSTD_DCtx, Free> context_;
+    bool is_too_large_ = false;
 };
 
 /// An uncompressed file.

@@ -17,9 +17,10 @@ struct UnpackStep {
 class Unpacker {
  public:
     virtual ~Unpacker() = default;
-    /// Unpacks until the input or the room is used up, or a member ends. False: the data is
-    /// corrupt.
+    /// Unpacks until the input or the room is used up, or a member ends. False: it cannot
+    /// (fault()).
     virtual bool unpack(UnpackStep& step) = 0;
+    virtual const char* fault() const { return "the compressed data is corrupt"; }
     /// The most bytes that so many bytes of input can unpack to.
     virtual std::uint64_t mostOutOf(std::uint64_t packed) const = 0;
     /// Whether the input may not end here: a member has begun.

@@ -104,8 +104,14 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) { saveMap(tree, 
 void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
     if (named.extension() == ".3Dscene") return saveScene(tree, file, named);
-    octomap::OcTree whole(tree);  // the inner nodes of a map under construction are out of date
-    whole.updateInnerOccupancy();
+    octomap::OcTree whole(tree);
+    saveMapInPlace(whole, file, named);
+}
+
+void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
+    checkMapFile(named);
+    if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
+    whole.updateInnerOccupancy();  // out of date in a map under construction
     errno = 0;
     std::ofstream out(file, std::ios::binary);
     if (!out) throwWriteError(named);

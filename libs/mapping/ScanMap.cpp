@@ -1,6 +1,10 @@
 #include <hagen/mapping/ScanMap.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -13,9 +17,15 @@ namespace {
 octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
 // Limits: memory for the voxels around the sensor, a bit each in three sets (512 MiB a set), and
-// for the map (about 3 GiB).
+// for the map (about 3 GiB, or half of what the process may have).
 constexpr double kMostVoxelsInReach = 4294967296.0;
-constexpr std::size_t kMostNodes = 50'000'000;
+constexpr std::size_t kMostNodes = 50'000'000, kBytesPerNode = 64;
+
+std::size_t mostNodes() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kMostNodes;
+    return std::min<std::size_t>(kMostNodes, limit.rlim_cur / 2 / kBytesPerNode);
+}
 
 void checkReach(const ScanMapOptions& options) {
     const double voxels = std::pow(2 * options.max_range_m / options.resolution_m + 4, 3);
@@ -80,7 +90,7 @@ class ScanMap::RayTraversal {
     }
 
     void hit(const Eigen::Vector3f& point_m) {
-        if ((point_m - origin_m_).norm() > max_range_m_) return;
+        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // nor one that is not finite
         const octomap::OcTreeKey key = tree_->coordToKey(pointOf(point_m));
         if (hit_.add(key)) voxels_.occupied.push_back(key);
     }
@@ -90,6 +100,7 @@ class ScanMap::RayTraversal {
     void pass(const Eigen::Vector3f& point_m) {
         const Eigen::Vector3f ray = point_m - origin_m_;
         const float range_m = ray.norm();
+        if (!std::isfinite(range_m)) return;
         const Eigen::Vector3f end_m =
             range_m > max_range_m_ ? origin_m_ + ray * (max_range_m_ / range_m) : point_m;
         const octomap::OcTreeKey end = tree_->coordToKey(pointOf(end_m));
@@ -124,6 +135,7 @@ ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
     if (options.insertion != RayInsertion::OneRayPerVoxel && options.content != MapContent::Full) {
         throw std::invalid_argument("OctoMap's own insertion needs all returns as hits");
     }
+    most_nodes_ = mostNodes();
     tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);
     tree_->setProbHit(options.hit_probability);
     tree_->setProbMiss(options.miss_probability);
@@ -138,9 +150,12 @@ ScanMap& ScanMap::operator=(ScanMap&&) noexcept = default;
 std::size_t ScanMap::bytes() const { return tree_->memoryUsage() + walk_->bytes(); }
 
 void ScanMap::insert(const MappedScan& scan) {
-    if (tree_->size() > kMostNodes) {
-        throw MapFull("the map has more than " + std::to_string(kMostNodes / 1'000'000) +
-                      " million nodes; use larger voxels");
+    if (tree_->size() > most_nodes_) {
+        std::ostringstream millions;
+        millions << std::setprecision(3) << 1e-6 * static_cast<double>(most_nodes_);
+        throw MapFull("the map has more than " + millions.str() +
+                      " million nodes; use larger voxels" +
+                      (most_nodes_ < kMostNodes ? ", or a higher --memory-limit" : ""));
     }
     const MapContent content = options_.content;
     const auto is_hit = [&](std::size_t i) {

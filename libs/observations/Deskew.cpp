@@ -23,7 +23,9 @@ std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
     if (!pose) return std::nullopt;
     const auto matrix = (*pose + sensor_on_vehicle - start_pose)
                             .getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
-    return Eigen::Isometry3f(Eigen::Matrix4f(matrix.asEigen().cast<float>()));
+    const Eigen::Matrix4f motion = matrix.asEigen().cast<float>();
+    if (!motion.allFinite()) return std::nullopt;  // 1e300 m are finite as doubles
+    return Eigen::Isometry3f(motion);
 }
 
 }  // namespace

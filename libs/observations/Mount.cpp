@@ -5,7 +5,13 @@
 namespace hagen::observations {
 namespace {
 
+constexpr float kRounding_rad = 1e-4f;  // of poses that were multiplied
+
 bool isLevel(const Attitude& attitude) { return attitude.roll_rad == 0 && attitude.pitch_rad == 0; }
+bool isNearlyLevel(const Attitude& attitude) {
+    return std::abs(attitude.roll_rad) < kRounding_rad &&
+           std::abs(attitude.pitch_rad) < kRounding_rad;
+}
 
 Attitude attitudeOf(const Eigen::Matrix3f& level_from_sensor) {
     return {std::atan2(level_from_sensor(2, 1), level_from_sensor(2, 2)),
@@ -19,7 +25,8 @@ ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
     ScanPose mounted = pose;
     mounted.sensor_on_vehicle = recorded;
     const Attitude tilt{static_cast<float>(recorded.roll()), static_cast<float>(recorded.pitch())};
-    if (!isLevel(tilt)) {
+    const bool is_mount_used = isNearlyLevel(tilt) && !isLevel(mount);
+    if (!isLevel(tilt) && !is_mount_used) {
         mounted.attitude = pose.attitude.value_or(tilt);
         return mounted;
     }

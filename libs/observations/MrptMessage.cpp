@@ -1,7 +1,5 @@
+#include <hagen/base/FileKind.h>
 #include <hagen/observations/MrptMessage.h>
-
-#include <algorithm>
-#include <cctype>
 
 namespace hagen::observations {
 
@@ -23,10 +21,7 @@ std::string messageOf(const std::exception& exception) {
         const std::size_t start = inner + original.size();
         text = whole.substr(start, whole.find('\n', start) - start);
     }
-    const bool is_text = std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isprint(c) != 0 || std::isspace(c) != 0;
-    });
-    return is_text ? text : "";
+    return base::isText(text) ? text : "";
 }
 
 }  // namespace hagen::observations

@@ -107,18 +107,25 @@ void TurnRecorder::work() {
         changed_.notify_all();
         try {
             write(turn);
+        } catch (const std::bad_alloc&) {
+            return fail(writing_.string() + ": out of memory");
         } catch (const std::exception& e) {
-            const std::lock_guard failing(mutex_);
-            failure_ = e.what();
-            left_out_ += 1 + waiting_.size();
-            waiting_.clear();
-            changed_.notify_all();
-            return;
+            return fail(base::withOutputNames(e.what()));
         }
     }
 }
 
+/// Turns that were gathered are not in the file, if they cannot be written.
+void TurnRecorder::fail(const std::string& why) {
+    const std::lock_guard failing(mutex_);
+    failure_ = why;
+    left_out_ += std::exchange(gathered_, 0) + waiting_.size();
+    waiting_.clear();
+    changed_.notify_all();
+}
+
 void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
+    ++gathered_;
     if (!writer_) openNext();
     entries_.clear();
     logs::serialise(*logs::objectOf(turn, observations::CloudClass::Simple), entries_);
@@ -136,14 +143,15 @@ void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
         logs::packGzipMember(member_, packed_);
         written_bytes_ += packed_.size();
         writer_->writeMember(packed_);
+        recorded_.turns += std::exchange(gathered_, 0);
     }
     has_turns_ = true;
-    ++recorded_.turns;
     if (options_.rotate_bytes > 0 && written_bytes_ >= options_.rotate_bytes) endFile();
 }
 
 void TurnRecorder::endFile() {
     writer_->commit();
+    recorded_.turns += std::exchange(gathered_, 0);
     writer_.reset();
     recorded_.files.push_back(writing_);
     written_bytes_ = 0;
@@ -157,16 +165,16 @@ live::Recorded TurnRecorder::finish() {
     }
     changed_.notify_all();
     if (thread_.joinable()) thread_.join();
-    recorded_.left_out = left_out_;
     if (failure_.empty()) {
         try {
             // Nothing was received, or the last turn ended a file.
             if (writer_ && !has_turns_) writer_.reset();
             if (writer_) endFile();
         } catch (const std::exception& e) {
-            failure_ = e.what();
+            fail(base::withOutputNames(e.what()));
         }
     }
+    recorded_.left_out = left_out_;
     recorded_.failure = failure_;
     for (const auto& [number, file] : numbered()) {
         if (number > recorded_.files.size()) recorded_.older_files.push_back(file);

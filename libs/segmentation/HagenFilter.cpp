@@ -23,20 +23,22 @@ HagenFilter::View HagenFilter::viewIn(Posture posture) const {
 const SegmentationResult& HagenFilter::segment(const Scan& scan,
                                                const std::optional<Attitude>& attitude) {
     checkLocated(scan, sensor_);
-    const std::optional<Attitude> horizon = options_.level_by_attitude ? attitude : std::nullopt;
-    const Posture posture = postureOf(horizon);
+    const auto horizonOf = [&](const std::optional<Attitude>& of) {
+        return options_.level_by_attitude ? of : std::nullopt;
+    };
+    const Posture posture = postureOf(attitude);
     if (posture == Posture::Upright) {
-        runStages(scan, horizon, views_.at(posture));
+        runStages(scan, horizonOf(attitude), views_.at(posture));
         return result_;
     }
 
     // The same, in a frame in which the rows of the image rise.
     auto view = views_.find(posture);
     if (view == views_.end()) view = views_.emplace(posture, viewIn(posture)).first;
-    turnScan(scan, posture, horizon, view->second.sensor, work_.turned);
-    runStages(work_.turned, attitudeIn(posture, horizon), view->second);
+    turnScan(scan, posture, attitude, view->second.sensor, work_.turned);
+    runStages(work_.turned, horizonOf(attitudeIn(posture, attitude)), view->second);
     Eigen::Isometry3f& from_sensor = result_.ground.from_sensor;
-    from_sensor = from_sensor * Eigen::Isometry3f(imageFromSensor(posture, horizon));
+    from_sensor = from_sensor * Eigen::Isometry3f(imageFromSensor(posture, attitude));
     return result_;
 }
 
@@ -45,6 +47,9 @@ void HagenFilter::runStages(const Scan& scan, const std::optional<Attitude>& hor
     const Options& o = options_;
     SegmentationResult& r = result_;
     FilterWorkspace& w = work_;
+    r.own_labels.label.clear();  // of another filter's scan, perhaps (exchangeResult())
+    r.own_labels.returns.clear();
+    r.ground.has_surface = r.ground.is_seen = false;
 
     // III-A: depth image
     projectScan(scan, view.sensor, o.columns, std::max(o.context_m, o.zone_m), r.range_image,

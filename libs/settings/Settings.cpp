@@ -312,6 +312,11 @@ Options Settings::optionsFor(const RecoveredBeams* recovered) const {
 }
 
 HagenFilter filterFor(const SensorModel& sensor, const Options& options) {
+    if (!(sensor.min_range_m < sensor.max_range_m)) {
+        throw SettingsError("sensor.min_range_m (" + base::shortestText(sensor.min_range_m) +
+                            ") must be less than sensor.max_range_m (" +
+                            base::shortestText(sensor.max_range_m) + ")");
+    }
     try {
         return HagenFilter(sensor, options);
     } catch (const std::invalid_argument& e) {

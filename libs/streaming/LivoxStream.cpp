@@ -71,7 +71,10 @@ LivoxStream::Taken LivoxStream::add(const std::uint8_t* bytes, std::size_t size,
     // A copy measured nothing: where packets are lost, copies of others do not make up for them.
     const std::uint64_t key = packet->time_ns << 16 | packet->number;
     if (recent_.has(key, arrival_s)) {
-        too_late_in_a_row_ = 0;
+        // Where all packets come twice, those of a clock that was set back do, too.
+        const std::uint64_t apart_ns =
+            std::max(packet->time_ns, too_late_ns_) - std::min(packet->time_ns, too_late_ns_);
+        if (apart_ns > kMostLate_ns) too_late_in_a_row_ = 0;
         ++counts_.repeated;
         return Taken::Repeated;
     }
@@ -133,7 +136,8 @@ void LivoxStream::flush() {
     packets_of_frame_ = 0;
     locateBeams(segmenter_->sensor(), frame_);
     counts_.returns_masked += maskAirframe(settings_.airframe.parts, frame_);
-    segmenter_->addFrame(frame_, last_arrival_s_, std::exchange(measured_s_, 0), first_arrival_s_);
+    segmenter_->addFrame(frame_, last_arrival_s_, std::exchange(measured_s_, 0), first_arrival_s_,
+                         1e-9 * static_cast<double>(start_ns_));
     frame_.clear();
     tags_.clear();
 }

@@ -132,7 +132,7 @@ OusterStream::Taken OusterStream::add(const std::uint8_t* bytes, std::size_t siz
     const long long at = turn * columns + static_cast<long long>(columns_.front());
     if (has_last_ && at < last_at_) {
         ++counts_.late;
-        if (last_at_ - at > kMostLate * of_packet) {
+        if (last_at_ - at > std::min(kMostLate * of_packet, columns / 2)) {
             ++counts_.too_late;
             return Taken::Late;
         }

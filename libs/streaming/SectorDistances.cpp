@@ -8,7 +8,16 @@ namespace hagen::streaming {
 namespace {
 
 constexpr double kTurn_rad = 2 * kPi;
-constexpr double kLeastParallax_rad = 1e-3;  // less is rounding
+constexpr int kTurn_deg = 360;
+
+/// Of a direction, clockwise from ahead.
+int degreeOf(float x_m, float y_m) {
+    const double clockwise_rad = -static_cast<double>(std::atan2(y_m, x_m));
+    const double turned_rad = clockwise_rad < 0 ? clockwise_rad + kTurn_rad : clockwise_rad;
+    return std::min(static_cast<int>(turned_rad / kTurn_rad * kTurn_deg), kTurn_deg - 1);
+}
+
+int wrapped(int degree) { return (degree % kTurn_deg + kTurn_deg) % kTurn_deg; }
 
 }  // namespace
 
@@ -37,7 +46,8 @@ SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& sett
 void SectorDistances::noteSwept(const LabelledSector& sector) {
     const double now_s = sector.first_time_s;
     if (!sector.sweep) {
-        const std::optional<double> since_s = frames_.add(now_s, sector.measured_s);
+        const std::optional<double> since_s =
+            frames_.add(now_s, sector.measured_s, sector.sensor_time_s);
         if (!since_s) return;
         all_around_since_s_ = *since_s;
         for (int k = 0; k < kBins; ++k) {
@@ -59,6 +69,15 @@ void SectorDistances::noteSwept(const LabelledSector& sector) {
             noteSwept(swept, arcs_[k], now_s, bins_[k]);
         }
     }
+    for (int degree = 0; degree < kBins; ++degree) {
+        const TurnCoverage::Arc arc{degree * kTurn_rad / kBins, kTurn_rad / kBins};
+        if (!beginOfArc(all, arc)) continue;
+        for (const TurnCoverage::Swept& swept : packets) {
+            const auto end_rad = endOfArc(swept, arc);
+            if (!end_rad || *end_rad < passed_[degree].end_rad + kPi) continue;
+            passed_[degree] = {*end_rad, now_s};
+        }
+    }
 }
 
 void SectorDistances::noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc,
@@ -72,12 +91,12 @@ void SectorDistances::noteSwept(const TurnCoverage::Swept& swept, const TurnCove
     if (!end_rad || *end_rad < bin.end_rad + kPi) return;
     bin.end_rad = *end_rad;
     bin.swept_s = bin.begun_s;
-    bin.passed_s = now_s;
 }
 
 void SectorDistances::take(const LabelledSector& sector) {
     if (sector.first_time_s < latest_s_) {
         bins_.fill({});
+        passed_.fill({});
         coverage_.clear();
         all_around_since_s_ = kNever;
     }
@@ -85,32 +104,35 @@ void SectorDistances::take(const LabelledSector& sector) {
     noteSwept(sector);
     if (!sector.sweep) frames_rad_ += kTurn_rad;  // each frame counts as a turn
     const double now_rad = sector.sweep ? coverage_.head_rad() : frames_rad_;
-    const Eigen::Vector2f beside_m = settings_.body_from_sensor.translation().head<2>();
+    const bool is_body = settings_.body_from_sensor.matrix().isIdentity(0);
     const Scan& scan = sector.returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (sector.label[i] != Label::Roi) continue;
         const Eigen::Vector3f at =
             settings_.body_from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
         if (at.z() < settings_.low_m || at.z() > settings_.high_m) continue;
-        const double clockwise_rad = -static_cast<double>(std::atan2(at.y(), at.x()));
-        const double turned_rad = clockwise_rad < 0 ? clockwise_rad + kTurn_rad : clockwise_rad;
-        Bin& bin = bins_[std::min(static_cast<int>(turned_rad / kTurn_rad * kBins), kBins - 1)];
-        const float distance_m = at.head<2>().norm();
+        const int k = degreeOf(at.x(), at.y());
+        const int degree = is_body ? k : degreeOf(scan.x_m[i], scan.y_m[i]);
+        Bin& bin = bins_[k];
         // The sectors on both sides of a bin's middle are of the same turn.
         if (bin.found.empty() || now_rad - bin.found.back().turned_rad > kPi) {
             forgetFound(sector.first_time_s, bin);
-            bin.found.push_back({sector.first_time_s, now_rad, distance_m});
+            bin.found.emplace_back();
+            bin.found.back().first_degree = bin.found.back().last_degree = degree;
         }
         Found& found = bin.found.back();
-        double parallax_rad = 0;
-        if (!beside_m.isZero(0)) {
-            const Eigen::Vector2f from_sensor = at.head<2>() - beside_m;
-            const auto azimuth_rad =
-                static_cast<double>(std::atan2(from_sensor.y(), from_sensor.x()));
-            parallax_rad = std::abs(std::remainder(azimuth_rad + clockwise_rad, kTurn_rad));
+        found.time_s = sector.first_time_s;
+        found.turned_rad = now_rad;
+        found.distance_m = std::min(found.distance_m, at.head<2>().norm());
+        if (wrapped(degree - found.first_degree) <= found.last_degree - found.first_degree)
+            continue;
+        const int after = wrapped(degree - found.last_degree);
+        const int before = wrapped(found.first_degree - degree);
+        if (after <= before) {
+            found.last_degree += after;
+        } else {
+            found.first_degree -= before;
         }
-        found = {sector.first_time_s, now_rad, std::min(found.distance_m, distance_m),
-                 std::max(found.parallax_rad, parallax_rad)};
     }
 }
 
@@ -118,20 +140,22 @@ void SectorDistances::forgetFound(double now_s, Bin& bin) const {
     // A period that ends this one's doubt may still be fresh (at()).
     const double oldest_s = now_s - settings_.stale_s - FrameCoverage::kForgotten_s;
     const auto isOver = [&](const Found& found) {
-        return isGone(found, bin) || !(found.time_s >= oldest_s && found.time_s <= now_s);
+        return isGone(found) || !(found.time_s >= oldest_s && found.time_s <= now_s);
     };
     bin.found.erase(std::remove_if(bin.found.begin(), bin.found.end(), isOver), bin.found.end());
 }
 
-/// An obstacle is gone once a later turn has passed all of its bin, or a sensor without turns has
-/// looked all around since. What is near a body beside the sensor is seen in another direction than
-/// that of its bin: the turn must have passed that, too.
-bool SectorDistances::isGone(const Found& found, const Bin& bin) const {
+/// An obstacle is gone once a later turn has passed all degrees in which the sensor saw it, or a
+/// sensor without turns has looked all around since. A sensor that is tilted, or beside the body,
+/// looks at the horizon of the obstacle's bin at another time.
+bool SectorDistances::isGone(const Found& found) const {
     if (all_around_since_s_ - found.time_s > FrameCoverage::kForgotten_s) return true;
-    const bool has_looked_there = found.parallax_rad < kLeastParallax_rad ||
-                                  coverage_.head_rad() - found.turned_rad > kTurn_rad;
-    return has_looked_there && bin.passed_s > found.time_s &&
-           bin.end_rad - found.turned_rad > kLaterTurn_rad + found.parallax_rad;
+    for (int degree = found.first_degree; degree <= found.last_degree; ++degree) {
+        const Passed& passed = passed_[wrapped(degree)];
+        if (!(passed.time_s > found.time_s)) return false;
+        if (!(passed.end_rad - found.turned_rad > kLaterTurn_rad)) return false;
+    }
+    return true;
 }
 
 bool SectorDistances::isFresh(double time_s, double now_s) const {
@@ -149,7 +173,7 @@ std::array<SectorDistances::Sector, SectorDistances::kSectors> SectorDistances::
         for (int part = k * kParts; part < (k + 1) * kParts; ++part) {
             const Bin& bin = bins_[part];
             for (const Found& found : bin.found) {
-                if (isGone(found, bin) || !std::isfinite(found.distance_m)) continue;
+                if (isGone(found) || !std::isfinite(found.distance_m)) continue;
                 if (!isFresh(found.time_s, now_s)) {
                     is_swept = false;  // growing old makes no obstacle free
                     continue;

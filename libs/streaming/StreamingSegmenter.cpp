@@ -203,6 +203,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     packet.thinned_first = packet.thinned_end = 0;
     packet.sweep.reset();
     packet.measured_s = 0;
+    packet.sensor_time_s.reset();
     packet.time_s = packet.first_time_s = time_s;
     packet.pose = pose_;
     packet.has_place = pose_.has_value();
@@ -260,18 +261,21 @@ void StreamingSegmenter::add(const Scan& returns, const Sweep& sweep, double tim
 }
 
 void StreamingSegmenter::addFrame(const Scan& returns, double time_s, double measured_s,
-                                  std::optional<double> first_time_s) {
+                                  std::optional<double> first_time_s,
+                                  std::optional<double> sensor_time_s) {
     checkTime(time_s);
     if (!(measured_s >= 0)) {
         throw std::invalid_argument("streaming: a frame was measured for less than no time");
     }
     const double first_s = first_time_s.value_or(time_s);
     checkTime(first_s);
+    checkTime(sensor_time_s.value_or(0));
     if (first_s > time_s) {
         throw std::invalid_argument("streaming: a frame's first packet came after its last");
     }
     Packet& packet = push(returns, time_s);
     packet.measured_s = measured_s;
+    packet.sensor_time_s = sensor_time_s;
     packet.first_time_s = first_s;
     label(false);
 }
@@ -407,8 +411,7 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
 
 /// The labels of the sector, and what later sectors need to know of it.
 const SegmentationResult& StreamingSegmenter::judge() {
-    const bool is_upright =
-        !filter_.options().level_by_attitude || postureOf(tilt()) == Posture::Upright;
+    const bool is_upright = postureOf(tilt()) == Posture::Upright;
     const std::optional<Sweep>& sweep = packets_.back().sweep;
     if (sweep && is_upright && mapWindow({start_rad_, head_rad_})) {
         const SegmentationResult& result =
@@ -485,7 +488,7 @@ void StreamingSegmenter::label(bool is_cut) {
     open_ = 0;
     take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt,
            first.first_time_s, last.time_s, has_turn, is_doubtful, is_cut, result, &sweeps_,
-           last.measured_s, offsets_});
+           last.measured_s, offsets_, last.sensor_time_s});
 }
 
 }  // namespace hagen::streaming

@@ -54,6 +54,11 @@ __all__ = [
 _hagen._add_presets(_pathlib.Path(_hagen.__file__).parent / "config")
 
 
+def _several(names):
+    """A list of names; a str is a single one, not its letters."""
+    return [names] if isinstance(names, str) else list(names)
+
+
 def open(
     file,
     *,
@@ -70,11 +75,12 @@ def open(
     file: a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
         scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
         are told apart by their content.
-    sensor_labels: the LiDARs to read; default: all.
+    sensor_labels: the LiDARs to read, a label or several; default: all. One that no scan has is in
+        Recording.remarks, after the last scan.
     poses: a file of poses (TUM, KITTI); default: those of the recording.
     sensor_json: the metadata of the Ouster of a capture or bag.
     calibration: that of the HDL-64E of a capture (db.xml).
-    topics: the LiDAR topics of a bag to read; default: all.
+    topics: the LiDAR topics of a bag to read, one or several; default: all.
     first, last: the first and the last entry to read, both inclusive.
 
     Raises FileNotFoundError, and RuntimeError naming the file (and the entry, while iterating) if it
@@ -82,11 +88,11 @@ def open(
     """
     return Recording(
         file,
-        sensor_labels=list(sensor_labels),
+        sensor_labels=_several(sensor_labels),
         poses=poses,
         sensor_json=sensor_json,
         calibration=calibration,
-        topics=list(topics),
+        topics=_several(topics),
         first=first,
         last=last,
     )

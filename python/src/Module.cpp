@@ -409,8 +409,10 @@ summed over returns and scans before ratios are computed.)")
                                "The fraction with the correct label; NaN without returns.")
         .def(
             "__add__", [](Scores a, const Scores& b) { return a += b; }, py::is_operator())
+        // The object itself, which other names may have, too.
         .def(
-            "__iadd__", [](Scores& a, const Scores& b) { return a += b; }, py::is_operator())
+            "__iadd__", [](Scores& a, const Scores& b) -> Scores& { return a += b; },
+            py::return_value_policy::reference, py::is_operator())
         .def("__repr__", &scoresText);
     m.def("evaluate", &evaluate, py::arg("labels"), py::arg("truth"), py::arg("xyz") = py::none(),
           py::arg("max_range_m") = 20.0, R"(Scores labels against the true ones, as

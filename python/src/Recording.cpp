@@ -37,7 +37,7 @@ bool hasNoSignal() {
 
 Recording::Recording(const std::filesystem::path& file, logs::SourceOptions options,
                      const std::filesystem::path& poses)
-    : file_(file) {
+    : file_(file), wanted_labels_(options.sensor_labels) {
     std::error_code error;
     for (const auto& needed : {file, poses}) {
         if (needed.empty() || std::filesystem::exists(needed, error)) continue;
@@ -63,13 +63,27 @@ std::string Recording::poseSource() const {
 std::vector<std::string> Recording::remarks() const {
     const OthersRun others_run;
     const std::lock_guard lock(reading_);
-    return source_->remarks();
+    std::vector<std::string> remarks = source_->remarks();
+    // A label without scans may be a typo.
+    std::string others;
+    for (const auto* const labels : {&labels_, &source_->otherLabels()}) {
+        for (const std::string& label : *labels) others += " '" + label + "'";
+    }
+    for (const std::string& label : wanted_labels_) {
+        if (!is_at_end_ || others.empty() || labels_.count(label) > 0) continue;
+        remarks.push_back("no entry that was read has a LiDAR scan of '" + label + "'; there are" +
+                          others);
+    }
+    return remarks;
 }
 
 std::optional<PythonScan> Recording::next() {
     auto recorded = withoutGil([&] {
         const std::lock_guard lock(reading_);
-        return source_->nextScan();
+        auto scan = source_->nextScan();
+        is_at_end_ = !scan;
+        if (scan) labels_.insert(scan->observation->sensorLabel);
+        return scan;
     });
     if (!recorded) return std::nullopt;
     PythonScan scan;

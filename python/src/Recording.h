@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,10 @@ class Recording {
 
  private:
     std::filesystem::path file_;
+    std::vector<std::string> wanted_labels_;
     std::shared_ptr<logs::ScanSource> source_;
+    std::set<std::string> labels_;  ///< of the scans read
+    bool is_at_end_ = false;
     mutable std::mutex reading_;  ///< locked without the GIL, which a source takes now and then
 };
 

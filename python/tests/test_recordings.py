@@ -89,6 +89,18 @@ def test_parts_of_a_recording():
     assert list(hagen.open(str(ORCHARD), sensor_labels=["other"])) == []
 
 
+def test_a_sensor_label_may_be_a_text_and_one_without_scans_is_told():
+    assert len(list(hagen.open(POLES, sensor_labels="lidar"))) == 10
+    recording = hagen.open(POLES, sensor_labels="liadr")
+    assert recording.remarks == []
+    assert list(recording) == []
+    told = "no entry that was read has a LiDAR scan of '{}'; there are 'lidar'"
+    assert recording.remarks == [told.format("liadr")]
+    recording = hagen.open(POLES, sensor_labels=("lidar", "rear"))
+    assert len(list(recording)) == 10
+    assert recording.remarks == [told.format("rear")]
+
+
 def test_a_scan_outlives_its_recording():
     scan = next(hagen.open(POLES))
     expected = hagen.Filter("vlp16").segment(next(hagen.open(POLES))).labels

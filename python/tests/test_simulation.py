@@ -78,6 +78,9 @@ def test_scores_count():
     twice = scores + scores
     assert twice.roi.hits == 2 and scores.roi.hits == 1
     assert math.isnan(hagen.Scores().roi.f1)
+    same = twice
+    same += scores
+    assert same is twice and twice.roi.hits == 3 and scores.roi.hits == 1
 
 
 def test_scores_end_at_a_range():

@@ -276,12 +276,35 @@ TEST_F(RawlogSegment, QuietPrintsNothing) {
 TEST_F(RawlogSegment, OverwriteReplacesWhatIsThere) {
     folder_.write("out.rawlog", "old");
     folder_.write("scans/velodyne/000077.bin", "old");
+    folder_.write("scans/labels/made_by.txt", "old");
     ASSERT_EQ(
         run({"-i", kRecording, "-o", path("out.rawlog"), "--kitti", path("scans"), "--overwrite"})
             .exit_code,
         0);
     EXPECT_GT(fs::file_size(path("out.rawlog")), 1000u);
     EXPECT_FALSE(fs::exists(path("scans/velodyne/000077.bin")));
+}
+
+/// A folder that somebody labelled by hand has the same names.
+TEST_F(RawlogSegment, OverwriteReplacesNoFolderOfSomebodyElse) {
+    folder_.write("mine/velodyne/000000.bin", "mine");
+    folder_.write("mine/labels/000000.label", "mine");
+    const auto outcome = run({"-i", kRecording, "--kitti", path("mine"), "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("mine: is not a scan folder of an earlier run, so it is "
+                                       "not replaced"));
+    EXPECT_EQ(test::readFile(path("mine/labels/000000.label")), "mine");
+}
+
+/// What MRPT stores beside a rawlog is a part of the recording.
+TEST_F(RawlogSegment, OverwriteReplacesNothingOfTheInput) {
+    fs::copy_file(kRecording, path("flight.rawlog"));
+    folder_.write("flight_Images/cloud_1.bin", "mine");
+    const auto outcome = run(
+        {"-i", path("flight.rawlog"), "--stats", path("flight_Images/cloud_1.bin"), "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("flight_Images"));
+    EXPECT_EQ(test::readFile(path("flight_Images/cloud_1.bin")), "mine");
 }
 
 TEST_F(RawlogSegment, HelpAndVersionAreNoFailures) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 #include <vector>
 
 #include "autopilot/Vehicle.h"
@@ -22,6 +23,7 @@ constexpr int kPacketsPerTurn = 72, kPacketsPerSector = 5;
 
 struct Pole {
     double north_m, east_m, radius_m = 0.15;
+    double top_m = 1e9;  ///< above the vehicle's start
 };
 
 /// A LiDAR on a vehicle that moves among poles without end. All that it hits is RoI.
@@ -82,7 +84,9 @@ class Flight {
                          c = from.squaredNorm() - pole.radius_m * pole.radius_m;
             const double root = b * b - a * c;
             if (root < 0 || b > 0) continue;
-            nearest_m = std::min(nearest_m, (-b - std::sqrt(root)) / a);
+            const double range_m = (-b - std::sqrt(root)) / a;
+            if (-(vehicle.ned_m.z() + range_m * ray.z()) > pole.top_m) continue;
+            nearest_m = std::min(nearest_m, range_m);
         }
         return nearest_m;
     }
@@ -234,6 +238,73 @@ TEST_F(SurroundingsTest, WhereATiltedSensorHasNoBeamAtTheHorizonNothingIsFree) {
     EXPECT_EQ(at[38].state, State::SeenNothing);
     EXPECT_EQ(at[20].state, State::Unknown);  // on the sides it looks up and down
     EXPECT_EQ(at[52].state, State::Unknown);
+}
+
+/// A tilted sensor looks at a low obstacle and at the horizon above it at different times.
+TEST_F(SurroundingsTest, WhatATiltedSensorSeesBelowTheHorizonStays) {
+    int compared = 0;
+    for (const auto& [roll_deg, pitch_deg, rate_deg_s] :
+         {std::tuple{0.0, -20.0, 0.0}, {0.0, 20.0, 0.0}, {15.0, -10.0, 0.0}, {-5.0, 0.0, 20.0}}) {
+        Flight flight;
+        flight.vehicleAt = [=](double time_s) {
+            Vehicle vehicle;
+            vehicle.roll_rad = radians(roll_deg + rate_deg_s * time_s);
+            vehicle.pitch_rad = radians(pitch_deg);
+            vehicle.rates_rad_s.x() = radians(rate_deg_s);
+            return vehicle;
+        };
+        for (int bearing_deg = 0; bearing_deg < 360; bearing_deg += 10) {
+            flight.poles.push_back({8 * std::cos(radians(bearing_deg)),
+                                    8 * std::sin(radians(bearing_deg)), 0.15, -1.5});
+        }
+        Surroundings surroundings(sensor_, {});
+        flight.fly(0.25, surroundings);
+        const Directions before = surroundings.at(0.25, flight.motion);
+        for (double now_s = 0.25; now_s < 0.35; now_s += 0.0007) {
+            flight.fly(now_s, surroundings);
+            const Directions at = surroundings.at(now_s, flight.motion);
+            for (std::size_t k = 0; k < 72; k += 2) {
+                if (before[k].state != State::Obstacle) continue;
+                EXPECT_NE(at[k].state, State::SeenNothing)
+                    << 5 * k << " degrees, " << now_s << " s, rolled " << roll_deg << ", pitched "
+                    << pitch_deg;
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 3000);
+}
+
+/// The horizon above it is swept each turn, the packet that would see it is lost each turn.
+TEST_F(SurroundingsTest, WhatATiltedSensorSawIsNotFreeWhereItsPacketsAreLost) {
+    Vehicle vehicle;
+    vehicle.pitch_rad = radians(-20);
+    Flight flight;
+    flight.vehicleAt = [&](double) { return vehicle; };
+    flight.poles = {{8 * std::cos(radians(267)), 8 * std::sin(radians(267)), 0.1, -1.6}};
+    const Eigen::Vector3d seen =
+        vehicle.seen({flight.poles[0].north_m, flight.poles[0].east_m, 1.7});
+    const double azimuth_deg = 360 - degrees(std::atan2(seen.y(), seen.x()));
+    ASSERT_GT(azimuth_deg, 270);
+    ASSERT_LT(azimuth_deg, 275);
+    flight.isLost = [](int packet) { return packet > 72 && packet % 72 == 54; };
+    Surroundings surroundings(sensor_, {});
+    flight.fly(0.1, surroundings);
+    for (double now_s = 0.1; now_s < 0.95; now_s += 0.003) {
+        flight.fly(now_s, surroundings);
+        const auto state = surroundings.at(now_s, flight.motion)[53].state;
+        if (now_s < 0.35) {
+            EXPECT_EQ(state, State::Obstacle) << now_s;
+        } else if (now_s > 0.4) {
+            EXPECT_EQ(state, State::Unknown) << now_s;
+        } else {
+            EXPECT_NE(state, State::SeenNothing) << now_s;
+        }
+    }
+    flight.isLost = [](int) { return false; };
+    flight.poles.clear();
+    flight.fly(1.15, surroundings);
+    EXPECT_EQ(surroundings.at(1.15, flight.motion)[53].state, State::SeenNothing);
 }
 
 TEST_F(SurroundingsTest, StaleIsNeverFree) {

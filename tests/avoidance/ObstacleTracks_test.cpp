@@ -290,6 +290,38 @@ TEST(MapWithMotion, MoversAreWhereTheyWillBeAndTheRestIsTheMap) {
     }
 }
 
+/// A post that was there in the first scan only; later, only the walker's returns are behind it.
+TEST(MapWithMotion, RaysUpToMoversClear) {
+    const Eigen::Vector2d post(3.1, -0.72);
+    const double azimuth_rad = std::atan2(post.y(), post.x());
+    auto scans = walkerAndPost(14);
+    simulation::Random random(2);
+    for (mapping::MappedScan& scan : scans) {
+        mapping::MappedScan rest = scan;
+        rest.points_m.clear();
+        rest.labels.clear();
+        rest.obstacles.clear();
+        rest.age_s.clear();
+        for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+            const Eigen::Vector3d at_m = scan.points_m[i].cast<double>();
+            const double beside_rad = std::atan2(at_m.y(), at_m.x()) - azimuth_rad;
+            if (scan.obstacles[i] == 0 && std::abs(beside_rad) < 0.1) continue;
+            rest.points_m.push_back(scan.points_m[i]);
+            rest.labels.push_back(scan.labels[i]);
+            rest.obstacles.push_back(scan.obstacles[i]);
+            rest.age_s.push_back(scan.age_s[i]);
+        }
+        scan = std::move(rest);
+    }
+    addReturns({post, 0.05}, 0, 0.04, random, scans.front());
+    const Eigen::Vector3f by_the_post_m(2.7f, -0.62f, 1);
+    for (const std::string name : {"G-Full", "R-Full-0.2"}) {
+        const auto before = modelOf(name + "+motion", {scans.begin(), scans.begin() + 6});
+        EXPECT_LT(before->clearance_m(by_the_post_m), 0.5f) << name;
+        EXPECT_GT(modelOf(name + "+motion", scans)->clearance_m(by_the_post_m), 0.6f) << name;
+    }
+}
+
 TEST(MotionWindow, WhereNothingMovesItIsTheWindow) {
     std::vector<mapping::MappedScan> scans;
     simulation::Random random(4);

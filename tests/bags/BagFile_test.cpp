@@ -276,6 +276,41 @@ TEST_F(BagFileTest, ADatabaseOfSomethingElseIsNamed) {
                 HasSubstr("after 4 messages (id 5): this message is of topic 9"));
 }
 
+TEST_F(BagFileTest, ADatabaseMayHaveAPathWithTwoSlashes) {
+    const fs::path file = test::writeDb3(folder_ / "a.db3", someMessages());
+    EXPECT_EQ(readAll("/" + file.string()).messages, expected(false));
+}
+
+TEST_F(BagFileTest, ADatabaseWithChangesToUndoIsRefused) {
+    const fs::path file = test::writeDb3(folder_ / "a.db3", someMessages());
+    const fs::path copy = folder_ / "b.db3", journal = folder_ / "b.db3-journal";
+    sqlite3* database = nullptr;
+    sqlite3_open(file.c_str(), &database);
+    const auto run = [&](const std::string& sql) {
+        EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    };
+    // More than fits into memory is in the file before the transaction ends.
+    run("PRAGMA cache_size = 5; BEGIN; UPDATE messages SET timestamp = 7;"
+        "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 500) "
+        "INSERT INTO messages (topic_id, timestamp, data) SELECT 1, i, zeroblob(4000) FROM n");
+    fs::copy_file(file, copy);
+    fs::copy_file(folder_ / "a.db3-journal", journal);
+    run("ROLLBACK");
+    sqlite3_close(database);
+    const Read read = readAll(copy);
+    EXPECT_EQ(read.messages.size(), 0u);
+    EXPECT_THAT(read.broken_because,
+                HasSubstr("interrupted: " + journal.string() + " undoes what is not complete"));
+    // As the message says: a query of who may write undoes it.
+    sqlite3_open(copy.c_str(), &database);
+    run("SELECT count(*) FROM messages");
+    sqlite3_close(database);
+    EXPECT_EQ(readAll(copy).messages, expected(false));
+    // A journal may stay when the transaction has ended.
+    test::writeBytes(journal, ByteString(512, '\0'));
+    EXPECT_EQ(readAll(copy).messages, expected(false));
+}
+
 TEST_F(BagFileTest, ReadingLeavesTheFolderAsItIs) {
     readAll(test::writeDb3(folder_ / "a%20b #1.db3", someMessages()));
     std::size_t files = 0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,42 @@ constexpr double kStart_s = test::kBagStart_s;
 
 /// Poses of the vehicle, and where its sensors are mounted.
 using BagPosesTest = test::BagTest;
+
+/// A transform on /tf.
+SentMessage moved(double since_s, const std::string& parent, const std::string& child, double x,
+                  double y, double z, double yaw_rad = 0) {
+    return test::sentMessage("/tf", "tf2_msgs/TFMessage", kStart_s + since_s,
+                             [&](test::MessageBytes& bytes) {
+                                 bytes.number(std::uint32_t{1}).header(kStart_s + since_s, parent);
+                                 bytes.text(child).pose(x, y, z, yaw_rad);
+                             });
+}
+
+/// A vehicle that flies along x at 10 m/s, turned to the left, and rises at 1 m/s: its height is
+/// that of another frame, and 2 m ahead of that is base_link, which sways.
+std::vector<SentMessage> climbingVehicle(const std::vector<SentMessage>& others) {
+    std::vector<SentMessage> messages = others;
+    for (const double since_s : {0.0, 0.1, 0.2}) {
+        messages.push_back(moved(since_s, "base_footprint", "base_stabilized", 0, 0, since_s));
+        messages.push_back(moved(since_s, "base_stabilized", "base_link", 2, 0, 0, since_s));
+    }
+    return messages;
+}
+
+/// The place of that vehicle's base_link at all times that are known of all of its frames.
+/// Times are interpolated as double seconds since 1970, to a microsecond.
+void expectClimb(const PoseSeries& series) {
+    ASSERT_EQ(series.poses.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double since_s = 0.05 * static_cast<double>(i + 1);
+        const RecordedPose& pose = series.poses[i];
+        EXPECT_NEAR(1e-9 * static_cast<double>(pose.time_ns - 1700000000000000000), since_s, 1e-9);
+        EXPECT_NEAR(pose.x_m, 10 * since_s, 1e-4);
+        EXPECT_NEAR(pose.y_m, 2, 1e-4);
+        EXPECT_NEAR(pose.z_m, since_s, 1e-4);
+        EXPECT_NEAR(2 * std::atan2(pose.qz, pose.qw), M_PI / 2 + since_s, 1e-4);
+    }
+}
 
 TEST_F(BagPosesTest, PosesComeFromOdometryThenFromTransforms) {
     const ReadBag odometry_only =
@@ -92,6 +129,81 @@ TEST_F(BagPosesTest, TransformsThatNeverChangeAreNotThePoses) {
     EXPECT_EQ(parked.scans->plan().poses->source, "transforms from odom to lidar");
 }
 
+TEST_F(BagPosesTest, TransformsThatMoveOneAfterTheOtherAreComposed) {
+    const ReadBag bag = read(
+        climbingVehicle({cloud("/points"), transform("/tf_static", "base_link", "lidar", 5),
+                         moved(0, "map", "odom", 100, 0, 0), moved(0.1, "map", "odom", 200, 0, 0),
+                         moved(0.05, "odom", "base_footprint", 0.5, 0, 0, M_PI / 2),
+                         moved(0.15, "odom", "base_footprint", 1.5, 0, 0, M_PI / 2)}));
+    ASSERT_TRUE(bag.scans->plan().poses);
+    EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base_link");
+    expectClimb(*bag.scans->plan().poses);
+    EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5, 1e-9);
+    EXPECT_THAT(bag.scans->plan().remarks, testing::IsEmpty());
+    // What never changes between them is a part, too.
+    const ReadBag still =
+        read({cloud("/points"), moved(0, "base_link", "lidar", 0, 0, 1),
+              moved(0.1, "base_link", "lidar", 0, 0, 2), transform("/tf", "odom", "base_link", 7)});
+    ASSERT_TRUE(still.scans->plan().poses);
+    EXPECT_EQ(still.scans->plan().poses->source, "transforms from odom to lidar");
+    EXPECT_NEAR(still.scans->plan().poses->poses.at(1).x_m, 7, 1e-9);
+    EXPECT_NEAR(still.scans->plan().poses->poses.at(1).z_m, 2, 1e-9);
+}
+
+TEST_F(BagPosesTest, OdometryOfAFrameInWhichTheSensorMovesIsComposedWithTransforms) {
+    const auto flown = [](double since_s) {
+        return test::sentMessage("/odom", "nav_msgs/Odometry", kStart_s + since_s,
+                                 [&](test::MessageBytes& bytes) {
+                                     bytes.header(kStart_s + since_s, "odom");
+                                     bytes.text("base_footprint");
+                                     bytes.pose(10 * since_s, 0, 0, M_PI / 2);
+                                     for (int i = 0; i < 36 + 6 + 36; ++i) bytes.number(0.0);
+                                 });
+    };
+    const std::vector<SentMessage> messages =
+        climbingVehicle({cloud("/points"), transform("/tf_static", "base_link", "lidar", 5),
+                         flown(0.05), flown(0.15)});
+    const ReadBag bag = read(messages);
+    EXPECT_EQ(bag.scans->plan().poses->source,
+              "nav_msgs/Odometry on /odom and transforms from base_footprint to base_link");
+    expectClimb(*bag.scans->plan().poses);
+    EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5, 1e-9);
+    EXPECT_THAT(bag.scans->plan().remarks, testing::IsEmpty());
+    // Another LiDAR hangs on the frame of the odometry: its poses stay.
+    std::vector<SentMessage> with_other = messages;
+    with_other.push_back(cloud("/down", 0, "base_footprint"));
+    const ReadBag two = read(with_other);
+    EXPECT_EQ(two.scans->plan().poses->source, "nav_msgs/Odometry on /odom");
+    EXPECT_THAT(two.scans->plan().remarks,
+                ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of /points "
+                                      "to 'base_footprint': the poses of nav_msgs/Odometry on "
+                                      "/odom are taken for those of the sensor")));
+}
+
+TEST_F(BagPosesTest, TransformsThatDoNotLeadToTheWorldAreNotThePoses) {
+    const ReadBag within = read({cloud("/points"), transform("/tf_static", "base_link", "lidar", 5),
+                                 transform("/tf", "base_footprint", "base_link", 1),
+                                 transform("/tf", "base_footprint", "base_link", 2, 0.1)});
+    EXPECT_FALSE(within.scans->plan().poses);
+    EXPECT_THAT(within.scans->plan().remarks,
+                ElementsAre("the transforms from 'base_footprint' to 'base_link' say nothing of "
+                            "where 'base_footprint' is: they give no poses"));
+    const ReadBag apart = read({cloud("/points"), transform("/tf", "base_link", "lidar", 1),
+                                transform("/tf", "base_link", "lidar", 2, 0.1),
+                                transform("/tf", "odom", "base_link", 1, 5),
+                                transform("/tf", "odom", "base_link", 2, 5.1)});
+    EXPECT_FALSE(apart.scans->plan().poses);
+    EXPECT_THAT(apart.scans->plan().remarks,
+                ElementsAre("the transforms from 'odom' to 'lidar' have no times in common: they "
+                            "give no poses"));
+    const ReadBag circle =
+        read({cloud("/points"), transform("/tf", "a", "lidar", 1),
+              transform("/tf", "a", "lidar", 2, 0.1), transform("/tf", "lidar", "a", 1),
+              transform("/tf", "lidar", "a", 2, 0.1)});
+    EXPECT_FALSE(circle.scans->plan().poses);
+    EXPECT_THAT(circle.scans->plan().remarks, ElementsAre(HasSubstr("go round in a circle")));
+}
+
 TEST_F(BagPosesTest, TransformsThatMoveAMapAreNotThePoses) {
     const ReadBag bag =
         read({cloud("/map_cloud", 0, "map"), cloud("/points", 0, "base"),
@@ -124,6 +236,15 @@ TEST_F(BagPosesTest, ASensorThatHangsOnAnotherFrameThanTheVehicleHasNoMount) {
     EXPECT_THAT(bag.scans->plan().remarks,
                 ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of "
                                       "/points to 'base_link'")));
+}
+
+TEST_F(BagPosesTest, AMountInAnotherFrameThanThatOfThePosesIsNone) {
+    const ReadBag bag = read({cloud("/points"), transform("/tf_static", "base_link", "lidar", 5),
+                              odometry(0, 0, "body"), odometry(0.1, 1, "body")});
+    EXPECT_EQ(CPose3D(bag.of("points")[0]->sensorPose()).x(), 0);
+    EXPECT_THAT(bag.scans->plan().remarks,
+                ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of /points "
+                                      "to 'body'")));
 }
 
 TEST_F(BagPosesTest, ATransformThatCannotBeReadCostsNoOther) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -176,6 +177,34 @@ TEST(OutputPath, ATemporaryFileOfBeforeItsProcessBeganIsLeftBehind) {
     EXPECT_THAT(partialOutputs(file), testing::ElementsAre(left));
     EXPECT_THAT(leftBehind({file, folder / "b"}), HasSubstr(left.string()));
     EXPECT_EQ(leftBehind({folder / "b"}), "");
+}
+
+/// What this run writes was left by nobody.
+TEST(OutputPath, OwnTemporaryFilesAreNotLeftBehind) {
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "a.rawlog";
+    const fs::path left = folder / ("a.rawlog.tmp-" + std::to_string(getpid()) + "-0123456789");
+    folder.write(left.filename().string(), "of a process that had this number");
+    {
+        OutputPath output(file, kFile, false);
+        std::ofstream(output.temporary()) << "half";
+        EXPECT_THAT(partialOutputs(file), testing::ElementsAre(left));
+    }
+    EXPECT_THAT(partialOutputs(file), testing::ElementsAre(left));
+}
+
+TEST(OutputPath, MessagesNameOutputsInPlaceOfTemporaryFiles) {
+    const test::TemporaryFolder folder;
+    std::string temporary;
+    {
+        const OutputPath output(folder / "a", kFile, false), other(folder / "b", kFile, false);
+        temporary = output.temporary().string();
+        EXPECT_EQ(withOutputNames(temporary + "/1.bin, " + temporary + " and " +
+                                  other.temporary().string() + ": no space"),
+                  (folder / "a").string() + "/1.bin, " + (folder / "a").string() + " and " +
+                      (folder / "b").string() + ": no space");
+    }
+    EXPECT_EQ(withOutputNames(temporary), temporary);
 }
 
 TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {

@@ -169,6 +169,37 @@ TEST_F(VelodyneCaptureTest, RepeatedPacketsAreLeftOut) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 100 packets repeated, left out"));
 }
 
+/// As by a slower path: each tenth packet comes again 30 ms later, and one came so late only.
+TEST_F(VelodyneCaptureTest, PacketsThatAreFarTooLateCutNoTurn) {
+    const Packets packets = packetsOf("VLP-16", 24 * 200);
+    Packets with_copies, without_one;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+        if (i != 100) {
+            with_copies.push_back(packets[i]);
+            without_one.push_back(packets[i]);
+        }
+        if (i >= 23 && i % 10 == 0) with_copies.push_back(packets[i - 23]);
+        if (i == 123) with_copies.push_back(packets[100]);
+    }
+    const Turns turns = read(captureOf(with_copies).bytes());
+    EXPECT_EQ(packetsOf(turns), without_one);
+    EXPECT_EQ(turns.size(), 3u);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 1 packet lost"));
+    EXPECT_THAT(remarks_[0], HasSubstr(", 18 packets more than sixteen packets late, left out"));
+    EXPECT_EQ(remarks_[0].find("interruption"), std::string::npos) << remarks_[0];
+}
+
+/// The few packets after it say no less.
+TEST_F(VelodyneCaptureTest, AClockThatIsSetJustBeforeTheEndLosesNothing) {
+    Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);
+    for (const std::uint32_t time_us : {100000000u, 50000000u}) {
+        const Packets later = packetsOf("VLP-16", 24 * 5, 200.0, time_us);
+        packets.insert(packets.end(), later.begin(), later.end());
+    }
+    EXPECT_EQ(packetsOf(read(captureOf(packets).bytes())), packets);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 2 interruptions or jump"));
+}
+
 TEST_F(VelodyneCaptureTest, TheHourOfTheSensorsClockIsNoInterruption) {
     const Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 3599980000u);
     const Turns turns = read(captureOf(packets).bytes());

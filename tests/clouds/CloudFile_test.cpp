@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "support/CloudFiles.h"
+#include "support/Program.h"
 
 namespace hagen::clouds {
 namespace {
@@ -101,6 +102,25 @@ TEST_F(CloudFileTest, AFileOfMoreThanAScanMayHaveIsNotRead) {
         FAIL();
     } catch (const BrokenCloud& e) {
         EXPECT_THAT(e.what(), HasSubstr("huge.bin: is larger than 2 GiB"));
+    }
+}
+
+/// A map is refused before it takes memory beside its file.
+TEST_F(CloudFileTest, MorePointsThanAScanMayHaveAreNotRead) {
+    const std::string count = "16777217";
+    const std::string npy =
+        test::npy("{'descr': '|u1', 'fortran_order': False, 'shape': (" + count + ", 3), }", "");
+    const std::string pcd = "FIELDS x y z\nSIZE 1 1 1\nTYPE U U U\nCOUNT 1 1 1\nWIDTH " + count +
+                            "\nHEIGHT 1\nPOINTS " + count + "\nDATA binary\n";
+    const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " + count +
+                            "\nproperty uchar x\nproperty uchar y\nproperty uchar z\nend_header\n";
+    for (const std::string& header : {npy, pcd, ply}) {
+        const fs::path file = write("map", header);
+        fs::resize_file(file, header.size() + 3 * 16777217);
+        EXPECT_THAT(test::messageOf([&] { readCloud(file); }),
+                    HasSubstr("map: has 16777217 points, more than the 16777216 that a scan may "
+                              "have; is it a map of many scans?"))
+            << header;
     }
 }
 
@@ -467,6 +487,31 @@ TEST_F(CloudFileTest, BinFilesMayBeEmptyButNotCut) {
                 HasSubstr("it seems to be a JPEG picture"));
 }
 
+/// Rows of sky before the first return, or no return at all.
+TEST_F(CloudFileTest, BinFilesMayBeginWithZeros) {
+    const std::vector<FilePoint> points = filePoints(400);
+    for (const int zeros : {300, 1000}) {
+        SCOPED_TRACE(zeros);
+        const auto without = static_cast<std::size_t>(zeros);
+        const PointTable none = read("a.bin", std::string(16 * without, '\0')).table;
+        EXPECT_THAT(column(none, "x"), AllOf(SizeIs(without), testing::Each(0)));
+        const PointTable four =
+            read("a.bin", std::string(16 * without, '\0') + test::bin(points)).table;
+        EXPECT_EQ(namesOf(four), "x, y, z, intensity");
+        ASSERT_EQ(four.points, without + 400);
+        EXPECT_EQ(column(four, "x")[without - 1], 0);
+        EXPECT_NEAR(column(four, "x")[without + 7], points[7].x_m, 1e-9);
+        const PointTable five =
+            read("a.bin", std::string(20 * without, '\0') + test::binWithRings(points)).table;
+        EXPECT_EQ(namesOf(five), "x, y, z, intensity, ring");
+        ASSERT_EQ(five.points, without + 400);
+        EXPECT_EQ(column(five, "ring")[without + 7], points[7].ring);
+    }
+    EXPECT_THAT(complaint("a.bin", std::string(8000, '\0') + std::string(1600, '\xee')),
+                HasSubstr("no point cloud: its first numbers are no points that a LiDAR sees"));
+    EXPECT_THAT(complaint("a", std::string(8000, '\0')), HasSubstr("no point cloud"));
+}
+
 TEST_F(CloudFileTest, BinPointsMayHaveRings) {
     for (const int count : {20, 21, 400}) {  // of 20 points, the size is a multiple of 16, too
         SCOPED_TRACE(count);
@@ -481,6 +526,20 @@ TEST_F(CloudFileTest, BinPointsMayHaveRings) {
     const std::string cut = test::binWithRings(filePoints(20)).substr(0, 384);
     EXPECT_EQ(cloudFormatOf(write("cut", cut)), std::nullopt);
     EXPECT_THAT(complaint("cut.bin", cut), HasSubstr("not a multiple of 20-byte points"));
+}
+
+/// The fifth numbers are 0 at first, as rings may be, and then times; intensities are up to 65535.
+TEST_F(CloudFileTest, BinPointsWithAnotherFifthNumberAreRefused) {
+    std::string text;
+    const auto add = [&](float number) {
+        text.append(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    for (int i = 0; i < 400; ++i) {
+        const auto number = static_cast<float>(i);
+        for (const float of_point : {0.3f + number, 2.5f, 1.2f, 30000 + number}) add(of_point);
+        add(i < 300 ? 0 : 1e-4f * number);
+    }
+    EXPECT_THAT(complaint("a.bin", text), HasSubstr("no point cloud: its first numbers are no "));
 }
 
 TEST_F(CloudFileTest, BinPointsWithoutRingsAreNotTakenForSome) {

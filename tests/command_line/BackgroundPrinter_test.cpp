@@ -51,6 +51,7 @@ TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
         EXPECT_EQ(got.find("status"), std::string::npos);
         printer.print(To::Errors, "the last\n");
         EXPECT_TRUE(printer.finish(std::chrono::seconds(60)));
+        EXPECT_TRUE(printer.isOutputPrinted());
     }
     dup2(usual, STDERR_FILENO);
     close(usual);
@@ -63,6 +64,36 @@ TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
     EXPECT_NE(rest.find(" messages were left out, as nobody read them\nthe last\n"),
               std::string::npos)
         << rest;
+}
+
+/// Nobody reads standard error: output that waits behind it, or had no place, is not printed.
+TEST(BackgroundPrinter, TellsWhetherOutputWasLeft) {
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    fcntl(ends[1], F_SETPIPE_SZ, 4096);
+    const std::string before(4096, '.');
+    ASSERT_EQ(write(ends[1], before.data(), before.size()), 4096);
+    const int usual = dup(STDERR_FILENO);
+    dup2(ends[1], STDERR_FILENO);
+    for (const std::size_t texts : {std::size_t{1}, BackgroundPrinter::kMostWaiting + 50}) {
+        BackgroundPrinter printer;
+        for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
+        printer.print(To::Output, "summary\n");
+        EXPECT_FALSE(printer.finish(std::chrono::milliseconds(1)));
+        EXPECT_FALSE(printer.isOutputPrinted()) << texts;
+    }
+    BackgroundPrinter without_output;
+    without_output.print(To::Errors, "x\n");
+    EXPECT_FALSE(without_output.finish(std::chrono::milliseconds(1)));
+    EXPECT_TRUE(without_output.isOutputPrinted());
+    dup2(usual, STDERR_FILENO);
+    close(usual);
+    // The threads that wait go on.
+    fcntl(ends[0], F_SETFL, O_NONBLOCK);
+    std::string part(4096, '\0');
+    while (read(ends[0], part.data(), part.size()) > 0) {
+    }
+    close(ends[1]);
 }
 
 }  // namespace

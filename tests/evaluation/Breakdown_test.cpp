@@ -33,6 +33,16 @@ TEST(Breakdown, AltitudeBandsHoldTheirLowerBound) {
     EXPECT_EQ(groups[2].sum().roi.hits, 4);
 }
 
+TEST(Breakdown, AltitudesBelowTheGroundAreABand) {
+    const std::vector<Group> groups = byAltitude(
+        {scanAt(-0.01, 0, roi(1, 0)), scanAt(-30, 0, roi(2, 0)), scanAt(0, 0, roi(3, 0))});
+    ASSERT_EQ(groups.size(), 2u);
+    EXPECT_EQ(groups[0].name, "below 0 m");
+    EXPECT_EQ(groups[0].sum().roi.hits, 3);
+    EXPECT_EQ(groups[1].name, "0-2 m");
+    EXPECT_EQ(groups[1].sum().roi.hits, 3);
+}
+
 TEST(Breakdown, FoldersKeepTheirOrderAndAddUpToTheWhole) {
     const std::vector<ScanScores> scans{scanAt(1, 1, roi(1, 2)), scanAt(1, 0, roi(3, 0)),
                                         scanAt(1, 1, roi(0, 4))};

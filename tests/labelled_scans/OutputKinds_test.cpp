@@ -25,6 +25,7 @@ using pictures::kStagePictures;
 TEST(OutputKinds, AFolderIsReplacedWhole) {
     const test::TemporaryFolder folder;
     folder.write("out/velodyne/000000.bin", "old");
+    folder.write("out/labels/made_by.txt", "old");
     base::OutputPath output(folder / "out/", logs::kScanFolders, true);
     fs::create_directory(output.temporary());
     std::ofstream(output.temporary() / "new.txt") << "new";
@@ -38,12 +39,17 @@ TEST(OutputKinds, OnlyItsOwnKindIsReplaced) {
     const test::TemporaryFolder folder;
     folder.write("file", "");
     folder.write("scans/velodyne/000000.bin", "");
+    folder.write("scans/kinds.yaml", "");
+    folder.write("mine/velodyne/000000.bin", "");
+    folder.write("mine/labels/000000.label", "");
     folder.write("work/velodyne/000000.bin", "");
     folder.write("work/notes.txt", "");
     EXPECT_THROW(base::OutputPath(folder / "scans", base::kFile, true), std::runtime_error);
     EXPECT_THROW(base::OutputPath(folder / "file", logs::kScanFolders, true), std::runtime_error);
     EXPECT_THROW(base::OutputPath("/dev/null", base::kFile, true), std::runtime_error);
     EXPECT_NO_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true));
+    // Labelled by hand, it has the same names.
+    EXPECT_THROW(base::OutputPath(folder / "mine", logs::kScanFolders, true), std::runtime_error);
     try {
         base::OutputPath output(folder / "work", logs::kScanFolders, true);
         FAIL();
@@ -57,6 +63,7 @@ TEST(OutputKinds, FoldersOfAPartASensorAreOfTheirKindToo) {
     const test::TemporaryFolder folder;
     folder.write("scans/front/velodyne/000000.bin", "");
     folder.write("scans/rear/labels/000000.label", "");
+    folder.write("scans/rear/labels/made_by.txt", "");
     folder.write("pictures/front/000000/1_depth.png", "");
     folder.write("pictures/rear/000000/1_depth.png", "");
     EXPECT_NO_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true));
@@ -102,6 +109,7 @@ TEST(OutputKinds, NeighboursWithLikeNamesAreLeftAlone) {
     const test::TemporaryFolder folder;
     for (const char* name : {"out.tmp/x", "out.old/x", "out.partial/x"}) folder.write(name, "mine");
     folder.write("out/velodyne/000000.bin", "old");
+    folder.write("out/labels/made_by.txt", "old");
     base::OutputPath output(folder / "out", logs::kScanFolders, true);
     fs::create_directory(output.temporary());
     output.commit();

@@ -99,6 +99,10 @@ TEST(PackedRawlog, DamageOfAZstdLogIsTold) {
     EXPECT_THAT(readAll(folder.write("behind", zstdOf(plainLog(2)) + "something else")).second,
                 HasSubstr("the compressed data is corrupt"));
     EXPECT_NE(readAll(folder.write("magic", "\x28\xb5\x2f\xfd")).second, "");
+    // A frame with a window of 256 MiB, and its last block, which is empty.
+    const std::string long_window("\x28\xb5\x2f\xfd\x00\x90\x01\x00\x00", 9);
+    EXPECT_THAT(readAll(folder.write("long", long_window)).second,
+                HasSubstr("a window of more than 128 MiB; decompress it first"));
 }
 
 TEST(PackedRawlog, LogsOfMrpt3GiveTheirScansAndClouds) {

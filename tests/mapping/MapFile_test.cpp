@@ -103,6 +103,18 @@ TEST_F(MapFile, TheSameMapMakesTheSameBytes) {
     }
 }
 
+/// In the order in which converters write them.
+TEST_F(MapFile, WithoutACopyOfTheTreeTheyAreTheSame) {
+    for (const std::string ending : {".bt", ".ot", ".3Dscene"}) {
+        mapping::saveMap(map_.tree(), folder_ / ("copied" + ending));
+    }
+    for (const std::string ending : {".3Dscene", ".3Dscene", ".ot", ".ot", ".bt", ".bt"}) {
+        const fs::path file = folder_ / ("in_place" + ending);
+        mapping::saveMapInPlace(map_.tree(), file, file);
+        EXPECT_EQ(bytesOf(file), bytesOf(folder_ / ("copied" + ending))) << ending;
+    }
+}
+
 TEST_F(MapFile, Empty) {
     const mapping::ScanMap empty({});
     for (const std::string name : {"map.bt", "map.ot", "map.3Dscene"}) {

@@ -4,6 +4,7 @@
 #include <hagen/simulation/Random.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -147,6 +148,18 @@ TEST(ScanMap, AWallIsOccupiedAndTheWayToItFree) {
         EXPECT_EQ(State::Occupied, stateAt(map, {5.1, y, 0.1}));
         EXPECT_EQ(State::Free, stateAt(map, {4.9, y, 0.1}));
         EXPECT_EQ(State::Unknown, stateAt(map, {5.3, y, 0.1}));
+    }
+}
+
+TEST(ScanMap, ReturnsThatAreNotFiniteAreLeftOut) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const float height_m : {0.0f, 50.0f, -50.0f}) {
+        mapping::MappedScan scan = scanOf({{kNan, 0, 0}, {kInfinity, 0, 0}, {0, 1e30f, -1e38f}});
+        scan.origin_m = {0, 0, height_m};
+        mapping::ScanMap map({mapping::MapContent::Full, 0.2, 20});
+        map.insert(scan);
+        EXPECT_EQ(map.tree().size(), 0u) << height_m;
     }
 }
 

@@ -108,6 +108,11 @@ TEST(Deskew, LeavesAScanAloneWherePosesDoNotReachToItsEnd) {
     EXPECT_FALSE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), scan));
     EXPECT_EQ(scan.x_m, before.x_m);
     EXPECT_FALSE(deskew(Trajectory(), kStart, {}, sensorModel("VLP-16"), scan));
+    // Nor where one of them is wild.
+    vehicle.add(mrpt::Clock::fromDouble(1000.07), CPose3D(1e300, 0, 0, 0, 0, 0));
+    vehicle.add(mrpt::Clock::fromDouble(1000.2), CPose3D(2, 0, 0, 0, 0, 0));
+    EXPECT_FALSE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), scan));
+    EXPECT_EQ(scan.x_m, before.x_m);
     Scan nothing;
     EXPECT_TRUE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), nothing));
 }

@@ -54,6 +54,14 @@ TEST(Mount, OfTheSettingsCountsWhereTheRecordingSaysNothing) {
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(0, 8));
 }
 
+/// As after a chain of transforms.
+TEST(Mount, OfTheSettingsCountsWhereTheRecordedOneIsLevelButForRounding) {
+    const CPose3D rounded(0, 0, 0, 0.3, 1e-7, -1e-9);
+    expectTilt(tiltOf({}, rounded, tilt(180, 0)), tilt(180, 0));
+    EXPECT_TRUE(tiltOf({}, rounded, {}).has_value());
+    expectTilt(tiltOf({}, CPose3D(0, 0, 0, 0, 0, radians(1)), tilt(180, 0)), tilt(1, 0));
+}
+
 TEST(Mount, OfTheSettingsTurnsThePoseAsOneOfTheRecordingWould) {
     const Attitude mount = tilt(180, -20);
     const CPose3D vehicle(1, 2, 3, 0.3, 0.1, -0.05), place(0.1, 0, 0.2, 0.5, 0, 0);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/recording/TurnRecorder.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -58,6 +59,25 @@ TEST_F(TurnRecorderTest, EachTurnIsFollowedByItsClouds) {
         EXPECT_EQ(labels[i + 1], "velodyne_roi");
         EXPECT_EQ(labels[i + 2], "velodyne_non_roi");
     }
+}
+
+/// As on a full disk.
+TEST_F(TurnRecorderTest, TurnsThatCannotBeWrittenAreCounted) {
+    rlimit usual{};
+    getrlimit(RLIMIT_FSIZE, &usual);
+    const auto handler = signal(SIGXFSZ, SIG_IGN);
+    const rlimit short_files{250000, usual.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &short_files);
+    TurnRecorder recorder(optionsOf("a.rawlog"), {});
+    for (int k = 0; k < 4; ++k) recorder.add(test::poleScanFrom(k, "velodyne"));
+    const auto counts = recorder.finish();
+    setrlimit(RLIMIT_FSIZE, &usual);
+    signal(SIGXFSZ, handler);
+    EXPECT_THAT(counts.failure, HasSubstr((folder_ / "a.rawlog").string() + ": "));
+    EXPECT_EQ(counts.failure.find(".tmp-"), std::string::npos) << counts.failure;
+    EXPECT_EQ(counts.turns + counts.left_out, 4u);
+    ASSERT_GT(counts.turns, 0u) << counts.failure;
+    EXPECT_EQ(labelsIn(folder_ / "a.partial.rawlog").size(), 3 * counts.turns);
 }
 
 TEST_F(TurnRecorderTest, FilesEndWhenTheyAreLongEnough) {

@@ -99,16 +99,17 @@ TEST(FartherReturns, WhatIsFarBelowTheSurfaceIsRoi) {
     EXPECT_EQ(example.judged(points)[1], Label::Roi);
 }
 
-// On the beam, 7 m away are 6.8 m from the sensor along the ground: (5.8, 3.4) m, in the second
-// block along x and in the second along y.
+// On the beam, 7 m away are 6.8 m from the sensor along the ground: (6.7, 1.2) m, in the third
+// block along x and in the first along y.
 TEST(FartherReturns, WithoutEvidenceOfGroundWhereItIsAReturnIsRoi) {
     TwoMetresUp example;
     const auto labelWithout = [&](const std::vector<std::size_t>& blocks) {
         example.ground.has_evidence.assign(PixelCells::kNoBlock + 1u, 1);
         for (const std::size_t block : blocks) example.ground.has_evidence[block] = 0;
-        return example.judged({example.on(0, 3), example.on(0, 7)})[1];
+        return example.judged({test::onBeam(example.sensor, 0, 10.1, 3),
+                               test::onBeam(example.sensor, 0, 10.1, 7)})[1];
     };
-    constexpr std::size_t kSide = 32, kOwn = 17 * kSide + 17;
+    constexpr std::size_t kSide = 32, kOwn = 16 * kSide + 18;
     EXPECT_EQ(labelWithout({}), Label::Rou);
     EXPECT_EQ(labelWithout({kOwn}), Label::Roi);
     EXPECT_EQ(labelWithout({kOwn - 1, kOwn + 1, kOwn - kSide, kOwn + kSide, PixelCells::kNoBlock}),

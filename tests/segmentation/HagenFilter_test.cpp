@@ -204,6 +204,46 @@ TEST(HagenFilter, AnAttitudeThatIsNotAskedForChangesNothing) {
     EXPECT_EQ(filter.segment(pole.scan, Attitude{0.2f, 0.2f}).returns.label, labels);
 }
 
+/// The mount chooses the rows of the image, also where angles are relative to the airframe.
+TEST(HagenFilter, UpsideDownTheLabelsAreTheSameWithoutLevelling) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SimpleScene scene;
+    scene.boxes.push_back({{15, -20, 0}, {16, 20, 6}});
+    const auto upright = test::scanScene(scene, sensor, 870, {0, 0, 3});
+    const Attitude mount{static_cast<float>(kPi), 0};
+    const Scan hanging = tilted(upright.scan, sensor, mount);
+    for (Options options : {paperOptions(), Options()}) {
+        options.level_by_attitude = false;
+        HagenFilter filter(sensor, options);
+        const std::vector<Label> labels = filter.segment(upright.scan).returns.label;
+        const std::vector<Label>& of_hanging = filter.segment(hanging, mount).returns.label;
+        ASSERT_EQ(labels.size(), of_hanging.size());
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < labels.size(); ++i) different += labels[i] != of_hanging[i];
+        EXPECT_LT(different, labels.size() / 100);
+    }
+}
+
+/// A result that another filter filled, of fewer returns behind their pixels.
+TEST(HagenFilter, AnotherFiltersResultLeavesNothing) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SimpleScene scene;
+    scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
+    const auto small = test::scanScene({}, sensor, 200, kTwoMetresUp);
+    const auto large = test::scanScene(scene, sensor, 870, kTwoMetresUp);
+    const std::vector<Label> expected =
+        HagenFilter(sensor, paperOptions()).segment(large.scan).returns.label;
+    HagenFilter by_ground(sensor), papers(sensor, paperOptions());
+    by_ground.segment(small.scan);
+    SegmentationResult result;
+    by_ground.exchangeResult(result);
+    papers.exchangeResult(result);
+    const SegmentationResult& r = papers.segment(large.scan);
+    EXPECT_EQ(r.returns.label, expected);
+    EXPECT_FALSE(r.ground.has_surface);
+    EXPECT_TRUE(r.own_labels.label.empty());
+}
+
 TEST(HagenFilter, GroundThatComesTooCloseIsRoi) {
     const auto ground = test::scanScene({}, sensorModel("VLP-16"), 870, kTwoMetresUp);
     Options options;

@@ -97,7 +97,7 @@ TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
 /// As PTP does. The packets that follow are as new as before: neither are they late, nor do they
 /// wait for a clock that has stood here already.
 TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothing) {
-    for (const std::int64_t back_ns : {20000000, 200000000, 900000000}) {
+    for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
         frames_.clear();
         LivoxStream stream({}, [this](const LabelledSector& sector) {
             frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
@@ -119,6 +119,31 @@ TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothing) {
             EXPECT_LT(frame.last_s - frame.first_s, 0.021);
             EXPECT_LT(frame.last_s - latest_s, 0.025);
             latest_s = frame.last_s;
+        }
+    }
+}
+
+/// Each packet comes twice, as by a second network: at once, or after the next ones.
+TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothingWhereAllComesTwice) {
+    for (const std::int64_t back_ns : {20000000, 200000000, 2000000000}) {
+        for (const int later : {0, 1, 3}) {
+            LivoxStream stream({}, [](const LabelledSector&) {});
+            const auto addTo = [&](int i, int now) {
+                const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
+                const std::string packet = packetOf(i, time_ns);
+                return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()),
+                                  packet.size(), 1 + 1e-9 * kPacket_ns * now);
+            };
+            for (int i = 0; i < 1000; ++i) {
+                addTo(i, i);
+                if (i < later) continue;
+                EXPECT_EQ(addTo(i - later, i), Taken::Repeated);
+            }
+            EXPECT_EQ(stream.counts().interruptions, 1u) << back_ns << " " << later;
+            // Copies of before come between the first ones.
+            const auto too_late = static_cast<std::size_t>(3 + later);
+            EXPECT_EQ(stream.counts().too_late, too_late) << back_ns << " " << later;
+            EXPECT_EQ(stream.counts().packets, 1000 - too_late) << back_ns << " " << later;
         }
     }
 }

@@ -13,6 +13,8 @@ using State = SectorDistances::State;
 
 constexpr double kTurn_rad = 2 * kPi;
 
+double turned_deg(double rad) { return rad < 0 ? degrees(rad) + 360 : degrees(rad); }
+
 struct Point {
     double azimuth_deg, distance_m;  ///< clockwise from ahead; horizontal
     Label label = Label::Roi;
@@ -264,12 +266,9 @@ TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStays) {
         SectorDistances::Settings settings;
         settings.body_from_sensor.translation().x() = 1;
         SectorDistances distances(sensor_, settings);
-        double azimuth_deg = degrees(-std::atan2(y_m, x_m - 1));
-        if (azimuth_deg < 0) azimuth_deg += 360;
+        const double azimuth_deg = turned_deg(-std::atan2(y_m, x_m - 1));
         const Point near{azimuth_deg, std::hypot(x_m - 1, y_m)};
-        double in_body_deg = degrees(-std::atan2(y_m, x_m));
-        if (in_body_deg < 0) in_body_deg += 360;
-        const int bin = static_cast<int>(in_body_deg / 5);
+        const int bin = static_cast<int>(turned_deg(-std::atan2(y_m, x_m)) / 5);
         for (int k = 0; k < 72; ++k) {  // sectors of 20 degrees
             const bool has_it = azimuth_deg >= 20 * (k % 18) && azimuth_deg < 20 * (k % 18 + 1);
             const double time_s = 0.1 * k / 18;
@@ -279,6 +278,56 @@ TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStays) {
             EXPECT_EQ(distances.at(time_s + 0.005)[bin].state, State::Obstacle) << x_m << " " << k;
         }
     }
+}
+
+TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStaysWhereItsPacketIsLost) {
+    for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
+        SectorDistances::Settings settings;
+        settings.body_from_sensor.translation().x() = 1;
+        SectorDistances distances(sensor_, settings);
+        const double azimuth_deg = turned_deg(-std::atan2(y_m, x_m - 1));
+        const int sector = static_cast<int>(turned_deg(-std::atan2(y_m, x_m)) / 5);
+        for (int k = 0; k < 54; ++k) {  // of 20 degrees
+            const bool has_it = azimuth_deg >= 20 * (k % 18) && azimuth_deg < 20 * (k % 18 + 1);
+            if (has_it && k >= 18) continue;
+            const double time_s = 0.1 * k / 18;
+            std::vector<Point> points;
+            if (has_it) points.push_back({azimuth_deg, std::hypot(x_m - 1, y_m)});
+            take(20.0 * k, 20.0 * (k + 1), time_s, points, distances);
+            if (k < 18) continue;
+            EXPECT_NE(distances.at(time_s + 0.005)[sector].state, State::SeenNothing)
+                << x_m << " " << y_m << " " << k;
+        }
+    }
+}
+
+/// Nose down by 20 degrees, it looks at the low obstacle at 268 degrees at 272.3 of its own.
+TEST_F(SectorDistancesTest, WhatATiltedSensorSeesBelowTheHorizonStays) {
+    SectorDistances::Settings settings;
+    settings.body_from_sensor =
+        Eigen::AngleAxisf(static_cast<float>(radians(20.0)), Eigen::Vector3f::UnitY());
+    const Eigen::Vector3f left =
+        Eigen::Vector3d(std::cos(radians(268)), -std::sin(radians(268)), -std::tan(radians(12)))
+            .cast<float>();
+    const Eigen::Vector3f at_m = settings.body_from_sensor.inverse() * (8 * left);
+    const double azimuth_deg = turned_deg(-std::atan2(at_m.y(), at_m.x()));
+    ASSERT_NEAR(azimuth_deg, 272.3, 0.1);
+    const Point low{azimuth_deg, at_m.head<2>().norm(), Label::Roi, at_m.z()};
+    SectorDistances distances(sensor_, settings);
+    int steps = 0;
+    for (double from_deg = 0; from_deg < 1080; from_deg += 3, ++steps) {
+        const double time_s = 0.1 * from_deg / 360;
+        const bool has_it =
+            std::fmod(from_deg, 360) <= azimuth_deg && azimuth_deg < std::fmod(from_deg, 360) + 3;
+        take(from_deg, from_deg + 3, time_s, has_it ? std::vector{low} : std::vector<Point>{},
+             distances);
+        if (from_deg < 360) continue;
+        EXPECT_EQ(distances.at(time_s)[53].state, State::Obstacle) << from_deg;
+    }
+    EXPECT_EQ(steps, 360);
+    // A turn later it is gone.
+    take(1080, 1440, 0.4, {}, distances);
+    EXPECT_EQ(distances.at(0.41)[53].state, State::SeenNothing);
 }
 
 TEST_F(SectorDistancesTest, WithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
@@ -302,6 +351,24 @@ TEST_F(SectorDistancesTest, WithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
     EXPECT_EQ(stateAfter(0.012, 50), State::Unknown);
     EXPECT_EQ(stateAfter(0.0005, 50), State::Unknown);  // one packet of 42
     EXPECT_EQ(stateAfter(0, 50), State::Unknown);
+}
+
+/// Of three tenths of a second, a quarter of the packets comes at once, after a network stood
+/// still.
+TEST_F(SectorDistancesTest, WithoutTurnsFewPacketsThatComeAtOnceDidNotLookAllAround) {
+    const Scan scan;
+    const std::vector<Label> labels;
+    const auto stateAfter = [&](double measured_s) {
+        SectorDistances distances(sensorModel("Mid-360"));
+        for (int k = 0; k < 16; ++k) {
+            const double came_s = 1.3 + 1e-4 * k;
+            distances.take({scan, labels, std::nullopt, came_s, came_s, true, false, false, result_,
+                            nullptr, measured_s, BeamOffsets(), 0.02 * k});
+        }
+        return distances.at(1.31)[9].state;
+    };
+    EXPECT_EQ(stateAfter(0.005), State::Unknown);
+    EXPECT_EQ(stateAfter(0.019), State::SeenNothing);
 }
 
 /// Freedom rests on a look all around that began after the obstacle was seen, however packets stop.

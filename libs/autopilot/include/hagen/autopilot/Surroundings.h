@@ -34,8 +34,9 @@ using Directions = std::array<Direction, 72>;
 /// vehicle that rolls sees an obstacle on its right on its right. **Stale is never free**: what was
 /// not swept within 0.3 s is unknown, and so is a direction in which the sensor, as it was tilted
 /// then, has no beam at the horizon. An obstacle is forgotten when a later turn has passed all of
-/// its degree, or a sensor without turns has looked all around since. Where neither happened, its
-/// direction is unknown after 0.3 s.
+/// its degree and of the sensor's, which is another if it is tilted, or a sensor without turns has
+/// looked all around since. Where neither happened, its direction is unknown after 0.3 s, and for
+/// as long as 0.7 s more.
 /// (streaming::SectorDistances is the same for a sensor that stays.)
 ///
 /// A copy is cheap: it shares what sectors saw, which does not change.

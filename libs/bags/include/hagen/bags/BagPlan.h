@@ -33,8 +33,9 @@ struct BagSensor {
 /// What is read of a bag.
 struct BagPlan {
     std::map<std::string, BagSensor> sensors;  ///< by topic
-    const PoseSeries* poses = nullptr;         ///< of the vehicle, in the survey; null: none
-    std::string imu_topic;                     ///< for the attitude; empty: none
+    const PoseSeries* poses = nullptr;  ///< of the vehicle, in the survey or `composed`; null: none
+    std::shared_ptr<const PoseSeries> composed;  ///< of several series; null: poses are not
+    std::string imu_topic;                       ///< for the attitude; empty: none
     mrpt::poses::CPose3D imu_on_vehicle;
     std::vector<std::string> remarks;  ///< what is not read, and why
 };
@@ -50,10 +51,13 @@ constexpr std::size_t kMostLidarTopics = 100;  ///< read without being named
 /// Poses are those of the odometry topic with the most; without one, of the pose topic with the
 /// most; without one, of the transforms that move the frame on which the LiDAR hangs. Transforms
 /// on the way there that never change count as static; they are the poses only if nothing moves.
-/// Series with poses farther apart than half a second on average come last.
+/// Several that move one after the other are composed, up to a frame that does not move (map, odom,
+/// world, earth, or without a parent); so are odometry and the transforms that move the LiDAR
+/// against its frame. Series with poses farther apart than half a second on average come last.
 ///
-/// The vehicle's frame is the child frame of the poses, otherwise base_link or base_footprint, or
-/// without poses the frame on which a sensor hangs in the end.
+/// The vehicle's frame is the child frame of the poses. If they name none, it is base_link or
+/// base_footprint, and without poses also the frame on which a sensor hangs in the end. Poses are
+/// taken for those of a sensor that has no place in that frame, with a remark.
 ///
 /// Throws std::runtime_error naming the file if a topic is not there or is not a LiDAR's, if none
 /// is, if there are more than kMostLidarTopics and none is named, or if metadata of an Ouster are

@@ -16,6 +16,10 @@ struct FileKind {
 
 constexpr std::size_t kFileKindBytes = 4096;  ///< first bytes of a file that tell its kind
 
+/// Whether bytes are text in UTF-8, with no control characters but white space; its last character
+/// may be cut.
+bool isText(std::string_view bytes);
+
 /// By the first bytes of a file: kFileKindBytes, or all if it has fewer.
 FileKind kindOfBytes(std::string_view start);
 /// The same of a file; none that is known if it cannot be read.

@@ -15,6 +15,8 @@ struct OutputKind {
     /// A file that each such folder has, where the names of the others do not tell whose they are.
     /// Null: none.
     const char* marker = nullptr;
+    /// Whether a folder is of an earlier run, where that takes more than one name. Null: not asked.
+    bool (*is_made)(const std::filesystem::path& folder) = nullptr;
 };
 constexpr OutputKind kFile{"a file", nullptr};
 
@@ -46,9 +48,12 @@ class OutputPath {
 
  private:
     void checkFree() const;
-    bool renameToFreeName() const;
+    bool renameToFreeName(const std::filesystem::path& name) const;
+    std::filesystem::path replace(bool is_folder) const;
+    void removeOld(const std::filesystem::path& old);
 
-    std::filesystem::path path_, temporary_, kept_;
+    std::filesystem::path path_, temporary_;
+    std::filesystem::path kept_;  ///< its name, once it has one
     OutputKind kind_;
     bool overwrites_;
 };
@@ -72,7 +77,11 @@ class RenamingNote {
 /// this one's number. Empty for an empty path.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 
-/// The same for several outputs, as a sentence for the user; "" if there is nothing.
+/// A message with the names of outputs in place of their temporary ones.
+std::string withOutputNames(std::string message);
+
+/// The same as partialOutputs() for several outputs, as a sentence for the user; "" if there is
+/// nothing.
 std::string leftBehind(const std::vector<std::filesystem::path>& outputs);
 
 /// Throws std::runtime_error if an output is an input, contains an input, exists within an input,

@@ -16,7 +16,7 @@ class OutputSet {
     /// Any other output that has a commit(), by its place. Each is to live as long as the set.
     template <class Output>
     void add(const OutputPath& place, Output& output) {
-        members_.push_back({place.path(), place.temporary(), [&output] { output.commit(); }});
+        members_.push_back({place.path(), [&output] { output.commit(); }});
     }
 
     /// Calls what writes an output, or a part of it, to its temporary place, unless the output was
@@ -34,7 +34,7 @@ class OutputSet {
 
  private:
     struct Member {
-        std::filesystem::path path, temporary;
+        std::filesystem::path path;
         std::function<void()> commit;
         bool is_given_up = false;
     };

@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <vector>
 
 namespace hagen::captures {
 
 /// Groups the packets of one sensor into turns: one ends where the azimuth wraps.
 ///
-/// Packets that come up to sixteen late are put back in order by the sensor's clock. A turn also
+/// Packets that come up to sixteen late are put back in order by the sensor's clock. Later ones are
+/// left out, unless sixteen come in a row, or are the last: then the clock was set. A turn also
 /// ends where more than 50 ms are missing (a whole turn at the highest speed), after 250 ms (a
 /// sensor that stands still never wraps) and after 2000 packets (whatever its clock says), so
 /// memory is bounded.
@@ -22,10 +24,11 @@ class VelodyneTurns {
     using Turn = mrpt::obs::CObservationVelodyneScan::Ptr;
 
     struct Counts {
-        std::size_t packets = 0;  ///< taken, without those repeated
+        std::size_t packets = 0;  ///< taken, without those repeated or too late
         std::size_t turns = 0;
         std::size_t dual = 0;           ///< packets with two returns per firing
         std::size_t out_of_order = 0;   ///< packets put back in their place
+        std::size_t too_late = 0;       ///< packets too late for their place, left out
         std::size_t repeated = 0;       ///< packets that came again, left out
         std::size_t lost = 0;           ///< packets missing, by the sensor's clock
         std::size_t interruptions = 0;  ///< gaps of more than a second, and jumps of that clock
@@ -44,6 +47,8 @@ class VelodyneTurns {
     const Counts& counts() const { return counts_; }
 
  private:
+    void setClock();
+    void insert(const packets::VelodynePacket& packet);
     void flush();
     void append(const packets::VelodynePacket& packet);
     void checkGap(const packets::VelodynePacket& packet);
@@ -53,6 +58,7 @@ class VelodyneTurns {
     std::string label_;
     mrpt::obs::VelodyneCalibration calibration_;
     std::deque<packets::VelodynePacket> waiting_;  ///< by the sensor's clock
+    std::vector<packets::VelodynePacket> held_;    ///< too late, in a row
     Turn turn_;                                    ///< in progress; null: none
     double turn_start_us_ = 0;
     bool has_last_ = false;

@@ -56,8 +56,11 @@ struct BinStart {
 BinStart startOfBin(const std::filesystem::path& file);
 
 /// Reads a cloud file, told by its content. Nothing larger than the file, as unpacked by a factor
-/// of 256 at most, is ever allocated. Throws BrokenCloud.
+/// of 256 at most, is ever allocated. Throws BrokenCloud, also for more points than a scan may have
+/// (kMostReturns).
 ///
+/// - BIN: by its name also one without points, or whose first 4096 bytes are zero: rows without
+///   returns. The bytes from the first return on then tell what its points are.
 /// - PCD: fields named "_" are padding and left out.
 /// - PLY: elements other than `vertex`, and lists, are left out and named in the remarks.
 /// - LAS: x, y, z are float64, as scaled and moved by the header; with the fields intensity

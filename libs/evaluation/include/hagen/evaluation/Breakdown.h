@@ -21,8 +21,8 @@ Group overallScores(const std::vector<ScanScores>& scans);
 std::vector<Group> byFolder(const std::vector<ScanScores>& scans,
                             const std::vector<std::string>& folders);
 
-/// Scans by the sensor's altitude: 0-2, 2-3, 3-5, 5-10 and 10+ m; bands are half-open, the lower
-/// bound is inclusive. Scans of unknown altitude and empty bands are skipped.
+/// Scans by the sensor's altitude: below 0, 0-2, 2-3, 3-5, 5-10 and 10+ m; bands are half-open, the
+/// lower bound is inclusive. Scans of unknown altitude and empty bands are skipped.
 std::vector<Group> byAltitude(const std::vector<ScanScores>& scans);
 
 /// Parts of scans by range; bands without returns are skipped.

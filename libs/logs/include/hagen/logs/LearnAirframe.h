@@ -40,6 +40,8 @@ struct AirframeListener {
     /// Called with the title of a scan that could not be read, and the reason. It is left out.
     std::function<void(const std::string& entry, const std::string& why)> unreadable =
         [](const auto&, const auto&) {};
+    /// Called with what is to know of the recording, as what of it is not used.
+    std::function<void(const std::string& what)> remark = [](const auto&) {};
     /// Called before each entry is read. False ends with Interrupted; nothing is written.
     std::function<bool()> keep_going = [] { return true; };
 };
@@ -47,7 +49,7 @@ struct AirframeListener {
 /// Learns the airframe from the first seconds of a recording (AirframeLearner), and writes it as a
 /// file for `airframe: [{learned: FILE}]` with a picture. Throws std::runtime_error naming the
 /// recording if it has no scans, too few (AirframeRules::least_scans), or those of several LiDARs;
-/// naming the output if that cannot be written. Nothing is then written.
+/// naming the output if that cannot be written. Nothing is then written of it.
 AirframeReport learnAirframe(const AirframeLearning& learning,
                              const AirframeListener& listener = {});
 

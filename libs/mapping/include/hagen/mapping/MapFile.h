@@ -16,5 +16,9 @@ void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file);
 /// The same into a file of any name, in the format of `named`.
 void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file,
              const std::filesystem::path& named);
+/// The same without a copy of the tree: its inner nodes are brought up to date, equal children
+/// become one, and of a .bt all voxels become occupied or free.
+void saveMapInPlace(octomap::OcTree& tree, const std::filesystem::path& file,
+                    const std::filesystem::path& named);
 
 }  // namespace hagen::mapping

@@ -66,6 +66,7 @@ class ScanMap {
 
  private:
     ScanMapOptions options_;
+    std::size_t most_nodes_ = 0;
     class RayTraversal;
     std::unique_ptr<octomap::OcTree> tree_;
     std::unique_ptr<RayTraversal> walk_;  ///< buffers, reused across scans

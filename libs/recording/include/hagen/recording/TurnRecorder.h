@@ -58,6 +58,7 @@ class TurnRecorder {
     void work();
     void write(const mrpt::obs::CObservation::Ptr& turn);
     void endFile();
+    void fail(const std::string& why);
 
     const Options options_;
     observations::ObservationSegmenter segmenter_;
@@ -65,7 +66,8 @@ class TurnRecorder {
     std::optional<logs::RawlogWriter> writer_;
     std::filesystem::path writing_;  ///< its name
     std::size_t written_bytes_ = 0, number_ = 0;
-    bool has_turns_ = false;  ///< of this file
+    bool has_turns_ = false;    ///< of this file
+    std::size_t gathered_ = 0;  ///< turns of the member that is not written yet
     logs::Bytes entries_, member_, packed_;
     live::Recorded recorded_;
 

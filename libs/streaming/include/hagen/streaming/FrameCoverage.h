@@ -13,14 +13,16 @@ class FrameCoverage {
     /// looked there again, and the pattern of the beams had time for a second look.
     static constexpr double kForgotten_s = kPeriod_s + 0.01;
 
-    /// Adds a frame, by when it came and LabelledSector::measured_s. If the period that ends with
+    /// Adds a frame, by when it came, LabelledSector::measured_s, and when it was measured by the
+    /// sensor's clock: packets that waited in a network come at once. If the period that ends with
     /// it has been measured, returns when its first frame came. A time before the last one begins
     /// anew.
-    std::optional<double> add(double time_s, double measured_s);
+    std::optional<double> add(double time_s, double measured_s,
+                              std::optional<double> sensor_time_s = std::nullopt);
 
  private:
     struct Frame {
-        double time_s, measured_s;
+        double time_s, sensor_time_s, measured_s;
     };
     std::deque<Frame> frames_;  ///< of the period
 };

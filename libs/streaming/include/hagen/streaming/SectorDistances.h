@@ -15,11 +15,11 @@ namespace hagen::streaming {
 /// **Stale is never free.** A direction that was not swept for 0.3 s is unknown, and so is one that
 /// was swept in part: a lost packet leaves a gap, however narrow it is (TurnCoverage). "Seen
 /// nothing" means that the sensor swept all of it, at the horizon of the body, and that none of the
-/// returns is RoI. What an earlier turn saw in a degree is forgotten once a later one has passed
-/// all of it. A sensor that does not turn is taken to look all around within each tenth of a
-/// second, if few of its packets are lost (FrameCoverage). What it saw is forgotten once it has
-/// looked all around in a tenth of a second that began that much later. Where that did not happen,
-/// the direction is unknown after 0.3 s.
+/// returns is RoI. What an earlier turn saw is forgotten once a later one has passed all of the
+/// sensor's degrees in which it was seen. A sensor that does not turn is taken to look all around
+/// within each tenth of a second, if few of its packets are lost (FrameCoverage). What it saw is
+/// forgotten once it has looked all around in a tenth of a second that began that much later. Where
+/// that did not happen, the direction is unknown after 0.3 s.
 class SectorDistances {
  public:
     static constexpr int kSectors = 72;
@@ -63,13 +63,17 @@ class SectorDistances {
     struct Found {
         double time_s = kNever, turned_rad = kNever;
         float distance_m = std::numeric_limits<float>::infinity();
-        double parallax_rad = 0;  ///< at most, between its directions from the body and the sensor
+        /// Of the sensor, in which it saw what is in the bin; they may go on beyond 0 and 359.
+        int first_degree = 0, last_degree = 0;
+    };
+    /// Of a degree of the sensor: the end of the latest turn that swept all of it.
+    struct Passed {
+        double end_rad = kNever, time_s = kNever;
     };
     struct Bin {
         double begun_s = kNever, begun_rad = kNever;  ///< when a turn looked there first; its begin
         double swept_s = kNever;   ///< when the turn or period that swept all of it last began
         double end_rad = kNever;   ///< its end in that turn
-        double passed_s = kNever;  ///< when that turn had swept all of it
         std::vector<Found> found;  ///< by turn, oldest first
     };
 
@@ -77,13 +81,14 @@ class SectorDistances {
     static void noteSwept(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc,
                           double now_s, Bin& bin);
     void forgetFound(double now_s, Bin& bin) const;
-    bool isGone(const Found& found, const Bin& bin) const;
+    bool isGone(const Found& found) const;
     bool isFresh(double time_s, double now_s) const;
 
     Settings settings_;
     /// Where the sensor sees the bins; NaN: not.
     std::array<TurnCoverage::Arc, kBins> arcs_{};
     std::array<Bin, kBins> bins_{};
+    std::array<Passed, kBins> passed_{};  ///< by the sensor's degrees, clockwise from its ahead
     TurnCoverage coverage_;
     FrameCoverage frames_;
     double latest_s_ = kNever;

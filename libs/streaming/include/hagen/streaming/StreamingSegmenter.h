@@ -75,6 +75,8 @@ struct LabelledSector {
     /// Of a sensor that does not turn: for how long it measured. Infinity: it looked all around.
     double measured_s = std::numeric_limits<double>::infinity();
     BeamOffsets offsets = {};
+    /// Of a sensor that does not turn: when it began, by a clock of the sensor. None: not known.
+    std::optional<double> sensor_time_s = std::nullopt;
 };
 
 /// Labels the returns of a LiDAR sector by sector, while it turns.
@@ -122,10 +124,12 @@ class StreamingSegmenter {
     void add(const Scan& returns, const Sweep& sweep, double time_s);
     /// The same for a frame of a sensor that does not turn, which is a sector. `time_s` is when its
     /// last packet came. `measured_s` is for how long its packets measured, if some may be lost.
-    /// `first_time_s` is when its first packet came; none: at once with the last.
+    /// `first_time_s` is when its first packet came; none: at once with the last. `sensor_time_s`
+    /// is when that was measured, by the sensor's clock.
     void addFrame(const Scan& returns, double time_s,
                   double measured_s = std::numeric_limits<double>::infinity(),
-                  std::optional<double> first_time_s = std::nullopt);
+                  std::optional<double> first_time_s = std::nullopt,
+                  std::optional<double> sensor_time_s = std::nullopt);
     /// Labels the sector in progress: no packet followed for some time.
     void flush();
     /// Forgets the context: packets that follow are of another place or sensor mode. The sector in
@@ -156,6 +160,7 @@ class StreamingSegmenter {
         std::optional<Eigen::Isometry3d> pose;  ///< of the sensor; its rotation only: without place
         bool has_place = false;
         double measured_s = 0;  ///< without a sweep
+        std::optional<double> sensor_time_s;
     };
 
     Packet& push(const Scan& returns, double time_s);
