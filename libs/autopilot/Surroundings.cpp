@@ -125,6 +125,28 @@ std::optional<double> Surroundings::passedAt(const Seen& seen, const TurnCoverag
     return passed_rad;
 }
 
+/// The same of the sensor's degrees, which it has yawed away from since then.
+void Surroundings::notePassed(const Seen& seen, double yawed_rad, double since_rad,
+                              std::array<double, kBins>& passed_rad) {
+    if (!seen.turns) {
+        for (double& rad : passed_rad) rad = std::max(rad, seen.to_rad);
+        return;
+    }
+    for (TurnCoverage::Swept swept : seen.swept) {
+        swept.since_rad = std::max(swept.since_rad, since_rad + seen.ahead_rad);
+        // The others do not end within it.
+        const double last = std::ceil((swept.to_rad - yawed_rad) / kPart_rad);
+        const double first = std::floor((swept.from_rad - yawed_rad) / kPart_rad) - 1;
+        for (double k = std::max(first, last - kBins); k < last; ++k) {
+            const TurnCoverage::Arc arc{k * kPart_rad + yawed_rad, kPart_rad};
+            const auto end_rad = endOfArc(swept, arc);
+            const double degree = k - kBins * std::floor(k / kBins);
+            double& rad = passed_rad[static_cast<std::size_t>(degree)];
+            if (end_rad) rad = std::max(rad, *end_rad);
+        }
+    }
+}
+
 Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
     // How far the sensor had turned when it passed a degree last.
     std::array<double, kBins> passed_rad;
@@ -145,11 +167,13 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         const Seen* const seen = each->get();
         if (!matters(*seen, now_s)) continue;
         const bool is_fresh = isFresh(*seen, now_s);
-        // All was swept again, by a later turn.
-        const double least_rad =
-            std::min(*std::min_element(passed_rad.begin(), passed_rad.end()),
-                     *std::min_element(passed_by_sensor_rad.begin(), passed_by_sensor_rad.end()));
-        if (least_rad - seen->to_rad > streaming::kLaterTurn_rad) continue;
+        // All was swept again, by a later turn. Without the horizon no direction is free, so that
+        // there are no doubts.
+        const auto areAllPassed = [&](const std::array<double, kBins>& all_rad) {
+            const double least_rad = *std::min_element(all_rad.begin(), all_rad.end());
+            return least_rad - seen->to_rad > streaming::kLaterTurn_rad;
+        };
+        if (areAllPassed(passed_by_sensor_rad) && (!is_fresh || areAllPassed(passed_rad))) continue;
         const auto then = motion.at((seen->first_time_s + seen->last_time_s) / 2);
         const Eigen::Isometry3d level = levelFromSensor(settings_.vehicle_from_sensor, then, now);
         // What was seen since is at least as fresh.
@@ -165,11 +189,7 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
         const Eigen::Matrix3f sensor_from_level_now = now_from_level.cast<float>();
         const Eigen::Vector3d ahead_then = now_from_level * level.linear().col(0);
         const double yawed_rad = std::atan2(ahead_then.y(), ahead_then.x());
-        for (int degree = 0; degree < kBins && is_swept; ++degree) {
-            if (passed_by_sensor_rad[degree] > -kNone) continue;
-            const TurnCoverage::Arc arc{degree * kPart_rad + yawed_rad, kPart_rad};
-            passed_by_sensor_rad[degree] = passedAt(*seen, arc, fresh_rad).value_or(-kNone);
-        }
+        if (is_swept) notePassed(*seen, yawed_rad, fresh_rad, passed_by_sensor_rad);
         double next_rad = 0;
         int next = -1;  // the edge of which this is the azimuth
         for (int bin = 0; bin < kBins && is_swept; ++bin) {
@@ -189,10 +209,9 @@ Directions Surroundings::at(double now_s, const VehicleMotion& motion) const {
             if (!(std::abs(at_m.z()) <= settings_.height_m)) continue;
             const int bin = degreeOf(at_m.head<2>(), kHalf_rad);
             // The next turn has passed it since, without this.
-            const Eigen::Vector3f from_sensor_m = sensor_from_level_now * at_m;
-            if (isPassed(passed_rad[bin]) &&
-                isPassed(passed_by_sensor_rad[degreeOf(from_sensor_m.head<2>(), 0)])) {
-                continue;
+            if (isPassed(passed_rad[bin])) {
+                const Eigen::Vector2f from_sensor_m = (sensor_from_level_now * at_m).head<2>();
+                if (isPassed(passed_by_sensor_rad[degreeOf(from_sensor_m, 0)])) continue;
             }
             if (!is_fresh) {
                 is_doubtful[bin / kParts] = true;

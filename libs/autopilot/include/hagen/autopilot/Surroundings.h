@@ -78,6 +78,8 @@ class Surroundings {
     double azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edge) const;
     static std::optional<double> passedAt(const Seen& seen, const streaming::TurnCoverage::Arc& arc,
                                           double since_rad);
+    static void notePassed(const Seen& seen, double yawed_rad, double since_rad,
+                           std::array<double, kBins>& passed_rad);
 
     Settings settings_;
     double lowest_, highest_;                       ///< sines of the elevations of its beams
