@@ -14,6 +14,8 @@ using Topic = BagSurvey::Topic;
 using mrpt::poses::CPose3D;
 
 constexpr double kFarApart_s = 0.5, kLeastApart_ns = 1e7;
+constexpr double kLongestGap_s = 0.2;              // of Trajectory
+constexpr double kLeastCovered = 0.5;              // of the time of the poses
 constexpr int kDeepest = 64;                       // frames on frames
 constexpr const char* kOusterFrame = "os_sensor";  // of the maker's driver, whose packets name none
 
@@ -107,6 +109,12 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
         }
     }
     std::sort(times_ns.begin(), times_ns.end());
+    // Most often it is this one that has no pose.
+    const auto isSparser = [](const MovingStep& a, const MovingStep& b) {
+        return a.series->poses.size() < b.series->poses.size();
+    };
+    const observations::Trajectory& sparsest = trajectories[static_cast<std::size_t>(
+        std::min_element(steps.begin(), steps.end(), isSparser) - steps.begin())];
     for (const std::int64_t time_ns : times_ns) {
         // As doubles: times of a broken file may be too far apart for integers.
         if (!whole.poses.empty() &&
@@ -114,6 +122,7 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
                 kLeastApart_ns) {
             continue;
         }
+        if (!sparsest.at(captures::timeOf(time_ns))) continue;
         std::optional<CPose3D> pose = CPose3D();
         for (std::size_t i = 0; i < steps.size() && pose; ++i) {
             const auto of_step = trajectories[i].at(captures::timeOf(time_ns));
@@ -127,6 +136,17 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
             {time_ns, pose->x(), pose->y(), pose->z(), q.r(), q.x(), q.y(), q.z()});
     }
     return whole;
+}
+
+/// For how long there are poses, without gaps that nobody bridges.
+double covered_s(const PoseSeries& series) {
+    double all_s = 0;
+    for (std::size_t i = 1; i < series.poses.size(); ++i) {
+        const double gap_s = 1e-9 * (static_cast<double>(series.poses[i].time_ns) -
+                                     static_cast<double>(series.poses[i - 1].time_ns));
+        if (gap_s > 0 && gap_s <= kLongestGap_s) all_s += gap_s;
+    }
+    return all_s;
 }
 
 class Planner {
@@ -357,9 +377,11 @@ class Planner {
     /// Frames of the LiDARs that may be read.
     std::vector<std::string> framesOfLidars() const {
         std::vector<std::string> frames;
+        std::set<std::string> known;
         for (const Topic& topic : survey_.topics) {
             if (!mayBeRead(topic)) continue;
-            frames.push_back(topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame);
+            const std::string frame = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
+            if (known.insert(frame).second) frames.push_back(frame);
         }
         return frames;
     }
@@ -426,10 +448,9 @@ class Planner {
 
     /// False, and nothing is taken, for steps that have no times in common.
     bool takeComposed(const std::vector<MovingStep>& steps, const std::string& top,
-                      const CPose3D& in_top, const std::string& source = "") {
+                      const CPose3D& in_top) {
         auto poses = std::make_shared<PoseSeries>(composed(steps, top, in_top));
         if (poses->poses.empty()) return false;
-        if (!source.empty()) poses->source = source;
         plan_.composed = poses;
         plan_.poses = poses.get();
         return true;
@@ -503,8 +524,17 @@ class Planner {
         steps.push_back({way->in_top, plan_.poses});
         const std::string source = plan_.poses->source + " and transforms from " + child + " to " +
                                    steps.front().series->child;
-        const std::string parent = plan_.poses->parent;
-        if (takeComposed(steps, parent, CPose3D(), source)) addAsStatic(way->still);
+        auto poses = std::make_shared<PoseSeries>(composed(steps, plan_.poses->parent, CPose3D()));
+        if (poses->poses.empty() || covered_s(*poses) < kLeastCovered * covered_s(*plan_.poses)) {
+            plan_.remarks.push_back("the transforms from '" + child + "' to '" +
+                                    steps.front().series->child +
+                                    "' are too far apart in time to be used with the poses");
+            return;
+        }
+        poses->source = source;
+        plan_.composed = poses;
+        plan_.poses = poses.get();
+        addAsStatic(way->still);
     }
 
     void choosePoses() {

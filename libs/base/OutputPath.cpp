@@ -153,9 +153,9 @@ class Living {
         const std::lock_guard lock(mutex_);
         names_.emplace(temporary.string(), name.string());
     }
-    void remove(const fs::path& temporary) {
+    void remove(const fs::path& temporary) noexcept {
         const std::lock_guard lock(mutex_);
-        names_.erase(temporary.string());
+        names_.erase(temporary.native());  // takes no memory
     }
     bool has(const fs::path& file) const {
         const std::lock_guard lock(mutex_);

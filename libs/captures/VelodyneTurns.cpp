@@ -14,6 +14,7 @@ namespace {
 using mrpt::obs::CObservationVelodyneScan;
 
 constexpr std::size_t kMostWaiting = 16, kOfSetClock = 16;
+constexpr double kFollows = 2.5;  // periods
 constexpr double kHourUs = 3600e6, kSecondUs = 1e6;
 constexpr double kEndOfTurnUs = 50e3;       // without packets
 constexpr double kLongestTurnUs = 250e3;    // the slowest sensors turn five times per second
@@ -36,13 +37,16 @@ void VelodyneTurns::add(const packets::VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
     const double latest_us = waiting_.empty() ? time_us : waiting_.back().sensorTimeUs();
     const double ahead_us = elapsedUs(latest_us, time_us);
-    const double most_late_us = kMostWaiting * model_.packetPeriodUs(packet.isDual());
-    if (ahead_us >= -most_late_us) {
+    const double period_us = model_.packetPeriodUs(packet.isDual());
+    if (ahead_us >= 0) {
         counts_.too_late += held_.size();
         held_.clear();
-        insert(packet);
-        return;
+        return insert(packet);
     }
+    const double after_held_us =
+        held_.empty() ? -1 : elapsedUs(held_.back().sensorTimeUs(), time_us);
+    const bool follows_held = after_held_us >= 0 && after_held_us <= kFollows * period_us;
+    if (ahead_us >= -period_us * kMostWaiting && !follows_held) return insert(packet);
     held_.push_back(packet);
     if (held_.size() >= kOfSetClock) setClock();
 }

@@ -126,11 +126,18 @@ BinStart startOfBin(const std::filesystem::path& file) {
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
     BinPoint point = binPointOf(bytes);
-    if (point == BinPoint::FourOrFive || point == BinPoint::FiveOrNone) {
-        point = binPointOf(point, readBytes(file));
-    }
     BinStart start;
     if (point == BinPoint::None) start.other_kind = otherKindOf(bytes);
+    const bool begins_with_zeros = bytes.size() == kStart && isAllZero(bytes);
+    if (point == BinPoint::FourOrFive || point == BinPoint::FiveOrNone || begins_with_zeros) {
+        const Bytes all = readBytes(file);
+        if (begins_with_zeros) point = binPointOf(tellingBytes(all));
+        const bool may_be_none = point == BinPoint::FiveOrNone;
+        point = binPointOf(point, all);
+        if (may_be_none && point == BinPoint::None) {
+            start.other_kind = "its points have a fifth number that is no ring";
+        }
+    }
     start.floats_per_point = point == BinPoint::Five ? 5 : 4;
     return start;
 }

@@ -76,8 +76,8 @@ bool areRings(const Fifths& fifths) {
     return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kFewestReturns;
 }
 
-/// The bytes that tell what the points are: the first ones, or if these are zero, as in a scan that
-/// begins with rows of sky, those from the first return on.
+}  // namespace
+
 Bytes tellingBytes(const Bytes& bytes) {
     constexpr std::size_t kBothPoints = 80;  // points of 16 and of 20 bytes
     const auto first =
@@ -87,8 +87,6 @@ Bytes tellingBytes(const Bytes& bytes) {
     const auto start = bytes.begin() + static_cast<std::ptrdiff_t>(from);
     return {start, start + static_cast<std::ptrdiff_t>(std::min(bytes.size() - from, kStart))};
 }
-
-}  // namespace
 
 bool isAllZero(const Bytes& bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](auto byte) { return byte == 0; });

@@ -18,6 +18,9 @@ enum class BinPoint { None, Four, Five, FourOrFive, FiveOrNone };
 
 /// What the first bytes of a file tell.
 BinPoint binPointOf(const Bytes& start);
+/// The bytes that tell what the points are: the first ones, or if these are zero, as in a scan that
+/// begins with rows of sky, those from the first return on.
+Bytes tellingBytes(const Bytes& bytes);
 /// Which of two it is, once all bytes are there.
 BinPoint binPointOf(BinPoint of_start, const Bytes& all);
 

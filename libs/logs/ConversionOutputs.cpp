@@ -2,6 +2,7 @@
 
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/Statistics.h>
+#include <hagen/observations/Mount.h>
 #include <hagen/observations/TimeStamp.h>
 #include <hagen/pictures/StagePictures.h>
 
@@ -18,8 +19,9 @@ namespace {
 /// The sensor's tilt on the level vehicle: as in the log, otherwise as in the settings.
 Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) {
     const mrpt::math::TPose3D on_vehicle = scan.sensorPose();
-    if (on_vehicle.roll == 0 && on_vehicle.pitch == 0) return settings.mount;
-    return {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)};
+    return observations::mountOf(
+        {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)},
+        settings.mount);
 }
 
 /// Also of "folder/".

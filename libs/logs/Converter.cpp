@@ -58,9 +58,8 @@ bool hasTumFile(const Conversion& conversion) {
 /// Poses of a rawlog are read only if an output needs them, as they may cost another pass. Those of
 /// a bag are known already, and provide the attitude.
 bool needsPoses(const Conversion& conversion) {
-    const bool can_level = conversion.settings.options.level_by_attitude && hasTumFile(conversion);
     return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
-           !conversion.octomaps.empty() || !conversion.mcap.empty() || can_level ||
+           !conversion.octomaps.empty() || !conversion.mcap.empty() || hasTumFile(conversion) ||
            bags::isBag(conversion.input);
 }
 

@@ -78,8 +78,13 @@ std::vector<double> readNumberPerScan(const fs::path& file, const std::string& u
 const base::OutputKind kScanFolders{
     "a scan folder",
     [](const fs::path& within) {
-        static const std::set<std::string> kFiles{"times.txt",  "poses.txt",     "poses.tum",
-                                                  "kinds.yaml", "altitudes.txt", "sensor.yaml"};
+        static const std::set<std::string> kFiles{"times.txt",
+                                                  "poses.txt",
+                                                  "poses.tum",
+                                                  "kinds.yaml",
+                                                  "altitudes.txt",
+                                                  "sensor.yaml",
+                                                  ScanFolder::kSimulatedBy};
         const fs::path folder = within.parent_path().filename();
         return (folder / within.filename() == ScanFolder::kMadeBy) ||
                (folder == "velodyne" && within.extension() == ".bin") ||
@@ -91,10 +96,11 @@ const base::OutputKind kScanFolders{
     [](const fs::path& folder) {
         const auto isMade = [](const fs::path& of_sensor) {
             return fs::exists(of_sensor / ScanFolder::kMadeBy) ||
-                   fs::exists(of_sensor / "kinds.yaml");
+                   fs::exists(of_sensor / ScanFolder::kSimulatedBy);
         };
+        if (isMade(folder)) return true;
         const std::vector<fs::path> entries = base::entriesOf(folder);
-        return isMade(folder) || std::any_of(entries.begin(), entries.end(), isMade);
+        return std::all_of(entries.begin(), entries.end(), isMade);
     }};
 
 ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {

@@ -8,9 +8,9 @@ namespace {
 constexpr float kRounding_rad = 1e-4f;  // of poses that were multiplied
 
 bool isLevel(const Attitude& attitude) { return attitude.roll_rad == 0 && attitude.pitch_rad == 0; }
-bool isNearlyLevel(const Attitude& attitude) {
-    return std::abs(attitude.roll_rad) < kRounding_rad &&
-           std::abs(attitude.pitch_rad) < kRounding_rad;
+bool isMountUsed(const Attitude& recorded, const Attitude& mount) {
+    return std::abs(recorded.roll_rad) < kRounding_rad &&
+           std::abs(recorded.pitch_rad) < kRounding_rad && !isLevel(mount);
 }
 
 Attitude attitudeOf(const Eigen::Matrix3f& level_from_sensor) {
@@ -20,13 +20,16 @@ Attitude attitudeOf(const Eigen::Matrix3f& level_from_sensor) {
 
 }  // namespace
 
+Attitude mountOf(const Attitude& recorded, const Attitude& mount) {
+    return isMountUsed(recorded, mount) ? mount : recorded;
+}
+
 ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
                      const Attitude& mount) {
     ScanPose mounted = pose;
     mounted.sensor_on_vehicle = recorded;
     const Attitude tilt{static_cast<float>(recorded.roll()), static_cast<float>(recorded.pitch())};
-    const bool is_mount_used = isNearlyLevel(tilt) && !isLevel(mount);
-    if (!isLevel(tilt) && !is_mount_used) {
+    if (!isLevel(tilt) && !isMountUsed(tilt, mount)) {
         mounted.attitude = pose.attitude.value_or(tilt);
         return mounted;
     }

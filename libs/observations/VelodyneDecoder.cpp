@@ -1,6 +1,9 @@
 #include <hagen/observations/VelodyneCalibrations.h>
 #include <hagen/observations/VelodyneDecoder.h>
 
+#include <cmath>
+#include <stdexcept>
+
 namespace hagen::observations {
 namespace {
 
@@ -19,6 +22,10 @@ void sensorOf(const CObservationVelodyneScan& observation, SensorModel& sensor,
               DecoderWorkspace& work) {
     readCalibration(observation.calibration, work.calibration);
     beamsOf(packetsOf(observation), work.calibration, sensor);
+    const bool are_sound = observation.minRange >= 0 &&
+                           observation.minRange < observation.maxRange &&
+                           std::isfinite(static_cast<float>(observation.maxRange));
+    if (!are_sound) throw std::runtime_error("its limits of the range contradict each other");
     sensor.min_range_m = static_cast<float>(observation.minRange);
     sensor.max_range_m = static_cast<float>(observation.maxRange);
 }

@@ -108,24 +108,32 @@ void TurnRecorder::work() {
         try {
             write(turn);
         } catch (const std::bad_alloc&) {
-            return fail(writing_.string() + ": out of memory");
+            return fail(nullptr);
         } catch (const std::exception& e) {
-            return fail(base::withOutputNames(e.what()));
+            return fail(e.what());
         }
     }
 }
 
-/// Turns that were gathered are not in the file, if they cannot be written.
-void TurnRecorder::fail(const std::string& why) {
+/// Without a reason, or memory for it: out of memory.
+void TurnRecorder::fail(const char* why) noexcept {
     const std::lock_guard failing(mutex_);
-    failure_ = why;
-    left_out_ += std::exchange(gathered_, 0) + waiting_.size();
+    failure_ = "out of memory";  // as short as needs none
+    try {
+        if (why != nullptr) {
+            failure_ = base::withOutputNames(why);
+        } else {
+            failure_ = writing_.string() + ": out of memory";
+        }
+    } catch (const std::bad_alloc&) {  // as it is
+    }
+    left_out_ += (is_in_hand_ ? 1 : 0) + waiting_.size();
     waiting_.clear();
     changed_.notify_all();
 }
 
 void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
-    ++gathered_;
+    is_in_hand_ = true;
     if (!writer_) openNext();
     entries_.clear();
     logs::serialise(*logs::objectOf(turn, observations::CloudClass::Simple), entries_);
@@ -139,6 +147,8 @@ void TurnRecorder::write(const mrpt::obs::CObservation::Ptr& turn) {
         ++recorded_.unreadable;
     }
     writer_->gather(entries_, member_);
+    is_in_hand_ = false;
+    ++gathered_;
     if (!member_.empty()) {
         logs::packGzipMember(member_, packed_);
         written_bytes_ += packed_.size();
@@ -171,10 +181,9 @@ live::Recorded TurnRecorder::finish() {
             if (writer_ && !has_turns_) writer_.reset();
             if (writer_) endFile();
         } catch (const std::exception& e) {
-            fail(base::withOutputNames(e.what()));
+            fail(e.what());
         }
     }
-    recorded_.left_out = left_out_;
     recorded_.failure = failure_;
     for (const auto& [number, file] : numbered()) {
         if (number > recorded_.files.size()) recorded_.older_files.push_back(file);
@@ -184,7 +193,10 @@ live::Recorded TurnRecorder::finish() {
             recorded_.failure += "; what was written is in " + writer_->keepPartial().string();
         } catch (const std::exception&) {  // nothing was written
         }
+        // Perhaps it failed only when it got its name.
+        (writer_->isWhole() ? recorded_.turns : left_out_) += std::exchange(gathered_, 0);
     }
+    recorded_.left_out = left_out_;
     writer_.reset();
     return recorded_;
 }

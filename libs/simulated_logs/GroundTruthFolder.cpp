@@ -39,6 +39,9 @@ GroundTruthFolder::GroundTruthFolder(const fs::path& folder, bool overwrite, con
     : path_(folder, logs::kScanFolders, overwrite), writer_(made(path_.temporary()), mount) {
     fs::create_directory(path_.temporary() / "semantic");
     writeKinds(path_.temporary() / "kinds.yaml");
+    base::writeText("Made by rawlog-simulate, which may replace this folder.\n",
+                    path_.temporary() / logs::ScanFolder::kSimulatedBy,
+                    path_.path() / logs::ScanFolder::kSimulatedBy);
 }
 
 void GroundTruthFolder::write(const Scan& scan, const GroundTruthLabels& truth,

@@ -432,11 +432,10 @@ TEST_F(RawlogSegment, PosesTravelWithTheScans) {
 }
 
 TEST_F(RawlogSegment, SaysWherePosesAreNotUsed) {
-    const auto tum = folder_.write("flight.tum", "0 0 0 0 0 0 0 1\n");
-    const auto outcome =
-        run({"-i", kRecording, "-o", path("out.rawlog"), "--poses", tum, "-c", kPaper});
+    const auto kitti = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+    const auto outcome = run({"-i", kRecording, "-o", path("out.rawlog"), "--poses", kitti});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("flight.tum: ignored"));
+    EXPECT_THAT(outcome.err, HasSubstr("poses.txt: ignored"));
 }
 
 TEST_F(RawlogSegment, CloudsKeepIntensitiesWhereAsked) {

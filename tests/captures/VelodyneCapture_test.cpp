@@ -189,6 +189,18 @@ TEST_F(VelodyneCaptureTest, PacketsThatAreFarTooLateCutNoTurn) {
     EXPECT_EQ(remarks_[0].find("interruption"), std::string::npos) << remarks_[0];
 }
 
+/// By little more than sixteen packets, so that later ones could be late ones of before.
+TEST_F(VelodyneCaptureTest, AClockThatIsSetBackByLittleLosesNothing) {
+    for (const std::uint32_t back_us : {23000u, 30000u, 42000u}) {
+        Packets packets = packetsOf("VLP-16", 24 * 100, 0.0, 900000000u);
+        const auto end_us = static_cast<std::uint32_t>(900000000 + 100 * 1327);
+        const Packets later = packetsOf("VLP-16", 24 * 90, 100.0, end_us - back_us);
+        packets.insert(packets.end(), later.begin(), later.end());
+        EXPECT_EQ(packetsOf(read(captureOf(packets).bytes())), packets) << back_us;
+        EXPECT_THAT(remarks_[0], HasSubstr(", 1 interruption or jump")) << back_us;
+    }
+}
+
 /// The few packets after it say no less.
 TEST_F(VelodyneCaptureTest, AClockThatIsSetJustBeforeTheEndLosesNothing) {
     Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);

@@ -39,9 +39,10 @@ TEST(OutputKinds, OnlyItsOwnKindIsReplaced) {
     const test::TemporaryFolder folder;
     folder.write("file", "");
     folder.write("scans/velodyne/000000.bin", "");
-    folder.write("scans/kinds.yaml", "");
+    folder.write("scans/simulated_by.txt", "");
     folder.write("mine/velodyne/000000.bin", "");
     folder.write("mine/labels/000000.label", "");
+    folder.write("mine/kinds.yaml", "");  // as the documents say
     folder.write("work/velodyne/000000.bin", "");
     folder.write("work/notes.txt", "");
     EXPECT_THROW(base::OutputPath(folder / "scans", base::kFile, true), std::runtime_error);
@@ -64,6 +65,9 @@ TEST(OutputKinds, FoldersOfAPartASensorAreOfTheirKindToo) {
     folder.write("scans/front/velodyne/000000.bin", "");
     folder.write("scans/rear/labels/000000.label", "");
     folder.write("scans/rear/labels/made_by.txt", "");
+    // One of the two was labelled by hand.
+    EXPECT_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true), std::runtime_error);
+    folder.write("scans/front/labels/made_by.txt", "");
     folder.write("pictures/front/000000/1_depth.png", "");
     folder.write("pictures/rear/000000/1_depth.png", "");
     EXPECT_NO_THROW(base::OutputPath(folder / "scans", logs::kScanFolders, true));

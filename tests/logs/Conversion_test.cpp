@@ -526,6 +526,29 @@ TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
               (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
+/// They are the recording's, and no fault of the settings, which would end the conversion.
+TEST_P(ConversionTest, AScanWithUnsoundLimitsIsKeptAndNamed) {
+    const double nan = std::nan("");
+    for (const auto& [min_m, max_m] : {std::pair{2.0, 1.0}, {nan, 100.0}, {0.0, nan}}) {
+        auto broken = scanFrom(0);
+        auto& scan = dynamic_cast<mrpt::obs::CObservationVelodyneScan&>(*broken);
+        scan.minRange = min_m;
+        scan.maxRange = max_m;
+        writeLog({scanFrom(1), broken, scanFrom(2)});
+        std::string remarks;
+        ConversionListener listener;
+        listener.unreadable = [&](const std::string& entry, const std::string& why) {
+            remarks += entry + ": " + why;
+        };
+        Conversion again = conversion();
+        again.overwrite = true;
+        const ConversionReport report = convert(again, listener);
+        EXPECT_EQ(report.unreadable_scans, 1u);
+        EXPECT_EQ(report.scans, 2u);
+        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its limits of the range contradict"));
+    }
+}
+
 TEST_P(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
     writeLog({scanFrom(0), scanFrom(1), scanFrom(2)});
     const std::string bytes = test::readFile(folder_ / "in.rawlog");

@@ -59,6 +59,8 @@ TEST(Mount, OfTheSettingsCountsWhereTheRecordedOneIsLevelButForRounding) {
     const CPose3D rounded(0, 0, 0, 0.3, 1e-7, -1e-9);
     expectTilt(tiltOf({}, rounded, tilt(180, 0)), tilt(180, 0));
     EXPECT_TRUE(tiltOf({}, rounded, {}).has_value());
+    expectTilt(mountOf(tilt(1e-6, 0), tilt(180, 0)), tilt(180, 0));
+    expectTilt(mountOf(tilt(1, 0), tilt(180, 0)), tilt(1, 0));
     expectTilt(tiltOf({}, CPose3D(0, 0, 0, 0, 0, radians(1)), tilt(180, 0)), tilt(1, 0));
 }
 

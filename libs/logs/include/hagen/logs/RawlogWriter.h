@@ -38,6 +38,8 @@ class RawlogWriter {
     /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write it ends
     /// with the last whole member. Throws std::runtime_error if there is none.
     std::filesystem::path keepPartial();
+    /// Whether all entries are in the file, under whatever name.
+    bool isWhole() const { return is_finished_ && !has_failed_; }
 
  private:
     void finish();

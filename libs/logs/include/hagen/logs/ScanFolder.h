@@ -35,6 +35,7 @@ extern const base::OutputKind kScanFolders;
 class ScanFolder {
  public:
     static constexpr const char* kMadeBy = "labels/made_by.txt";
+    static constexpr const char* kSimulatedBy = "simulated_by.txt";  ///< its labels are the truth
 
     /// Lists velodyne/*.bin in the order of their names: by number if they differ in nothing else,
     /// so that 10 comes after 9. Throws if there are none.

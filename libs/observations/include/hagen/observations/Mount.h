@@ -12,4 +12,8 @@ namespace hagen::observations {
 ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
                      const Attitude& mount);
 
+/// How a sensor is tilted on its vehicle: as recorded or, if that is level but for rounding, as the
+/// settings say.
+Attitude mountOf(const Attitude& recorded, const Attitude& mount);
+
 }  // namespace hagen::observations

@@ -58,7 +58,7 @@ class TurnRecorder {
     void work();
     void write(const mrpt::obs::CObservation::Ptr& turn);
     void endFile();
-    void fail(const std::string& why);
+    void fail(const char* why) noexcept;
 
     const Options options_;
     observations::ObservationSegmenter segmenter_;
@@ -68,6 +68,7 @@ class TurnRecorder {
     std::size_t written_bytes_ = 0, number_ = 0;
     bool has_turns_ = false;    ///< of this file
     std::size_t gathered_ = 0;  ///< turns of the member that is not written yet
+    bool is_in_hand_ = false;   ///< a turn that is not gathered yet
     logs::Bytes entries_, member_, packed_;
     live::Recorded recorded_;
 

@@ -19,6 +19,7 @@ struct GroundTruthLabels {
 ///     labels/NNNNNN.label     the label, and the object's number
 ///     semantic/NNNNNN.label   the number of the object class, and the object's
 ///     kinds.yaml              names and labels of the classes
+///     simulated_by.txt        says that the folder may be replaced
 ///     altitudes.txt           height of the sensor above the ground [m], one line per scan
 class GroundTruthFolder {
  public:
