@@ -28,23 +28,50 @@ TEST(BackgroundPrinter, PrintsInOrder) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), odd);
 }
 
-/// Standard error is a pipe that is full, and then read.
+/// Standard error is a pipe that is full.
+class FullErrors {
+ public:
+    FullErrors() {
+        EXPECT_EQ(pipe(ends_), 0);
+        fcntl(ends_[1], F_SETPIPE_SZ, kPipe);
+        const std::string before(kPipe, '.');
+        EXPECT_EQ(write(ends_[1], before.data(), before.size()), kPipe);
+        usual_ = dup(STDERR_FILENO);
+        dup2(ends_[1], STDERR_FILENO);
+    }
+    ~FullErrors() { endAndRead(); }
+    static constexpr int kPipe = 4096;
+
+    int readEnd() const { return ends_[0]; }
+    /// From here on it is what it was. Returns what is in the pipe; threads that wait go on.
+    std::string endAndRead() {
+        if (usual_ < 0) return "";
+        dup2(usual_, STDERR_FILENO);
+        close(usual_);
+        usual_ = -1;
+        close(ends_[1]);
+        std::string rest, part(kPipe, '\0');
+        for (ssize_t size = 0; (size = read(ends_[0], part.data(), part.size())) > 0;) {
+            rest.append(part, 0, static_cast<std::size_t>(size));
+        }
+        close(ends_[0]);
+        return rest;
+    }
+
+ private:
+    int ends_[2]{}, usual_ = -1;
+};
+
 TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
-    int ends[2];
-    ASSERT_EQ(pipe(ends), 0);
-    fcntl(ends[1], F_SETPIPE_SZ, 4096);
-    const std::string before(4096, '.');
-    ASSERT_EQ(write(ends[1], before.data(), before.size()), 4096);
-    const int usual = dup(STDERR_FILENO);
-    dup2(ends[1], STDERR_FILENO);
+    FullErrors errors;
     {
         BackgroundPrinter printer;
         const std::size_t texts = BackgroundPrinter::kMostWaiting + 50;
         for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
         printer.printIfIdle(To::Errors, "status\n");
-        std::string got(4096 + 2 * 900, '\0');
+        std::string got(FullErrors::kPipe + 2 * 900, '\0');
         for (std::size_t at = 0; at < got.size();) {
-            const ssize_t size = read(ends[0], got.data() + at, got.size() - at);
+            const ssize_t size = read(errors.readEnd(), got.data() + at, got.size() - at);
             ASSERT_GT(size, 0);
             at += static_cast<std::size_t>(size);
         }
@@ -53,28 +80,15 @@ TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
         EXPECT_TRUE(printer.finish(std::chrono::seconds(60)));
         EXPECT_TRUE(printer.isOutputPrinted());
     }
-    dup2(usual, STDERR_FILENO);
-    close(usual);
-    close(ends[1]);
-    std::string rest, part(4096, '\0');
-    for (ssize_t size = 0; (size = read(ends[0], part.data(), part.size())) > 0;) {
-        rest.append(part, 0, static_cast<std::size_t>(size));
-    }
-    close(ends[0]);
+    const std::string rest = errors.endAndRead();
     EXPECT_NE(rest.find(" messages were left out, as nobody read them\nthe last\n"),
               std::string::npos)
         << rest;
 }
 
-/// Nobody reads standard error: output that waits behind it, or had no place, is not printed.
+/// Output that waits behind what nobody reads, or had no place, is not printed.
 TEST(BackgroundPrinter, TellsWhetherOutputWasLeft) {
-    int ends[2];
-    ASSERT_EQ(pipe(ends), 0);
-    fcntl(ends[1], F_SETPIPE_SZ, 4096);
-    const std::string before(4096, '.');
-    ASSERT_EQ(write(ends[1], before.data(), before.size()), 4096);
-    const int usual = dup(STDERR_FILENO);
-    dup2(ends[1], STDERR_FILENO);
+    FullErrors errors;
     for (const std::size_t texts : {std::size_t{1}, BackgroundPrinter::kMostWaiting + 50}) {
         BackgroundPrinter printer;
         for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
@@ -86,14 +100,6 @@ TEST(BackgroundPrinter, TellsWhetherOutputWasLeft) {
     without_output.print(To::Errors, "x\n");
     EXPECT_FALSE(without_output.finish(std::chrono::milliseconds(1)));
     EXPECT_TRUE(without_output.isOutputPrinted());
-    dup2(usual, STDERR_FILENO);
-    close(usual);
-    // The threads that wait go on.
-    fcntl(ends[0], F_SETFL, O_NONBLOCK);
-    std::string part(4096, '\0');
-    while (read(ends[0], part.data(), part.size()) > 0) {
-    }
-    close(ends[1]);
 }
 
 }  // namespace
