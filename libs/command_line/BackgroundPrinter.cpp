@@ -60,7 +60,14 @@ BackgroundPrinter::BackgroundPrinter() : waiting_(std::make_shared<Waiting>()) {
     std::thread([waiting = waiting_] { waiting->run(); }).detach();
 }
 
-BackgroundPrinter::~BackgroundPrinter() { finish(); }
+BackgroundPrinter::~BackgroundPrinter() {
+    bool is_over = false;
+    {
+        const std::lock_guard lock(waiting_->mutex);
+        is_over = waiting_->is_over;
+    }
+    if (!is_over) finish();  // who has waited in vain does not wait again
+}
 
 void BackgroundPrinter::print(To to, std::string text) {
     const std::lock_guard lock(waiting_->mutex);

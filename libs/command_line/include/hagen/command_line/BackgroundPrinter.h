@@ -15,7 +15,7 @@ class BackgroundPrinter {
 
     /// Throws std::system_error if no thread can be started.
     BackgroundPrinter();
-    ~BackgroundPrinter();  ///< finish()
+    ~BackgroundPrinter();  ///< finish(), unless it was called
     BackgroundPrinter(const BackgroundPrinter&) = delete;
     BackgroundPrinter& operator=(const BackgroundPrinter&) = delete;
 
