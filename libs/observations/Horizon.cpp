@@ -7,7 +7,8 @@
 #include <mrpt/system/datetime.h>
 
 #include <cmath>
-#include <initializer_list>
+#include <cstring>
+#include <optional>
 
 namespace hagen::observations {
 namespace {
@@ -17,26 +18,32 @@ using mrpt::poses::CPose3D;
 
 constexpr double kLongest_s = 0.2;
 
+/// The measurement, if the IMU has a finite one. A corrupt recording can have flags that are
+/// neither true nor false, which must not be read as bool; what they stand for counts as missing.
+std::optional<double> measured(const CObservationIMU& imu, mrpt::obs::TIMUDataIndex what) {
+    unsigned char is_present = 0;
+    static_assert(sizeof(imu.dataIsPresent.at(what)) == sizeof(is_present));
+    std::memcpy(&is_present, &imu.dataIsPresent.at(what), sizeof(is_present));
+    const double value = imu.rawMeasurements.at(what);
+    if (is_present != 1 || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
 /// The rotation of the IMU against the horizon.
 std::optional<CPose3D> rotationOf(const CObservationIMU& imu) {
     using namespace mrpt::obs;
-    const auto hasAll = [&](std::initializer_list<TIMUDataIndex> what) {
-        for (const TIMUDataIndex index : what) {
-            if (!imu.has(index) || !std::isfinite(imu.get(index))) return false;
-        }
-        return true;
-    };
-    if (hasAll({IMU_ORI_QUAT_W, IMU_ORI_QUAT_X, IMU_ORI_QUAT_Y, IMU_ORI_QUAT_Z})) {
-        const double w = imu.get(IMU_ORI_QUAT_W), x = imu.get(IMU_ORI_QUAT_X);
-        const double y = imu.get(IMU_ORI_QUAT_Y), z = imu.get(IMU_ORI_QUAT_Z);
-        const double norm = std::sqrt(w * w + x * x + y * y + z * z);
-        if (norm > 0.5) {  // an IMU without orientation reports zeros
-            return CPose3D(mrpt::math::CQuaternionDouble(w / norm, x / norm, y / norm, z / norm), 0,
-                           0, 0);
+    const auto w = measured(imu, IMU_ORI_QUAT_W), x = measured(imu, IMU_ORI_QUAT_X);
+    const auto y = measured(imu, IMU_ORI_QUAT_Y), z = measured(imu, IMU_ORI_QUAT_Z);
+    if (w && x && y && z) {
+        const double norm = std::sqrt(*w * *w + *x * *x + *y * *y + *z * *z);
+        if (norm > 0.5 && std::isfinite(norm)) {  // an IMU without orientation reports zeros
+            return CPose3D(
+                mrpt::math::CQuaternionDouble(*w / norm, *x / norm, *y / norm, *z / norm), 0, 0, 0);
         }
     }
-    if (!hasAll({IMU_ROLL, IMU_PITCH})) return std::nullopt;
-    return CPose3D(0, 0, 0, 0, imu.get(IMU_PITCH), imu.get(IMU_ROLL));
+    const auto pitch = measured(imu, IMU_PITCH), roll = measured(imu, IMU_ROLL);
+    if (!pitch || !roll) return std::nullopt;
+    return CPose3D(0, 0, 0, 0, *pitch, *roll);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
 
 #include "../support/SimpleScene.h"
 
@@ -134,6 +135,33 @@ mrpt::obs::CObservationPointCloud::Ptr cloudAt(const CPose3D& sensor_on_vehicle)
     auto cloud = observationOf(scan, "lidar", kTime);
     cloud->sensorPose = sensor_on_vehicle;
     return cloud;
+}
+
+TEST(Horizon, CorruptFlagsOfAnImuSayThatItMeasuredNothing) {
+    CObservationIMU imu;
+    imu.timestamp = kTime;
+    imu.set(mrpt::obs::IMU_PITCH, 0.1);
+    imu.set(mrpt::obs::IMU_ROLL, 0.2);
+    Horizon horizon;
+    const unsigned char neither = 89;  // as a fuzzer's rawlog had it
+    std::memcpy(&imu.dataIsPresent.at(mrpt::obs::IMU_ROLL), &neither, sizeof(neither));
+    horizon.see(imu);
+    EXPECT_FALSE(horizon.at(kTime));
+    imu.dataIsPresent.at(mrpt::obs::IMU_ROLL) = true;
+    horizon.see(imu);
+    EXPECT_TRUE(horizon.at(kTime));
+}
+
+TEST(Horizon, AQuaternionBeyondAllNumbersSaysNothing) {
+    CObservationIMU imu;
+    imu.timestamp = kTime;
+    for (const auto each : {mrpt::obs::IMU_ORI_QUAT_W, mrpt::obs::IMU_ORI_QUAT_X,
+                            mrpt::obs::IMU_ORI_QUAT_Y, mrpt::obs::IMU_ORI_QUAT_Z}) {
+        imu.set(each, 1e200);  // its square is infinite
+    }
+    Horizon horizon;
+    horizon.see(imu);
+    EXPECT_FALSE(horizon.at(kTime));
 }
 
 TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
