@@ -116,12 +116,11 @@ class AutopilotLink::Work {
         for (std::size_t period = 0; !is_at_end_; ++period) {
             attempt([&] { sendPeriod(period); });
             next_s = std::max(next_s + kPeriod_s, now_s() - kMostBehind_s);
-            while (!is_at_end_) {
-                // One reading: by a second one, the time may have passed, and the wait be negative.
-                const double rest_s = next_s - now_s();
-                if (rest_s <= 0) break;
+            double rest_s = 0;
+            do {  // also if it is behind: what waits unread gets old
+                rest_s = std::max(next_s - now_s(), 0.0);
                 attempt([&] { receive(rest_s); });
-            }
+            } while (!is_at_end_ && rest_s > 0);
             attempt([&] { tellPeer(); });
             attempt([&] { tellAttitude(); });
         }

@@ -2,6 +2,7 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/ProcessCost.h>
 #include <hagen/live/LiveSession.h>
+#include <hagen/live/Priority.h>
 #include <hagen/packets/CaptureFile.h>
 #include <hagen/packets/VelodyneModel.h>
 
@@ -367,6 +368,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
         queue.close();
         if (receiver.joinable()) receiver.join();
     };
+    letOthersGoFirst();
     try {
         Packet packet;
         while (listener.keep_going() && steadyNow_s() - start_s < options.duration_s) {

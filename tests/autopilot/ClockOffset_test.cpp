@@ -45,5 +45,38 @@ TEST(ClockOffset, AVehicleThatStartsAgainIsNoticed) {
     EXPECT_TRUE(clock.ourTime(100, 603.2).has_restarted);  // a clock that is set
 }
 
+TEST(ClockOffset, MessagesThatWaitedAreOld) {
+    // 50 per second, but whatever is stamped within some time arrives at its end, at once.
+    for (const double wait_s : {1.2, 4.0, 30.0}) {
+        ClockOffset clock;
+        const double free_at_s = 10 + wait_s;
+        for (int i = 0; i < 4000; ++i) {
+            // As of two kinds of message, of which one is stamped a little earlier.
+            const double stamp_s = 0.02 * i - (i % 2 == 0 ? 0.03 : 0.0);
+            const bool waits = stamp_s > 10 && stamp_s < free_at_s;
+            const double arrival_s = 70.005 + (waits ? free_at_s : stamp_s);
+            const auto result = clock.ourTime(stamp_s, arrival_s);
+            EXPECT_FALSE(result.has_restarted) << stamp_s;
+            EXPECT_NEAR(result.time_s, stamp_s + 70.005, 1e-6);
+        }
+    }
+}
+
+TEST(ClockOffset, AClockThatStoodStillIsTakenUpWithinTenSeconds) {
+    ClockOffset clock;
+    int restarts = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double stamp_s = 0.02 * i;
+        const double arrival_s = stamp_s + (stamp_s > 10 ? 100 : 70);  // paused for 30 s
+        const auto result = clock.ourTime(stamp_s, arrival_s);
+        EXPECT_LE(result.time_s, arrival_s + 1e-9);
+        if (result.has_restarted) ++restarts;
+        if (stamp_s > 20.1) {
+            EXPECT_NEAR(result.time_s, arrival_s, 1e-6);
+        }
+    }
+    EXPECT_EQ(restarts, 1);
+}
+
 }  // namespace
 }  // namespace hagen::autopilot

@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+#include <hagen/live/Priority.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <thread>
+
+namespace hagen::live {
+namespace {
+
+struct Scheduling {
+    int policy, priority;
+};
+
+/// What a thread with a policy and a priority has after letOthersGoFirst(); policy -1 where the
+/// system allows none that is real-time.
+Scheduling after(Scheduling before) {
+    Scheduling result{-1, 0};
+    std::thread([&] {
+        sched_param priority{};
+        priority.sched_priority = before.priority;
+        if (pthread_setschedparam(pthread_self(), before.policy, &priority) != 0) return;
+        letOthersGoFirst();
+        pthread_getschedparam(pthread_self(), &result.policy, &priority);
+        result.priority = priority.sched_priority;
+    }).join();
+    return result;
+}
+
+TEST(Priority, ARealTimeThreadGoesBehindTheOthers) {
+    const Scheduling fifo = after({SCHED_FIFO, 10});
+    if (fifo.policy < 0) GTEST_SKIP() << "no real-time priority is allowed here";
+    EXPECT_EQ(fifo.policy, SCHED_FIFO);
+    EXPECT_EQ(fifo.priority, 9);
+    EXPECT_EQ(after({SCHED_RR, 2}).priority, 1);
+    EXPECT_EQ(after({SCHED_RR, 1}).priority, 1);  // there is none below
+}
+
+TEST(Priority, OthersStayAsTheyAre) {
+    const Scheduling other = after({SCHED_OTHER, 0});
+    EXPECT_EQ(other.policy, SCHED_OTHER);
+    EXPECT_EQ(other.priority, 0);
+}
+
+}  // namespace
+}  // namespace hagen::live
