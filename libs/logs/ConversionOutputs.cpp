@@ -5,6 +5,7 @@
 #include <hagen/observations/Mount.h>
 #include <hagen/observations/TimeStamp.h>
 #include <hagen/pictures/StagePictures.h>
+#include <hagen/segmentation/Posture.h>
 
 #include <algorithm>
 #include <new>
@@ -198,8 +199,15 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
     while (!fs::create_directory(folder)) folder += "_";  // a second scan in a sensory frame
     const std::string title =
         nameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
-    pictures::drawStages({*segmented.scan, *segmented.sensor, *segmented.options, *segmented.result,
-                          title, conversion_.picture_azimuth_deg},
+    // As the filter sees a sensor that is not upright: its images have other rows than the sensor.
+    const std::optional<Attitude>& attitude = segmented.pose.attitude;
+    const Posture posture = postureOf(attitude);
+    const SensorModel sensor = sensorIn(posture, *segmented.sensor);
+    Scan turned;
+    if (posture != Posture::Upright) turnScan(*segmented.scan, posture, attitude, sensor, turned);
+    const Scan& shown = posture == Posture::Upright ? *segmented.scan : turned;
+    pictures::drawStages({shown, sensor, *segmented.options, *segmented.result, title,
+                          conversion_.picture_azimuth_deg},
                          folder);
 }
 

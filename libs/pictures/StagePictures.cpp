@@ -1,6 +1,9 @@
 #include <hagen/pictures/Gnuplot.h>
 #include <hagen/pictures/StagePictures.h>
 
+#include <stdexcept>
+#include <string>
+
 #include "StageData.h"
 #include "StagePanels.h"
 
@@ -109,6 +112,11 @@ const base::OutputKind kStagePictures{
     }};
 
 void drawStages(const StageView& view, const std::filesystem::path& folder) {
+    if (view.result.labels.rows() != view.sensor.rows()) {
+        throw std::invalid_argument(
+            "drawStages: images of " + std::to_string(view.result.labels.rows()) +
+            " rows are not those of a sensor of " + std::to_string(view.sensor.rows()) + " beams");
+    }
     const StageData data = stageDataOf(view);
     StagePanelWriter panels(view, data);
     depthPicture(panels);

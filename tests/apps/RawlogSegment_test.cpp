@@ -458,6 +458,17 @@ TEST_F(RawlogSegment, DrawsTheStagesOfAScan) {
     }
 }
 
+TEST_F(RawlogSegment, DrawsTheStagesOfASensorThatIsNotUpright) {
+    const std::string settings = path("settings.yaml");
+    for (const char* mount : {"mount_pitch_deg: 60", "mount_roll_deg: 180"}) {
+        std::ofstream(settings) << "sensor:\n  model: VLP-16\n  " << mount << "\n";
+        const auto outcome = run({"-i", kRecording, "--pictures", path("pictures"), "--from", "1",
+                                  "--to", "1", "-c", settings, "--overwrite"});
+        ASSERT_EQ(outcome.exit_code, 0) << mount << outcome.err;
+        EXPECT_GT(fs::file_size(folder_ / "pictures/000001/stages.png"), 5000u) << mount;
+    }
+}
+
 TEST_F(RawlogSegment, ZeroPacketsAndPointsThatAreNotFiniteLoseNothing) {
     auto empty = mrpt::obs::CObservationVelodyneScan::Create();
     empty->sensorLabel = "empty";

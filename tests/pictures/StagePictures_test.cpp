@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/pictures/AirframePicture.h>
 #include <hagen/pictures/StagePictures.h>
+#include <hagen/segmentation/Posture.h>
 #include <png.h>
 
 #include <array>
@@ -260,6 +261,19 @@ TEST(StagePictures, ManyBeamsAndOtherOptionsAreDrawn) {
     const SensorModel few_beams = customSensorModel({-10.0, 0.0, 1.5});
     EXPECT_NO_THROW(
         Drawn(test::scanScene({}, few_beams, 90, {0, 0, 2}).scan, "", options, few_beams));
+}
+
+TEST(StagePictures, TheSensorIsThatOfTheImages) {
+    HagenFilter filter(sensorModel("VLP-16"), {});
+    const Scan scan = scanOf(poleAt(9, 4));
+    Attitude on_its_side;
+    on_its_side.pitch_rad = 1.0f;
+    const SegmentationResult& result = filter.segment(scan, on_its_side);
+    const TemporaryFolder folder;
+    EXPECT_THROW(drawStages({scan, filter.sensor(), filter.options(), result, ""}, folder.path()),
+                 std::invalid_argument);
+    const SensorModel sensor = sensorIn(postureOf(on_its_side), filter.sensor());
+    EXPECT_NO_THROW(drawStages({scan, sensor, filter.options(), result, ""}, folder.path()));
 }
 
 TEST(StagePictures, AnyAzimuthHasAColumn) {

@@ -14,8 +14,8 @@ namespace hagen::pictures {
 /// A segmented scan to draw: input and result of one call of HagenFilter::segment(). Keeps
 /// references to the caller's objects.
 struct StageView {
-    const Scan& scan;
-    const SensorModel& sensor;
+    const Scan& scan;           ///< of a sensor that is not upright: as turnScan() makes it
+    const SensorModel& sensor;  ///< of the images' rows: sensorIn() the scan's posture
     const Options& options;
     const SegmentationResult& result;
     std::string title;  ///< any text, for example the source of the scan
@@ -43,7 +43,8 @@ extern const base::OutputKind kStagePictures;
 ///
 /// Images show azimuths from +180 to -180 degrees, left of the sensor on the left, with the lowest
 /// beam at the bottom; pixels without a value are grey. One call runs gnuplot once. Throws
-/// std::runtime_error like runGnuplot().
+/// std::invalid_argument if the images do not have a row per beam of the sensor, std::runtime_error
+/// like runGnuplot().
 void drawStages(const StageView& view, const std::filesystem::path& folder);
 
 }  // namespace hagen::pictures
