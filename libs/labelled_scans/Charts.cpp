@@ -124,8 +124,9 @@ class Chart {
         const bool are_many = values.size() > 8;
         text_ << "set xtics noenhanced " << (are_many ? "rotate by -60" : "norotate") << " (";
         for (std::size_t v = 0; v < values.size(); ++v) {
-            text_ << (v == 0 ? "" : ", ") << pictures::gnuplotString(values[v].label) << " "
-                  << values[v].x;
+            std::string label;
+            for (const char c : values[v].label) label += c == '%' ? "%%" : std::string(1, c);
+            text_ << (v == 0 ? "" : ", ") << pictures::gnuplotString(label) << " " << values[v].x;
         }
         text_ << ")\n";
     }

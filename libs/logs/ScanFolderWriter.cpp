@@ -2,7 +2,9 @@
 #include <hagen/logs/ScanFolderWriter.h>
 #include <hagen/observations/TimeStamp.h>
 #include <hagen/range_image/Angle.h>
+#include <hagen/settings/MostRange.h>
 #include <hagen/settings/Settings.h>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
@@ -21,14 +23,19 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
         out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
             << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
         for (int row = 0; row < sensor.rows(); ++row) {
-            out << (row > 0 ? ", " : "") << degrees(sensor.elevations_rad[row]);
+            // pi / 2 as float is more than 90 degrees.
+            const double elevation_deg =
+                std::clamp(degrees(sensor.elevations_rad[row]), -90.0, 90.0);
+            out << (row > 0 ? ", " : "") << elevation_deg;
         }
         out << "]\n";
     } else {  // a custom sensor would have rings
         out << "# Sensor of this recording\nsensor:\n  model: " << sensor.name << "\n";
     }
-    out << "  min_range_m: " << sensor.min_range_m << "\n  max_range_m: " << sensor.max_range_m
-        << "\n";
+    // A recording may tell of more than settings allow.
+    const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMostRange_m); };
+    out << "  min_range_m: " << limit_m(sensor.min_range_m)
+        << "\n  max_range_m: " << limit_m(sensor.max_range_m) << "\n";
 }
 
 void writeSensor(const fs::path& file, const SensorModel& sensor,

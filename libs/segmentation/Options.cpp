@@ -3,14 +3,24 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 namespace hagen {
+namespace {
+
+/// A limit as a number of the option's type, to which settings are rounded: 0.01f is below 0.01.
+double asOption(double limit, const OptionKey& key) {
+    const bool is_float = std::holds_alternative<float Options::*>(key.field);
+    return is_float ? static_cast<double>(static_cast<float>(limit)) : limit;
+}
+
+}  // namespace
 
 void checkOptions(const Options& options, int beams) {
     for (const OptionKey& key : optionKeys()) {
         const double value =
             std::visit([&](auto field) { return static_cast<double>(options.*field); }, key.field);
-        if (!(value >= key.least && value <= key.most)) {  // NaN too
+        if (!(value >= asOption(key.least, key) && value <= asOption(key.most, key))) {  // NaN too
             std::ostringstream message;
             message << key.name << " is " << value << ", but must lie within " << key.least
                     << " and " << key.most;

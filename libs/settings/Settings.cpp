@@ -4,6 +4,7 @@
 #include <hagen/base/TextStream.h>
 #include <hagen/range_image/Angle.h>
 #include <hagen/segmentation/OptionKeys.h>
+#include <hagen/settings/MostRange.h>
 #include <hagen/settings/Presets.h>
 #include <hagen/settings/Settings.h>
 #include <algorithm>
@@ -56,8 +57,6 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
     for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
     return text;
 }
-
-constexpr double kMostRange_m = 1000;
 
 // The least that optionKeys() allows.
 constexpr int kFewestColumns = 8, kSmallestWindow = 2;

@@ -102,6 +102,19 @@ TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
     EXPECT_EQ(test::readFile(file).find("mount"), std::string::npos);
 }
 
+TEST(ScanFolderWriter, ASensorAtTheEndsOfWhatSettingsAllowReadsBack) {
+    const test::TemporaryFolder folder;
+    SensorModel sensor = customSensorModel({-90.0, 0.0, 90.0});
+    sensor.max_range_m = 5000;
+    ScanFolderWriter writer(folder.path());
+    writer.write("000000", threePoints(), labels(), sensor, 50.0);
+    writer.finish();
+    Settings settings;
+    mergeSettings(ScanFolder(folder.path()).sensorFile(), settings);
+    EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
+    EXPECT_EQ(settings.sensorModel().max_range_m, 1000.0f);
+}
+
 TEST(ScanFolderWriter, ASensorThatIsNotKnownIsLeftOut) {
     for (const Attitude mount : {Attitude{}, Attitude{2.5f, -0.4f}}) {
         const test::TemporaryFolder folder;

@@ -38,6 +38,23 @@ TEST(Options, EveryOptionHasItsRange) {
     }
 }
 
+TEST(Options, TheEndsOfEveryRangeAreAllowed) {
+    for (const OptionKey& key : optionKeys()) {
+        for (const double end : {key.least, key.most}) {
+            Options options;
+            options.window_size = 64;          // so that the most components fit
+            options.principal_components = 1;  // and the smallest window does
+            std::visit(
+                [&](auto field) {
+                    using Value = std::decay_t<decltype(options.*field)>;
+                    options.*field = static_cast<Value>(end);
+                },
+                key.field);
+            EXPECT_NO_THROW(checkOptions(options, 128)) << key.name << " " << end;
+        }
+    }
+}
+
 TEST(Options, AWindowLongerThanAColumnIsRefused) {
     Options options;
     options.window_size = 15;

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace hagen {
+
+/// The longest range of a sensor that settings can name.
+inline constexpr double kMostRange_m = 1000;
+
+}  // namespace hagen
