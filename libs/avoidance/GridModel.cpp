@@ -30,8 +30,9 @@ void insertRay(mrpt::maps::COccupancyGridMap3D& map, const mrpt::math::TPoint3D&
 
 }  // namespace
 
-GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m)
+GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float max_range_m)
     : edge_m_(edge_m),
+      max_range_m_(max_range_m),
       map_(std::make_unique<mrpt::maps::COccupancyGridMap3D>()),
       obstacles_(edge_m) {
     // Corners on whole cells, because MRPT rounds others. One more cell on each side, because MRPT
@@ -57,14 +58,14 @@ void GridModel::update(const mapping::MappedScan& scan) {
     for (const Eigen::Vector3f& point_m : scan.points_m) {
         const Eigen::Vector3f ray = point_m - scan.origin_m;
         const float range_m = ray.norm();
-        const bool is_hit = range_m <= kMaxRange_m;
+        const bool is_hit = range_m <= max_range_m_;
         const Eigen::Vector3f end_m =
-            is_hit ? point_m : scan.origin_m + ray * (kMaxRange_m / range_m);
+            is_hit ? point_m : scan.origin_m + ray * (max_range_m_ / range_m);
         insertRay(*map_, origin, pointOf(end_m), is_hit);
     }
     for (const Eigen::Vector3f& to_m : scan.passed_to_m) {
         const Eigen::Vector3f ray = to_m - scan.origin_m;
-        const float share = std::min(1.0f, kMaxRange_m / ray.norm());
+        const float share = std::min(1.0f, max_range_m_ / ray.norm());
         insertRay(*map_, origin, pointOf(scan.origin_m + ray * share), false);
     }
     obstacles_.rebuild(occupied_m());

@@ -14,9 +14,8 @@ namespace hagen::avoidance {
 /// cells.
 class GridModel : public WorldModel {
  public:
-    static constexpr float kMaxRange_m = 20;  ///< farther returns only clear, up to this range
-
-    GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m);
+    /// Returns farther than `max_range_m` only clear, up to this range.
+    GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float max_range_m);
     ~GridModel() override;
 
     void update(const mapping::MappedScan& scan) override;
@@ -29,7 +28,7 @@ class GridModel : public WorldModel {
  private:
     std::vector<Eigen::Vector3f> occupied_m() const;
 
-    float edge_m_;
+    float edge_m_, max_range_m_;
     Eigen::Array3f corner_m_;  ///< minimum corner
     Eigen::Array3i size_;      ///< in cells
     std::unique_ptr<mrpt::maps::COccupancyGridMap3D> map_;

@@ -9,6 +9,7 @@ namespace hagen::avoidance {
 namespace {
 
 constexpr double kLeastRadius_m = 15, kMostRadius_m = 50;
+constexpr float kLeastPerceptionRange_m = 20;
 
 }  // namespace
 
@@ -19,6 +20,10 @@ WindowSize windowSizeFor(const FlightPace& pace) {
                              pace.stopping_m() + static_cast<double>(WorldModel::kReach_m);
     return {static_cast<std::size_t>(std::ceil(remembered_s / pace.scan_period_s - kRounding)),
             static_cast<float>(std::clamp(touched_m, kLeastRadius_m, kMostRadius_m))};
+}
+
+float perceptionRangeFor_m(const FlightPace& pace) {
+    return std::max(kLeastPerceptionRange_m, windowSizeFor(pace).radius_m);
 }
 
 }  // namespace hagen::avoidance

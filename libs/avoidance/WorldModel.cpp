@@ -77,11 +77,12 @@ std::unique_ptr<WorldModel> makeOctoMap(const WorldModelSetting& setting) {
     mapping::ScanMapOptions options;
     options.content = kContent;
     options.resolution_m = kResolution_cm / 100.0;
+    options.max_range_m = static_cast<double>(perceptionRangeFor_m(setting.pace));
     return std::make_unique<OctoMapModel>(options, setting.bounds_m);
 }
 
 std::unique_ptr<WorldModel> makeGrid(const WorldModelSetting& setting) {
-    return std::make_unique<GridModel>(0.2f, setting.bounds_m);
+    return std::make_unique<GridModel>(0.2f, setting.bounds_m, perceptionRangeFor_m(setting.pace));
 }
 
 template <int kEdge_cm>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -13,7 +14,9 @@ namespace hagen::reports {
 namespace {
 
 bool isMap(const std::string& model) {
-    return model.compare(0, 2, "O-") == 0 || model.compare(0, 2, "G-") == 0;
+    constexpr const char* kOfMaps[] = {"O-", "G-", "R-", "D-"};
+    return std::any_of(std::begin(kOfMaps), std::end(kOfMaps),
+                       [&](const char* start) { return model.compare(0, 2, start) == 0; });
 }
 
 Spread spreadOf(const std::vector<double>& all) {
@@ -112,8 +115,22 @@ Pairing sumOf(const std::vector<Pairing>& parts, const std::string& name) {
         sum.only_first_collided += part.only_first_collided;
         sum.only_second_collided += part.only_second_collided;
         sum.alike_scenarios += part.alike_scenarios;
+        if (part.pairs() > sum.largest_pairs) {
+            sum.largest_pairs = part.pairs();
+            sum.largest_scenario = part.scenario;
+        }
     }
     return sum;
+}
+
+/// Thin wires hang on the courses of wires: one layout would count twice in a total.
+std::vector<Pairing> ofDistinctCourses(const std::vector<Pairing>& each) {
+    const bool has_wires = std::any_of(each.begin(), each.end(),
+                                       [](const Pairing& one) { return one.scenario == kWires; });
+    std::vector<Pairing> distinct;
+    std::copy_if(each.begin(), each.end(), std::back_inserter(distinct),
+                 [=](const Pairing& one) { return !has_wires || one.scenario != kThinWires; });
+    return distinct;
 }
 
 /// By scenario, of the courses that both flew.
@@ -166,7 +183,7 @@ void addPairings(const Flights& flights, Summary& summary) {
         for (const Comparison& comparison : comparisonsOf(present)) {
             const std::vector<Pairing> each = pairingsOf(flights, condition, comparison);
             if (each.empty()) continue;
-            summary.overall.push_back(sumOf(each, ""));
+            summary.overall.push_back(sumOf(ofDistinctCourses(each), ""));
             summary.pairings.insert(summary.pairings.end(), each.begin(), each.end());
             std::vector<Pairing> others;
             std::copy_if(each.begin(), each.end(), std::back_inserter(others),

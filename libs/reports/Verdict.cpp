@@ -45,6 +45,13 @@ std::vector<Pairing> pooledPairings(const Summary& summary, const trials::Condit
 }
 
 /// How much of a total is saturated.
+/// Empty if all scenarios have as many courses.
+std::string largestText(const Pairing& pooled) {
+    if (pooled.largest_pairs * pooled.scenarios == pooled.pairs()) return "";
+    return " " + std::to_string(pooled.largest_pairs) + " of the " +
+           std::to_string(pooled.pairs()) + " courses are of " + pooled.largest_scenario + ".";
+}
+
 std::string alikeText(const Pairing& pooled) {
     if (pooled.alike_scenarios == 0) {
         return "In each of the " + std::to_string(pooled.scenarios) +
@@ -130,7 +137,7 @@ std::string differenceText(const Pairing& pairing) {
     else if (pairing.scenarios > 1)
         text = "over all scenarios " + text;
     text = (answer == Answer::Undecided ? "Undecided: " : "") + capital(text);
-    if (pairing.scenarios > 1) text += " " + alikeText(pairing);
+    if (pairing.scenarios > 1) text += largestText(pairing) + " " + alikeText(pairing);
     if (answer == Answer::Saturated) text += " " + saturatedText(pairing);
     if (answer == Answer::NotInferior) {
         text += std::string(" Not inferior") + (pairing.scenarios > 1 ? " in total" : "") +

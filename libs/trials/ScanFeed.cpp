@@ -19,7 +19,7 @@ static_assert(kStepsPerTurn * 20 == 100);  // of kControlStep_s in TrialSensor::
 /// The newest whole scan. It replaces one that still waits, and is measured when it is taken.
 class WholeScans : public ScanFeed {
  public:
-    WholeScans(const Course& course, Air air) : sensor_(course, air) {}
+    WholeScans(const Course& course, Air air, float zone_m) : sensor_(course, air, zone_m) {}
 
     void receive(int step, const FlightTrace&, PoseBelief&) override {
         if (step % kStepsPerTurn != 0) return;
@@ -52,7 +52,7 @@ class WholeScans : public ScanFeed {
 /// turn: a vehicle does not start before it has looked around.
 class Sectors : public ScanFeed {
  public:
-    Sectors(const Course& course, Air air) : sensor_(course, air) {}
+    Sectors(const Course& course, Air air, float zone_m) : sensor_(course, air, zone_m) {}
 
     void receive(int step, const FlightTrace& trace, PoseBelief& belief) override {
         step_ = step;
@@ -80,9 +80,11 @@ class Sectors : public ScanFeed {
 
 }  // namespace
 
-std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup) {
-    if (setup.updates == Updates::Sectors) return std::make_unique<Sectors>(course, setup.air);
-    return std::make_unique<WholeScans>(course, setup.air);
+std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup, float zone_m) {
+    if (setup.updates == Updates::Sectors) {
+        return std::make_unique<Sectors>(course, setup.air, zone_m);
+    }
+    return std::make_unique<WholeScans>(course, setup.air, zone_m);
 }
 
 }  // namespace hagen::trials

@@ -35,6 +35,6 @@ class ScanFeed {
 };
 
 /// The feed of a setup's updates.
-std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup);
+std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup, float zone_m);
 
 }  // namespace hagen::trials

@@ -24,8 +24,8 @@ Eigen::Isometry3d isometryOf(const simulation::SensorPose& pose) {
 
 }  // namespace
 
-SectorSensor::SectorSensor(const Course& course, Air air)
-    : sensor_(course, air),
+SectorSensor::SectorSensor(const Course& course, Air air, float zone_m)
+    : sensor_(course, air, zone_m),
       pattern_(simulation::firingPattern(sensor_.sensor())),
       segmenter_(sensor_.sensor(), sensor_.options(),
                  [this](const streaming::LabelledSector& sector) {

@@ -25,6 +25,11 @@ double groundHeight_m(const Course& course, const Eigen::Vector3d& at) {
     return course.scene.terrain().height_m(at.x(), at.y());
 }
 
+// Sectors come more often, but a direction is looked at once per turn, too.
+avoidance::FlightPace paceOf(const TrialSetup& setup) {
+    return {setup.speed_m_s, TrialSensor::kTurn_s, setup.limits};
+}
+
 /// One flight, simulated in control steps.
 class TrialFlight {
  public:
@@ -34,7 +39,7 @@ class TrialFlight {
           setup_(setup),
           listener_(listener),
           stopwatch_(measurement),
-          feed_(makeFeed(course, setup)),
+          feed_(makeFeed(course, setup, avoidance::perceptionRangeFor_m(paceOf(setup)))),
           belief_(setup.pose_error, course.seed),
           latencies_(course, setup, profile),
           guidance_(avoidance::makeGuidance(setup.guidance)),
@@ -47,8 +52,7 @@ class TrialFlight {
             return course_.distance.at(believed_m - scan_offset_m_, scan_s_ + after_s);
         };
         world.distance = setup.distance;
-        // Sectors come more often, but a direction is looked at once per turn, too.
-        world.pace = {setup.speed_m_s, TrialSensor::kTurn_s, setup.limits};
+        world.pace = paceOf(setup);
         stopwatch_.weigh("", 0, [&] {
             world_ = setup.make_world ? setup.make_world(world)
                                       : avoidance::makeWorldModel(setup.model, world);

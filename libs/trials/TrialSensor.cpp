@@ -9,18 +9,19 @@ namespace {
 
 constexpr std::uint64_t kFiringsPerStream = 4096;  // more than a turn has
 
-HagenFilter standardFilter() {
-    const Settings settings;  // those of config/vlp16.yaml hold where no file was read
+HagenFilter standardFilter(float zone_m) {
+    Settings settings;  // those of config/vlp16.yaml hold where no file was read
+    settings.options.zone_m = zone_m;
     return filterFor(settings.sensorModel(), settings.options);
 }
 
 }  // namespace
 
-TrialSensor::TrialSensor(const Course& course, Air air)
+TrialSensor::TrialSensor(const Course& course, Air air, float zone_m)
     : course_(course),
       faults_(trialErrorModel(air)),
       airframe_(trialAirframe(air)),
-      filter_(standardFilter()) {}
+      filter_(standardFilter(zone_m)) {}
 
 simulation::SimulatedScan TrialSensor::measure(int number, const FlightTrace& trace) const {
     simulation::Random random(course_.seed, streams::kScan + static_cast<std::uint64_t>(number));

@@ -34,6 +34,12 @@ TEST(WindowSize, OfSpeedsThatAreFlown) {
     EXPECT_FLOAT_EQ(windowSizeFor(paceOf(30)).radius_m, 50);
 }
 
+TEST(WindowSize, FilterAndMapsSeeAsFarAsAWindowAndTwentyMetres) {
+    EXPECT_FLOAT_EQ(perceptionRangeFor_m(paceOf(4)), 20);
+    EXPECT_FLOAT_EQ(perceptionRangeFor_m(paceOf(8)), windowSizeFor(paceOf(8)).radius_m);
+    EXPECT_FLOAT_EQ(perceptionRangeFor_m(paceOf(10)), 27.5f);
+}
+
 TEST(WindowSize, LastsUntilTheVehicleHasStopped) {
     for (double speed_m_s = 2; speed_m_s <= 14; speed_m_s += 0.5) {
         const FlightPace pace = paceOf(speed_m_s);

@@ -298,6 +298,17 @@ TEST(WorldModel, WhereARayIsCutThereIsNoObstacle) {
     }
 }
 
+TEST(WorldModel, AtTenMetresPerSecondAllModelsSeeTwentySevenMetresFar) {
+    const Eigen::AlignedBox3f wide(Eigen::Vector3f(-30, -30, -3), Eigen::Vector3f(30, 30, 6));
+    std::vector<Eigen::Vector3f> wall_m;
+    for (float y = -3; y <= 3; y += 0.2f) wall_m.emplace_back(25.0f, y, 1.3f);
+    for (const std::string& name : modelsThatLearn()) {
+        const auto model = avoidance::makeWorldModel(name, {wide, nullptr, {10, 0.1, {}}});
+        model->update(scanOf(twice(wall_m)));
+        EXPECT_LT(model->clearance_m({24, 0.1f, 1.3f}), 1.5f) << name;
+    }
+}
+
 TEST(WorldModel, WithinAReachTheAnswerIsTheSame) {
     for (const std::string& name : modelsThatLearn()) {
         simulation::Random random(8);

@@ -6,6 +6,8 @@
 #include <hagen/reports/SharedCourses.h>
 #include <hagen/reports/Summary.h>
 #include <hagen/reports/SummaryFiles.h>
+#include <hagen/reports/Verdict.h>
+#include <algorithm>
 #include "SampleRuns.h"
 
 namespace hagen {
@@ -91,6 +93,34 @@ TEST(Summary, JudgesByTheMargin) {
                   is_worse ? reports::Verdict::Inferior : reports::Verdict::NotInferior)
             << nameOf(pairing.first) << " " << nameOf(pairing.second);
     }
+}
+
+TEST(Summary, ATotalCountsACourseOnceAndTellsTheLargestScenario) {
+    std::vector<Row> runs;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        for (const char* model : {"W-RoI", "D-Full"}) {
+            const auto outcome = model[0] == 'W' && seed < 4 ? kHit : kWon;
+            if (seed < 10) runs.push_back(test::runOf("wires", seed, model, "astar", outcome));
+            if (seed < 10) runs.push_back(test::runOf("wires-thin", seed, model, "astar", outcome));
+            runs.push_back(test::runOf("movers", seed, model, "astar", kWon));
+        }
+    }
+    const reports::Summary summary = reports::summarize(runs);
+    ASSERT_EQ(summary.overall.size(), 1u);
+    const reports::Pairing& total = summary.overall.front();
+    EXPECT_EQ(total.pairs(), 40);  // of wires and movers
+    EXPECT_EQ(total.only_second, 4);
+    EXPECT_EQ(total.scenarios, 2);
+    EXPECT_EQ(total.largest_scenario, "movers");
+    EXPECT_THAT(reports::differenceText(total),
+                HasSubstr("30 of the 40 courses are of movers. 1 of 2 scenarios"));
+    EXPECT_EQ(reports::summaryCsv(summary).find("\nall,"), std::string::npos);
+
+    // Without wires, thin wires count.
+    runs.erase(std::remove_if(runs.begin(), runs.end(),
+                              [](const Row& run) { return run.scenario == "wires"; }),
+               runs.end());
+    EXPECT_EQ(reports::summarize(runs).overall.front().pairs(), 40);
 }
 
 TEST(Summary, TheHighestSpeedIsTheLastBeforeTheFirstFailure) {

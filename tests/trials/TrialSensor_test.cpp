@@ -80,6 +80,33 @@ TEST(TrialSensor, AWallIsOfInterestAndTheGroundIsNot) {
     EXPECT_GT(right, 0.95 * all);
 }
 
+TEST(TrialSensor, SeesAsFarAsItsZone) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -40, 40);
+    const Course course = simpleCourse(std::move(content));
+    const FlightTrace trace = fastTrace();
+    for (const float zone_m : {20.0f, 27.5f}) {
+        TrialSensor sensor(course, Air::Clear, zone_m);
+        PoseBelief belief(PoseError::None, 3);
+        const simulation::SimulatedScan measured = sensor.measure(5, trace);
+        const std::vector<Label> labels = sensor.segment(5, measured, trace, belief).label;
+        int roi = 0, all = 0;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            const bool is_between =
+                measured.scan.range_m[i] > 20.1f && measured.scan.range_m[i] < 27;
+            if (!is_between || measured.kind[i] != simulation::ObjectClass::Wall) continue;
+            ++all;
+            if (labels[i] == Label::Roi) ++roi;
+        }
+        EXPECT_GT(all, 400);
+        if (zone_m > 20) {
+            EXPECT_GT(roi, 0.95 * all);
+        } else {
+            EXPECT_EQ(roi, 0);
+        }
+    }
+}
+
 /// Returns of a kind that still have a range.
 int countOf(simulation::ObjectClass kind, const simulation::SimulatedScan& measured) {
     int count = 0;

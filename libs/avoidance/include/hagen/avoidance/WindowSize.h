@@ -35,4 +35,9 @@ struct WindowSize {
 /// at most 50 m. 27.5 m at 10 m/s.
 WindowSize windowSizeFor(const FlightPace& pace);
 
+/// How far the filter's zone reaches, and maps of a whole flight take returns: as far as the window
+/// of such a flight, so that no model sees obstacles later than another; 20 m at least, the zone of
+/// the presets. In metres.
+float perceptionRangeFor_m(const FlightPace& pace);
+
 }  // namespace hagen::avoidance

@@ -47,10 +47,12 @@ struct Pairing {
     trials::Contender first, second;
     int both = 0, only_first = 0, only_second = 0, neither = 0;  ///< succeeded
     int only_first_collided = 0, only_second_collided = 0;
-    int scenarios = 1;        ///< that both flew
-    int alike_scenarios = 0;  ///< of these, scenarios without a discordant pair
-    double p = 1;             ///< McNemar's test
-    double least_p = 1;       ///< that the test can give for this many discordant pairs
+    int scenarios = 1;               ///< that both flew
+    int alike_scenarios = 0;         ///< of these, scenarios without a discordant pair
+    std::string largest_scenario{};  ///< of several, that with the most courses
+    int largest_pairs = 0;           ///< and their number
+    double p = 1;                    ///< McNemar's test
+    double least_p = 1;              ///< that the test can give for this many discordant pairs
     /// With Holm's correction over the pairings of a list that could be significant; NaN if this
     /// one could not: least_p is not below kLevel.
     double p_holm = NAN;
@@ -91,8 +93,10 @@ struct Summary {
     std::vector<std::string> scenarios;         ///< in the order of the table
     std::vector<trials::Condition> conditions;  ///< the one with the most runs first
     std::vector<trials::Contender> contenders;  ///< A* first, W-RoI first among its models
-    std::vector<Cell> cells;        ///< by condition, scenario (all scenarios last), contender
-    std::vector<Pairing> overall;   ///< of all scenarios together
+    std::vector<Cell> cells;  ///< by condition, scenario (all scenarios last), contender
+    /// Of all scenarios together, of courses that differ: where wires were flown, without thin
+    /// wires, which hang on the same courses.
+    std::vector<Pairing> overall;
     std::vector<Pairing> pairings;  ///< of each scenario
     /// W-RoI against W-Full in all scenarios except wires. Empty if wires were not flown; `overall`
     /// says the same then.

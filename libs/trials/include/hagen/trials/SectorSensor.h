@@ -13,7 +13,7 @@ namespace hagen::trials {
 /// last packet of a turn has the 9 firings that are left.
 class SectorSensor {
  public:
-    SectorSensor(const Course& course, Air air);
+    SectorSensor(const Course& course, Air air, float zone_m = Options().zone_m);
     SectorSensor(const SectorSensor&) = delete;
     SectorSensor& operator=(const SectorSensor&) = delete;
 

@@ -15,7 +15,8 @@ class TrialSensor {
  public:
     static constexpr double kTurn_s = 0.1;
 
-    TrialSensor(const Course& course, Air air);
+    /// `zone_m`: of the filter, instead of the 20 m of those settings.
+    TrialSensor(const Course& course, Air air, float zone_m = Options().zone_m);
 
     const SensorModel& sensor() const { return filter_.sensor(); }
     const Options& options() const { return filter_.options(); }
