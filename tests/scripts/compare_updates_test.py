@@ -64,6 +64,7 @@ def test_pairs_are_of_the_same_course_and_model():
 def test_what_cannot_be_compared_is_told():
     whole = [HEADER, row(1, "success")]
     for tables, said in (((whole,), "no course was flown"), ((["a,b", "1,2"],), "is no table"),
+                         ((whole, [HEADER + ",updates,settings", row(1, "success") + ",sectors,f00d"]), "with other settings than"),
                          ((whole, [HEADER, row(1, "timeout")]), "contradicts another table: seed 1 of forest-0.10")):
         done = compare(*tables)
         assert done.returncode == 1 and said in done.stderr and not done.stdout, done

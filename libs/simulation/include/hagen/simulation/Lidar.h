@@ -35,7 +35,8 @@ struct SensorErrorModel {
     double half_range_m =
         150;  ///< range at which half of the returns of a grey wall at normal incidence are lost
     double lost = 0.005;  ///< fraction of returns that are lost at random
-    double mixed = 0.15;  ///< fraction of beams whose range at an edge lies between both surfaces
+    /// One beam in 1 + 1 / mixed is cast twice; at an edge, its range lies between both surfaces.
+    double mixed = 0.15;
     double dust_per_m = 1.5e-5;  ///< dust particles hit per metre of a beam
     bool airframe = true;        ///< whether legs and rotors of the vehicle occlude beams
 };
