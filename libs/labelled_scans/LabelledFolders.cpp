@@ -201,6 +201,8 @@ std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
         ++with_pose_;
         scan.input.map_from_sensor =
             recorded->pose.sensor_pose->getRotationMatrix().asEigen().template cast<float>();
+    } else if (const auto tilt = settings_.tiltOnLevelVehicle()) {
+        scan.true_level_from_sensor = levelFromSensor(*tilt);
     }
     return scan;
 }

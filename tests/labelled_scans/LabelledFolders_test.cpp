@@ -45,5 +45,23 @@ TEST_F(LabelledFolders, HaveTheShortestNamesThatDiffer) {
     EXPECT_THAT(test::messageOf([&] { namesOf({a, d, a + "/."}); }), HasSubstr("is given twice"));
 }
 
+/// Heights of the ground truth are as the filter is told that the sensor is held.
+TEST_F(LabelledFolders, WithoutPosesTheMountTellsWhereUpIs) {
+    const std::string folder = folderAt("hanging");
+    MethodSet methods;
+    methods.filter.emplace_back();
+    methods.filter.front().settings.sensor.model = "VLP-16";
+    const auto upOf = [&] {
+        const auto scan = sourcesOf({folder}, methods, {}).front()->next();
+        return Eigen::Vector3f(scan->levelFromSensor().row(2));
+    };
+    EXPECT_LT((upOf() - Eigen::Vector3f::UnitZ()).norm(), 1e-6f);
+    folder_.write("hanging/sensor.yaml", "sensor: {model: VLP-16, mount_roll_deg: 180}");
+    EXPECT_LT((upOf() + Eigen::Vector3f::UnitZ()).norm(), 1e-6f);
+    folder_.write("hanging/times.txt", "100\n");
+    folder_.write("hanging/poses.tum", "100 0 0 2 0 0 0 1\n");  // poses of the sensor win
+    EXPECT_LT((upOf() - Eigen::Vector3f::UnitZ()).norm(), 1e-6f);
+}
+
 }  // namespace
 }  // namespace hagen::labelled_scans
