@@ -15,6 +15,9 @@ namespace {
 
 // A refused message is told with the next one. After this time without, the peer is there again.
 constexpr std::chrono::milliseconds kRefusedFor{1000};
+// A connected socket keeps the address of the interface by which the peer was reached first. If
+// nothing comes back, another one may be right: it was down then, or has another address now.
+constexpr std::chrono::milliseconds kSilent{2000};
 
 class UdpPeer : public Peer {
  public:
@@ -43,6 +46,7 @@ class UdpPeer : public Peer {
     UdpPeer& operator=(const UdpPeer&) = delete;
 
     bool send(const std::vector<std::uint8_t>& bytes) override {
+        if (is_connected_ && Clock::now() - heard_or_connected_ > kSilent) disconnect();
         if (!is_connected_) tryToConnect();
         if (!is_connected_) return false;
         if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) return true;
@@ -57,7 +61,9 @@ class UdpPeer : public Peer {
         if (poll(&waits, 1, waitMs(longest_s)) <= 0) return 0;
         const ssize_t got = recv(socket_, buffer, size, MSG_DONTWAIT);
         if (got > 0) {
+            if (!is_connected_) return 0;  // from anybody
             error_ = 0;
+            heard_or_connected_ = Clock::now();
             return static_cast<std::size_t>(got);
         }
         if (got < 0) note(errno);
@@ -91,6 +97,18 @@ class UdpPeer : public Peer {
     void tryToConnect() {
         is_connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to_), sizeof to_) == 0;
         if (!is_connected_) note(errno);
+        heard_or_connected_ = Clock::now();
+    }
+    /// Keeps the port, by which the peer knows us.
+    void disconnect() {
+        sockaddr_in own{}, none{};
+        socklen_t size = sizeof own;
+        getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size);
+        none.sin_family = AF_UNSPEC;
+        if (connect(socket_, reinterpret_cast<const sockaddr*>(&none), sizeof none) != 0) return;
+        is_connected_ = false;
+        own.sin_addr.s_addr = INADDR_ANY;
+        bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own);  // fails if it still is
     }
     void note(int error) {
         if (error == EAGAIN || error == EINTR) return;
@@ -102,7 +120,7 @@ class UdpPeer : public Peer {
     sockaddr_in to_{};
     int socket_ = -1, error_ = 0;
     bool is_connected_ = false;
-    Clock::time_point error_time_;
+    Clock::time_point error_time_, heard_or_connected_;
 };
 
 }  // namespace

@@ -96,6 +96,7 @@ class Socket {
                sizeof from_);
     }
     std::uint16_t port() const { return port_; }
+    std::uint16_t fromPort() const { return ntohs(from_.sin_port); }
     bool isBound() const { return is_bound_; }
 
  private:
@@ -124,6 +125,21 @@ TEST(UdpPeer, SendsAndReceives) {
     EXPECT_EQ(received(*peer), (Bytes{4, 5}));
     EXPECT_TRUE(peer->hasDatagrams());
     EXPECT_EQ(peer->trouble(), "");
+}
+
+/// After two seconds it looks for another way to the peer, and is the same to it.
+TEST(UdpPeer, GoesOnFromTheSamePortIfNothingComesBack) {
+    Socket other;
+    const auto peer = peerAt(other.port());
+    EXPECT_TRUE(peer->send({1}));
+    EXPECT_EQ(other.receive(), Bytes{1});
+    const std::uint16_t port = other.fromPort();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2050));
+    EXPECT_TRUE(peer->send({2}));
+    EXPECT_EQ(other.receive(), Bytes{2});
+    EXPECT_EQ(other.fromPort(), port);
+    other.answer({3});
+    EXPECT_EQ(received(*peer), Bytes{3});
 }
 
 TEST(UdpPeer, SurvivesThatNobodyListens) {
