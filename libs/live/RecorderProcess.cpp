@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -27,9 +28,10 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kQueue = 4096;       // packets: seconds
-constexpr double kDiskPatience = 6;        // times as long: caches of hundreds of megabytes
-constexpr std::chrono::seconds kDeath{2};  // of what is killed
+constexpr std::size_t kQueue = 4096;  // packets: seconds
+constexpr double kDiskPatience = 6;   // times as long: caches of hundreds of megabytes
+constexpr double kDeath_s = 2;        // of what is killed, or has said its last line
+constexpr std::chrono::milliseconds kLook{5};
 
 std::filesystem::path programOf(const RecordingOptions& recording) {
     return recording.program.empty() ? recorderProgram() : recording.program;
@@ -167,7 +169,7 @@ RecorderProcess::RecorderProcess(const LiveOptions& options, bool waits)
     if (!failure.empty()) {
         close(socket_);
         kill(process_, SIGKILL);  // it has said why it ends, or nothing that is known
-        waitFor(process_, true);
+        reap();
         throw std::runtime_error(failure);
     }
     limitWait(socket_, SO_RCVTIMEO, 0);  // for ever: its last words come at the end
@@ -228,6 +230,7 @@ void RecorderProcess::listen() {
 void RecorderProcess::endIt(const char* why, double after_s) {
     ended_after_s_ = after_s;
     why_ended_ = why;
+    killed_s_ = steadyNow_s();
     kill(process_, SIGKILL);
     shutdown(socket_, SHUT_RDWR);
 }
@@ -251,20 +254,19 @@ void RecorderProcess::watchEnd() {
         if (now_s - alive_s <= kDiskPatience * patience_s_ && waitsForDisk(process_)) continue;
         endIt(waitsForDisk(process_) ? "waited for its disk for more than " : "did nothing for ",
               patience_s_);
-        is_given_up_ = !hasEndedWithin(kDeath);
         return;
     }
 }
 
 /// Waits until the process has ended, without a word that can be read. If it still speaks, that
-/// ends it.
+/// ends it. One that was killed may be there still, in its disk: it is not waited for.
 std::string RecorderProcess::howItEnded() const {
     shutdown(socket_, SHUT_RD);
     siginfo_t end{};
-    while (end.si_pid == 0 && !is_given_up_) {
+    while (end.si_pid == 0 && steadyNow_s() < killed_s_ + kDeath_s) {
         end = waitFor(process_, false, WNOHANG);
         if (end.si_pid == 0 && errno == ECHILD) break;  // somebody else took its status
-        if (end.si_pid == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        if (end.si_pid == 0) std::this_thread::sleep_for(kLook);
     }
     const char* const why = why_ended_;
     const std::string how =
@@ -276,6 +278,19 @@ std::string RecorderProcess::howItEnded() const {
                                           " (" + strsignal(end.si_status) + ")";
     return file_ + ": its recorder (" + program_ + ") " + how +
            "; what was written can be read under a temporary name beside it";
+}
+
+/// Takes the status of a process that has said its last line, or was killed. One that is there
+/// still is killed; one that cannot die, in its disk, is left.
+void RecorderProcess::reap() const {
+    for (const double longest_s : {std::min(kDeath_s, patience_s_), kDeath_s}) {
+        const double end_s = steadyNow_s() + longest_s;
+        do {
+            if (waitFor(process_, true, WNOHANG).si_pid != 0 || errno == ECHILD) return;
+            std::this_thread::sleep_for(kLook);
+        } while (steadyNow_s() < end_s);
+        kill(process_, SIGKILL);
+    }
 }
 
 void RecorderProcess::add(const Packet& packet) {
@@ -297,7 +312,7 @@ Recorded RecorderProcess::finish() {
     if (socket_ >= 0) {
         close(socket_);
         socket_ = -1;
-        waitFor(process_, true, is_given_up_ ? WNOHANG : 0);
+        reap();
     }
     recorded_.packets_left_out = left_out_;
     return recorded_;

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -38,6 +39,7 @@ class RecorderProcess {
     void watchEnd();
     void endIt(const char* why, double after_s);
     std::string howItEnded() const;
+    void reap() const;
 
     const std::string program_, file_;
     const bool waits_;
@@ -50,7 +52,8 @@ class RecorderProcess {
     std::thread sender_, listener_;
     std::atomic<const char*> why_ended_ = nullptr;  ///< by us: what it did for too long
     std::atomic<double> ended_after_s_ = 0;         ///< how long
-    std::atomic<bool> is_given_up_ = false;         ///< it was killed, and is still there
+    std::atomic<double> killed_s_ =
+        std::numeric_limits<double>::infinity();  ///< by us; steady clock
 
     mutable std::mutex mutex_;
     std::condition_variable has_ended_;

@@ -516,6 +516,17 @@ TEST_F(LiveRecordingTest, ARecorderThatIsStuckAtTheEndIsEnded) {
                                HasSubstr("under a temporary name beside it")));
 }
 
+TEST_F(LiveRecordingTest, ARecorderThatStaysAfterItsLastLineIsEnded) {
+    recordBy(kReady + std::string("cat <&0 >/dev/null\necho $$ >'") + (folder_ / "pid").string() +
+             "'\n" + sayDone() + "exec sleep 1000");
+    options_.recording.patience_s = 0.3;
+    GivenPackets source;
+    source.addAll(turnsOf(1)).asSensor();
+    EXPECT_EQ(run(source).recorded.failure, "");
+    const int pid = std::stoi(test::readFile(folder_ / "pid"));
+    EXPECT_EQ(kill(pid, 0), -1) << "it is there still";
+}
+
 TEST_F(LiveRecordingTest, ARecorderThatIsBusyAtTheEndIsWaitedFor) {
     recordBy(kReady + std::string("i=0\nwhile [ $i -lt 1000000 ]; do i=$((i + 1)); done\n") +
              sayDone());
