@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
@@ -114,6 +115,7 @@ class Session {
  private:
     bool isOfSensor(const Packet& packet);
     void tell(const streaming::LabelledSector& sector);
+    void tellEmptiness(const Scan& returns);
     void tellChanges();
     void tellUncertain();
     void tellSilence(double now_s);
@@ -128,10 +130,11 @@ class Session {
     std::unique_ptr<RecorderProcess> recorder_;
 
     double start_s_, status_s_, last_packet_s_ = 0, last_taken_s_ = 0;  ///< of the sensor, of all
+    double last_return_s_ = 0;
     SensorAddress address_;
     std::size_t uncertain_ = 0, restarts_ = 0;  ///< those that were told
     bool is_uncertain_ = false;
-    bool is_flushed_ = true, is_silent_ = false, is_recording_told_ = false;
+    bool is_flushed_ = true, is_silent_ = false, is_empty_ = false, is_recording_told_ = false;
     std::size_t foreign_ip_ = 0;
 };
 
@@ -149,6 +152,20 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
 void Session::tell(const streaming::LabelledSector& sector) {
     figures_->take(sector, steadyNow_s());
     listener_.sector(sector);
+    tellEmptiness(sector.returns);
+}
+
+/// A covered window looks like open air.
+void Session::tellEmptiness(const Scan& returns) {
+    const bool is_empty = std::all_of(returns.range_m.begin(), returns.range_m.end(),
+                                      [](float range_m) { return std::isnan(range_m); });
+    if (!is_empty || last_return_s_ == 0) last_return_s_ = last_packet_s_;
+    if (is_empty_ && !is_empty) listener_.remark("there are returns again");
+    if (!is_empty) is_empty_ = false;
+    if (is_empty_ || last_packet_s_ - last_return_s_ <= kSilence_s) return;
+    is_empty_ = true;
+    listener_.remark("packets come, but none had a return for " + base::fixedText(kSilence_s, 0) +
+                     " s: nothing is in range, or the sensor's window is covered");
 }
 
 /// Packets of the same model from another address are foreign, unless it is the sensor's new one.
@@ -207,6 +224,7 @@ void Session::tellChanges() {
     }
     if (is_silent_) {
         is_silent_ = false;
+        last_return_s_ = last_packet_s_;
         listener_.remark("packets come again");
     }
     const std::size_t changes = sensor_->counts().mode_changes;

@@ -248,6 +248,24 @@ TEST_F(LiveSessionTest, ASensorThatFallsSilentAndComesBackIsTold) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("packets come again")));
 }
 
+TEST_F(LiveSessionTest, ASensorWithoutReturnsIsTold) {
+    GivenPackets source;
+    source.addAll(turnsOf(1));
+    for (std::uint32_t turn = 1; turn <= 12; ++turn) {
+        for (std::string packet : turnsOf(1, 1000000 + 100000 * turn)) {
+            for (std::size_t at = 0; at < 1200; ++at) {
+                if (at % 100 >= 4 && (at % 100 - 4) % 3 != 2) packet[at] = 0;  // distances
+            }
+            source.add(packet);
+        }
+        source.later(0.1);
+    }
+    source.addAll(turnsOf(1, 1000000 + 100000 * 13));
+    run(source);
+    EXPECT_THAT(remarks_, ElementsAre(HasSubstr("none had a return for 1 s"),
+                                      HasSubstr("there are returns again")));
+}
+
 /// A sensor of the same model that looks elsewhere would be told in our directions.
 TEST_F(LiveSessionTest, AnotherSensorThatSentBesideOursNeverTakesItsPlace) {
     GivenPackets source;
