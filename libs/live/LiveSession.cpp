@@ -32,6 +32,9 @@ constexpr std::size_t kQueue = 4096;  // packets: seconds
 constexpr double kSilence_s = 1.0;    // is told
 constexpr double kFlush_s = 0.02;     // without packets; the sector in progress gets its labels
 constexpr double kStatus_s = 0.5;
+// What was measured longer ago counts as unknown: packets that waited so long are not labelled, up
+// to one that is nearly new, so that what comes then is.
+constexpr double kTooOld_s = 0.3, kNew_s = 0.05;
 
 std::string nameOf(const LiveOptions& options) {
     if (options.sensor_json.empty()) return "a " + options.model;
@@ -106,6 +109,8 @@ class Session {
     Session(const LiveOptions& options, const LiveListener& listener, bool is_live);
 
     void take(const Packet& packet);
+    /// The same for one that waited for too long: it is recorded, and not labelled.
+    void leaveOut(const Packet& packet);
     /// Tells silence, shows the status; if the sensor is silent, ends the sector in progress.
     /// `is_idle`: no packet waits.
     void look(bool is_idle);
@@ -196,6 +201,14 @@ void Session::take(const Packet& packet) {
         tellUncertain();
     }
     if (recorder_ && sensor_->isData(packet)) recorder_->add(packet);
+}
+
+void Session::leaveOut(const Packet& packet) {
+    last_taken_s_ = packet.arrival_s;
+    if (!sensor_->isData(packet)) return;
+    if (sensor_->isToldByAddress(packet) && !isOfSensor(packet)) return;
+    last_packet_s_ = packet.arrival_s;
+    if (recorder_) recorder_->add(packet);
 }
 
 /// After a packet was left out: perhaps since the mode of an Ouster is not that of its metadata.
@@ -389,10 +402,20 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     letOthersGoFirst();
     try {
         Packet packet;
+        bool is_behind = false;
         while (listener.keep_going() && steadyNow_s() - start_s < options.duration_s) {
             const auto popped = queue.pop(packet, std::chrono::milliseconds(10));
             if (popped == PacketQueue::Popped::Closed) break;
-            if (popped == PacketQueue::Popped::Packet) session.take(packet);
+            if (popped == PacketQueue::Popped::Packet) {
+                const double waited_s = steadyNow_s() - packet.arrival_s;
+                is_behind = source.isLive() && waited_s > (is_behind ? kNew_s : kTooOld_s);
+                if (is_behind) {
+                    ++dropped;
+                    session.leaveOut(packet);
+                } else {
+                    session.take(packet);
+                }
+            }
             session.look(popped == PacketQueue::Popped::Nothing);
         }
     } catch (...) {

@@ -339,6 +339,18 @@ TEST_F(LiveSessionTest, OthersDoNotKeepASectorFromItsLabels) {
     EXPECT_EQ(cut_after, 74u + 10 + 1);
 }
 
+/// What waited is old: the newest packets are labelled first.
+TEST_F(LiveSessionTest, WhatHasWaitedForTooLongIsNotLabelled) {
+    GivenPackets source;
+    source.addAll(turnsOf(20)).pause(0.7).addAll(turnsOf(1, 4000000)).asSensor();
+    first_sector_takes_ = std::chrono::milliseconds(500);
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets + report.dropped, 21u * 76);
+    EXPECT_GT(report.dropped, 19u * 76);
+    EXPECT_GE(report.packets, 76u);
+    EXPECT_EQ(report.silences, 0u);
+}
+
 TEST_F(LiveSessionTest, PacketsThatWaitForTheProcessorAreNoSilence) {
     GivenPackets source;
     source.addAll(turnsOf(1));

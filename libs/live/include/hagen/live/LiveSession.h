@@ -52,7 +52,7 @@ struct LiveReport {
     std::size_t unsound = 0;         ///< without a sound block
     std::size_t unsound_blocks = 0;  ///< of packets that were taken
     std::size_t uncertain = 0;  ///< of an Ouster that may be in another mode than its metadata say
-    std::size_t dropped = 0;    ///< the filter was too slow for
+    std::size_t dropped = 0;    ///< the filter was too slow for, or that had waited for 0.3 s
     std::size_t interruptions = 0, mode_changes = 0, silences = 0;
     std::size_t rate_changes = 0;  ///< another speed of the motor
     /// How often directions of SectorDistances were in each state, every twentieth of a second.
