@@ -638,6 +638,8 @@ TEST_F(LiveSegmentMavlink, WrongPeersAreExplained) {
     expectFailure(with_peer("192.168.1.10:14550"), 2, "neither udp:HOST:PORT nor serial:DEVICE");
     expectFailure(with_peer("udp:192.168.1.10:0"), 2, "1 to 65535");
     expectFailure(with_peer("serial:/dev/ttyS0:57600"), 2, "115200 baud or more");
+    expectFailure(with(with_peer("serial:/dev/ttyS0:115200"), {"--obstacles", "20"}), 2,
+                  "20 obstacles need 130900 baud");
     expectFailure(with_peer("serial:" + path("none") + ":115200"), 1, "No such file");
     expectFailure({"--replay", file, "--mavlink-system", "2"}, 2, "--mavlink");
     expectFailure(with(with_peer("udp:127.0.0.1:9"), {"--mavlink-system", "0"}), 2,

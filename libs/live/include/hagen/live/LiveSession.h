@@ -40,7 +40,7 @@ struct LiveOptions {
 
 /// What came so far.
 struct LiveReport {
-    std::size_t datagrams = 0;       ///< all
+    std::size_t datagrams = 0;       ///< all but those dropped
     std::size_t packets = 0;         ///< of the sensor, taken
     std::size_t lost = 0;            ///< missing by the sensor's clock
     std::size_t late = 0;            ///< came after a later one
