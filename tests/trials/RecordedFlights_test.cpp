@@ -97,17 +97,19 @@ LatencyProfile someProfile() {
 }
 
 /// Every scenario, air, guidance, planner, pose error and kind of model at least once. Fast
-/// flights, because they are short.
+/// flights, because they are short; and those that come out the same if the directions of the
+/// LiDAR's rays change by 1e-6, because processors may differ by less.
 std::vector<std::string> keys() {
     return {"forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic,dusty,unbiased",
-            "forest-0.05,2,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",
-            "forest-0.10,3,W-RoI,astar,10,3dvfh,none,1,optimistic,dusty,unbiased",
-            "orchard,4,W-Full,astar,10,primitives,drift,1,optimistic,dusty,unbiased",
+            "forest-0.02,5,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",
+            "forest-0.05,2,W-RoI,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",
+            "forest-0.10,6,W-RoI,astar,6,3dvfh,none,1,optimistic,dusty,unbiased",
+            "orchard,6,O-Full-0.4,straight,10,3dvfh,none,1,optimistic,dusty,unbiased",
             "gap,5,O-Full-0.4,astar,8,primitives,none,1,optimistic,dusty,unbiased",
             "u-trap,6,oracle,astar,10,primitives,none,1,optimistic,dusty,unbiased",
-            "terrain,7,W-RoI,straight,10,primitives,none,1,optimistic,dusty,unbiased",
-            "wires,8,O-RoI+rays-0.4,straight,10,primitives,none,1,brake_known,dusty,unbiased",
-            "movers,9,W-RoI,astar,10,primitives,noise,4,optimistic,dusty,unbiased",
+            "terrain,6,W-Full,astar,10,primitives,drift,1,optimistic,dusty,unbiased",
+            "wires,2,O-RoI+rays-0.4,straight,10,primitives,none,1,brake_known,dusty,unbiased",
+            "movers,1,W-RoI,astar,10,primitives,noise,4,optimistic,dusty,unbiased",
             "street,10,G-Full,straight,10,3dvfh,none,1,optimistic,dusty,unbiased",
             "forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic,clear,as-stored"};
 }
