@@ -124,7 +124,7 @@ def check_crash(folder):
     check(collisions, "of some fast flights that plan late, one ends in a collision")
     row = collisions[0]
     command("replay", folder, "--seed", row["seed"])
-    page = folder / f"replay-forest-0.10-{row['seed']}-W-RoI-straight-14mps-latency8.html"
+    page = folder / f"replay-forest-0.10-{row['seed']}-W-RoI-straight-14mps-latency16.html"
     with Browser() as browser:
         browser.open(page)
         browser.wait_for("return document.body.dataset.step !== undefined;")
@@ -204,6 +204,6 @@ with tempfile.TemporaryDirectory() as place:
         check_replay(flown, one)
     check_panels(flown / "replays/replay-gap-0-O-Full-0.4-astar-4mps.html")
     command("closedloop", "--scenario", "forest-0.10", "--seeds", "1-3", "--models", "W-RoI",
-            "--guidance", "straight", "--speed", "14", "--latency-scale", "8", "-o",
+            "--guidance", "straight", "--speed", "14", "--latency-scale", "16", "-o",
             place / "crash")
     check_crash(place / "crash")
