@@ -117,12 +117,12 @@ class StatusLine {
     void show(const live::LiveReport& report, const live::LiveStatus& status,
               BackgroundPrinter& printer) const {
         if (!is_shown_) return;
-        char text[200];
+        char text[240];
         std::snprintf(text, sizeof text,
-                      "%.1f turns/s, latency p50 %.2f p99 %.2f max %.2f ms, lost %zu, late %zu, "
-                      "foreign %zu, nearest %.1f m%s",
+                      "%.1f turns/s, latency p50 %.2f p99 %.2f max %.2f ms, lost %zu, dropped %zu, "
+                      "late %zu, foreign %zu, nearest %.1f m%s",
                       status.turns_per_s, 1e3 * status.p50_s, 1e3 * status.p99_s,
-                      1e3 * status.max_s, report.lost, report.late,
+                      1e3 * status.max_s, report.lost, report.dropped, report.late,
                       report.foreign + report.wrong_size, static_cast<double>(status.nearest_m),
                       status.is_silent ? ", silent" : "");
         printer.printIfIdle(To::ErrorsInPlace, text);

@@ -18,6 +18,7 @@ constexpr double kPeriod_s = 0.05;       // of OBSTACLE_DISTANCE
 constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
 constexpr std::size_t kHeartbeatEvery = 20;
 constexpr double kLongestWait_s = 0.01;
+constexpr std::size_t kMostAtOnce = 1000;  // datagrams; one who floods does not keep us from sending
 constexpr double kAttitudeWithin_s = 3;  // then its absence is told
 constexpr double kMostBehind_s = 0.5;    // messages that were missed are not made up for
 
@@ -119,7 +120,7 @@ class AutopilotLink::Work {
             double rest_s = 0;
             do {  // also if it is behind: what waits unread gets old
                 rest_s = std::max(next_s - now_s(), 0.0);
-                attempt([&] { receive(rest_s); });
+                attempt([&] { receiveAll(rest_s); });
             } while (!is_at_end_ && rest_s > 0);
             attempt([&] { tellPeer(); });
             attempt([&] { tellAttitude(); });
@@ -185,16 +186,24 @@ class AutopilotLink::Work {
                            : "MAVLink: directions are known again");
     }
 
-    void receive(double longest_s) {
+    /// All that waits: what is read one by one gets old when a period takes too long.
+    void receiveAll(double longest_s) {
+        for (std::size_t n = 0; n < kMostAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
+        }
+    }
+
+    /// Whether something came.
+    bool receive(double longest_s) {
         std::array<std::uint8_t, 65536>& buffer = buffer_;
         const std::size_t size =
             peer_->receive(buffer.data(), buffer.size(), std::min(longest_s, kLongestWait_s));
-        if (size == 0) return;
+        if (size == 0) return false;
         const double arrival_s = now_s();
         const std::lock_guard lock(mutex_);
         const auto take = [&](const mavlink::Frame& frame) { takeFrame(frame, arrival_s); };
         parser_.add(buffer.data(), size, take);
         if (peer_->hasDatagrams()) parser_.end(take);
+        return true;
     }
 
     void takeFrame(const mavlink::Frame& frame, double arrival_s) {

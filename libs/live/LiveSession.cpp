@@ -32,9 +32,11 @@ constexpr std::size_t kQueue = 4096;  // packets: seconds
 constexpr double kSilence_s = 1.0;    // is told
 constexpr double kFlush_s = 0.02;     // without packets; the sector in progress gets its labels
 constexpr double kStatus_s = 0.5;
-// What was measured longer ago counts as unknown: packets that waited so long are not labelled, up
-// to one that is nearly new, so that what comes then is.
-constexpr double kTooOld_s = 0.3, kNew_s = 0.05;
+// Directions are known if a whole turn is at most 0.3 s old when they are looked at, every 0.05 s.
+// Packets that waited for longer than that leaves are not labelled, up to one that is nearly new,
+// so that what comes then is.
+constexpr double kTooOld_s = 0.15, kNew_s = 0.05;
+constexpr int kKeepsUp = 4;  // statuses in a row without such packets: this is over
 
 std::string nameOf(const LiveOptions& options) {
     if (options.sensor_json.empty()) return "a " + options.model;
@@ -111,11 +113,12 @@ class Session {
     void take(const Packet& packet);
     /// The same for one that waited for too long: it is recorded, and not labelled.
     void leaveOut(const Packet& packet);
+    /// Packets that nobody will label or record. Any thread may call it.
+    void lose(std::size_t packets) { lost_ += packets; }
     /// Tells silence, shows the status; if the sensor is silent, ends the sector in progress.
     /// `is_idle`: no packet waits.
     void look(bool is_idle);
     LiveReport finish(double start_cpu_s);
-    LiveReport& report() { return report_; }
 
  private:
     bool isOfSensor(const Packet& packet);
@@ -124,6 +127,7 @@ class Session {
     void tellChanges();
     void tellUncertain();
     void tellSilence(double now_s);
+    bool tellBehind();
     void copyCounts();
     void showStatus(double now_s);
 
@@ -141,6 +145,9 @@ class Session {
     bool is_uncertain_ = false;
     bool is_flushed_ = true, is_silent_ = false, is_empty_ = false, is_recording_told_ = false;
     std::size_t foreign_ip_ = 0;
+    std::size_t left_out_ = 0, left_out_before_ = 0;  ///< until now, until the last status
+    int keeps_up_ = kKeepsUp;                         ///< statuses
+    std::atomic<std::size_t> lost_ = 0;
 };
 
 Session::Session(const LiveOptions& options, const LiveListener& listener, bool is_live)
@@ -207,7 +214,14 @@ void Session::leaveOut(const Packet& packet) {
     last_taken_s_ = packet.arrival_s;
     if (!sensor_->isData(packet)) return;
     if (sensor_->isToldByAddress(packet) && !isOfSensor(packet)) return;
+    // Nobody looked for returns meanwhile.
+    if (last_return_s_ > 0) last_return_s_ += packet.arrival_s - last_packet_s_;
     last_packet_s_ = packet.arrival_s;
+    ++left_out_;
+    if (keeps_up_ >= kKeepsUp) {
+        listener_.remark("labelling is too slow: packets that waited are left out (\"dropped\")");
+    }
+    keeps_up_ = 0;
     if (recorder_) recorder_->add(packet);
 }
 
@@ -263,6 +277,7 @@ void Session::copyCounts() {
     r.uncertain = counts.uncertain;
     r.interruptions = counts.interruptions;
     r.scans = counts.scans;
+    r.dropped = left_out_ + lost_;
     figures_->update(steadyNow_s());
     r.seconds = steadyNow_s() - start_s_;
 }
@@ -271,7 +286,8 @@ void Session::showStatus(double now_s) {
     copyCounts();
     LiveStatus status = figures_->status(now_s - status_s_, sensor_->turns());
     status.is_silent = is_silent_;
-    if (sensor_->turns() && !is_silent_) {
+    const bool is_behind = tellBehind();
+    if (sensor_->turns() && !is_silent_ && !is_behind) {
         if (const auto change = figures_->rateChange()) {
             listener_.remark("the sensor turns " + base::fixedText(change->now, 1) +
                              " times per second now, " + base::fixedText(change->before, 1) +
@@ -281,6 +297,16 @@ void Session::showStatus(double now_s) {
     figures_->next();
     status_s_ = now_s;
     listener_.status(report_, status);
+}
+
+/// Whether packets were left out since the last status: what is left of a turn tells no speed.
+bool Session::tellBehind() {
+    const bool is_behind = left_out_ > left_out_before_;
+    left_out_before_ = left_out_;
+    if (!is_behind && keeps_up_ < kKeepsUp && ++keeps_up_ == kKeepsUp) {
+        listener_.remark("labelling keeps up again");
+    }
+    return is_behind;
 }
 
 void Session::tellSilence(double now_s) {
@@ -374,7 +400,6 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
 
     PacketQueue queue(kQueue);
     std::atomic<bool> is_at_end = false;
-    std::atomic<std::size_t> dropped = 0;
     std::exception_ptr failure;
     std::thread receiver([&] {
         try {
@@ -386,7 +411,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
                 if (!source.isLive()) {
                     queue.pushOrWait(packet);
                 } else if (!queue.push(packet)) {
-                    ++dropped;
+                    session.lose(1);
                 }
             }
         } catch (...) {
@@ -410,7 +435,6 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
                 const double waited_s = steadyNow_s() - packet.arrival_s;
                 is_behind = source.isLive() && waited_s > (is_behind ? kNew_s : kTooOld_s);
                 if (is_behind) {
-                    ++dropped;
                     session.leaveOut(packet);
                 } else {
                     session.take(packet);
@@ -424,7 +448,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     }
     stop();
     // Those that still wait are labelled by nobody.
-    session.report().dropped = dropped + (source.isLive() ? queue.size() : 0);
+    session.lose(source.isLive() ? queue.size() : 0);
     LiveReport report = session.finish(cpu_s);
     report.process_cpu_s = processCpu_s() - process_s;
     if (stats) {

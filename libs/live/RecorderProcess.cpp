@@ -259,14 +259,20 @@ void RecorderProcess::watchEnd() {
 }
 
 /// Waits until the process has ended, without a word that can be read. If it still speaks, that
-/// ends it. One that was killed may be there still, in its disk: it is not waited for.
-std::string RecorderProcess::howItEnded() const {
+/// ends it; if it stays all the same, it is killed. Then, too, it may stay, in its disk: it is not
+/// waited for any longer.
+std::string RecorderProcess::howItEnded() {
     shutdown(socket_, SHUT_RD);
     siginfo_t end{};
+    const double start_s = steadyNow_s(), longest_s = std::min(kDeath_s, patience_s_);
     while (end.si_pid == 0 && steadyNow_s() < killed_s_ + kDeath_s) {
         end = waitFor(process_, false, WNOHANG);
         if (end.si_pid == 0 && errno == ECHILD) break;  // somebody else took its status
-        if (end.si_pid == 0) std::this_thread::sleep_for(kLook);
+        if (end.si_pid != 0) break;
+        std::this_thread::sleep_for(kLook);
+        if (why_ended_ == nullptr && steadyNow_s() > start_s + longest_s) {
+            endIt("closed its socket, stayed for ", longest_s);
+        }
     }
     const char* const why = why_ended_;
     const std::string how =

@@ -38,7 +38,7 @@ class RecorderProcess {
     void listen();
     void watchEnd();
     void endIt(const char* why, double after_s);
-    std::string howItEnded() const;
+    std::string howItEnded();
     void reap() const;
 
     const std::string program_, file_;

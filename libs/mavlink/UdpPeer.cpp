@@ -59,9 +59,15 @@ class UdpPeer : public Peer {
     std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) override {
         pollfd waits{socket_, POLLIN, 0};
         if (poll(&waits, 1, waitMs(longest_s)) <= 0) return 0;
-        const ssize_t got = recv(socket_, buffer, size, MSG_DONTWAIT);
+        sockaddr_in from{};
+        socklen_t from_size = sizeof from;
+        const ssize_t got = recvfrom(socket_, buffer, size, MSG_DONTWAIT,
+                                     reinterpret_cast<sockaddr*>(&from), &from_size);
         if (got > 0) {
-            if (!is_connected_) return 0;  // from anybody
+            // From anybody: what came before the socket was connected stays in its queue.
+            if (from.sin_addr.s_addr != to_.sin_addr.s_addr || from.sin_port != to_.sin_port) {
+                return 0;
+            }
             error_ = 0;
             heard_or_connected_ = Clock::now();
             return static_cast<std::size_t>(got);

@@ -268,6 +268,22 @@ TEST_F(AutopilotLinkTest, TheVehiclesMotionIsThatOfTheSensor) {
     EXPECT_FALSE(link_->motionAt(now_s()).map_from_sensor);
 }
 
+/// With so many obstacles, a period takes longer than it should.
+TEST_F(AutopilotLinkTest, MessagesDoNotWaitWhileItIsBehind) {
+    link_->begin(sensor_, {20, 0});
+    autopilot_.receive();
+    mavlink::Attitude attitude{};
+    const double start_s = now_s();
+    for (std::size_t sent = 0; sent < 100; ++sent) {
+        if (sent % 20 == 0) takeTurn(1000000);
+        attitude.time_boot_ms = static_cast<std::uint32_t>(1e3 * (now_s() - start_s));
+        autopilot_.send(mavlink::frameOf(attitude));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    EXPECT_GE(count("attitude"), 90u);
+}
+
 TEST_F(AutopilotLinkTest, TheLastMessageSaysThatNothingIsKnown) {
     link_->begin(sensor_, {20, 0});
     takeTurn();

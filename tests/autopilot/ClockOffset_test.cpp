@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <hagen/autopilot/ClockOffset.h>
 
+#include <algorithm>
 #include <random>
 
 namespace hagen::autopilot {
@@ -17,7 +18,7 @@ TEST(ClockOffset, TheFastestMessageTellsTheOffset) {
         EXPECT_FALSE(result.has_restarted);
         EXPECT_LE(result.time_s, arrival_s);
         if (i > 200) {
-            EXPECT_NEAR(result.time_s, stamp_s + 70.005, 0.002) << i;
+            EXPECT_NEAR(result.time_s, stamp_s + 70.005, 0.005) << i;
         }
     }
 }
@@ -34,15 +35,68 @@ TEST(ClockOffset, FollowsAClockThatDrifts) {
     }
 }
 
-TEST(ClockOffset, AVehicleThatStartsAgainIsNoticed) {
+TEST(ClockOffset, AVehicleThatStartsAgainIsNoticedWithinASecond) {
     ClockOffset clock;
     EXPECT_FALSE(clock.ourTime(500, 600).has_restarted);
     EXPECT_FALSE(clock.ourTime(500.9, 600.9).has_restarted);
-    const auto result = clock.ourTime(2, 603);
-    EXPECT_TRUE(result.has_restarted);
-    EXPECT_EQ(result.time_s, 603);
-    EXPECT_FALSE(clock.ourTime(2.1, 603.1).has_restarted);
-    EXPECT_TRUE(clock.ourTime(100, 603.2).has_restarted);  // a clock that is set
+    int restarts = 0;
+    for (int i = 0; i < 100; ++i) {
+        const auto result = clock.ourTime(2 + 0.02 * i, 603 + 0.02 * i);
+        if (result.has_restarted) ++restarts;
+        // Before it is noticed, messages are of a time before the last ones.
+        EXPECT_LT(result.time_s, restarts > 0 ? 605 : 600);
+        EXPECT_EQ(restarts, 0.02 * i > 0.49 ? 1 : 0) << i;
+    }
+    EXPECT_TRUE(clock.ourTime(100, 605.1).has_restarted);  // a clock that is set
+}
+
+TEST(ClockOffset, SingleMessagesThatCameByALongerWayAreOld) {
+    ClockOffset clock;
+    for (int i = 0; i < 3000; ++i) {
+        const double stamp_s = 0.02 * i, arrival_s = stamp_s + 70;
+        EXPECT_FALSE(clock.ourTime(stamp_s, arrival_s).has_restarted);
+        if (i % 100 != 99) continue;
+        for (int late = 1; late <= 5; ++late) {
+            const double old_s = stamp_s - 1.5 + 0.02 * late;
+            const auto result = clock.ourTime(old_s, arrival_s + 0.001);
+            EXPECT_FALSE(result.has_restarted);
+            EXPECT_NEAR(result.time_s, old_s + 70, 0.002);
+        }
+    }
+}
+
+TEST(ClockOffset, ABacklogThatDrainsIsOld) {
+    // 50 per second, nothing for a while, then faster than they were sent, or late for ever.
+    for (const double speed : {1.1, 1.5, 2.0, 4.0}) {
+        ClockOffset clock;
+        double free_s = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const double stamp_s = 0.02 * i;
+            const bool waits = stamp_s > 10 && stamp_s <= 40;
+            double arrival_s = std::max(70 + (waits ? 40 : stamp_s), free_s);
+            free_s = arrival_s + 0.02 / speed;
+            const auto result = clock.ourTime(stamp_s, arrival_s);
+            EXPECT_FALSE(result.has_restarted) << stamp_s;
+            ASSERT_LE(result.time_s, stamp_s + 70.4) << speed;  // ours drifts, perhaps
+        }
+    }
+}
+
+TEST(ClockOffset, AQueueThatStaysFullIsOld) {
+    for (const bool after_outage : {false, true}) {
+        ClockOffset clock;
+        for (int i = 0; i < 5000; ++i) {
+            const double stamp_s = 0.02 * i;
+            double arrival_s = stamp_s + 70;
+            if (stamp_s > 10) arrival_s += std::min(0.5 * (stamp_s - 10), 2.0);
+            if (after_outage && stamp_s > 10) {
+                // What is kept of the outage comes first; then it is late by 2 s.
+                if (stamp_s > 10.5 && stamp_s <= 38) continue;
+                arrival_s = std::max(stamp_s + 72, 110 + 0.001 * (stamp_s - 10));
+            }
+            EXPECT_LE(clock.ourTime(stamp_s, arrival_s).time_s, stamp_s + 70.1) << stamp_s;
+        }
+    }
 }
 
 TEST(ClockOffset, MessagesThatWaitedAreOld) {
@@ -57,12 +111,12 @@ TEST(ClockOffset, MessagesThatWaitedAreOld) {
             const double arrival_s = 70.005 + (waits ? free_at_s : stamp_s);
             const auto result = clock.ourTime(stamp_s, arrival_s);
             EXPECT_FALSE(result.has_restarted) << stamp_s;
-            EXPECT_NEAR(result.time_s, stamp_s + 70.005, 1e-6);
+            EXPECT_NEAR(result.time_s, stamp_s + 70.02, 0.016);  // our clock may drift
         }
     }
 }
 
-TEST(ClockOffset, AClockThatStoodStillIsTakenUpWithinTenSeconds) {
+TEST(ClockOffset, AClockThatStoodStillIsTakenUpAfterTenSeconds) {
     ClockOffset clock;
     int restarts = 0;
     for (int i = 0; i < 2000; ++i) {

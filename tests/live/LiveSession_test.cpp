@@ -349,6 +349,27 @@ TEST_F(LiveSessionTest, WhatHasWaitedForTooLongIsNotLabelled) {
     EXPECT_GT(report.dropped, 19u * 76);
     EXPECT_GE(report.packets, 76u);
     EXPECT_EQ(report.silences, 0u);
+    EXPECT_THAT(remarks_, testing::ElementsAre(HasSubstr("packets that waited are left out")));
+}
+
+TEST_F(LiveSessionTest, LabelsThatAreTooSlowAreToldAndNoOtherSpeedOfTheMotor) {
+    GivenPackets source;
+    for (std::uint32_t turn = 0; turn < 17; ++turn) {
+        source.addAll(turnsOf(1, 1000000 + 100000 * turn)).pause(0.1);
+    }
+    source.asSensor();
+    LiveListener listener;
+    std::size_t sectors = 0, dropped = 0;
+    listener.remark = [&](const std::string& remark) { remarks_.push_back(remark); };
+    listener.sector = [&](const auto&) {
+        if (++sectors > 150) std::this_thread::sleep_for(std::chrono::milliseconds(15));
+    };
+    listener.status = [&](const LiveReport& report, const auto&) { dropped = report.dropped; };
+    const LiveReport report = runLive(source, options_, listener);
+    EXPECT_EQ(report.packets + report.dropped, 17u * 76);
+    EXPECT_GT(dropped, 76u);
+    EXPECT_EQ(report.rate_changes, 0u);
+    EXPECT_THAT(remarks_, Contains(HasSubstr("labelling is too slow")));
 }
 
 TEST_F(LiveSessionTest, PacketsThatWaitForTheProcessorAreNoSilence) {
@@ -531,6 +552,19 @@ TEST_F(LiveRecordingTest, ARecorderThatDoesNotBeginIsEnded) {
     GivenPackets source;
     EXPECT_THAT(test::messageOf([&] { run(source.addAll(turnsOf(1))); }),
                 HasSubstr("did not begin for 0.3 s and was ended"));
+}
+
+TEST_F(LiveRecordingTest, ARecorderThatOnlyClosesItsSocketIsEnded) {
+    options_.recording.patience_s = 0.1;
+    recordBy("exec 0<&-\nexec sleep 1000");
+    GivenPackets none;
+    EXPECT_THAT(test::messageOf([&] { run(none); }),
+                HasSubstr("closed its socket, stayed for 0.1 s and was ended"));
+    recordBy(kReady + std::string("exec 0<&-\nexec sleep 1000"));
+    GivenPackets source;
+    source.addAll(turnsOf(1)).pause(0.5).addAll(turnsOf(1, 1100000));
+    EXPECT_THAT(run(source).recorded.failure, HasSubstr("closed its socket, stayed for 0.1 s"));
+    EXPECT_THAT(remarks_, Contains(HasSubstr("recording has ended")));
 }
 
 /// What fits into the socket tells nothing. Another process has that, too.

@@ -1,12 +1,16 @@
 #pragma once
 #include <limits>
+#include <optional>
 
 namespace hagen::autopilot {
 
 /// How far the clock of a vehicle is behind ours, by when its messages come: each comes some time
-/// after it was stamped, the fastest ones soonest. The shortest delay of the last 5 to 10 s is
-/// taken for none. Messages that come late are so old, also by seconds; only if all of 5 to 10 s
-/// do has the vehicle's clock stood still meanwhile.
+/// after it was stamped, the fastest ones soonest. The shortest delay is taken for none, and grows
+/// by no more than clocks drift. So messages that waited, on a radio link or since nobody read, are
+/// as old as they are, also by seconds and for as long as it lasts.
+///
+/// A larger offset is believed if the vehicle's clock began anew, or stood still: see kAnew and
+/// kStill.
 class ClockOffset {
  public:
     struct Result {
@@ -17,10 +21,17 @@ class ClockOffset {
     Result ourTime(double stamp_s, double arrival_s);
 
  private:
-    static constexpr double kNone = std::numeric_limits<double>::infinity();
-    double window_start_s_ = -kNone;
-    double least_s_ = kNone, least_before_s_ = kNone;  ///< of arrival - stamp, per window
-    double latest_stamp_s_ = -kNone;
+    /// A larger offset, on which all messages since some time agree.
+    struct Other {
+        double since_s, low_s, high_s;
+        bool is_anew;
+    };
+    bool isOther(double stamp_s, double arrival_s);
+
+    std::optional<double> offset_s_;
+    double last_stamp_s_ = 0, last_arrival_s_ = 0;
+    double latest_stamp_s_ = -std::numeric_limits<double>::infinity();
+    std::optional<Other> other_;
 };
 
 }  // namespace hagen::autopilot

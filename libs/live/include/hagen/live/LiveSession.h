@@ -52,7 +52,7 @@ struct LiveReport {
     std::size_t unsound = 0;         ///< without a sound block
     std::size_t unsound_blocks = 0;  ///< of packets that were taken
     std::size_t uncertain = 0;  ///< of an Ouster that may be in another mode than its metadata say
-    std::size_t dropped = 0;    ///< the filter was too slow for, or that had waited for 0.3 s
+    std::size_t dropped = 0;    ///< the filter was too slow for, or that had waited for 0.15 s
     std::size_t interruptions = 0, mode_changes = 0, silences = 0;
     std::size_t rate_changes = 0;  ///< another speed of the motor
     /// How often directions of SectorDistances were in each state, every twentieth of a second.
@@ -108,7 +108,8 @@ std::string liveModels(const std::string& separator = ", ");
 void checkLive(const LiveOptions& options);
 
 /// Labels the packets of a source until it ends, the time is over or the listener says so. One
-/// thread receives, one labels (that of the caller). A process of its own records; a recording that
+/// thread receives, one labels (that of the caller; its real-time priority, if it has one, is
+/// lowered by one, for good). A process of its own records; a recording that
 /// ends early is told, and the session goes on. What a packet holds never ends it.
 ///
 /// Throws std::runtime_error naming the file or address that failed, also a recording that cannot
