@@ -160,7 +160,9 @@ std::vector<std::string> LabelledFolder::remarks() const {
     } else if (with_pose_ < read_) {
         remarks.push_back(poses + " has poses of " + std::to_string(with_pose_) + " of the " +
                           std::to_string(read_) +
-                          " scans; the others are not levelled by an attitude");
+                          " scans; the others are " +
+                          (settings_.tiltOnLevelVehicle() ? "levelled by the mount only"
+                                                          : "not levelled by an attitude"));
     }
     return remarks;
 }

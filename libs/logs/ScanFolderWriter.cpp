@@ -34,8 +34,12 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
     }
     // A recording may tell of more than settings allow.
     const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMostRange_m); };
-    out << "  min_range_m: " << limit_m(sensor.min_range_m)
-        << "\n  max_range_m: " << limit_m(sensor.max_range_m) << "\n";
+    const double least_m = limit_m(sensor.min_range_m), most_m = limit_m(sensor.max_range_m);
+    if (least_m < most_m) {
+        out << "  min_range_m: " << least_m << "\n  max_range_m: " << most_m << "\n";
+    } else {
+        out << "  # Its range limits are beyond what settings allow.\n";
+    }
 }
 
 void writeSensor(const fs::path& file, const SensorModel& sensor,

@@ -147,9 +147,9 @@ void addPairings(const Report& report, std::vector<Section>& sections) {
         {"Paired comparisons over all scenarios",
          {"As above, over all scenarios that both flew. A total says little about the scenarios "
           "without a difference: their number is given, and \"not inferior\" holds only together "
-          "with it. So is the number of courses of the scenario that has the most of them. Where "
-          "wires were "
-          "flown, thin wires, which hang on the same courses, are left out."},
+          "with it. So is the number of courses of the scenario that has the most of them. Thin "
+          "wires hang where the wires of the same seed do: where both flew those, too, they are "
+          "left out."},
          {pooledTable(summary.overall)}});
     addGaps(summary, sections);
     const pages::Table square = squareTable(summary, summary.conditions.front());

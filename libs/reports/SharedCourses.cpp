@@ -5,11 +5,13 @@
 #include <map>
 #include <utility>
 
+#include "RepeatedCourse.h"
+
 namespace hagen::reports {
 namespace {
 
-using CourseKey = std::pair<std::string, std::uint64_t>;
 using ByContender = std::map<trials::Contender, const trials::Run*>;
+using Courses = std::map<CourseKey, ByContender>;
 
 template <class Holds>
 bool allOf(const std::vector<const trials::Run*>& flights, Holds holds) {
@@ -19,19 +21,27 @@ bool allOf(const std::vector<const trials::Run*>& flights, Holds holds) {
 
 /// The flights of a course in the order of the contenders; empty if one of them did not fly it.
 std::vector<const trials::Run*> flightsOf(const std::vector<trials::Contender>& contenders,
-                                          const ByContender& flights) {
+                                          const Courses& courses, const CourseKey& course) {
+    const auto flights = courses.find(course);
+    if (flights == courses.end()) return {};
     std::vector<const trials::Run*> of;
     for (const trials::Contender& contender : contenders) {
-        const auto flight = flights.find(contender);
-        if (flight == flights.end()) return {};
+        const auto flight = flights->second.find(contender);
+        if (flight == flights->second.end()) return {};
         of.push_back(flight->second);
     }
     return of;
 }
 
+/// Whether all of them flew another course of the same layout, which is counted.
+bool isRepeated(const std::vector<trials::Contender>& contenders, const Courses& courses,
+                const CourseKey& course) {
+    const CourseKey first = firstOfLayout(course);
+    return first != course && !flightsOf(contenders, courses, first).empty();
+}
+
 SharedCourses sharedBy(const std::vector<trials::Contender>& contenders,
-                       const std::map<CourseKey, ByContender>& courses,
-                       const trials::Condition& condition) {
+                       const Courses& courses, const trials::Condition& condition) {
     SharedCourses shared;
     shared.condition = condition;
     shared.guidance = contenders.front().guidance;
@@ -40,8 +50,8 @@ SharedCourses sharedBy(const std::vector<trials::Contender>& contenders,
     std::vector<std::vector<const trials::Run*>> flown(contenders.size()),
         arrived(contenders.size()), reacted(contenders.size());
     for (const auto& [course, by_contender] : courses) {
-        const std::vector<const trials::Run*> flights = flightsOf(contenders, by_contender);
-        if (flights.empty()) continue;
+        const std::vector<const trials::Run*> flights = flightsOf(contenders, courses, course);
+        if (flights.empty() || isRepeated(contenders, courses, course)) continue;
         const bool all_arrived = allOf(flights, [](const trials::TrialResult& r) {
             return r.outcome == trials::Outcome::Success;
         });
@@ -71,10 +81,12 @@ SharedCourses sharedBy(const std::vector<trials::Contender>& contenders,
     return shared;
 }
 
-std::map<trials::Contender, int> flownBy(const std::map<CourseKey, ByContender>& courses) {
+std::map<trials::Contender, int> flownBy(const Courses& courses) {
     std::map<trials::Contender, int> counts;
     for (const auto& [course, flights] : courses) {
-        for (const auto& [contender, run] : flights) ++counts[contender];
+        for (const auto& [contender, run] : flights) {
+            if (!isRepeated({contender}, courses, course)) ++counts[contender];
+        }
     }
     return counts;
 }
@@ -103,7 +115,7 @@ std::vector<int> levelsOf(const std::map<trials::Contender, int>& counts) {
 std::vector<SharedCourses> sharedCourses(const std::vector<trials::Run>& runs,
                                          const Summary& summary,
                                          const trials::Condition& condition) {
-    std::map<std::string, std::map<CourseKey, ByContender>> by_guidance;
+    std::map<std::string, Courses> by_guidance;
     for (const trials::Run& run : runs) {
         if (!(trials::conditionOf(run) == condition)) continue;
         by_guidance[run.setup.guidance][{run.scenario, run.seed}][trials::contenderOf(run)] = &run;

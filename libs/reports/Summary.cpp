@@ -10,6 +10,8 @@
 #include <map>
 #include <set>
 
+#include "RepeatedCourse.h"
+
 namespace hagen::reports {
 namespace {
 
@@ -48,8 +50,7 @@ Runs ofOutcome(const Runs& runs, trials::Outcome outcome) {
     return chosen;
 }
 
-/// Runs of a cell by (scenario, seed): the courses that they flew.
-using CourseKey = std::pair<std::string, std::uint64_t>;
+/// Runs of a cell by the courses that they flew.
 using Flights = std::map<std::pair<trials::Condition, trials::Contender>,
                          std::map<CourseKey, const trials::Run*>>;
 
@@ -108,6 +109,7 @@ Pairing sumOf(const std::vector<Pairing>& parts, const std::string& name) {
     Pairing sum{name, parts.front().condition, parts.front().first, parts.front().second};
     sum.scenarios = static_cast<int>(parts.size());
     for (const Pairing& part : parts) {
+        sum.of.push_back(part.scenario);
         sum.both += part.both;
         sum.only_first += part.only_first;
         sum.only_second += part.only_second;
@@ -123,26 +125,28 @@ Pairing sumOf(const std::vector<Pairing>& parts, const std::string& name) {
     return sum;
 }
 
-/// Thin wires hang on the courses of wires: one layout would count twice in a total.
-std::vector<Pairing> ofDistinctCourses(const std::vector<Pairing>& each) {
-    const bool has_wires = std::any_of(each.begin(), each.end(),
-                                       [](const Pairing& one) { return one.scenario == kWires; });
-    std::vector<Pairing> distinct;
-    std::copy_if(each.begin(), each.end(), std::back_inserter(distinct),
-                 [=](const Pairing& one) { return !has_wires || one.scenario != kThinWires; });
-    return distinct;
-}
+/// The flights of two contenders on the courses that both flew.
+using SharedFlights = std::map<CourseKey, std::pair<const trials::Run*, const trials::Run*>>;
 
-/// By scenario, of the courses that both flew.
-std::vector<Pairing> pairingsOf(const Flights& flights, const trials::Condition& condition,
-                                const Comparison& comparison) {
+SharedFlights sharedFlights(const Flights& flights, const trials::Condition& condition,
+                            const Comparison& comparison) {
     const auto& second = flights.at({condition, comparison.second});
-    std::map<std::string, Pairing> by_scenario;
+    SharedFlights shared;
     for (const auto& [course, run] : flights.at({condition, comparison.first})) {
         const auto other = second.find(course);
-        if (other == second.end()) continue;
-        const Pairing none{run->scenario, condition, comparison.first, comparison.second};
-        count(*run, *other->second, by_scenario.try_emplace(run->scenario, none).first->second);
+        if (other != second.end()) shared[course] = {run, other->second};
+    }
+    return shared;
+}
+
+/// By scenario.
+std::vector<Pairing> pairingsOf(const SharedFlights& shared, const trials::Condition& condition,
+                                const Comparison& comparison) {
+    std::map<std::string, Pairing> by_scenario;
+    for (const auto& [course, runs] : shared) {
+        const Pairing none{course.first, condition, comparison.first, comparison.second};
+        count(*runs.first, *runs.second,
+              by_scenario.try_emplace(course.first, none).first->second);
     }
     std::vector<Pairing> pairings;
     for (auto& [scenario, pairing] : by_scenario) {
@@ -150,6 +154,19 @@ std::vector<Pairing> pairingsOf(const Flights& flights, const trials::Condition&
         pairings.push_back(pairing);
     }
     return pairings;
+}
+
+/// Over all scenarios, each layout counted once.
+Pairing totalOf(const SharedFlights& shared, const trials::Condition& condition,
+                const Comparison& comparison) {
+    SharedFlights distinct;
+    for (const auto& [course, runs] : shared) {
+        const CourseKey first = firstOfLayout(course);
+        if (first == course || shared.count(first) == 0) distinct[course] = runs;
+    }
+    Pairing total = sumOf(pairingsOf(distinct, condition, comparison), "");
+    total.repeated = static_cast<int>(shared.size() - distinct.size());
+    return total;
 }
 
 void judge(Pairing& pairing) {
@@ -181,9 +198,10 @@ void addPairings(const Flights& flights, Summary& summary) {
             if (key.first == condition) present.insert(key.second);
         }
         for (const Comparison& comparison : comparisonsOf(present)) {
-            const std::vector<Pairing> each = pairingsOf(flights, condition, comparison);
-            if (each.empty()) continue;
-            summary.overall.push_back(sumOf(ofDistinctCourses(each), ""));
+            const SharedFlights shared = sharedFlights(flights, condition, comparison);
+            if (shared.empty()) continue;
+            const std::vector<Pairing> each = pairingsOf(shared, condition, comparison);
+            summary.overall.push_back(totalOf(shared, condition, comparison));
             summary.pairings.insert(summary.pairings.end(), each.begin(), each.end());
             std::vector<Pairing> others;
             std::copy_if(each.begin(), each.end(), std::back_inserter(others),
@@ -194,13 +212,15 @@ void addPairings(const Flights& flights, Summary& summary) {
             }
         }
         for (const Comparison& gap : gapsOf(summary.contenders, present)) {
-            const std::vector<Pairing> each = pairingsOf(flights, condition, gap);
+            const std::vector<Pairing> each = pairingsOf(sharedFlights(flights, condition, gap), condition, gap);
             summary.to_oracle.insert(summary.to_oracle.end(), each.begin(), each.end());
         }
         for (const trials::Contender& with_motion : present) {
             const trials::Contender oracle{kOracle, with_motion.guidance};
             if (with_motion.model != kOracleWithMotion || present.count(oracle) == 0) continue;
-            const std::vector<Pairing> each = pairingsOf(flights, condition, {with_motion, oracle});
+            const Comparison worth{with_motion, oracle};
+            const std::vector<Pairing> each =
+                pairingsOf(sharedFlights(flights, condition, worth), condition, worth);
             summary.motion_to_oracle.insert(summary.motion_to_oracle.end(), each.begin(),
                                             each.end());
         }

@@ -14,19 +14,22 @@
 namespace hagen::reports {
 namespace {
 
-/// The scenarios that both flew, if not all of the condition: "u-trap and gap".
+/// Whether all courses of thin wires are left out.
+bool isWithoutThinWires(const Pairing& total) {
+    return total.repeated > 0 &&
+           std::find(total.of.begin(), total.of.end(), kThinWires) == total.of.end();
+}
+
+/// The scenarios of a total, if not all of the condition: "u-trap and gap".
 std::string scopeOf(const Summary& summary, const Pairing& overall) {
-    std::vector<std::string> names;
-    for (const Pairing& one : summary.pairings) {
-        if (isSameContest(one, overall)) names.push_back(one.scenario);
-    }
     std::set<std::string> flown;
     for (const Cell& cell : summary.cells) {
         if (cell.condition == overall.condition && !cell.scenario.empty()) {
             flown.insert(cell.scenario);
         }
     }
-    return names.size() < flown.size() ? listed(names) : "";
+    if (isWithoutThinWires(overall)) flown.erase(kThinWires);
+    return overall.of.size() < flown.size() ? listed(overall.of) : "";
 }
 
 /// The pairings of the verdict over several scenarios; W-RoI against W-Full without wires. What
@@ -135,7 +138,9 @@ std::string differenceText(const Pairing& pairing) {
     if (!place.empty())
         text = place + " " + text;
     else if (pairing.scenarios > 1)
-        text = "over all scenarios " + text;
+        text = (isWithoutThinWires(pairing) ? "over all scenarios but thin wires "
+                                            : "over all scenarios ") +
+               text;
     text = (answer == Answer::Undecided ? "Undecided: " : "") + capital(text);
     if (pairing.scenarios > 1) text += largestText(pairing) + " " + alikeText(pairing);
     if (answer == Answer::Saturated) text += " " + saturatedText(pairing);

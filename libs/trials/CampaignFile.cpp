@@ -1,9 +1,12 @@
+#include <hagen/avoidance/WindowSize.h>
 #include <hagen/base/Json.h>
 #include <hagen/base/ReadFile.h>
 #include <hagen/settings/Settings.h>
 #include <hagen/trials/CampaignFile.h>
 #include <hagen/trials/SettingsHash.h>
+#include <hagen/trials/TrialSensor.h>
 
+#include <set>
 #include <stdexcept>
 
 #include "Words.h"
@@ -58,6 +61,23 @@ std::vector<std::string> namesOf(const std::vector<Value>& values) {
     return names;
 }
 
+/// The filter's zone by speed; `filter` has that of the presets.
+Json zonesOf(const std::vector<std::string>& plans) {
+    std::set<double> speeds_m_s;
+    for (const std::string& plan : plans) {
+        for (const double speed_m_s : planFrom(Json::parse(plan)).speeds_m_s) {
+            speeds_m_s.insert(speed_m_s);
+        }
+    }
+    Json zones = Json::array();
+    for (const double speed_m_s : speeds_m_s) {
+        const double zone_m = static_cast<double>(
+            avoidance::perceptionRangeFor_m({speed_m_s, TrialSensor::kTurn_s, {}}));
+        zones.push_back(Json{{"speed_m_s", speed_m_s}, {"zone_m", zone_m}});
+    }
+    return zones;
+}
+
 }  // namespace
 
 std::string textOf(const CampaignPlan& plan) {
@@ -103,6 +123,7 @@ std::string textOf(const CampaignFile& campaign, const LatencyProfile& profile) 
     root["vehicle"] = Json::parse(vehicleText());
     root["sensor"] = Json::parse(sensorText());
     root["filter"] = dumpSettings(Settings{});
+    root["zones"] = zonesOf(campaign.plans);
     root["flown"] = Json::array();
     for (const std::string& plan : campaign.plans) {
         root["flown"].push_back(Json::parse(plan));

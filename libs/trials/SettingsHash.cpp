@@ -1,9 +1,11 @@
 #include <hagen/avoidance/Vehicle.h>
+#include <hagen/avoidance/WindowSize.h>
 #include <hagen/base/Json.h>
 #include <hagen/segmentation/OptionKeys.h>
 #include <hagen/segmentation/Options.h>
 #include <hagen/trials/Air.h>
 #include <hagen/trials/SettingsHash.h>
+#include <hagen/trials/TrialSensor.h>
 
 #include <array>
 #include <cstdint>
@@ -29,6 +31,17 @@ std::string filterText() {
     std::string text;
     const Options options;
     for (const OptionKey& key : optionKeys()) text += key.name + "=" + textOf(key, options) + "\n";
+    return text;
+}
+
+/// How far models see.
+std::string reachText() {
+    std::string text;
+    for (const double speed_m_s : {1, 4, 8, 10, 14, 100}) {
+        const avoidance::FlightPace pace{speed_m_s, TrialSensor::kTurn_s, {}};
+        text += std::to_string(avoidance::windowSizeFor(pace).radius_m) + " " +
+                std::to_string(avoidance::perceptionRangeFor_m(pace)) + "\n";
+    }
     return text;
 }
 
@@ -62,7 +75,7 @@ std::string sensorText() {
 
 std::string hashOfSettings(const LatencyProfile& profile) {
     return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +
-                  vehicleText() + "\n" + sensorText() + "\n" + filterText() + textOf(profile));
+                  vehicleText() + "\n" + sensorText() + "\n" + filterText() + reachText() + textOf(profile));
 }
 
 }  // namespace hagen::trials

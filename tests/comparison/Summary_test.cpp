@@ -13,7 +13,9 @@
 namespace hagen {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 using namespace test;
 
@@ -114,7 +116,29 @@ TEST(Summary, ATotalCountsACourseOnceAndTellsTheLargestScenario) {
     EXPECT_EQ(total.largest_scenario, "movers");
     EXPECT_THAT(reports::differenceText(total),
                 HasSubstr("30 of the 40 courses are of movers. 1 of 2 scenarios"));
+    EXPECT_THAT(reports::differenceText(total), StartsWith("Undecided: Over all scenarios but thin wires at"));
     EXPECT_EQ(reports::summaryCsv(summary).find("\nall,"), std::string::npos);
+    const auto shared = reports::sharedCourses(runs, summary, summary.conditions.front());
+    ASSERT_EQ(shared.size(), 1u);
+    EXPECT_EQ(shared[0].flown, 40);
+    EXPECT_EQ(shared[0].min_clearances_m[0].size(), 40u);
+
+    // Where another scenario was flown by one of them alone, the verdict names those of the total.
+    auto with_gap = runs;
+    with_gap.push_back(test::runOf("gap", 1, "W-RoI", "astar", kWon));
+    EXPECT_THAT(reports::verdictOf(reports::summarize(with_gap)),
+                Contains(StartsWith("Undecided: In movers and wires at 4 m/s")));
+
+    // Thin wires of other layouts count.
+    for (std::uint64_t seed = 100; seed < 103; ++seed) {
+        for (const char* model : {"W-RoI", "D-Full"}) {
+            with_gap.push_back(test::runOf("wires-thin", seed, model, "astar", kWon));
+        }
+    }
+    const reports::Pairing more = reports::summarize(with_gap).overall.front();
+    EXPECT_EQ(more.pairs(), 43);
+    EXPECT_EQ(more.scenarios, 3);
+    EXPECT_THAT(reports::differenceText(more), StartsWith("Undecided: Over all scenarios at"));
 
     // Without wires, thin wires count.
     runs.erase(std::remove_if(runs.begin(), runs.end(),

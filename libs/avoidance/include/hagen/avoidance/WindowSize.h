@@ -36,7 +36,7 @@ struct WindowSize {
 WindowSize windowSizeFor(const FlightPace& pace);
 
 /// How far the filter's zone reaches, and maps of a whole flight take returns: as far as the window
-/// of such a flight, so that no model sees obstacles later than another; 20 m at least, the zone of
+/// of such a flight, so that from 7.8 m/s on all models see equally far; 20 m at least, the zone of
 /// the presets. In metres.
 float perceptionRangeFor_m(const FlightPace& pace);
 

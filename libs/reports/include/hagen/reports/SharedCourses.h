@@ -7,7 +7,8 @@
 namespace hagen::reports {
 
 /// Flights of contenders with one guidance on the same courses. Medians over different courses
-/// would compare courses, not contenders.
+/// would compare courses, not contenders. Thin wires are left out where all flew the wires of the
+/// same layout, too.
 struct SharedCourses {
     trials::Condition condition;
     std::string guidance;

@@ -47,7 +47,9 @@ struct Pairing {
     trials::Contender first, second;
     int both = 0, only_first = 0, only_second = 0, neither = 0;  ///< succeeded
     int only_first_collided = 0, only_second_collided = 0;
-    int scenarios = 1;               ///< that both flew
+    int scenarios = 1;               ///< counted here
+    std::vector<std::string> of{};   ///< of several, their names
+    int repeated = 0;                ///< thin wires not counted, of layouts that wires have
     int alike_scenarios = 0;         ///< of these, scenarios without a discordant pair
     std::string largest_scenario{};  ///< of several, that with the most courses
     int largest_pairs = 0;           ///< and their number
@@ -94,8 +96,8 @@ struct Summary {
     std::vector<trials::Condition> conditions;  ///< the one with the most runs first
     std::vector<trials::Contender> contenders;  ///< A* first, W-RoI first among its models
     std::vector<Cell> cells;  ///< by condition, scenario (all scenarios last), contender
-    /// Of all scenarios together, of courses that differ: where wires were flown, without thin
-    /// wires, which hang on the same courses.
+    /// Of all scenarios together, of courses that differ: without thin wires where both flew the
+    /// wires of the same layout.
     std::vector<Pairing> overall;
     std::vector<Pairing> pairings;  ///< of each scenario
     /// W-RoI against W-Full in all scenarios except wires. Empty if wires were not flown; `overall`

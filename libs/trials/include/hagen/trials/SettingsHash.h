@@ -10,7 +10,7 @@ namespace hagen::trials {
 constexpr int kRevision = 13;
 
 /// 16 hexadecimal digits that identify all settings of a run that are not in its own row: the
-/// program's version, kRevision, vehicle, sensor errors, filter options and latencies.
+/// program's version, kRevision, vehicle, sensor errors, filter options, ranges and latencies.
 std::string hashOfSettings(const LatencyProfile& profile);
 
 /// The vehicle of all runs, as JSON.
