@@ -1,7 +1,9 @@
 // octomap-compare fly-runs: a worker process of `closedloop`.
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/trials/FlyRuns.h>
 #include <iostream>
 #include <memory>
+#include <new>
 
 #include <hagen/command_line/Interrupt.h>
 #include "Commands.h"
@@ -21,6 +23,9 @@ int run(const Flags& flags) {
         trials::flyRuns(flags.keys, trials::readLatencyProfile(flags.profile), flags.journal,
                         [] { return !isInterrupted(); });
         return 0;
+    } catch (const std::bad_alloc&) {
+        std::cerr << base::outOfMemory() << "\n";
+        return 1;
     } catch (const std::exception& e) {  // closedloop prints it
         std::cerr << e.what() << "\n";
         return 1;

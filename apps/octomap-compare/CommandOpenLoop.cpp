@@ -10,6 +10,7 @@
 
 #include <hagen/command_line/Interrupt.h>
 #include <hagen/command_line/ProgressLine.h>
+#include <hagen/command_line/Terminal.h>
 #include <hagen/openloop/OpenLoopFiles.h>
 #include <hagen/openloop/OpenLoopTable.h>
 #include "Commands.h"
@@ -37,7 +38,7 @@ std::vector<std::string> standardModels(bool has_scene) {
 }
 
 void print(std::size_t count, const std::string& what) {
-    if (count > 0) std::cerr << "octomap-compare: " << count << " " << what << "\n";
+    if (count > 0) std::cerr << "octomap-compare: " << count << " " << oneLine(what) << "\n";
 }
 
 /// Prints what is not in the figures.
@@ -46,7 +47,7 @@ void printLosses(const openloop::OpenLoopResult& result) {
     print(result.unreadable_scans,
           "scans could not be read and were skipped, the first: " + result.why_unreadable);
     for (const std::string& remark : result.remarks) {
-        std::cerr << "octomap-compare: " << remark << "\n";
+        std::cerr << "octomap-compare: " << oneLine(remark) << "\n";
     }
 }
 

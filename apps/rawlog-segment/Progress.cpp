@@ -62,7 +62,7 @@ hagen::logs::ConversionListener Progress::listener() {
 
 void Progress::tell(const std::string& entry, const std::string& what) {
     if (is_on_terminal_) std::cerr << hagen::command_line::clearLine;
-    std::cerr << input_ << ": " << entry << ": " << what << "\n";
+    std::cerr << hagen::command_line::oneLine(input_ + ": " + entry + ": " + what) << "\n";
 }
 
 void Progress::remark(const std::string& entry, const std::string& remark) {
@@ -104,10 +104,12 @@ void Progress::finish() {
     if (is_on_terminal_) std::cerr << hagen::command_line::clearLine;
     for (const auto& [text, remark] : remarks_) {
         if (remark.times < 2 || !remark.is_told) continue;
-        std::cerr << input_ << ": the same for " << remark.times - 1 << " more: " << text << "\n";
+        std::cerr << input_ << ": the same for " << remark.times - 1
+                  << " more: " << hagen::command_line::oneLine(text) << "\n";
     }
     for (const auto& [text, kind] : kinds_) {
         if (kind.untold == 0) continue;
-        std::cerr << input_ << ": and " << kind.untold << " more like this: " << kind.last << "\n";
+        std::cerr << input_ << ": and " << kind.untold
+                  << " more like this: " << hagen::command_line::oneLine(kind.last) << "\n";
     }
 }

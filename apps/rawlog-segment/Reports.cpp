@@ -2,6 +2,7 @@
 
 #include <hagen/base/Folder.h>
 #include <hagen/base/NumberText.h>
+#include <hagen/command_line/Terminal.h>
 
 #include <algorithm>
 #include <array>
@@ -104,7 +105,7 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
                   << " of an earlier run replaced\n";
     }
     for (const auto& [label, sensor] : report.sensors) {
-        std::cout << "sensor " << label << ": " << sensor << "\n";
+        std::cout << hagen::command_line::oneLine("sensor " + label + ": " + sensor) << "\n";
     }
     if (!report.poses.empty()) {
         std::cout << "poses of " << report.scans_with_pose << " of "
@@ -146,7 +147,7 @@ void printAirframe(const hagen::logs::AirframeLearning& learning,
                    const hagen::logs::AirframeReport& report) {
     const auto percent = [](double share) { return hagen::base::fixedText(100 * share, 2) + " %"; };
     std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " of '"
-              << report.sensor_label << "':\n  "
+              << hagen::command_line::oneLine(report.sensor_label) << "':\n  "
               << counted(static_cast<std::size_t>(report.bins), "bin", "bins")
               << " masked: " << percent(report.share_of_sphere) << " of the sphere, "
               << percent(report.share_of_seen) << " of the directions with returns\n";

@@ -11,6 +11,7 @@
 
 #include <hagen/command_line/CommandLine.h>
 #include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/Terminal.h>
 #include "Progress.h"
 #include "Reports.h"
 
@@ -237,6 +238,9 @@ void check(const Flags& flags) {
                          "has no other output; learn first, then segment with the file in the "
                          "settings");
     }
+    if (!conversion.poses.empty() && !flags.learned_airframe.empty()) {
+        throw UsageError("--learn-airframe", "needs no poses: leave out --poses");
+    }
     if (!(flags.learn_seconds > 0)) throw UsageError("--learn-seconds", "must be positive");
     if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes any range check
         throw UsageError("--octomap-resolution", "must be positive");
@@ -264,11 +268,12 @@ void learn(const Flags& flags) {
     logs::AirframeListener listener;
     listener.keep_going = [] { return !isInterrupted(); };
     listener.unreadable = [&](const std::string& entry, const std::string& why) {
-        std::cerr << conversion.input.string() << ": " << entry << ": left out: " << why << "\n";
+        std::cerr << oneLine(conversion.input.string() + ": " + entry + ": left out: " + why)
+                  << "\n";
     };
     listener.remark = [&](const std::string& what) {
         if (!flags.is_quiet) {
-            std::cerr << conversion.input.string() << ": the recording: " << what << "\n";
+            std::cerr << oneLine(conversion.input.string() + ": the recording: " + what) << "\n";
         }
     };
     const logs::AirframeReport report = logs::learnAirframe(learning, listener);

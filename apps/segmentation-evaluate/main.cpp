@@ -13,6 +13,7 @@
 
 #include <hagen/command_line/CommandLine.h>
 #include <hagen/command_line/Interrupt.h>
+#include <hagen/command_line/Terminal.h>
 #include <hagen/labelled_scans/Charts.h>
 #include <hagen/labelled_scans/HardSets.h>
 #include <hagen/labelled_scans/LabelledFolders.h>
@@ -199,7 +200,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     endIfInterrupted();
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
         for (const std::string& remark : summary.folder_remarks[f]) {
-            std::cerr << summary.folders[f] << ": " << remark << "\n";
+            std::cerr << summary.folders[f] << ": " << oneLine(remark) << "\n";
         }
     }
     std::cout << reportOf(summary) << std::flush;
@@ -228,8 +229,6 @@ int command(int argc, char** argv) {
             return run(flags, summary);
         } catch (const SettingsError& e) {
             return program.fail(kWrongUsage, e.what());
-        } catch (const fs::filesystem_error& e) {
-            return program.fail(kFailed, e.what());
         }
     });
 }

@@ -18,7 +18,8 @@ constexpr double kPeriod_s = 0.05;       // of OBSTACLE_DISTANCE
 constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
 constexpr std::size_t kHeartbeatEvery = 20;
 constexpr double kLongestWait_s = 0.01;
-constexpr std::size_t kMostAtOnce = 1000;  // datagrams; one who floods does not keep us from sending
+constexpr std::size_t kMostAtOnce =
+    1000;                                // datagrams; one who floods does not keep us from sending
 constexpr double kAttitudeWithin_s = 3;  // then its absence is told
 constexpr double kMostBehind_s = 0.5;    // messages that were missed are not made up for
 

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <set>
 
@@ -62,13 +63,33 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
     return files;
 }
 
+bool isOfBag(const fs::path& file) {
+    std::string ending = file.extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return ending == ".mcap" || ending == ".db3";
+}
+
+/// Files of a folder that may be recordings, too. Texts beside them are none.
+std::vector<fs::path> otherFiles(const fs::path& folder) {
+    static const std::set<std::string> texts{".yaml", ".yml", ".json", ".txt",    ".md", ".csv",
+                                             ".tum",  ".log", ".xml",  ".launch", ".sh", ".rviz"};
+    std::vector<fs::path> files;
+    for (const fs::path& file : base::entriesOf(folder)) {
+        const std::string name = file.filename().string();
+        const bool is_of_sqlite = name.find(".db3-") != std::string::npos;
+        if (fs::is_regular_file(file) && !isOfBag(file) && !is_of_sqlite && name[0] != '.' &&
+            texts.count(file.extension().string()) == 0) {
+            files.push_back(file);
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
 std::vector<fs::path> foundFiles(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const fs::path& file : base::entriesOf(folder)) {
-        const fs::path ending = file.extension();
-        if (!fs::is_directory(file) && (ending == ".mcap" || ending == ".db3")) {
-            files.push_back(file);
-        }
+        if (!fs::is_directory(file) && isOfBag(file)) files.push_back(file);
     }
     // flight_2 comes before flight_10.
     std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
@@ -129,6 +150,9 @@ BagFolder::BagFolder(const fs::path& folder) {
         remark += " is not used (" + metadata.why_none +
                   "): the .mcap and .db3 files of the folder are read in the order of their "
                   "numbers";
+    }
+    if (const auto others = otherFiles(folder); !others.empty()) {
+        remarks_.push_back("the folder has other files, which are not read: " + textOf(others));
     }
     for (const fs::path& file : files_) {
         share_before_.push_back(bytes_);

@@ -39,6 +39,36 @@ fs::path foreignPart(const fs::path& folder, const fs::path& output, const Outpu
     return {};
 }
 
+/// True if `inner` is `outer` or lies in it.
+bool isWithin(const fs::path& inner, const fs::path& outer) {
+    const auto resolved = [](const fs::path& path) {
+        const fs::path whole = fs::weakly_canonical(fs::absolute(path));
+        return whole.has_filename() ? whole : whole.parent_path();  // "folder/"
+    };
+    const fs::path below = resolved(inner), above = resolved(outer);
+    return std::mismatch(above.begin(), above.end(), below.begin(), below.end()).first ==
+           above.end();
+}
+
+/// An older folder is renamed, then removed.
+void checkMovable(const fs::path& folder) {
+    std::error_code removed;
+    const fs::path here = fs::current_path(removed);
+    if (!removed && isWithin(here, folder)) {
+        throw std::runtime_error(folder.string() +
+                                 ": the program runs in this folder, which cannot be replaced "
+                                 "meanwhile; call it from another one, or choose another name");
+    }
+    struct stat own {
+    }, outer{};
+    if (stat(folder.c_str(), &own) == 0 && stat((folder / "..").c_str(), &outer) == 0 &&
+        own.st_dev != outer.st_dev) {
+        throw std::runtime_error(folder.string() +
+                                 ": another file system begins here, so it is not replaced; choose "
+                                 "a name in it");
+    }
+}
+
 void checkReplaceable(const fs::path& path, const OutputKind& kind) {
     if (fs::is_symlink(path)) {  // such as /dev/stdout
         throw std::runtime_error(path.string() +
@@ -55,6 +85,7 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
         throw std::runtime_error(path.string() +
                                  ": not a folder, so it is not replaced; choose another name");
     }
+    checkMovable(path);
     if (kind.marker != nullptr && !entriesOf(path).empty() && !fs::exists(path / kind.marker)) {
         throw std::runtime_error(path.string() + ": has no '" + kind.marker + "', so it is not " +
                                  kind.what +
@@ -98,6 +129,7 @@ fs::path secretName(const fs::path& path, const std::string& mark) {
 /// File systems that cannot do so (EINVAL) are taken as they are.
 void syncFile(const fs::path& file, const fs::path& named) {
     const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0 && errno == EACCES) return;  // its owner does not allow to read
     if (descriptor < 0) throwWriteError(named, errno);
     const int error = fsync(descriptor) == 0 ? 0 : errno;
     close(descriptor);
@@ -201,22 +233,18 @@ bool isLeftBehind(const fs::path& file, const std::string& output) {
     return number == getpid() || !mayWrite(number, file);
 }
 
-/// True if `inner` is `outer` or lies in it.
-bool isWithin(const fs::path& inner, const fs::path& outer) {
-    const auto resolved = [](const fs::path& path) {
-        const fs::path whole = fs::weakly_canonical(fs::absolute(path));
-        return whole.has_filename() ? whole : whole.parent_path();  // "folder/"
-    };
-    const fs::path below = resolved(inner), above = resolved(outer);
-    return std::mismatch(above.begin(), above.end(), below.begin(), below.end()).first ==
-           above.end();
-}
-
 }  // namespace
 
 OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     : path_(std::move(path)), kind_(kind), overwrites_(overwrite) {
-    if (!path_.has_filename()) path_ = path_.parent_path();  // "folder/"
+    if (!path_.has_filename()) {  // "folder/"
+        if (kind_.holds == nullptr) {
+            throw std::runtime_error(path_.string() +
+                                     ": ends like the name of a folder, but will be a file; leave "
+                                     "out the '/'");
+        }
+        path_ = path_.parent_path();
+    }
     checkFree();
     const fs::path folder = fs::absolute(path_).lexically_normal().parent_path();
     if (!fs::is_directory(folder)) {
@@ -280,7 +308,12 @@ void OutputPath::commit() {
 /// Gives the output its name. Returns where an older folder is now, if there was one.
 fs::path OutputPath::replace(bool is_folder) const {
     if (!is_folder || !fs::is_directory(path_)) {
-        fs::rename(temporary_, path_);
+        std::error_code error;
+        fs::rename(temporary_, path_, error);
+        if (error) {
+            throw std::runtime_error(path_.string() + ": cannot be replaced: " + error.message() +
+                                     "; choose another name");
+        }
         return {};
     }
     // rename() does not replace a non-empty folder. Exchanged, the name always has one of the two.
@@ -391,17 +424,19 @@ std::string leftBehind(const std::vector<fs::path>& outputs) {
     return "earlier runs that broke off left " + names + "; delete what you do not need";
 }
 
-void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs,
+                const std::string& role) {
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->empty()) continue;
         for (const fs::path& input : inputs) {
             if (input.empty()) continue;
             if (isWithin(input, *output)) {
-                throw std::runtime_error(output->string() +
-                                         ": is or contains the input; choose another output");
+                throw std::runtime_error(output->string() + ": is or contains " + role +
+                                         "; choose another output");
             }
             if (fs::exists(*output) && isWithin(*output, input)) {
-                throw std::runtime_error(output->string() + ": is in the input " + input.string() +
+                throw std::runtime_error(output->string() + ": is in " + role + " " +
+                                         input.string() +
                                          " and may be a part of it, so it is not replaced; choose "
                                          "another output");
             }

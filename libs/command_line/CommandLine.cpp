@@ -365,7 +365,7 @@ Command Program::subcommand(const std::string& name, const std::string& help) {
 }
 
 int Program::fail(int exit_code, const std::string& message) const {
-    std::cerr << name_ << ": " << message << "\n";
+    std::cerr << name_ << ": " << oneLine(message) << "\n";
     return exit_code;
 }
 
@@ -415,10 +415,9 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     }
 }
 
-std::string Program::messageOf(const std::exception& e) const {
+std::string Program::messageOf(const std::exception& e) {
     if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr) {
-        return "out of memory: more than the " + std::to_string(memory_gb_) +
-               " GB of --memory-limit";
+        return base::outOfMemory();
     }
     if (const auto* of_file = dynamic_cast<const fs::filesystem_error*>(&e)) {
         return of_file->path1().string() + ": " + of_file->code().message();

@@ -73,6 +73,12 @@ void keepTerminalSafe() {
     std::cerr.rdbuf(err);
 }
 
+std::string oneLine(std::string message) {
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    std::replace_if(message.begin(), message.end(), is_control, '?');
+    return message;
+}
+
 std::ostream& clearLine(std::ostream& out) {
     if (auto* const buffer = dynamic_cast<PrintableBuffer*>(out.rdbuf())) {
         buffer->clearLine();

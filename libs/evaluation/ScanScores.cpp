@@ -68,7 +68,7 @@ ScanScores scoreScan(const GroundTruthScan& scan, const std::vector<Label>& foun
         const auto kind = kinds.find(number);
         if (kind == kinds.end()) {
             throw std::invalid_argument("class " + std::to_string(number) +
-                                        " has no name; add a line for it");
+                                        " has no name in the label map; add a line for it");
         }
         scores.by_kind[kind->second.name] += of_kind;
     }

@@ -159,8 +159,7 @@ std::vector<std::string> LabelledFolder::remarks() const {
         remarks.push_back("has no times.txt, so that " + poses + " is not used");
     } else if (with_pose_ < read_) {
         remarks.push_back(poses + " has poses of " + std::to_string(with_pose_) + " of the " +
-                          std::to_string(read_) +
-                          " scans; the others are " +
+                          std::to_string(read_) + " scans; the others are " +
                           (settings_.tiltOnLevelVehicle() ? "levelled by the mount only"
                                                           : "not levelled by an attitude"));
     }

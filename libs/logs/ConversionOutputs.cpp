@@ -1,5 +1,6 @@
 #include "ConversionOutputs.h"
 
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/logs/ScanFolder.h>
 #include <hagen/logs/Statistics.h>
 #include <hagen/observations/Mount.h>
@@ -251,8 +252,8 @@ std::string ConversionOutputs::whatFailed() {
         if (!is_given_up_[part]) return;
         text += text.empty() ? "" : "; ";
         text += !why_[part].empty() ? why_[part]
-                : part == kMap      ? pathOf(part).string() + ": out of memory; use larger voxels"
-                                    : pathOf(part).string() + ": out of memory";
+                                    : pathOf(part).string() + ": " + base::outOfMemory() +
+                                          (part == kMap ? "; or use larger voxels" : "");
         if (!hasWholeParts(part)) return;
         try {
             if (part == kFolders) finishFolders();

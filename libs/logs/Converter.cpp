@@ -1,6 +1,7 @@
 #include "Converter.h"
 
 #include <hagen/bags/BagFile.h>
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/logs/PoseFile.h>
 #include <hagen/logs/RawlogReader.h>
@@ -496,7 +497,7 @@ void Converter::keepWhatThereIs() {
     } catch (const Interrupted& e) {
         throw Interrupted(e.what() + kept);
     } catch (const std::bad_alloc&) {
-        throw std::runtime_error(conversion_.input.string() + ": out of memory" + kept);
+        throw std::runtime_error(conversion_.input.string() + ": " + base::outOfMemory() + kept);
     } catch (const TooManySensors& e) {
         throw std::runtime_error(conversion_.input.string() + ": " + e.what() + kept);
     } catch (const std::exception& e) {

@@ -30,7 +30,7 @@ std::string whyNone(const std::filesystem::path& file) {
     const base::FileKind kind = base::kindOfFile(file);
     const std::string known = kind.text();
     // PackedInput has unpacked these.
-    const bool is_packed = kind.what.rfind("packed by", 0) == 0;
+    const bool is_packed = kind.what == "packed by gzip" || kind.what == "packed by zstd";
     if (is_packed) return "it is " + kind.what + ", and inside is no rawlog; " + kind.advice;
     return (known.empty() ? "its first bytes are none of a kind that is known" : known) +
            ". Known are rawlogs, captures (.pcap, .pcapng), ROS recordings (.bag, .mcap, .db3) and "

@@ -1,3 +1,4 @@
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/logs/MapOutput.h>
 #include <hagen/mapping/MapFile.h>
 #include <hagen/observations/Deskew.h>
@@ -93,7 +94,7 @@ void MapOutput::write() {
         try {
             mapping::saveMapInPlace(map_.tree(), file.temporary(), file.path());
         } catch (const std::bad_alloc&) {
-            giveUp(file, file.path().string() + ": out of memory");
+            giveUp(file, file.path().string() + ": " + base::outOfMemory());
         } catch (const std::runtime_error& e) {
             giveUp(file, e.what());
         }

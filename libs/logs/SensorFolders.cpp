@@ -31,7 +31,9 @@ SensorFolders::SensorFolders(const fs::path& folder, const base::OutputKind& kin
 const fs::path& SensorFolders::folderOf(const std::string& sensor_label) {
     fs::path& folder = folders_[sensor_label];
     if (folder.empty()) {
-        folder = path_.temporary() / fileName(sensor_label);
+        std::string name = fileName(sensor_label);
+        if (marker_ != nullptr && name == marker_) name += "_";
+        folder = path_.temporary() / name;
         while (!fs::create_directory(folder)) folder += "_";  // name already taken
     }
     return folder;

@@ -1,3 +1,4 @@
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/base/ProcessCost.h>
 #include <hagen/logs/RawlogReader.h>
 #include <hagen/logs/ScanFolder.h>
@@ -123,7 +124,7 @@ class Run {
         } catch (const SettingsError&) {
             throw;
         } catch (const std::bad_alloc&) {
-            why_ended_ = "out of memory";
+            why_ended_ = base::outOfMemory();
         } catch (const std::exception& e) {  // what was scored before is kept
             why_ended_ = e.what();
         }

@@ -73,7 +73,7 @@ void TurnRecorder::checkNumbers() const {
 
 void TurnRecorder::openNext() {
     writing_ = nextName();
-    base::checkApart({writing_}, options_.others);
+    base::checkApart({writing_}, options_.others, "another file of the session");
     writer_.emplace(writing_, options_.overwrite);
 }
 

@@ -40,8 +40,8 @@ bool isRepeated(const std::vector<trials::Contender>& contenders, const Courses&
     return first != course && !flightsOf(contenders, courses, first).empty();
 }
 
-SharedCourses sharedBy(const std::vector<trials::Contender>& contenders,
-                       const Courses& courses, const trials::Condition& condition) {
+SharedCourses sharedBy(const std::vector<trials::Contender>& contenders, const Courses& courses,
+                       const trials::Condition& condition) {
     SharedCourses shared;
     shared.condition = condition;
     shared.guidance = contenders.front().guidance;

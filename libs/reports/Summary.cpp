@@ -145,8 +145,7 @@ std::vector<Pairing> pairingsOf(const SharedFlights& shared, const trials::Condi
     std::map<std::string, Pairing> by_scenario;
     for (const auto& [course, runs] : shared) {
         const Pairing none{course.first, condition, comparison.first, comparison.second};
-        count(*runs.first, *runs.second,
-              by_scenario.try_emplace(course.first, none).first->second);
+        count(*runs.first, *runs.second, by_scenario.try_emplace(course.first, none).first->second);
     }
     std::vector<Pairing> pairings;
     for (auto& [scenario, pairing] : by_scenario) {
@@ -212,7 +211,8 @@ void addPairings(const Flights& flights, Summary& summary) {
             }
         }
         for (const Comparison& gap : gapsOf(summary.contenders, present)) {
-            const std::vector<Pairing> each = pairingsOf(sharedFlights(flights, condition, gap), condition, gap);
+            const std::vector<Pairing> each =
+                pairingsOf(sharedFlights(flights, condition, gap), condition, gap);
             summary.to_oracle.insert(summary.to_oracle.end(), each.begin(), each.end());
         }
         for (const trials::Contender& with_motion : present) {

@@ -1,18 +1,26 @@
 #include "Embree.h"
 
+#include <new>
 #include <stdexcept>
 #include <string>
 
 namespace hagen::simulation {
 namespace {
 
-void throwError(void*, RTCError, const char* message) {
+void throwError(void*, RTCError error, const char* message) {
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
     throw std::runtime_error(std::string("Embree: ") + message);
 }
 
 RTCDevice newDevice() {
     const RTCDevice device = rtcNewDevice("threads=1,isa=avx2");
-    if (device == nullptr) throw std::runtime_error("Embree does not start");
+    if (device == nullptr) {
+        const RTCError error = rtcGetDeviceError(nullptr);
+        if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+        throw std::runtime_error(error == RTC_ERROR_UNSUPPORTED_CPU
+                                     ? "Embree does not start: this processor has no AVX2"
+                                     : "Embree does not start: error " + std::to_string(error));
+    }
     rtcSetDeviceErrorFunction(device, throwError, nullptr);
     return device;
 }

@@ -75,7 +75,8 @@ std::string sensorText() {
 
 std::string hashOfSettings(const LatencyProfile& profile) {
     return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +
-                  vehicleText() + "\n" + sensorText() + "\n" + filterText() + reachText() + textOf(profile));
+                  vehicleText() + "\n" + sensorText() + "\n" + filterText() + reachText() +
+                  textOf(profile));
 }
 
 }  // namespace hagen::trials

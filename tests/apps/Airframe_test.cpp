@@ -261,6 +261,8 @@ TEST_F(AirframeMask, RefusesFlagsThatDoNotGoWithLearning) {
     expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml"), "-o", path("out")}, 2,
                   "learn first");
     expectFailure({"-i", kRecording, "--learn-airframe", path("a.txt")}, 2, ".yaml");
+    expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml"), "--poses", kRecording}, 2,
+                  "needs no poses");
     expectFailure({"-i", kRecording, "-o", path("out"), "--learn-seconds", "5"}, 2,
                   "--learn-airframe");
     expectFailure({"--learn-airframe", path("a.yaml")}, 2, "--input");

@@ -214,6 +214,31 @@ TEST_F(RawlogSegmentTrouble, LabelsSendNoControlCharactersBeyondAscii) {
     EXPECT_THAT(outcome.err, HasSubstr("Ö\xc2?2J?2J\u65e5"));
 }
 
+/// What a label says is no message of the program.
+TEST_F(RawlogSegmentTrouble, LabelsBeginNoLines) {
+    const auto log = logOf(folder_, 1, [](int, CObservationVelodyneScan& scan) {
+        scan.sensorLabel = "a\nrawlog-segment: all is lost";
+    });
+    for (const std::string label : {"", "zz"}) {
+        const auto outcome = run({"-i", log, "-o", path("out" + label), "--sensor-label",
+                                  label.empty() ? "a\nrawlog-segment: all is lost" : label});
+        EXPECT_EQ(outcome.exit_code, label.empty() ? 0 : 1);
+        EXPECT_THAT(outcome.out + outcome.err, HasSubstr("a?rawlog-segment: all is lost"));
+        EXPECT_THAT(outcome.out + outcome.err, Not(HasSubstr("\nrawlog-segment: all")));
+    }
+}
+
+/// The name of the file by which a folder is known as one of an earlier run.
+TEST_F(RawlogSegmentTrouble, ALabelThatIsTheNameOfTheMarkerCostsNothing) {
+    const auto log = logOf(folder_, 4, [](int i, CObservationVelodyneScan& scan) {
+        scan.sensorLabel = i % 2 == 0 ? "front" : "made_by.txt";
+    });
+    const auto outcome = run({"-i", log, "--clouds", path("clouds")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(fs::is_regular_file(path("clouds/made_by.txt")));
+    EXPECT_TRUE(fs::is_directory(path("clouds/made_by.txt_")));
+}
+
 /// The summary of a sensor, and that of an airframe.
 TEST_F(RawlogSegmentTrouble, SummariesSendNothingToTheTerminal) {
     const auto log = logOf(folder_, 12, [](int, CObservationVelodyneScan& scan) {
@@ -393,7 +418,7 @@ TEST_F(RawlogSegmentTrouble, MoreMemoryThanAllowedIsNamed) {
         run({"-i", kRecording, "-o", path("out.rawlog"), "--memory-limit", "0.06", "--octomap",
              path("map.bt"), "--octomap-resolution", "0.03", "--poses", still(scansOfRecording())});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("out of memory"));
+    EXPECT_THAT(outcome.err, HasSubstr("out of memory (--memory-limit: 0.06 GB)"));
     expectFailure({"-i", kRecording, "-o", path("other.rawlog"), "--memory-limit", "0"}, 2,
                   "--memory-limit");
 }

@@ -586,7 +586,7 @@ TEST_F(SegmentationEvaluate, NamesKindsAndClassesThatHaveNoName) {
     const std::string map = folder_.write("map.yaml", "1: {name: soil, label: 1}\n");
     expectFailure({"-i", pole, "--label-map", map}, 1, "class 4 is not in the label map");
     folder_.write("pole/kinds.yaml", "1: {name: terrain, label: 1}\n");
-    expectFailure({"-i", pole}, 1, "class 4 has no name");
+    expectFailure({"-i", pole}, 1, "class 4 has no name in the label map");
     folder_.write("pole/kinds.yaml", "1: terrain\n");
     expectFailure({"-i", pole}, 1, "kinds.yaml:1: name and label are expected");
     fs::remove(folder_ / "pole/kinds.yaml");

@@ -489,6 +489,17 @@ TEST_F(BagFolderTest, FilesThatAreNotListedOrListedAgainAreTold) {
                                        "each is read once")));
 }
 
+TEST_F(BagFolderTest, OtherRecordingsOfTheFolderAreTold) {
+    for (const char* name : {"a.rawlog", "b.bag", "c.pcap", "readme.txt", "bag_8.db3-wal"}) {
+        test::writeBytes(folder_ / "bag" / name, "x");
+    }
+    fs::rename(folder_ / "bag/bag_10.mcap", folder_ / "bag/bag_10.MCAP");
+    EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));
+    EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
+                testing::ElementsAre("the folder has other files, which are not read: 'a.rawlog', "
+                                     "'b.bag', 'c.pcap'"));
+}
+
 TEST_F(BagFolderTest, AFolderWithoutFilesIsNamed) {
     fs::create_directory(folder_ / "none");
     EXPECT_THAT(readAll(folder_ / "none").broken_because,

@@ -147,6 +147,28 @@ TEST(OutputPath, AFolderThatAppearsMeanwhileIsNotReplaced) {
     EXPECT_EQ(output.keepPartial(), folder / "scans.partial");  // already
 }
 
+TEST(OutputPath, AFolderThatCannotBeRenamedIsRefusedAtOnce) {
+    const OutputKind any{"a folder", [](const fs::path&) { return true; }};
+    const test::TemporaryFolder folder;
+    fs::create_directories(folder / "scans/velodyne");
+    const fs::path before = fs::current_path();
+    fs::current_path(folder / "scans/velodyne");
+    for (const fs::path& here : {fs::path(".."), folder / "scans", fs::path("../../scans/")}) {
+        EXPECT_THAT(test::messageOf([&] { OutputPath(here, any, true); }),
+                    HasSubstr("the program runs in this folder"));
+    }
+    EXPECT_EQ(test::messageOf([&] { OutputPath("../../other", any, true); }), "");
+    fs::current_path(before);
+    EXPECT_THAT(test::messageOf([&] { OutputPath("/proc", any, true); }),
+                HasSubstr("/proc: another file system begins here"));
+}
+
+TEST(OutputPath, AFileDoesNotEndInASlash) {
+    const test::TemporaryFolder folder;
+    EXPECT_THAT(test::messageOf([&] { OutputPath(folder.path().string() + "/a/", kFile, true); }),
+                HasSubstr("/a/: ends like the name of a folder"));
+}
+
 TEST(OutputPath, WhatIsInAnInputIsNotReplaced) {
     const test::TemporaryFolder folder;
     fs::create_directories(folder / "in/velodyne");

@@ -116,7 +116,8 @@ TEST(Summary, ATotalCountsACourseOnceAndTellsTheLargestScenario) {
     EXPECT_EQ(total.largest_scenario, "movers");
     EXPECT_THAT(reports::differenceText(total),
                 HasSubstr("30 of the 40 courses are of movers. 1 of 2 scenarios"));
-    EXPECT_THAT(reports::differenceText(total), StartsWith("Undecided: Over all scenarios but thin wires at"));
+    EXPECT_THAT(reports::differenceText(total),
+                StartsWith("Undecided: Over all scenarios but thin wires at"));
     EXPECT_EQ(reports::summaryCsv(summary).find("\nall,"), std::string::npos);
     const auto shared = reports::sharedCourses(runs, summary, summary.conditions.front());
     ASSERT_EQ(shared.size(), 1u);

@@ -270,6 +270,9 @@ TEST(Rawlog, WhatIsNoRawlogIsRefused) {
     const std::string garbage = "just some text, and more of it than a header";
     EXPECT_THAT(readAll(folder.write("text.rawlog", garbage)).second,
                 AllOf(HasSubstr("text.rawlog: is no recording: "), HasSubstr("Known are rawlogs")));
+    const auto packed = folder.write("log.bz2", "BZh91AY&SY");
+    EXPECT_THAT(readAll(packed).second,
+                HasSubstr("is no recording: it seems to be packed by bzip2: unpack it first"));
     // Behind an entry, it is a recording.
     Bytes entry;
     serialise(comment("first"), entry);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 
 namespace hagen::base {
 
@@ -10,5 +11,8 @@ std::uint64_t machineBytes();
 /// bringing the machine to a halt. What is mapped from files does not count. Without effect under
 /// the address and thread sanitizers, whose own memory exceeds any limit.
 void limitMemory(std::uint64_t bytes);
+
+/// "out of memory", and which limit there is, if any.
+std::string outOfMemory();
 
 }  // namespace hagen::base

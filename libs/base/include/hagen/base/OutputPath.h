@@ -26,7 +26,8 @@ class OutputPath {
  public:
     /// Throws std::runtime_error if the path exists and `overwrite` is not set, or if its parent
     /// folder is missing. Existing paths of another type are never replaced (a folder for a file, a
-    /// device, a folder with files of any other type): throws as well. The message names the path.
+    /// device, a folder with files of any other type): throws as well. So are folders that cannot
+    /// be: where the program runs, and mount points. The message names the path.
     OutputPath(std::filesystem::path path, const OutputKind& kind, bool overwrite);
     /// Removes the temporary file unless commit() or keepPartial() was called.
     ~OutputPath();
@@ -85,8 +86,10 @@ std::string withOutputNames(std::string message);
 std::string leftBehind(const std::vector<std::filesystem::path>& outputs);
 
 /// Throws std::runtime_error if an output is an input, contains an input, exists within an input,
-/// or lies in another output; the message names both. Empty paths are ignored.
+/// or lies in another output; the message names both. Empty paths are ignored. `role`: what the
+/// inputs are.
 void checkApart(const std::vector<std::filesystem::path>& outputs,
-                const std::vector<std::filesystem::path>& inputs);
+                const std::vector<std::filesystem::path>& inputs,
+                const std::string& role = "the input");
 
 }  // namespace hagen::base

@@ -121,7 +121,7 @@ class Program : public Command {
     /// Prints a message after the program's name; returns the exit code.
     int fail(int exit_code, const std::string& message) const;
     /// What run() says of an exception.
-    std::string messageOf(const std::exception& e) const;
+    static std::string messageOf(const std::exception& e);
 
  private:
     explicit Program(std::unique_ptr<CLI::App> app, std::string name);

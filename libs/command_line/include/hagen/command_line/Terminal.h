@@ -1,5 +1,6 @@
 #pragma once
 #include <ostream>
+#include <string>
 
 namespace hagen::command_line {
 
@@ -7,6 +8,10 @@ namespace hagen::command_line {
 /// labels, file names and messages come from files, which could otherwise send commands to the
 /// terminal.
 void keepTerminalSafe();
+
+/// A message without control characters: text of a recording, such as the label of a sensor, begins
+/// no line of its own.
+std::string oneLine(std::string message);
 
 /// Erases the current line of a terminal. The only command that keepTerminalSafe() lets through.
 std::ostream& clearLine(std::ostream& out);
