@@ -58,6 +58,10 @@ void declareAutopilot(command_line::Program& app, AutopilotFlags& flags) {
     app.flag("--no-ground", flags.has_no_ground, "does not send the distance of the ground below")
         .needs(peer)
         .group("Autopilot");
+    app.flag("--simulated-vehicle", flags.is_simulated,
+             "the vehicle is simulated: its clock may pause, or be slower than ours")
+        .needs(peer)
+        .group("Autopilot");
 }
 
 void checkAutopilot(const AutopilotFlags& flags) {
@@ -85,6 +89,7 @@ std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& fl
     link.peer = mavlink::parsePeer(flags.peer);
     link.system = static_cast<std::uint8_t>(flags.system);
     link.has_ground = !flags.has_no_ground;
+    link.is_simulated = flags.is_simulated;
     link.nearest = static_cast<std::size_t>(flags.nearest);
     const Eigen::AngleAxisd yaw(-radians(flags.sensor_yaw_deg), Eigen::Vector3d::UnitZ());
     link.surroundings.vehicle_from_sensor = yaw * levelFromSensor(settings.mount).cast<double>();

@@ -17,7 +17,7 @@ struct AutopilotFlags {
     int system = 1, nearest = 5;
     double sensor_yaw_deg = 0;
     std::optional<float> height_m;
-    bool has_no_ground = false;
+    bool has_no_ground = false, is_simulated = false;
 };
 
 void declareAutopilot(command_line::Program& app, AutopilotFlags& flags);

@@ -36,7 +36,8 @@ class AutopilotLink::Work {
     Work(Settings settings, Remark remark)
         : settings_(std::move(settings)),
           remark_(std::move(remark)),
-          peer_(mavlink::Peer::open(settings_.peer)) {}
+          peer_(mavlink::Peer::open(settings_.peer)),
+          motion_(settings_.is_simulated) {}
     ~Work() { stop(); }
 
     void begin(const SensorModel& sensor, Limits limits) {

@@ -59,14 +59,15 @@ void checkMovable(const fs::path& folder) {
                                  ": the program runs in this folder, which cannot be replaced "
                                  "meanwhile; call it from another one, or choose another name");
     }
-    struct stat own {
-    }, outer{};
-    if (stat(folder.c_str(), &own) == 0 && stat((folder / "..").c_str(), &outer) == 0 &&
-        own.st_dev != outer.st_dev) {
-        throw std::runtime_error(folder.string() +
-                                 ": another file system begins here, so it is not replaced; choose "
-                                 "a name in it");
-    }
+}
+
+/// A name at which a file system, a folder or a file is mounted cannot be renamed.
+void checkNotMounted(const fs::path& path, const char* advice) {
+    struct statx own {};
+    if (statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, 0, &own) != 0) return;
+    if ((own.stx_attributes & own.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) == 0) return;
+    throw std::runtime_error(path.string() + ": is a mount point, so it is not replaced; " +
+                             advice);
 }
 
 void checkReplaceable(const fs::path& path, const OutputKind& kind) {
@@ -79,6 +80,7 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
             throw std::runtime_error(path.string() +
                                      ": not a file, so it is not replaced; choose another name");
         }
+        checkNotMounted(path, "choose another name");
         return;
     }
     if (!fs::is_directory(path)) {
@@ -86,6 +88,7 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
                                  ": not a folder, so it is not replaced; choose another name");
     }
     checkMovable(path);
+    checkNotMounted(path, "choose a name in it");
     if (kind.marker != nullptr && !entriesOf(path).empty() && !fs::exists(path / kind.marker)) {
         throw std::runtime_error(path.string() + ": has no '" + kind.marker + "', so it is not " +
                                  kind.what +

@@ -1,3 +1,4 @@
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/base/OutputSet.h>
 #include <algorithm>
 #include <exception>
@@ -25,7 +26,7 @@ void OutputSet::attempt(Member& member, const std::function<void()>& step) {
     try {
         return step();
     } catch (const std::bad_alloc&) {
-        why = "out of memory";
+        why = outOfMemory();
     } catch (const std::exception& e) {
         why = e.what();
     }

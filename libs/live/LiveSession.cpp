@@ -128,6 +128,7 @@ class Session {
     void tellUncertain();
     void tellSilence(double now_s);
     bool tellBehind();
+    void tellReturn();
     void copyCounts();
     void showStatus(double now_s);
 
@@ -218,11 +219,13 @@ void Session::leaveOut(const Packet& packet) {
     if (last_return_s_ > 0) last_return_s_ += packet.arrival_s - last_packet_s_;
     last_packet_s_ = packet.arrival_s;
     ++left_out_;
+    tellReturn();
+    if (recorder_) recorder_->add(packet);
+    if (report_.datagrams == 0) return;  // what came while the session began says nothing
     if (keeps_up_ >= kKeepsUp) {
         listener_.remark("labelling is too slow: packets that waited are left out (\"dropped\")");
     }
     keeps_up_ = 0;
-    if (recorder_) recorder_->add(packet);
 }
 
 /// After a packet was left out: perhaps since the mode of an Ouster is not that of its metadata.
@@ -249,16 +252,20 @@ void Session::tellChanges() {
         is_uncertain_ = false;
         listener_.remark("the sensor turns with the columns of its metadata again");
     }
-    if (is_silent_) {
-        is_silent_ = false;
-        last_return_s_ = last_packet_s_;
-        listener_.remark("packets come again");
-    }
+    tellReturn();
     const std::size_t changes = sensor_->counts().mode_changes;
     if (changes == report_.mode_changes) return;
     report_.mode_changes = changes;
     listener_.remark(sensor_->isDual() ? "the sensor sends two returns per firing now"
                                        : "the sensor sends one return per firing now");
+}
+
+/// After a silence.
+void Session::tellReturn() {
+    if (!is_silent_) return;
+    is_silent_ = false;
+    last_return_s_ = last_packet_s_;
+    listener_.remark("packets come again");
 }
 
 void Session::copyCounts() {

@@ -65,7 +65,7 @@ class UdpPeer : public Peer {
                                      reinterpret_cast<sockaddr*>(&from), &from_size);
         if (got > 0) {
             // From anybody: what came before the socket was connected stays in its queue.
-            if (from.sin_addr.s_addr != to_.sin_addr.s_addr || from.sin_port != to_.sin_port) {
+            if (from.sin_addr.s_addr != peer_.sin_addr.s_addr || from.sin_port != peer_.sin_port) {
                 return 0;
             }
             error_ = 0;
@@ -103,6 +103,9 @@ class UdpPeer : public Peer {
     void tryToConnect() {
         is_connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to_), sizeof to_) == 0;
         if (!is_connected_) note(errno);
+        socklen_t size = sizeof peer_;
+        // Not always to_: 0.0.0.0 means this machine.
+        if (getpeername(socket_, reinterpret_cast<sockaddr*>(&peer_), &size) != 0) peer_ = {};
         heard_or_connected_ = Clock::now();
     }
     /// Keeps the port, by which the peer knows us.
@@ -114,7 +117,8 @@ class UdpPeer : public Peer {
         if (connect(socket_, reinterpret_cast<const sockaddr*>(&none), sizeof none) != 0) return;
         is_connected_ = false;
         own.sin_addr.s_addr = INADDR_ANY;
-        bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own);  // fails if it still is
+        // Fails if it still is.
+        static_cast<void>(bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own));
     }
     void note(int error) {
         if (error == EAGAIN || error == EINTR) return;
@@ -123,7 +127,7 @@ class UdpPeer : public Peer {
     }
 
     std::string name_;
-    sockaddr_in to_{};
+    sockaddr_in to_{}, peer_{};  ///< asked for; connected to, at last
     int socket_ = -1, error_ = 0;
     bool is_connected_ = false;
     Clock::time_point error_time_, heard_or_connected_;

@@ -92,6 +92,7 @@ Json json(const Pairing& pairing) {
             {"difference", number(pairing.difference)},
             {"interval", json(pairing.interval)},
             {"scenarios", pairing.scenarios},
+            {"thin_wires_left_out", pairing.repeated},
             {"scenarios_without_difference", pairing.alike_scenarios},
             {"p", number(pairing.p)},
             {"least_p", number(pairing.least_p)},

@@ -55,6 +55,14 @@ std::string largestText(const Pairing& pooled) {
            std::to_string(pooled.pairs()) + " courses are of " + pooled.largest_scenario + ".";
 }
 
+/// Where some courses of thin wires are counted and others are not.
+std::string repeatedText(const Pairing& pooled) {
+    if (pooled.repeated == 0 || isWithoutThinWires(pooled)) return "";
+    return " " + counted(pooled.repeated, "course") +
+           " of thin wires with the layout of counted wires " +
+           (pooled.repeated == 1 ? "is" : "are") + " left out.";
+}
+
 std::string alikeText(const Pairing& pooled) {
     if (pooled.alike_scenarios == 0) {
         return "In each of the " + std::to_string(pooled.scenarios) +
@@ -142,7 +150,9 @@ std::string differenceText(const Pairing& pairing) {
                                             : "over all scenarios ") +
                text;
     text = (answer == Answer::Undecided ? "Undecided: " : "") + capital(text);
-    if (pairing.scenarios > 1) text += largestText(pairing) + " " + alikeText(pairing);
+    if (pairing.scenarios > 1) {
+        text += largestText(pairing) + repeatedText(pairing) + " " + alikeText(pairing);
+    }
     if (answer == Answer::Saturated) text += " " + saturatedText(pairing);
     if (answer == Answer::NotInferior) {
         text += std::string(" Not inferior") + (pairing.scenarios > 1 ? " in total" : "") +

@@ -67,7 +67,8 @@ void CampaignFolder::open(bool overwrite) {
     if (found.settings_hash != settingsHash()) {
         throw std::runtime_error(
             folder_.string() +
-            ": contains runs with other settings (profile, version, filter or vehicle); choose "
+            ": contains runs with other settings (profile, version, filter, vehicle or ranges); "
+            "choose "
             "another folder, give the profile of this one, or use --overwrite");
     }
     campaign_ = std::move(found);

@@ -160,7 +160,7 @@ TEST(OutputPath, AFolderThatCannotBeRenamedIsRefusedAtOnce) {
     EXPECT_EQ(test::messageOf([&] { OutputPath("../../other", any, true); }), "");
     fs::current_path(before);
     EXPECT_THAT(test::messageOf([&] { OutputPath("/proc", any, true); }),
-                HasSubstr("/proc: another file system begins here"));
+                HasSubstr("/proc: is a mount point"));
 }
 
 TEST(OutputPath, AFileDoesNotEndInASlash) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -38,8 +37,14 @@ std::string onTerminal(const std::function<void()>& write) {
 }
 
 /// A busy machine may take more than no time.
-std::string withoutSeconds(const std::string& text) {
-    return std::regex_replace(text, std::regex("about [0-9]+ s"), "about N s");
+std::string withoutSeconds(std::string text) {
+    const std::string before = "about ";
+    for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
+        at += before.size();
+        const std::size_t end = text.find_first_not_of("0123456789", at);
+        if (end > at && text.compare(end, 2, " s") == 0) text.replace(at, end - at, "N");
+    }
+    return text;
 }
 
 std::string clearing() {

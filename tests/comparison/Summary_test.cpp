@@ -139,6 +139,9 @@ TEST(Summary, ATotalCountsACourseOnceAndTellsTheLargestScenario) {
     const reports::Pairing more = reports::summarize(with_gap).overall.front();
     EXPECT_EQ(more.pairs(), 43);
     EXPECT_EQ(more.scenarios, 3);
+    EXPECT_EQ(more.repeated, 10);
+    EXPECT_THAT(reports::differenceText(more),
+                HasSubstr(" 10 courses of thin wires with the layout of counted wires are left "));
     EXPECT_THAT(reports::differenceText(more), StartsWith("Undecided: Over all scenarios at"));
 
     // Without wires, thin wires count.

@@ -127,6 +127,18 @@ TEST(UdpPeer, SendsAndReceives) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
+/// 0.0.0.0 is this machine, which answers from 127.0.0.1. What others send is not the peer's.
+TEST(UdpPeer, HearsItsPeerAlone) {
+    Socket other;
+    const auto peer = Peer::open(parsePeer("udp:0.0.0.0:" + std::to_string(other.port())));
+    EXPECT_TRUE(peer->send({1}));
+    EXPECT_EQ(other.receive(), Bytes{1});
+    const auto stranger = peerAt(other.fromPort());
+    EXPECT_TRUE(stranger->send({9}));
+    other.answer({2});
+    EXPECT_EQ(received(*peer), Bytes{2});
+}
+
 /// After two seconds it looks for another way to the peer, and is the same to it.
 TEST(UdpPeer, GoesOnFromTheSamePortIfNothingComesBack) {
     Socket other;

@@ -29,9 +29,10 @@ class AutopilotLink {
  public:
     struct Settings {
         mavlink::PeerAddress peer;
-        std::uint8_t system = 1;  ///< of the vehicle, and ours
-        std::size_t nearest = 5;  ///< obstacles that are sent one by one
-        bool has_ground = true;   ///< whether the ground below is sent
+        std::uint8_t system = 1;    ///< of the vehicle, and ours
+        std::size_t nearest = 5;    ///< obstacles that are sent one by one
+        bool has_ground = true;     ///< whether the ground below is sent
+        bool is_simulated = false;  ///< the vehicle's clock may pause, or be slower than ours
         Surroundings::Settings surroundings;
     };
     /// What was sent and received so far, by name.

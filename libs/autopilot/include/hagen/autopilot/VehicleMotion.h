@@ -33,6 +33,10 @@ class VehicleMotion {
  public:
     enum class Taken { Attitude, Place, Other, Refused };
 
+    /// A simulated vehicle's clock may pause, and be slower than ours.
+    explicit VehicleMotion(bool is_simulated) : clock_(is_simulated) {}
+    VehicleMotion() = default;
+
     /// Takes a message that came at `arrival_s`. Refused: a value is not finite, or a quaternion is
     /// no rotation.
     Taken take(const mavlink::Frame& frame, double arrival_s);

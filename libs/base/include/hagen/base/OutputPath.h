@@ -26,8 +26,8 @@ class OutputPath {
  public:
     /// Throws std::runtime_error if the path exists and `overwrite` is not set, or if its parent
     /// folder is missing. Existing paths of another type are never replaced (a folder for a file, a
-    /// device, a folder with files of any other type): throws as well. So are folders that cannot
-    /// be: where the program runs, and mount points. The message names the path.
+    /// device, a folder with files of any other type): throws as well. So are mount
+    /// points, and the folder in which the program runs. The message names the path.
     OutputPath(std::filesystem::path path, const OutputKind& kind, bool overwrite);
     /// Removes the temporary file unless commit() or keepPartial() was called.
     ~OutputPath();
