@@ -19,6 +19,9 @@ function(hagen_target target)
   if(HAGEN_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE})
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # warns of members of std::optional and std::regex then
+      target_compile_options(${target} PUBLIC -Wno-maybe-uninitialized)
+    endif()
   endif()
 endfunction()
 

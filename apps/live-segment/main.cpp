@@ -168,6 +168,13 @@ std::string summaryOf(const live::LiveReport& r) {
 /// What failed in a session; empty: nothing.
 std::string failureOf(const live::LiveReport& report, const live::LiveOptions& options) {
     std::string failure = report.recorded.failure;
+    const live::Recorded& recorded = report.recorded;
+    if (failure.empty() && recorded.left_out + recorded.packets_left_out > 0) {
+        failure = options.recording.file.string() +
+                  ": is not all that was labelled: " + std::to_string(recorded.left_out) +
+                  " turns and " + std::to_string(recorded.packets_left_out) +
+                  " packets came faster than they were recorded";
+    }
     if (!report.stats_failure.empty()) {
         failure += (failure.empty() ? "" : "; ") + report.stats_failure;
     }
@@ -221,7 +228,11 @@ int run(const Program& program, Flags& flags) {
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
         std::unique_ptr<autopilot::AutopilotLink> link;
-        std::string failure;
+        std::string failure, left;  // by earlier runs
+        try {
+            left = base::leftBehind({flags.live.recording.file, flags.live.stats});
+        } catch (const std::filesystem::filesystem_error&) {  // told by what opens it
+        }
         int failed = kFailed;
         try {
             link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
@@ -241,7 +252,6 @@ int run(const Program& program, Flags& flags) {
             printer.print(line.instead(), "");
             failure = program.messageOf(e);
         }
-        const std::string left = base::leftBehind({flags.live.recording.file, flags.live.stats});
         if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
         if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");
         if (!printer.finish()) {

@@ -38,6 +38,10 @@ int run(const Flags& flags) {
     if (!seeds || seeds->second < seeds->first) {
         throw UsageError("--seeds", "'" + flags.seeds + "' is not a seed or a range A-B");
     }
+    constexpr std::uint64_t kMostSeeds = 1000000;
+    if (seeds->second - seeds->first >= kMostSeeds) {
+        throw UsageError("--seeds", "'" + flags.seeds + "' has more than 1 million seeds");
+    }
     namespace fs = std::filesystem;
     std::optional<base::OutputPath> csv, markdown;
     if (!flags.folder.empty()) {

@@ -154,12 +154,12 @@ class AutopilotLink::Work {
         const std::optional<VehiclePose> pose = motion.at(time_s);
         const double latest_s = surroundings.latest_s();
         watch(latest_s, time_s);
-        if (std::all_of(directions.begin(), directions.end(), [](const Direction& each) {
-                return each.state == Direction::State::Unknown;
-            })) {
+        const bool is_all_unknown = std::all_of(
+            directions.begin(), directions.end(),
+            [](const Direction& each) { return each.state == Direction::State::Unknown; });
+        if (send(obstacleDistance(directions, limits_, time_s), sent_distance_) && is_all_unknown) {
             count(all_unknown_);
         }
-        send(obstacleDistance(directions, limits_, time_s), sent_distance_);
         if (period % kOthersEvery == 0) {
             const auto obstacles = numbers_.nearest(directions, settings_.nearest, pose);
             for (const auto& message : obstacleDistances3d(obstacles, pose, limits_, time_s)) {
@@ -230,12 +230,14 @@ class AutopilotLink::Work {
     }
 
     template <class Message>
-    void send(const Message& message, std::size_t& sent) {
+    bool send(const Message& message, std::size_t& sent) {
         mavlink::Frame frame = mavlink::frameOf(message);
         frame.sequence = sequence_++;
         frame.system = settings_.system;
         frame.component = mavlink::kComponentObstacleAvoidance;
-        count(peer_->send(encode(frame, Message::kBytes)) ? sent : not_sent_);
+        const bool is_sent = peer_->send(encode(frame, Message::kBytes));
+        count(is_sent ? sent : not_sent_);
+        return is_sent;
     }
 
     void count(std::size_t& number) {

@@ -36,6 +36,23 @@ class Utf8Filter {
     bool is_latin_ = false;  ///< it is one from U+0080 to U+00BF
 };
 
+/// Replaces marks that reverse or break what follows on a line: a message could be disguised.
+/// U+0080 to U+009F, U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, in UTF-8.
+void hideOverrides(std::string& text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+        if (byte(i) == 0xc2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xa0) {
+            text.replace(i, 2, "??");
+        } else if (byte(i) == 0xe2 && i + 2 < text.size()) {
+            const unsigned char last = byte(i + 2);
+            const bool is_mark = (byte(i + 1) == 0x80 && (last == 0x8e || last == 0x8f ||  //
+                                                          (last >= 0xa8 && last <= 0xae))) ||
+                                 (byte(i + 1) == 0x81 && last >= 0xa6 && last <= 0xa9);
+            if (is_mark) text.replace(i, 3, "???");
+        }
+    }
+}
+
 /// Passes text on to the buffer of a standard stream.
 class PrintableBuffer : public std::streambuf {
  public:
@@ -53,6 +70,7 @@ class PrintableBuffer : public std::streambuf {
     }
     std::streamsize xsputn(const char* text, std::streamsize size) override {
         std::string safe(text, static_cast<std::size_t>(size));
+        hideOverrides(safe);
         Utf8Filter filter;  // several threads may print
         for (char& c : safe) c = filter.printable(c);
         return stream_->sputn(safe.data(), size);

@@ -145,6 +145,7 @@ class Session {
     std::size_t uncertain_ = 0, restarts_ = 0;  ///< those that were told
     bool is_uncertain_ = false;
     bool is_flushed_ = true, is_silent_ = false, is_empty_ = false, is_recording_told_ = false;
+    bool is_slow_recording_told_ = false;
     std::size_t foreign_ip_ = 0;
     std::size_t left_out_ = 0, left_out_before_ = 0;  ///< until now, until the last status
     int keeps_up_ = kKeepsUp;                         ///< statuses
@@ -337,6 +338,10 @@ void Session::look(bool is_idle) {
         is_flushed_ = true;
     }
     tellSilence(heard_s);
+    if (recorder_ && recorder_->leavesOut() && !is_slow_recording_told_) {
+        is_slow_recording_told_ = true;
+        listener_.remark("recording is too slow: packets are not recorded");
+    }
     if (recorder_ && !is_recording_told_) {
         const std::string failure = recorder_->failure();
         if (!failure.empty()) {

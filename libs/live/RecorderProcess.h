@@ -30,6 +30,8 @@ class RecorderProcess {
     void add(const Packet& packet);
     /// Why recording ended early, naming the file; empty: it goes on.
     std::string failure() const;
+    /// Whether packets came faster than it took them.
+    bool leavesOut() const { return left_out_ > 0; }
     /// Has it complete its file, and returns what became of it.
     Recorded finish();
 

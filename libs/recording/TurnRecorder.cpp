@@ -40,32 +40,65 @@ std::filesystem::path TurnRecorder::nextName() {
                                  options_.file.extension().string());
 }
 
+/// Of NAME.0001.EXTENSION.
+std::optional<std::size_t> TurnRecorder::numberOf(const std::filesystem::path& file) const {
+    const std::string stem = options_.file.stem().string() + ".";
+    const std::string extension = options_.file.extension().string();
+    const std::string name = file.filename().string();
+    if (name.size() <= stem.size() + extension.size() || name.compare(0, stem.size(), stem) != 0 ||
+        file.extension() != extension) {
+        return std::nullopt;
+    }
+    return base::numberFrom<std::size_t>(
+        name.substr(stem.size(), name.size() - stem.size() - extension.size()));
+}
+
+/// Whether a file, which need not exist, would be a part of this recording.
+bool TurnRecorder::isNumbered(const std::filesystem::path& file) const {
+    const auto folderOf = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal().parent_path();
+    };
+    return options_.rotate_bytes > 0 && !file.empty() && numberOf(file) &&
+           folderOf(file) == folderOf(options_.file);
+}
+
 /// The numbered files that are there already, by number.
 std::map<std::size_t, std::filesystem::path> TurnRecorder::numbered() const {
     std::map<std::size_t, std::filesystem::path> files;
     if (options_.rotate_bytes == 0) return files;
-    const std::string stem = options_.file.stem().string() + ".";
-    const std::string extension = options_.file.extension().string();
     const std::filesystem::path folder = options_.file.parent_path();
     std::error_code none;
     for (const auto& file : base::entriesOf(folder.empty() ? "." : folder, none)) {
-        const std::string name = file.filename().string();
-        if (name.size() <= stem.size() + extension.size() ||
-            name.compare(0, stem.size(), stem) != 0 || file.extension() != extension) {
-            continue;
-        }
-        const auto number = base::numberFrom<std::size_t>(
-            name.substr(stem.size(), name.size() - stem.size() - extension.size()));
-        if (number) files.emplace(*number, file);
+        if (const auto number = numberOf(file)) files.emplace(*number, file);
     }
     return files;
 }
 
 /// Before anything is recorded: a number that is taken would end the recording in flight.
 void TurnRecorder::checkNumbers() const {
-    if (options_.overwrite) return;
     const auto files = numbered();
-    if (files.empty()) return;
+    for (const std::filesystem::path& other : options_.others) {
+        for (const auto& [number, file] : files) {
+            std::error_code none;
+            if (std::filesystem::equivalent(file, other, none)) {
+                throw std::runtime_error(file.string() +
+                                         ": is another file of the session, and would be a part of "
+                                         "this recording; choose another name");
+            }
+        }
+        if (isNumbered(other)) {
+            throw std::runtime_error(other.string() +
+                                     ": has the name of a part of this recording; choose another "
+                                     "name");
+        }
+    }
+    for (const auto& [number, file] : files) {
+        if (std::filesystem::is_regular_file(std::filesystem::symlink_status(file))) continue;
+        throw std::runtime_error(file.string() +
+                                 ": is no file, so no part of this recording can have its name; "
+                                 "choose another one");
+    }
+    if (options_.overwrite || files.empty()) return;
     throw std::runtime_error(files.begin()->second.string() +
                              ": exists; it would be a part of this recording (--overwrite replaces "
                              "such files)");

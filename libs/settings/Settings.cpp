@@ -187,6 +187,8 @@ struct Includes {
 
 void mergeFile(const fs::path& file, Includes& includes, Settings& settings);
 
+constexpr std::size_t kLongestName = 4000;
+
 void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& includes,
                    Settings& settings) {
     if (includes.depth >= kDeepestInclude) {
@@ -202,8 +204,12 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
                 at(file, node) + "includes '" + name +
                 "'; settings of a recording include files of their own folder only");
         }
+        if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos) {
+            throw SettingsError(at(file, node) + "an entry of 'include' is no file name");
+        }
         fs::path included = file.parent_path() / name;
-        if (!fs::exists(included)) {
+        std::error_code none;
+        if (!fs::exists(included, none)) {
             const fs::path preset = findPreset(name);
             if (preset.empty()) {
                 throw SettingsError(at(file, node) + "includes " + included.string() +
@@ -211,7 +217,7 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
             }
             included = preset;
         }
-        if (!fs::is_regular_file(included)) {
+        if (!fs::is_regular_file(included, none)) {
             throw SettingsError(at(file, node) + "includes " + included.string() +
                                 ", which is no file");
         }

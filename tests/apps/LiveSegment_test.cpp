@@ -167,8 +167,9 @@ TEST_F(LiveSegment, NoOutputReplacesAnInputOrAnother) {
     const auto outcome = run(with(with(sensor_, rotated), {"-q", "--overwrite", "--speed", "50",
                                                            "--replay", path("a.0002.rawlog")}));
     EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("would be a part of this recording"));
     EXPECT_TRUE(test::readFile(path("a.0002.rawlog")) == before);
-    EXPECT_TRUE(fs::exists(path("a.0001.rawlog")));
+    EXPECT_FALSE(fs::exists(path("a.0001.rawlog")));
 }
 
 TEST_F(LiveSegment, ARecordingThatCannotBeWrittenCostsNoStatistics) {

@@ -129,6 +129,20 @@ TEST_F(TurnRecorderTest, NumbersThatAreTakenAreToldBeforeItBegins) {
     EXPECT_THAT(counts.older_files, ElementsAre(folder_ / "a.0005.rawlog"));
 }
 
+TEST_F(TurnRecorderTest, NamesThatNoPartCanHaveAreToldBeforeItBegins) {
+    auto options = optionsOf("a.rawlog");
+    options.rotate_bytes = 150000;
+    options.overwrite = true;
+    options.others = {"", folder_ / "a.0007.rawlog", folder_ / "b.0001.rawlog"};
+    const auto refusal = [&] { return test::messageOf([&] { TurnRecorder(options, {}); }); };
+    EXPECT_THAT(refusal(), HasSubstr("a.0007.rawlog: has the name of a part"));
+    options.others.clear();
+    fs::create_directory(folder_ / "a.0003.rawlog");
+    EXPECT_THAT(refusal(), HasSubstr("a.0003.rawlog: is no file"));
+    fs::remove(folder_ / "a.0003.rawlog");
+    EXPECT_EQ(refusal(), "");
+}
+
 TEST_F(TurnRecorderTest, AfterAKillTheFileIsReadable) {
     const pid_t child = fork();
     if (child == 0) {

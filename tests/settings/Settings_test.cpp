@@ -199,6 +199,16 @@ TEST_F(SettingsTest, IncludeThatIsMissingOrGoesInACircleIsRefused) {
     EXPECT_THROW(mergeSettings(circle, settings), SettingsError);
 }
 
+TEST_F(SettingsTest, IncludesThatAreNoNamesAreTold) {
+    for (const std::string& include : {std::string("[vlp16, [hdl32e]]"), std::string("[{}]"),
+                                       std::string("\"vlp16\\0\""), std::string(5000, 'a')}) {
+        EXPECT_TRUE(says(refusalOf("include: " + include),
+                         "refused.yaml:1: an entry of 'include' is no file name"))
+            << include;
+    }
+    EXPECT_TRUE(says(refusalOf("include: " + std::string(300, 'a')), "does not exist"));
+}
+
 TEST_F(SettingsTest, AMisspeltKeyIsNamedWithTheNearestKnownOneAndItsLine) {
     const std::string message = refusalOf("zone_m: 20\nbeta_dge: 10\n");
     EXPECT_TRUE(says(message, "refused.yaml:2:")) << message;

@@ -52,6 +52,8 @@ class TurnRecorder {
 
  private:
     std::filesystem::path nextName();
+    std::optional<std::size_t> numberOf(const std::filesystem::path& file) const;
+    bool isNumbered(const std::filesystem::path& file) const;
     std::map<std::size_t, std::filesystem::path> numbered() const;
     void checkNumbers() const;
     void openNext();
