@@ -280,7 +280,10 @@ TEST_F(AutopilotLinkTest, MessagesDoNotWaitWhileItIsBehind) {
         autopilot_.send(mavlink::frameOf(attitude));
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const double end_s = now_s() + 2;
+    while (count("attitude") < 90 && now_s() < end_s) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     EXPECT_GE(count("attitude"), 90u);
 }
 
