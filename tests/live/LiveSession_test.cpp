@@ -347,26 +347,27 @@ TEST_F(LiveSessionTest, WhatHasWaitedForTooLongIsNotLabelled) {
     const LiveReport report = run(source);
     EXPECT_EQ(report.packets + report.dropped, 21u * 76);
     EXPECT_GT(report.dropped, 19u * 76);
-    EXPECT_GE(report.packets, 76u);
+    EXPECT_GE(report.packets, 20u);  // all that the first sector had are four
     EXPECT_EQ(report.silences, 0u);
     EXPECT_THAT(remarks_, testing::ElementsAre(HasSubstr("packets that waited are left out")));
 }
 
 TEST_F(LiveSessionTest, LabelsThatAreTooSlowAreToldAndNoOtherSpeedOfTheMotor) {
+    std::vector<std::vector<std::string>> turns;
+    for (std::uint32_t k = 0; k < 22; ++k) turns.push_back(turnsOf(1, 1000000 + 100000 * k));
     GivenPackets source;
-    for (std::uint32_t turn = 0; turn < 17; ++turn) {
-        source.addAll(turnsOf(1, 1000000 + 100000 * turn)).pause(0.1);
-    }
+    source.later(0.3);  // a busy machine may be late by so much
+    for (const auto& turn : turns) source.addAll(turn).later(0.1).pause(0.1);
     source.asSensor();
     LiveListener listener;
     std::size_t sectors = 0, dropped = 0;
     listener.remark = [&](const std::string& remark) { remarks_.push_back(remark); };
     listener.sector = [&](const auto&) {
-        if (++sectors > 150) std::this_thread::sleep_for(std::chrono::milliseconds(15));
+        if (++sectors > 100) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     };
     listener.status = [&](const LiveReport& report, const auto&) { dropped = report.dropped; };
     const LiveReport report = runLive(source, options_, listener);
-    EXPECT_EQ(report.packets + report.dropped, 17u * 76);
+    EXPECT_EQ(report.packets + report.dropped, 22u * 76);
     EXPECT_GT(dropped, 76u);
     EXPECT_EQ(report.rate_changes, 0u);
     EXPECT_THAT(remarks_, Contains(HasSubstr("labelling is too slow")));
