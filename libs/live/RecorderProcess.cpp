@@ -267,8 +267,7 @@ std::string RecorderProcess::howItEnded() {
     const double start_s = steadyNow_s(), longest_s = std::min(kDeath_s, patience_s_);
     while (end.si_pid == 0 && steadyNow_s() < killed_s_ + kDeath_s) {
         end = waitFor(process_, false, WNOHANG);
-        if (end.si_pid == 0 && errno == ECHILD) break;  // somebody else took its status
-        if (end.si_pid != 0) break;
+        if (end.si_pid != 0 || errno == ECHILD) break;  // somebody else may take its status
         std::this_thread::sleep_for(kLook);
         if (why_ended_ == nullptr && steadyNow_s() > start_s + longest_s) {
             endIt("closed its socket, stayed for ", longest_s);

@@ -49,7 +49,8 @@ SharedCourses sharedBy(const std::vector<trials::Contender>& contenders, const C
     shared.min_clearances_m.resize(contenders.size());
     std::vector<std::vector<const trials::Run*>> flown(contenders.size()),
         arrived(contenders.size()), reacted(contenders.size());
-    for (const auto& [course, by_contender] : courses) {
+    for (const auto& entry : courses) {
+        const CourseKey& course = entry.first;
         const std::vector<const trials::Run*> flights = flightsOf(contenders, courses, course);
         if (flights.empty() || isRepeated(contenders, courses, course)) continue;
         const bool all_arrived = allOf(flights, [](const trials::TrialResult& r) {

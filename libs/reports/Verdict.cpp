@@ -47,8 +47,7 @@ std::vector<Pairing> pooledPairings(const Summary& summary, const trials::Condit
     return pooled;
 }
 
-/// How much of a total is saturated.
-/// Empty if all scenarios have as many courses.
+/// The scenario that a total has most of. Empty if all scenarios have as many courses.
 std::string largestText(const Pairing& pooled) {
     if (pooled.largest_pairs * pooled.scenarios == pooled.pairs()) return "";
     return " " + std::to_string(pooled.largest_pairs) + " of the " +
@@ -63,6 +62,7 @@ std::string repeatedText(const Pairing& pooled) {
            (pooled.repeated == 1 ? "is" : "are") + " left out.";
 }
 
+/// How much of a total is saturated.
 std::string alikeText(const Pairing& pooled) {
     if (pooled.alike_scenarios == 0) {
         return "In each of the " + std::to_string(pooled.scenarios) +
