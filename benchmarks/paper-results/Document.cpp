@@ -6,13 +6,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <numeric>
 
 #include "DroneSection.h"
 #include "HardSection.h"
 #include "LeftOutSection.h"
 #include "Rows.h"
 #include "Sums.h"
+#include "selection/SelectionTables.h"
 #include "support/Processor.h"
 #include "support/Tables.h"
 
@@ -33,12 +34,10 @@ std::string dataSection(const std::vector<Measured>& all, const Provenance& prov
     for (const auto seed : provenance.seeds)
         seeds += (seeds.empty() ? "" : ", ") + std::to_string(seed);
     return "## Data\n\n" + table.text() + "Simulated flights have the seeds " + seeds +
-           " (ours was tuned on other seeds, 1 and 2), roll and pitch with 4 degrees standard "
-           "deviation, and one scan every 6 s. The poses of a flight provide the attitude; "
-           "only `default` uses it. Both our own stages and the baselines' `tuned` rows were "
-           "tuned on the recordings.\n\n" +
+           " (tuning used seeds 1 and 2), roll and pitch with a standard deviation of 4 degrees, "
+           "and one scan every 6 s. Only `default` uses the attitude.\n\n" +
            (those(all, [](const DataSet& set) { return set.flights.empty(); }).empty()
-                ? "There are no real scans, because `HAGEN_LABELLED_DATA` was not set.\n\n"
+                ? "Without real scans: `HAGEN_LABELLED_DATA` was not set.\n\n"
                 : "");
 }
 
@@ -99,27 +98,20 @@ std::string intervalTable(const std::vector<Measured>& all) {
     return table.text();
 }
 
-/// Lists the methods with higher scores than a filter, per data set.
-std::string losses(const std::vector<Measured>& all, const std::string& filter) {
+/// Lists the methods with higher scores than `default`, per data set.
+std::string losses(const std::vector<Measured>& all) {
     std::string text;
     for (const Measured& measured : all) {
-        const evaluation::Scores own = sumOf({&measured}, filter);
+        const evaluation::Scores own = sumOf({&measured}, kDefault);
         std::string better;
         for (const std::string& name : headlineNames(all)) {
-            if (name == filter || name == kDefault) continue;  // `default` is known to be better
             const evaluation::Scores other = sumOf({&measured}, name);
-            const bool is_roi = other.roi.f1() > own.roi.f1();
-            const bool is_rou = other.rou.f1() > own.rou.f1();
-            if (!is_roi && !is_rou) continue;
-            better += (better.empty() ? "" : "; ") + name + " (" +
-                      (is_roi && is_rou ? "both"
-                       : is_roi         ? "RoI"
-                                        : "ROU") +
-                      ")";
+            if (other.roi.f1() > own.roi.f1() || other.rou.f1() > own.rou.f1())
+                better += (better.empty() ? "" : ", ") + name;
         }
-        if (!better.empty()) text += "- " + measured.set.name + ": " + better + "\n";
+        if (!better.empty()) text += (text.empty() ? "" : "; ") + measured.set.name + ": " + better;
     }
-    return text.empty() ? "- none\n" : text;
+    return text;
 }
 
 /// PCL is optional.
@@ -127,29 +119,20 @@ std::string pclNote(const std::vector<Measured>& all) {
     for (const std::string& name : headlineNames(all)) {
         if (name.rfind("pcl", 0) == 0) return "";
     }
-    return "The Point Cloud Library was not installed, so its rows are missing.\n\n";
+    return "Without the rows of the Point Cloud Library, which was not installed.\n\n";
 }
 
 std::string headlineSection(const std::vector<Measured>& all) {
     return "## Comparison with other methods\n\n"
-           "`paper` is the filter as we read the paper "
-           "(`config/paper.yaml`; [paper.md](paper.md) lists other readings), `default` is ours "
-           "(`config/vlp16.yaml`, `hdl32e.yaml` or "
-           "`hdl64e.yaml`, depending on the sensor). The other methods are described in "
-           "[baselines.md](baselines.md). Their `tuned` rows were tuned on the same real "
-           "scans that are scored here, which favours them on these scans. The same is true "
-           "of `default`, which was also tuned on simulated flights with other seeds: its "
-           "figures on real scans are **in-sample** here. Bold marks the highest score of a "
-           "row.\n\n" +
+           "`paper` is our reading of the paper (`config/paper.yaml`; [other "
+           "readings](paper.md)), `default` are our presets (`config/vlp16.yaml`, `hdl32e.yaml` "
+           "or `hdl64e.yaml`, depending on the sensor). [baselines.md](baselines.md) describes "
+           "the other methods. `default` and the `tuned` rows were tuned on these real scans, so "
+           "their scores there are **in-sample**. Bold marks the highest score of a row.\n\n" +
            headlineTable(all) + pclNote(all) + wiresTable(all) +
-           "Intervals are from a bootstrap over drives (real scans) or flights (simulated "
-           "ones), because the scans of one are similar. With six drives, such an interval is "
-           "still somewhat narrow, and the figures of the real scans are in-sample; [the left-out "
-           "ones](#scores-on-drives-that-were-left-out) are not.\n\n" +
-           intervalTable(all) +
-           "Other methods with a higher F1 than `paper`, for RoI, ROU or both:\n\n" +
-           losses(all, kPaper) + "\nMethods with a higher F1 than `default`:\n\n" +
-           losses(all, kDefault) + "\n![F1 of RoI of each scan](results/by_scan.svg)\n\n";
+           "Intervals are from a bootstrap over drives or flights. With six drives, they are "
+           "somewhat too narrow.\n\n" +
+           intervalTable(all) + "![F1 of RoI of each scan](results/by_scan.svg)\n\n";
 }
 
 // ---- the paper's tables
@@ -194,76 +177,71 @@ std::string sweepTable(const std::vector<Measured>& all, const std::vector<Chang
     return table.text() + "Highest F1: " + peaks + ".\n\n";
 }
 
-std::string literalTable(const std::vector<Measured>& all) {
-    Table table({"F1 of RoI / ROU", "`seeds: lowest`", "`seeds: top_and_nearest`"});
-    for (const Measured& measured : all) {
-        if (!measured.set.has_all_rows) continue;
-        const evaluation::Scores chosen = sumOf({&measured}, kPaper);
-        const evaluation::Scores literal = sumOf({&measured}, nameOf(kPaper, literalSeeds()));
-        table.add({measured.set.name, pairCell(chosen.roi.f1(), chosen.rou.f1()),
-                   pairCell(literal.roi.f1(), literal.rou.f1())});
-    }
-    return table.text();
-}
-
 std::string paperSection(const std::vector<Measured>& all) {
     return "## The paper's tables\n\n"
-           "The paper varies beta and PC of the filter and scores "
-           "the region of interest over fifty hand-labelled camera images. We do not have "
-           "these images, and the cells of its tables are not reproduced here. It "
-           "reports the best scores at beta = 10 degrees and PC = 5, and 25 ms per scan on a "
-           "laptop. The tables below repeat the variation on other data: `real` is "
-           "SemanticKITTI at 16 beams, `simulated` are the flights at 1.5, 2.5 and 4 m. W is "
-           "8, so PC = 8 means no smoothing.\n\nOver returns:\n\n" +
+           "The paper varies beta and PC and scores RoI over fifty hand-labelled camera images, "
+           "which we do not have. It reports the best scores at beta = 10 degrees and PC = 5. "
+           "Here the scans are `real` (SemanticKITTI at 16 beams) and `simulated` (the flights "
+           "at 1.5, 2.5 and 4 m). W is 8, so PC = 8 means no smoothing.\n\nOver returns:\n\n" +
            sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::returns) +
            sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::returns) +
            "Over the pixels of a forward-looking camera (`config/camera_forward.yaml`), as in "
            "the paper:\n\n" +
            sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::pixels) +
-           sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::pixels) +
-           "According to one reading of the paper's text, the topmost and the nearest pixel "
-           "of a column seed the region of interest. This table compares that reading with "
-           "the one that the filter uses:\n\n" +
-           literalTable(all);
+           sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::pixels);
 }
 
 // ---- run times
 
-/// Lists the methods with a lower median than a filter.
-std::string fasterThan(const std::string& filter, const Measured& times) {
-    const double own_ms = evaluation::latencyOf(times.row(filter)->latency_ms).p50_ms;
-    std::string names;
-    for (const evaluation::MethodScores& method : times.methods) {
-        const bool is_faster = evaluation::latencyOf(method.latency_ms).p50_ms < own_ms;
-        if (is_faster) names += (names.empty() ? "" : ", ") + method.name;
-    }
-    return "Faster than `" + filter + "`, by p50: " + (names.empty() ? "none" : names) + ".\n\n";
+std::size_t meanReturns(const Measured& times) {
+    const std::size_t sum =
+        std::accumulate(times.returns.begin(), times.returns.end(), std::size_t{0});
+    return sum / std::max<std::size_t>(times.scans(), 1);
 }
 
-std::string timeTable(const Measured& times) {
-    Table table({"`" + times.set.name + "`", "mean +- sd [ms]", "p50", "p95", "p99"});
-    for (const evaluation::MethodScores& method : times.methods) {
-        const evaluation::Latency latency = evaluation::latencyOf(method.latency_ms);
-        table.add({method.name, cell(latency.mean_ms, 2) + " +- " + cell(latency.sd_ms, 2),
-                   cell(latency.p50_ms, 2), cell(latency.p95_ms, 2), cell(latency.p99_ms, 2)});
+std::string timeTable(const std::vector<Measured>& all) {
+    std::vector<std::string> heads{"p50 / p95 [ms]"}, returns{"returns per scan"};
+    for (const Measured& times : all) {
+        heads.push_back(times.set.name);
+        returns.push_back(std::to_string(meanReturns(times)));
     }
-    std::size_t returns = 0;
-    for (const std::size_t count : times.returns) returns += count;
-    return std::to_string(times.scans()) + (times.scans() == 1 ? " scan with " : " scans with ") +
-           std::to_string(returns / std::max<std::size_t>(times.scans(), 1)) +
-           " returns on average:\n\n" + table.text() + fasterThan(kPaper, times) +
-           fasterThan(kDefault, times);
+    Table table(heads);
+    table.add(returns);
+    for (const evaluation::MethodScores& method : all.front().methods) {
+        std::vector<std::string> line{method.name};
+        for (const Measured& times : all) {
+            const evaluation::Latency latency =
+                evaluation::latencyOf(times.row(method.name)->latency_ms);
+            line.push_back(cell(latency.p50_ms, 2) + " / " + cell(latency.p95_ms, 2));
+        }
+        table.add(line);
+    }
+    return table.text();
+}
+
+Table allTimes(const std::vector<Measured>& all) {
+    Table table({"data", "scans", "returns per scan", "method", "mean [ms]", "sd [ms]", "p50 [ms]",
+                 "p95 [ms]", "p99 [ms]"});
+    for (const Measured& times : all) {
+        for (const evaluation::MethodScores& method : times.methods) {
+            const evaluation::Latency latency = evaluation::latencyOf(method.latency_ms);
+            table.add({times.set.name, std::to_string(times.scans()),
+                       std::to_string(meanReturns(times)), method.name, cell(latency.mean_ms, 2),
+                       cell(latency.sd_ms, 2), cell(latency.p50_ms, 2), cell(latency.p95_ms, 2),
+                       cell(latency.p99_ms, 2)});
+        }
+    }
+    return table;
 }
 
 std::string timeSection(const std::vector<Measured>& all) {
-    std::string text =
-        "## Run time\n\n"
-        "Run time of the call that labels a scan, in one thread. All "
-        "methods process the same scans in the same run, after one warm-up call. The paper "
-        "reports 25 ms per scan on a laptop. For fewer than a hundred scans, p99 is the "
-        "maximum.\n\n";
-    for (const Measured& times : all) text += timeTable(times);
-    return text + "![Run time over the number of returns](results/by_returns.svg)\n\n";
+    return "## Run time\n\n"
+           "Run time of the call that labels a scan, in one thread, after one warm-up call. All "
+           "methods process the same scans in the same run. The paper reports 25 ms per scan on "
+           "a laptop. With few scans, p95 is the maximum.\n\n" +
+           timeTable(all) +
+           "[Mean, standard deviation and p99](results/run_time.csv).\n\n"
+           "![Run time over the number of returns](results/by_returns.svg)\n\n";
 }
 
 // ---- ablation
@@ -280,9 +258,9 @@ Pair ablationPair(const Measured& set, const std::string& row) {
 }
 
 /// One row per change; scores above those of the first row are bold.
-std::string ablationTable(const std::vector<Measured>& all, const std::string& first_what,
-                          const std::string& first_row, const std::string& filter,
-                          const std::vector<std::vector<Change>>& groups) {
+Table ablationTable(const std::vector<Measured>& all, const std::string& first_what,
+                    const std::string& first_row, const std::string& filter,
+                    const std::vector<std::vector<Change>>& groups) {
     const Sets sets = those(all, [](const DataSet& set) { return set.has_all_rows; });
     std::vector<std::string> heads{"F1 of RoI / ROU"}, first_line{first_what};
     for (const Measured* set : sets) {
@@ -304,22 +282,24 @@ std::string ablationTable(const std::vector<Measured>& all, const std::string& f
             table.add(line);
         }
     }
-    return table.text();
+    return table;
 }
 
 std::string ablationSection(const std::vector<Measured>& all) {
     return "## Ablation\n\n"
-           "The `default` filter with one stage removed at a time: first our "
-           "stages, then those of the paper. Bold scores are higher without the stage. If "
-           "nearly every row equals that of `default`, as with the stages of the paper, the "
-           "ground surface compensates for what was removed.\n\n" +
+           "`default` with one stage removed at a time: first our stages, then those of the "
+           "paper. Bold scores are higher without the stage.\n\n" +
            ablationTable(
                all, "`default`", kDefault, kDefault,
-               {ownStagesOfSurface(), ownStages(), paperStages(), paperStagesUnderSurface()}) +
-           "The ground surface relabels every pixel and thus hides the effect of earlier "
-           "stages. The same without the surface, and therefore also without canopy layer, "
-           "extension of obstacles to the ground, speckle filter and tolerances:\n\n" +
-           ablationTable(all, "no ground surface", nameOf(kDefault, ownStagesOfSurface().front()),
+               {ownStagesOfSurface(), ownStages(), paperStages(), paperStagesUnderSurface()})
+               .text() +
+           "The ground surface relabels every pixel and thus hides the effect of earlier stages. "
+           "[The ablation without it](results/ablation_without_surface.csv) also lacks canopy "
+           "layer, extension to the ground, speckle filter and tolerances.\n\n";
+}
+
+Table ablationWithoutSurface(const std::vector<Measured>& all) {
+    return ablationTable(all, "no ground surface", nameOf(kDefault, ownStagesOfSurface().front()),
                          kWithoutSurface, {ownStages(), paperStages()});
 }
 
@@ -344,21 +324,36 @@ std::string provenanceSection(const Provenance& provenance) {
 
 std::string documentOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
                        const Provenance& provenance) {
+    const std::string better = losses(scores);
     return "<!-- Made by scripts/reproduce-paper, which replaces it. -->\n"
-           "# Results\n\n"
-           "RoI is "
-           "the region of interest (what a drone must avoid), ROU the region of uninterest. "
-           "Unless stated otherwise, scores are F1 over all returns up to 20 m; "
-           "[evaluation.md](evaluation.md) defines them. This page and its figures are "
-           "written by `scripts/reproduce-paper`.\n\n" +
-           std::string(
-               provenance.is_quick
-                   ? "**A quick run with few scans, to check that it works: do not cite.**\n\n"
-                   : "") +
+           "# Segmentation results\n\n" +
+           std::string(provenance.is_quick
+                           ? "**A quick run with few scans, to check that it works: do not "
+                             "cite.**\n\n"
+                           : "") +
+           (provenance.selection ? "- Mean F1 of RoI / ROU on held-out real drives: " +
+                                       selection::meanList(*provenance.selection) + ".\n"
+                                 : "") +
+           (better.empty() ? "- No other method has a higher F1 than `default` on any data set; on "
+                             "real scans, `default` is in-sample.\n\n"
+                           : "- Methods with a higher F1 than `default`: " + better + ".\n\n") +
+           "RoI is the region of interest (what a drone must avoid), ROU the region of "
+           "uninterest. Scores are F1 over all returns up to 20 m unless stated otherwise "
+           "([definitions](evaluation.md)).\n\n" +
            leftOutSection(scores, provenance.selection) + headlineSection(scores) +
            droneSection(scores) + hardSection(scores) + paperSection(scores) + timeSection(times) +
            ablationSection(scores) + dataSection(scores, provenance) +
            provenanceSection(provenance);
+}
+
+CsvTables tablesOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
+                   const Provenance& provenance) {
+    CsvTables tables = leftOutTables(provenance.selection);
+    tables.merge(droneTables(scores));
+    tables.merge(hardTables(scores));
+    tables["run_time.csv"] = allTimes(times).csv();
+    tables["ablation_without_surface.csv"] = ablationWithoutSurface(scores).csv();
+    return tables;
 }
 
 }  // namespace hagen

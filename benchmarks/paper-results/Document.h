@@ -6,6 +6,7 @@
 
 #include "Measurement.h"
 #include "selection/Record.h"
+#include "support/Tables.h"
 
 namespace hagen {
 
@@ -20,5 +21,9 @@ struct Provenance {
 /// Returns the Markdown of docs/results.md. The charts' files are named as by drawResults().
 std::string documentOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
                        const Provenance& provenance);
+
+/// Returns the tables that the document links to, by their names in results/.
+CsvTables tablesOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
+                   const Provenance& provenance);
 
 }  // namespace hagen

@@ -14,17 +14,8 @@ std::string obstaclesCell(const evaluation::Missed& obstacles) {
     return std::to_string(obstacles.missed) + " of " + std::to_string(obstacles.all);
 }
 
-std::string methodTable(const std::string& name, const Sets& sets,
-                        const std::vector<std::string>& methods) {
-    Table table({"`" + name + "`", "F1 of RoI / ROU", "missed above 0.5 m", "nothing found",
-                 "RoI on bare ground"});
-    for (const std::string& method : methods) {
-        const evaluation::Scores scores = sumOf(sets, method);
-        const evaluation::DroneScores drone = droneSumOf(sets, method);
-        table.add({method, pairCell(scores.roi.f1(), scores.rou.f1()), missedCell(drone.tall),
-                   obstaclesCell(drone.obstacles), cell(drone.falseOnBareGroundPerScan(), 1)});
-    }
-    return table.text();
+std::string percentOf(const evaluation::Missed& missed) {
+    return missed.all == 0 ? "-" : cell(100 * missed.share(), 2);
 }
 
 using Data = std::vector<std::pair<std::string, Sets>>;
@@ -35,7 +26,7 @@ std::vector<std::string> headsOf(const std::string& first, const Data& data) {
     return heads;
 }
 
-std::string rangeTable(const Data& data) {
+Table rangeTable(const Data& data) {
     Table table(headsOf("range", data));
     std::size_t count = 0;
     for (const auto& [name, sets] : data)
@@ -49,10 +40,10 @@ std::string rangeTable(const Data& data) {
         }
         table.add(line);
     }
-    return table.text();
+    return table;
 }
 
-std::string kindTable(const Data& data) {
+Table kindTable(const Data& data) {
     std::set<std::string> kinds;
     for (const auto& [name, sets] : data) {
         for (const auto& [kind, missed] : droneSumOf(sets, kDefault).tall_by_kind)
@@ -68,24 +59,58 @@ std::string kindTable(const Data& data) {
         }
         table.add(line);
     }
+    return table;
+}
+
+/// One row per method: "missed / nothing found / RoI on bare ground" of each data set.
+std::string shareTable(const Data& data, const std::vector<std::string>& methods) {
+    Table table(headsOf("", data));
+    for (const std::string& method : methods) {
+        std::vector<std::string> line{method};
+        for (const auto& [name, sets] : data) {
+            const evaluation::DroneScores drone = droneSumOf(sets, method);
+            line.push_back(percentOf(drone.tall) + " / " + percentOf(drone.obstacles) + " / " +
+                           cell(drone.falseOnBareGroundPerScan(), 1));
+        }
+        table.add(line);
+    }
     return table.text();
+}
+
+Table countTable(const Data& data, const std::vector<std::string>& methods) {
+    Table table({"data", "method", "F1 of RoI / ROU", "missed above 0.5 m", "nothing found",
+                 "RoI on bare ground"});
+    for (const auto& [name, sets] : data) {
+        for (const std::string& method : methods) {
+            const evaluation::Scores scores = sumOf(sets, method);
+            const evaluation::DroneScores drone = droneSumOf(sets, method);
+            table.add({name, method, pairCell(scores.roi.f1(), scores.rou.f1()),
+                       missedCell(drone.tall), obstaclesCell(drone.obstacles),
+                       cell(drone.falseOnBareGroundPerScan(), 1)});
+        }
+    }
+    return table;
 }
 
 }  // namespace
 
 std::string droneSection(const std::vector<Measured>& all) {
+    return "## Missed obstacles and false alarms\n\n"
+           "Cells ([definitions](evaluation.md#what-matters-to-a-drone)): missed obstacle returns "
+           "more than 0.5 m above the ground [%] / obstacles of which nothing is found [%] / "
+           "returns per scan labelled RoI on bare ground. On real scans, `default` and the "
+           "`tuned` methods are in-sample.\n\n" +
+           shareTable(mainData(all), headlineNames(all)) +
+           "Tables: [counts](results/drone.csv), returns that `default` misses "
+           "[by range](results/missed_by_range.csv) and [by "
+           "class](results/missed_by_class.csv).\n\n";
+}
+
+CsvTables droneTables(const std::vector<Measured>& all) {
     const Data data = mainData(all);
-    std::string text =
-        "## What matters to a drone\n\n"
-        "F1 counts every return alike. A drone rather asks "
-        "([definitions](evaluation.md#what-matters-to-a-drone)): how many obstacle returns more "
-        "than 0.5 m above the true ground are missed; of how many obstacles with at least five "
-        "returns in a scan nothing is found; and how many returns per scan are labelled RoI on "
-        "ground with no true obstacle within 2 m. On real scans, the figures of `default` and of "
-        "`tuned` methods are in-sample.\n\n";
-    for (const auto& [name, sets] : data) text += methodTable(name, sets, headlineNames(all));
-    return text + "Obstacle returns above 0.5 m that `default` misses, by range:\n\n" +
-           rangeTable(data) + "By object class:\n\n" + kindTable(data);
+    return {{"drone.csv", countTable(data, headlineNames(all)).csv()},
+            {"missed_by_range.csv", rangeTable(data).csv()},
+            {"missed_by_class.csv", kindTable(data).csv()}};
 }
 
 }  // namespace hagen

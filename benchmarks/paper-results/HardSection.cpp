@@ -66,19 +66,27 @@ std::string marked(double value) {
     return isCostly(value) ? "**" + points(value) + "**" : points(value);
 }
 
-std::string hardTable(const std::string& name, const Sets& sets) {
+constexpr std::size_t kShown = 5;
+
+void addRows(Table& table, const std::string& name, const Sets& sets, std::size_t count) {
     const evaluation::Scores clean = sumOf(sets, kDefault);
-    Table table({"`" + name + "`", "F1 of RoI / ROU", "change of RoI", "change of ROU",
-                 "missed above 0.5 m"});
-    table.add({"as recorded", pairCell(clean.roi.f1(), clean.rou.f1()), "", "",
+    table.add({name, "as recorded", pairCell(clean.roi.f1(), clean.rou.f1()), "", "",
                missedCell(droneSumOf(sets, kDefault).tall)});
     for (const Degraded& one : degradedOf(sets)) {
+        if (count-- == 0) return;
         const std::string mark = isCostly(one.roi_points) ? "**" : "";
-        table.add({mark + "`" + one.name + "`" + mark,
+        table.add({name, mark + "`" + one.name + "`" + mark,
                    pairCell(one.scores.roi.f1(), one.scores.rou.f1()), marked(one.roi_points),
                    marked(one.rou_points), missedCell(one.missed)});
     }
-    return table.text();
+}
+
+/// The costliest degradations of each set.
+Table hardTable(const std::vector<std::pair<std::string, Sets>>& data, std::size_t count) {
+    Table table({"data", "degradation", "F1 of RoI / ROU", "change of RoI", "change of ROU",
+                 "missed above 0.5 m"});
+    for (const auto& [name, sets] : data) addRows(table, name, sets, count);
+    return table;
 }
 
 /// "- `rain=3`: real, 16 beams (-2.10); ..." of one class, in the order of the tables.
@@ -104,16 +112,21 @@ std::string costlyList(const std::vector<std::pair<std::string, Sets>>& data,
 std::string hardSection(const std::vector<Measured>& all) {
     const auto data = degradedData(all);
     if (data.empty()) return "";
-    std::string text =
-        "## Hard sets\n\n"
-        "`default` on copies of the scans that were degraded together with their ground truth "
-        "([what is done](evaluation.md#hard-sets)); changes of F1 are in points of 0.01. Bold "
-        "marks what costs more than " +
-        cell(kCostly_points, 1) + " points. Of RoI's F1, these do:\n\n" +
-        costlyList(data, &Degraded::roi_points) + "Of ROU's F1, these do:\n\n" +
-        costlyList(data, &Degraded::rou_points);
-    for (const auto& [name, sets] : data) text += hardTable(name, sets);
-    return text;
+    return "## Hard sets\n\n"
+           "Scores of `default` on degraded copies of the scans "
+           "([degradations](evaluation.md#hard-sets)). Changes of F1 are in points of 0.01.\n\n"
+           "Degradations that cost more than " +
+           cell(kCostly_points, 1) + " points of RoI's F1:\n\n" +
+           costlyList(data, &Degraded::roi_points) + "Of ROU's F1:\n\n" +
+           costlyList(data, &Degraded::rou_points) + "The " + std::to_string(kShown) +
+           " that cost most of RoI's F1 ([all](results/hard.csv)):\n\n" +
+           hardTable(data, kShown).text();
+}
+
+CsvTables hardTables(const std::vector<Measured>& all) {
+    const auto data = degradedData(all);
+    if (data.empty()) return {};
+    return {{"hard.csv", hardTable(data, std::string::npos).csv()}};
 }
 
 }  // namespace hagen

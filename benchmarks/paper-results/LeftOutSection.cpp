@@ -1,5 +1,6 @@
 #include "LeftOutSection.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "Rows.h"
@@ -35,42 +36,56 @@ std::string listed(const std::vector<std::string>& texts) {
     return list;
 }
 
+/// "choices_from_a_plain_start.csv".
+std::string fileOf(const std::string& table, const selection::Search& search) {
+    std::string name = table + "_from_" + search.start + ".csv";
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
+
+std::string linkTo(const std::string& words, const std::string& file) {
+    return "[" + words + "](results/" + file + ")";
+}
+
 }  // namespace
 
 std::string leftOutSection(const std::vector<Measured>& all,
                            const std::optional<selection::Record>& record) {
-    const std::string head = "## Scores on drives that were left out\n\n";
+    const std::string head = "## Held-out drives\n\n";
     if (!record) {
         return head +
-               "There are none: `scripts/select-settings` was not run, so `docs/selection.json` is "
-               "missing. **All figures of `default` on real scans are in-sample.**\n\n";
+               "There is no `docs/selection.json`: `scripts/select-settings` was not run. **All "
+               "figures of `default` on real scans are in-sample.**\n\n";
     }
     std::string text = head;
     if (!isCurrent(all, *record)) {
-        text +=
-            "**The filter, its presets or the real scans have changed since: the selection is "
-            "that of " +
-            record->revision + ". Run `scripts/select-settings` again.**\n\n";
+        text += "**The filter, its presets or the real scans have changed since the selection at " +
+                record->revision + ". Run `scripts/select-settings` again.**\n\n";
     }
     text +=
-        "Each drive of SemanticKITTI is scored with the settings that were chosen without it, at "
-        "16 and at 64 beams: on the other drives, simulated flights and degraded copies of both "
-        "(" +
+        "Each SemanticKITTI drive is scored with settings chosen without it, on the other drives, "
+        "simulated flights and degraded copies of both (" +
         listed(record->hard_sets) +
-        "). [evaluation.md](evaluation.md#choosing-settings) says how. The intervals are "
-        "Student's t over the drives. The values were left out, not the ideas: the stages "
-        "themselves were developed on these drives. Nor was the start: the search begins with the "
-        "presets, which were tuned on all drives, and often stays there. A second search begins "
-        "with a plain start of values that nobody tuned: the stricter test.\n\n" +
-        selection::scoreTable(*record) +
-        "What was chosen, bold where it differs from `default`; and on what was not left out, the "
-        "objective and the missed obstacle returns above 0.5 m, before and after. No choice may "
-        "miss more than the limit, which is what the presets miss.\n\n";
+        "; [method](evaluation.md#choosing-settings)). The first search starts from the presets, "
+        "which were tuned on all drives, and often stays there. The search from a plain start is "
+        "the stricter test. The stages themselves were developed on these drives. Intervals are "
+        "Student's t over the drives.\n\n" +
+        selection::scoreTable(*record);
     for (const selection::Search& search : record->searches) {
-        text += "From " + search.start + ":\n\n" + selection::choiceTable(*record, search) +
-                selection::foldTable(search);
+        text += "From " + search.start + ": " + linkTo("chosen values", fileOf("choices", search)) +
+                ", " + linkTo("objective and missed returns", fileOf("searches", search)) + ".\n\n";
     }
     return text;
+}
+
+CsvTables leftOutTables(const std::optional<selection::Record>& record) {
+    CsvTables tables;
+    if (!record) return tables;
+    for (const selection::Search& search : record->searches) {
+        tables[fileOf("choices", search)] = selection::choiceTable(*record, search).csv();
+        tables[fileOf("searches", search)] = selection::foldTable(search).csv();
+    }
+    return tables;
 }
 
 }  // namespace hagen

@@ -6,6 +6,7 @@
 
 #include "Measurement.h"
 #include "selection/Record.h"
+#include "support/Tables.h"
 
 namespace hagen {
 
@@ -14,5 +15,7 @@ namespace hagen {
 /// measured ones.
 std::string leftOutSection(const std::vector<Measured>& all,
                            const std::optional<selection::Record>& record);
+/// The chosen values and the progress of each search.
+CsvTables leftOutTables(const std::optional<selection::Record>& record);
 
 }  // namespace hagen

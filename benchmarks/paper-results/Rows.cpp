@@ -70,10 +70,6 @@ const std::vector<Change>& componentSweep() {
     static const auto changes = sweep("PC", "principal_components", {"2", "4", "5", "8"});
     return changes;
 }
-const Change& literalSeeds() {
-    static const Change change{"literal reading of the text", "seeds", "top_and_nearest"};
-    return change;
-}
 const std::vector<Change>& ownStages() {
     static const std::vector<Change> changes{{"no seed gate", "seed_gate_deg", "90"},
                                              {"no context beyond the zone", "context_m", "zone"},
@@ -120,7 +116,7 @@ labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::pat
     labelled_scans::MethodSet all = headlineRowsFor(set, config);
     if (!set.has_all_rows) return all;
     const Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
-    for (const auto& changes : {betaSweep(), componentSweep(), {literalSeeds()}}) {
+    for (const auto& changes : {betaSweep(), componentSweep()}) {
         addChanges(kPaper, paper, changes, all.filter);
     }
     for (const auto& changes :

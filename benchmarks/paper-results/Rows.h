@@ -20,10 +20,9 @@ struct Change {
 extern const std::string kDefault, kPaper, kWithoutSurface;
 std::string nameOf(const std::string& filter, const Change& change);
 
-/// The paper's own two sweeps, and the literal reading of its text.
+/// The two sweeps of the paper.
 const std::vector<Change>& betaSweep();
 const std::vector<Change>& componentSweep();
-const Change& literalSeeds();
 /// Ablations: each stage switched off. Of our stages, those that do not depend on the ground
 /// surface are separate.
 const std::vector<Change>& ownStages();

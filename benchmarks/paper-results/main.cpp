@@ -26,7 +26,8 @@ struct Flags {
 };
 
 void addFlags(Command& app, Flags& flags) {
-    app.option("-o,--output", flags.output, "folder for results.md and the charts in results/")
+    app.option("-o,--output", flags.output,
+               "folder for results.md, and results/ with charts and tables")
         .required()
         .existingFolder();
     app.option("--data", flags.data, "folder for simulated scans; existing scans are reused")
@@ -47,6 +48,12 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing results");
 }
 
+/// A folder of charts and tables.
+constexpr base::OutputKind kFigures{"a folder of charts and tables", [](const fs::path& within) {
+                                        return within.extension() == ".csv" ||
+                                               labelled_scans::kCharts.holds(within);
+                                    }};
+
 std::string contentOf(const fs::path& file) {
     std::ifstream stream(file);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -63,8 +70,7 @@ std::string readmeOf(const fs::path& file, const std::string& block) {
 
 int run(const Flags& flags) {
     base::OutputPath document(fs::path(flags.output) / "results.md", base::kFile, flags.overwrite);
-    base::OutputPath charts(fs::path(flags.output) / "results", labelled_scans::kCharts,
-                            flags.overwrite);
+    base::OutputPath charts(fs::path(flags.output) / "results", kFigures, flags.overwrite);
     std::optional<base::OutputPath> readme;
     if (!flags.readme.empty()) {
         readme.emplace(flags.readme, base::kFile, true);
@@ -86,6 +92,9 @@ int run(const Flags& flags) {
 
     fs::create_directory(charts.temporary());
     drawResults(charts.temporary(), scores, times);
+    for (const auto& [name, table] : tablesOf(scores, times, provenance)) {
+        base::writeText(table, charts.temporary() / name, charts.path() / name);
+    }
     const std::string text = documentOf(scores, times, provenance);
     base::writeText(text, document.temporary(), document.path());
     if (readme) {
@@ -102,7 +111,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Program program("paper-results", "Measures what docs/results.md says, and writes it.");
+    Program program("paper-results", "Measures and writes docs/results.md.");
     program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
     Flags flags;
     addFlags(program, flags);

@@ -68,7 +68,7 @@ std::string scoreTable(const Record& record) {
     for (const std::string& data : record.data()) heads.push_back(data);
     Table table(heads);
     for (const std::string& drive : record.drives()) {
-        addLine(table, record, "drive " + drive + ", left out", [&](const std::string& data) {
+        addLine(table, record, "drive " + drive + ", held out", [&](const std::string& data) {
             const DriveScores* scores = record.find(data, drive);
             if (scores == nullptr) return std::string("-");
             const evaluation::Scores& f1 = scores->left_out.at(0).scores;
@@ -76,7 +76,7 @@ std::string scoreTable(const Record& record) {
         });
     }
     for (std::size_t search = 0; search < record.searches.size(); ++search) {
-        addLine(table, record, "**mean over drives, left out" + from(record, search) + "**",
+        addLine(table, record, "**mean over drives, held out" + from(record, search) + "**",
                 [&](const std::string& data) {
                     return "**" + meanCell(record, data, leftOutOf(search)) + "**";
                 });
@@ -93,7 +93,7 @@ std::string scoreTable(const Record& record) {
             [&](const std::string& data) { return meanCell(record, data, presentOf); });
     for (std::size_t search = 0; search < record.searches.size(); ++search) {
         addLine(
-            table, record, "missed above 0.5 m, left out" + from(record, search),
+            table, record, "missed above 0.5 m, held out" + from(record, search),
             [&](const std::string& data) { return missedCell(record, data, leftOutOf(search)); });
     }
     addLine(table, record, "missed above 0.5 m, `default`: in-sample",
@@ -104,7 +104,7 @@ std::string scoreTable(const Record& record) {
 std::string meanTable(const Record& record) {
     std::vector<std::string> heads{"F1 of RoI / ROU"};
     for (std::size_t search = 0; search < record.searches.size(); ++search) {
-        heads.push_back("left out" + from(record, search));
+        heads.push_back("held out" + from(record, search));
         heads.push_back("95 % interval of RoI");
     }
     heads.push_back("`default`: in-sample");
@@ -121,7 +121,15 @@ std::string meanTable(const Record& record) {
     return table.text();
 }
 
-std::string choiceTable(const Record& record, const Search& search) {
+std::string meanList(const Record& record) {
+    std::string list;
+    for (const std::string& data : record.data()) {
+        list += (list.empty() ? "" : "; ") + data + " " + meanCell(record, data, leftOutOf(0));
+    }
+    return list;
+}
+
+Table choiceTable(const Record& record, const Search& search) {
     std::vector<std::string> heads{"setting", "`default`"};
     for (const Fold& fold : search.folds)
         heads.push_back(fold.left_out.empty() ? "with all drives" : "without " + fold.left_out);
@@ -135,11 +143,11 @@ std::string choiceTable(const Record& record, const Search& search) {
         }
         table.add(line);
     }
-    return table.text();
+    return table;
 }
 
-std::string foldTable(const Search& search) {
-    Table table({"left out", "objective", "missed, real", "missed, simulated", "missed, hard sets",
+Table foldTable(const Search& search) {
+    Table table({"held out", "objective", "missed, real", "missed, simulated", "missed, hard sets",
                  "rounds"});
     for (const Fold& fold : search.folds) {
         std::vector<std::string> line{fold.left_out.empty() ? "none" : "drive " + fold.left_out,
@@ -152,7 +160,7 @@ std::string foldTable(const Search& search) {
         line.push_back(std::to_string(fold.rounds));
         table.add(line);
     }
-    return table.text();
+    return table;
 }
 
 }  // namespace hagen::selection

@@ -184,7 +184,8 @@ int run(const Flags& flags) {
     output.commit();
     std::cout << scoreTable(record);
     for (const Search& one : record.searches)
-        std::cout << "From " << one.start << ":\n\n" << choiceTable(record, one) << foldTable(one);
+        std::cout << "From " << one.start << ":\n\n"
+                  << choiceTable(record, one).text() << foldTable(one).text();
     return 0;
 }
 

@@ -29,6 +29,22 @@ std::string Table::text() const {
     return text + "\n";
 }
 
+std::string Table::csv() const {
+    std::string text;
+    for (const auto& line : lines_) {
+        for (std::size_t c = 0; c < line.size(); ++c) {
+            std::string words;
+            for (const char character : line[c]) {
+                if (character != '*' && character != '`') words += character;
+            }
+            if (words.find(',') != std::string::npos) words = '"' + words + '"';
+            text += (c > 0 ? "," : "") + words;
+        }
+        text += "\n";
+    }
+    return text;
+}
+
 std::string cell(double value, int digits) {
     if (std::isnan(value)) return "-";
     char text[32];

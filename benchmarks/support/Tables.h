@@ -1,7 +1,8 @@
-// Markdown tables, and numbers as their cells.
+// Tables as Markdown or CSV, and numbers as their cells.
 #pragma once
 #include <hagen/evaluation/Bootstrap.h>
 #include <hagen/evaluation/DroneScores.h>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,15 @@ class Table {
     void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
     /// Returns the table with aligned columns, followed by a blank line.
     std::string text() const;
+    /// Returns the table as CSV, without the bold and code marks of Markdown.
+    std::string csv() const;
 
  private:
     std::vector<std::vector<std::string>> lines_;
 };
+
+/// CSV tables by file name.
+using CsvTables = std::map<std::string, std::string>;
 
 /// "0.958"; a dash for undefined values.
 std::string cell(double value, int digits = 3);

@@ -96,12 +96,10 @@ Performance small() {
 
 TEST(PerformanceDocument, SaysWhatWasMeasured) {
     const std::string text = documentOf(small());
-    EXPECT_THAT(
-        text,
-        HasSubstr("| VLP-16 | `paper pipeline`   | 250    | 250 | 250 | 250 | 0.50          | "
-                  "1.00         | 0.5         |"));
-    EXPECT_THAT(
-        text, HasSubstr("- VLP-16: the default pipeline takes 1.50 times what the paper's takes."));
+    EXPECT_THAT(text, HasSubstr("| VLP-16 | `paper pipeline`   | 250    | 250 | 0.50          | "
+                                "0.5         |"));
+    EXPECT_THAT(text,
+                HasSubstr("takes 1.50 to 1.50 times as long as the paper's and 0.75 to 0.75"));
     EXPECT_THAT(text, HasSubstr("| 1 depth image        | 4.2    |"));
     EXPECT_THAT(text, HasSubstr("| fitted exponent | 0.00 "));
     EXPECT_THAT(text, HasSubstr("2 VLP-16 scans of 200 returns on average"));

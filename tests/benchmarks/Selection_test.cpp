@@ -328,17 +328,17 @@ TEST(Record, ABrokenFileIsNamed) {
 TEST(SelectionTables, PutLeftOutScoresBeforeThoseInSample) {
     const std::string text = scoreTable(twoDrives());
     EXPECT_THAT(text, HasSubstr("0.900 / 0.900"));
-    EXPECT_THAT(text, HasSubstr("**0.910 / 0.910**"));  // the mean, left out
+    EXPECT_THAT(text, HasSubstr("**0.910 / 0.910**"));  // the mean, held out
     EXPECT_THAT(text, HasSubstr("0.783 to 1.000"));     // 0.91 +- 12.706 * 0.01, at most 1
     EXPECT_THAT(text, HasSubstr("0.955 / 0.955"));      // the mean of the present settings
     EXPECT_THAT(text, HasSubstr("14 of 200000 (0.01 %)"));
     EXPECT_THAT(text, ContainsRegex("from a plain start.. +\\| ..0.820 / 0.820"));
-    EXPECT_LT(text.find("left out"), text.find("in-sample"));
+    EXPECT_LT(text.find("held out"), text.find("in-sample"));
     const Search search = twoDrives().searches[0];
-    EXPECT_THAT(choiceTable(twoDrives(), search),
+    EXPECT_THAT(choiceTable(twoDrives(), search).text(),
                 ContainsRegex("beta_deg` \\| 10 +\\| 10 +\\| \\*\\*5\\*\\*"));
-    EXPECT_THAT(foldTable(search), HasSubstr("0.9000 to 0.9100"));
-    EXPECT_THAT(foldTable(search), HasSubstr("3 to 2, limit 3"));
+    EXPECT_THAT(foldTable(search).text(), HasSubstr("0.9000 to 0.9100"));
+    EXPECT_THAT(foldTable(search).text(), HasSubstr("3 to 2, limit 3"));
 }
 
 // ---- the programs
