@@ -173,8 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Program{HAGEN_LIVE_SEGMENT, {}}, Program{HAGEN_RAWLOG_SEGMENT, {}},
                     Program{HAGEN_RAWLOG_SIMULATE, {}}, Program{HAGEN_SEGMENTATION_EVALUATE, {}},
                     Program{HAGEN_OCTOMAP_COMPARE,
-                            {"closedloop", "merge", "calibrate", "distances", "openloop", "report",
-                             "replay"}}),
+                            {"closedloop", "calibrate", "distances", "openloop", "replay"}}),
     [](const auto& of) { return std::regex_replace(of.param.name(), std::regex("-"), "_"); });
 
 TEST(Completion, OffersTheWordsOfAChoice) {
