@@ -27,7 +27,7 @@ def report(rows, memory=None):
             (folder / "memory.csv").write_text(memory, encoding="utf-8")
         subprocess.run([SCRIPT, folder, "-o", out], check=True, stdout=subprocess.DEVNULL)
         assert {file.name for file in (out / "avoidance").iterdir()} == {
-            "summary.csv", "pairs.csv", "static.svg", "moving.svg", "cost.svg"}
+            "summary.csv", "pairs.csv", "static.png", "moving.png"}
 
         def read(name):
             with open(out / "avoidance" / name, encoding="utf-8", newline="") as table:
