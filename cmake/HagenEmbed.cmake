@@ -16,9 +16,9 @@ endfunction()
 
 # hagen_find_script(VARIABLE FILE PACKAGE): finds a JavaScript library installed by a Debian package.
 function(hagen_find_script variable file package)
-  find_file(${variable} ${file} PATHS /usr/share/javascript/chart.js /usr/share/javascript/three
+  find_file(${variable} ${file} PATHS /usr/share/javascript/three
                                       /usr/share/javascript/three/examples/js/controls
-            DOC "For the pages of octomap-compare" NO_DEFAULT_PATH)
+            DOC "For the replays of octomap-compare" NO_DEFAULT_PATH)
   if(NOT ${variable})
     message(FATAL_ERROR "${file} is missing: install the Debian package ${package}, or give its "
                         "place as -D${variable}=FILE")

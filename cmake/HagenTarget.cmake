@@ -121,18 +121,3 @@ function(hagen_program name)
     install(FILES ${man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
   endif()
 endfunction()
-
-# hagen_helper(NAME): settings of a program that another one starts. It is installed in libexec/hagen, where that one looks
-# for it, without manual page.
-function(hagen_helper name)
-  hagen_target(${name})
-  set_property(GLOBAL APPEND PROPERTY HAGEN_PROGRAMS ${name})
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/libexec/hagen)
-  if(HAGEN_INSTALL)
-    if(CMAKE_INSTALL_RPATH)
-      file(RELATIVE_PATH libraries ${CMAKE_INSTALL_FULL_LIBEXECDIR}/hagen ${CMAKE_INSTALL_FULL_LIBDIR})
-      set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
-    endif()
-    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/hagen COMPONENT tools)
-  endif()
-endfunction()

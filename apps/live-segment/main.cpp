@@ -29,7 +29,7 @@ struct Flags {
     live::LiveOptions live;
     std::string listen;
     std::filesystem::path replay;
-    double speed = 1, rotate_mb = 0;
+    double speed = 1;
     std::vector<std::string> configs;
     bool overwrite = false, is_quiet = false;
     AutopilotFlags autopilot;
@@ -63,14 +63,10 @@ void declare(Program& app, Flags& flags) {
         .between(0.001, 1e9)
         .valueName("SECONDS")
         .group("Input");
-    const Flag record = app.option("--record", flags.live.recording.file,
-                                   "segmented rawlog of the turns, as rawlog-segment writes it")
-                            .group("Output");
-    app.option("--rotate-mb", flags.rotate_mb,
-               "a new file whenever one is this long: NAME.0001.rawlog and so on")
-        .between(0.001, 1e6)
-        .valueName("N")
-        .needs(record)
+    app.option("--record", flags.live.recording.file,
+               "network capture of all received datagrams; with --mavlink, vehicle poses as "
+               "FILE.tum beside FILE.pcap")
+        .valueName("FILE.pcap")
         .group("Output");
     app.option("--stats", flags.live.stats, "JSON: packets, losses, latencies, nearest obstacles")
         .group("Output");
@@ -99,7 +95,6 @@ void check(Flags& flags) {
     checkAutopilot(flags.autopilot);
     flags.live.replay = flags.replay;
     flags.live.overwrite = flags.live.recording.overwrite = flags.overwrite;
-    flags.live.recording.rotate_bytes = static_cast<std::size_t>(flags.rotate_mb * 1e6);
     try {
         live::checkLive(flags.live);
     } catch (const std::runtime_error& e) {
@@ -150,30 +145,16 @@ std::string summaryOf(const live::LiveReport& r) {
              << ms(r.latency.quantile_s(0.999)) << ", max " << ms(r.latency.max_s()) << " ms\n";
     }
     for (const auto& file : r.recorded.files) text << "recorded: " << file.string() << "\n";
-    for (const auto& file : r.recorded.older_files) {
-        text << "of an earlier recording: " << file.string() << "\n";
-    }
-    if (r.recorded.left_out > 0) {
-        text << r.recorded.left_out << " turns are not recorded: "
-             << (r.recorded.failure.empty() ? "the disk was too slow\n"
-                                            : "the recording had ended\n");
-    }
-    if (r.recorded.packets_left_out > 0) {
-        text << r.recorded.packets_left_out
-             << " packets are not recorded: the recorder did not take them\n";
-    }
     return text.str();
 }
 
 /// What failed in a session; empty: nothing.
 std::string failureOf(const live::LiveReport& report, const live::LiveOptions& options) {
     std::string failure = report.recorded.failure;
-    const live::Recorded& recorded = report.recorded;
-    if (failure.empty() && recorded.left_out + recorded.packets_left_out > 0) {
-        failure = options.recording.file.string() +
-                  ": is not all that was labelled: " + std::to_string(recorded.left_out) +
-                  " turns and " + std::to_string(recorded.packets_left_out) +
-                  " packets came faster than they were recorded";
+    if (report.recorded.left_out > 0) {
+        failure += (failure.empty() ? "" : "; ") + options.recording.file.string() + ": " +
+                   std::to_string(report.recorded.left_out) + " datagrams are missing" +
+                   (failure.empty() ? ": the disk was too slow" : "");
     }
     if (!report.stats_failure.empty()) {
         failure += (failure.empty() ? "" : "; ") + report.stats_failure;
@@ -201,7 +182,6 @@ int run(const Program& program, Flags& flags) {
         for (const std::string& config : flags.configs) {
             const std::filesystem::path file = presetFile(config);
             mergeSettings(file, flags.live.settings);
-            flags.live.recording.settings_files.push_back(file);
         }
         std::unique_ptr<live::PacketSource> source;
         if (!flags.replay.empty()) {
@@ -230,7 +210,8 @@ int run(const Program& program, Flags& flags) {
         std::unique_ptr<autopilot::AutopilotLink> link;
         std::string failure, left;  // by earlier runs
         try {
-            left = base::leftBehind({flags.live.recording.file, flags.live.stats});
+            left = base::leftBehind(
+                {flags.live.recording.file, flags.live.recording.posesFile(), flags.live.stats});
         } catch (const std::filesystem::filesystem_error&) {  // told by what opens it
         }
         int failed = kFailed;
@@ -273,7 +254,7 @@ int command(int argc, char** argv) {
         "sends its packets, before its turn ends.");
     program.footer(
         "Examples:\n"
-        "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.rawlog\n"
+        "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.pcap\n"
         "  live-segment --replay flight.pcap --model HDL-32E -c hdl32e --stats flight.json\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --mavlink udp:192.168.1.10:14550\n"
         "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");

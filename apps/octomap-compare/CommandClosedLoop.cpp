@@ -115,22 +115,20 @@ void printCells(const std::vector<trials::Run>& runs) {
 int run(Flags flags) {
     const std::vector<trials::CourseFlights> flights = flightsFrom(flags);
     const trials::LatencyProfile profile = profileFrom(flags.profile, flights);
-    trials::CampaignFolder folder(flags.folder, profile, flags.overwrites);
-    folder.note(flags.plan);
     ProgressLine progress("run");
     trials::CampaignOptions options;
     options.jobs =
         flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
-    // The running file, even if it is rebuilt during the campaign.
-    options.worker = {"/proc/self/exe", {"octomap-compare", "fly-runs"}};
+    options.overwrites = flags.overwrites;
     options.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
         options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
-    trials::flyCampaign(flights, options, folder);
+    const std::vector<trials::Run> runs =
+        trials::flyCampaign(flights, profile, flags.folder, options);
     if (flags.is_quiet) return 0;
-    printCells(folder.runs());
-    std::cout << (folder.path() / "runs.csv").string() << "\n";
+    printCells(runs);
+    std::cout << flags.folder << "/runs.csv\n";
     return 0;
 }
 
@@ -181,10 +179,9 @@ void addFlags(Command& app, Flags& flags) {
         .oneOf({"scans", "sectors", "all"});
     app.option("--profile", flags.profile,
                "latency profile made by `calibrate` (default: the one built into the program)");
-    app.option("--shard", flags.shard,
-               "fly part i of n, for several machines; join the parts with `merge`")
+    app.option("--shard", flags.shard, "fly part i of n, for several machines or processes")
         .showDefault();
-    app.option("--jobs", flags.jobs, "processes (default: one per core)").between(1, 1024);
+    app.option("--jobs", flags.jobs, "parallel flights (default: one per core)").between(1, 1024);
     app.option("-o,--output", flags.folder,
                "folder of the campaign; the same command resumes an interrupted campaign, another "
                "command adds to it")

@@ -9,7 +9,8 @@
 
 #include <hagen/replays/ChooseRun.h>
 #include <hagen/replays/Replay.h>
-#include <hagen/trials/FlownRuns.h>
+#include <hagen/trials/LatencyProfile.h>
+#include <hagen/trials/RunTable.h>
 #include "Commands.h"
 
 namespace hagen {
@@ -24,7 +25,7 @@ struct Flags {
 };
 
 trials::Run chosen(const fs::path& folder, const replays::RunWanted& wanted) {
-    const std::vector<trials::Run> runs = trials::readFlownRuns(folder).runs;
+    const std::vector<trials::Run> runs = trials::readRuns(folder / "runs.csv");
     try {
         return replays::chooseRun(runs, wanted);
     } catch (const std::invalid_argument& e) {
@@ -79,7 +80,7 @@ void addReplay(Program& program) {
     replays::RunWanted& wanted = flags->wanted;
     Command sub = program.subcommand(
         "replay", "fly one run again; writes replay-RUN.html and replay-RUN.3Dscene");
-    sub.option("DIR", flags->folder, "folder of `closedloop`, finished or not").required();
+    sub.option("DIR", flags->folder, "folder of `closedloop`").required();
     sub.option("--seed", wanted.seed, "seed of the run").required();
     sub.option("--scenario", wanted.scenario, "needed if several have that seed");
     sub.option("--model", wanted.model, "world model; needed if several flew the course")

@@ -31,12 +31,9 @@ std::vector<std::string> namesFrom(const std::string& flag, const std::vector<st
 
 // Each adds a subcommand with its flags.
 void addClosedLoop(Program& program);
-void addFlyRuns(Program& program);
-void addMerge(Program& program);
 void addCalibrate(Program& program);
 void addDistances(Program& program);
 void addOpenLoop(Program& program);
-void addReport(Program& program);
 void addReplay(Program& program);
 
 }  // namespace hagen

@@ -1,4 +1,4 @@
-// Compares obstacle avoidance with and without a map: flights, recorded logs, reports.
+// Compares obstacle avoidance with and without a map: flights, recorded logs, replays.
 #include "Commands.h"
 
 namespace {
@@ -16,12 +16,9 @@ int command(int argc, char** argv) {
     program.version(HAGEN_VERSION);
     program.prints("results");
     hagen::addClosedLoop(program);
-    hagen::addMerge(program);
-    hagen::addFlyRuns(program);
     hagen::addCalibrate(program);
     hagen::addDistances(program);
     hagen::addOpenLoop(program);
-    hagen::addReport(program);
     hagen::addReplay(program);
     return program.run(argc, argv);
 }

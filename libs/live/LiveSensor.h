@@ -28,7 +28,7 @@ class LiveSensor {
     /// Whether it sends two returns per firing now.
     virtual bool isDual() const { return false; }
 
-    /// Whether a packet holds data of such a sensor: these are recorded.
+    /// Whether a packet holds data of such a sensor.
     virtual bool isData(const Packet& packet) const = 0;
     /// Whether only the packet's address tells that it is of another sensor: it is of this model,
     /// and has no serial number.

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "LiveSensor.h"
-#include "RecorderProcess.h"
+#include "Recorder.h"
 #include "SectorFigures.h"
 #include "StatsFile.h"
 
@@ -111,10 +111,18 @@ class Session {
     Session(const LiveOptions& options, const LiveListener& listener, bool is_live);
 
     void take(const Packet& packet);
-    /// The same for one that waited for too long: it is recorded, and not labelled.
+    /// The same for one that waited for too long: it is not labelled.
     void leaveOut(const Packet& packet);
-    /// Packets that nobody will label or record. Any thread may call it.
+    /// Packets that nobody will label. Any thread may call it.
     void lose(std::size_t packets) { lost_ += packets; }
+    /// Called by the thread that receives, with each datagram.
+    void record(const Packet& packet) {
+        if (recorder_) recorder_->add(packet);
+    }
+    /// Lets a thread go that waits in record().
+    void endRecording() {
+        if (recorder_) recorder_->close();
+    }
     /// Tells silence, shows the status; if the sensor is silent, ends the sector in progress.
     /// `is_idle`: no packet waits.
     void look(bool is_idle);
@@ -122,6 +130,8 @@ class Session {
 
  private:
     bool isOfSensor(const Packet& packet);
+    void recordPose(const Packet& packet, const streaming::SensorMotion& motion);
+    void tellRecording();
     void tell(const streaming::LabelledSector& sector);
     void tellEmptiness(const Scan& returns);
     void tellChanges();
@@ -137,7 +147,7 @@ class Session {
     LiveReport report_;
     std::unique_ptr<LiveSensor> sensor_;
     std::optional<SectorFigures> figures_;
-    std::unique_ptr<RecorderProcess> recorder_;
+    std::unique_ptr<Recorder> recorder_;
 
     double start_s_, status_s_, last_packet_s_ = 0, last_taken_s_ = 0;  ///< of the sensor, of all
     double last_return_s_ = 0;
@@ -145,7 +155,7 @@ class Session {
     std::size_t uncertain_ = 0, restarts_ = 0;  ///< those that were told
     bool is_uncertain_ = false;
     bool is_flushed_ = true, is_silent_ = false, is_empty_ = false, is_recording_told_ = false;
-    bool is_slow_recording_told_ = false;
+    bool is_slow_recording_told_ = false, has_place_ = false;
     std::size_t foreign_ip_ = 0;
     std::size_t left_out_ = 0, left_out_before_ = 0;  ///< until now, until the last status
     int keeps_up_ = kKeepsUp;                         ///< statuses
@@ -160,7 +170,7 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
     figures_.emplace(segmenter.sensor(), options_.settings.mount, report_);
     listener_.begin(segmenter.sensor(), segmenter.options());
     if (options.recording.file.empty()) return;
-    recorder_ = std::make_unique<RecorderProcess>(options, !is_live);
+    recorder_ = std::make_unique<Recorder>(options.recording, bool{listener_.motion}, !is_live);
 }
 
 void Session::tell(const streaming::LabelledSector& sector) {
@@ -200,7 +210,11 @@ bool Session::isOfSensor(const Packet& packet) {
 void Session::take(const Packet& packet) {
     ++report_.datagrams;
     last_taken_s_ = packet.arrival_s;
-    if (listener_.motion) sensor_->move(listener_.motion(packet.arrival_s));
+    if (listener_.motion) {
+        const streaming::SensorMotion motion = listener_.motion(packet.arrival_s);
+        sensor_->move(motion);
+        if (recorder_) recordPose(packet, motion);
+    }
     if (sensor_->isToldByAddress(packet) && !isOfSensor(packet)) return;
     if (sensor_->add(packet)) {
         last_packet_s_ = packet.arrival_s;
@@ -209,7 +223,23 @@ void Session::take(const Packet& packet) {
     } else {
         tellUncertain();
     }
-    if (recorder_ && sensor_->isData(packet)) recorder_->add(packet);
+}
+
+/// The pose of the vehicle, as rawlog-segment puts it together with the mount of the settings.
+/// Without a place, that is 0: the tilt is what labels need. Once places have come, poses without
+/// one are left out: a map would be torn.
+void Session::recordPose(const Packet& packet, const streaming::SensorMotion& motion) {
+    Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
+    if (motion.map_from_sensor) {
+        has_place_ = true;
+        map_from_sensor = *motion.map_from_sensor;
+    } else if (motion.attitude && !has_place_) {
+        map_from_sensor.linear() = levelFromSensor(*motion.attitude).cast<double>();
+    } else {
+        return;
+    }
+    map_from_sensor.linear() *= levelFromSensor(options_.settings.mount).cast<double>().transpose();
+    recorder_->addPose(packet.time_ns, map_from_sensor);
 }
 
 void Session::leaveOut(const Packet& packet) {
@@ -221,7 +251,6 @@ void Session::leaveOut(const Packet& packet) {
     last_packet_s_ = packet.arrival_s;
     ++left_out_;
     tellReturn();
-    if (recorder_) recorder_->add(packet);
     if (report_.datagrams == 0) return;  // what came while the session began says nothing
     if (keeps_up_ >= kKeepsUp) {
         listener_.remark("labelling is too slow: packets that waited are left out (\"dropped\")");
@@ -338,19 +367,21 @@ void Session::look(bool is_idle) {
         is_flushed_ = true;
     }
     tellSilence(heard_s);
-    if (recorder_ && recorder_->leavesOut() && !is_slow_recording_told_) {
-        is_slow_recording_told_ = true;
-        listener_.remark("recording is too slow: packets are not recorded");
-    }
-    if (recorder_ && !is_recording_told_) {
-        const std::string failure = recorder_->failure();
-        if (!failure.empty()) {
-            is_recording_told_ = true;
-            listener_.remark("recording has ended: " + failure);
-        }
-    }
+    if (recorder_) tellRecording();
     figures_->countDirections(now_s);
     if (now_s - status_s_ >= kStatus_s) showStatus(now_s);
+}
+
+void Session::tellRecording() {
+    if (is_recording_told_) return;
+    const std::string failure = recorder_->failure();
+    if (!failure.empty()) {
+        is_recording_told_ = true;
+        listener_.remark("recording stopped: " + failure);
+    } else if (recorder_->leftOut() > 0 && !is_slow_recording_told_) {
+        is_slow_recording_told_ = true;
+        listener_.remark("the disk is too slow: datagrams are missing in the recording");
+    }
 }
 
 LiveReport Session::finish(double start_cpu_s) {
@@ -404,7 +435,10 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     checkLive(options);
     std::vector<std::filesystem::path> inputs = options.settings.files;
     inputs.insert(inputs.end(), {options.replay, options.calibration, options.sensor_json});
-    base::checkApart({options.recording.file, options.stats}, inputs);
+    const RecordingOptions& recording = options.recording;
+    std::vector<std::filesystem::path> outputs{recording.file, options.stats};
+    if (listener.motion) outputs.push_back(recording.posesFile());
+    base::checkApart(outputs, inputs);
     std::optional<base::OutputPath> stats;
     if (!options.stats.empty()) stats.emplace(options.stats, base::kFile, options.overwrite);
     Session session(options, listener, source.isLive());
@@ -420,6 +454,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
                 const PacketSource::Next next = source.next(packet);
                 if (next == PacketSource::Next::End) break;
                 if (next == PacketSource::Next::Nothing) continue;
+                session.record(packet);
                 if (!source.isLive()) {
                     queue.pushOrWait(packet);
                 } else if (!queue.push(packet)) {
@@ -434,6 +469,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     const auto stop = [&] {
         is_at_end = true;
         queue.close();
+        session.endRecording();
         if (receiver.joinable()) receiver.join();
     };
     letOthersGoFirst();

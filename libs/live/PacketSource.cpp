@@ -68,6 +68,7 @@ UdpSource::UdpSource(const Address& address)
         socklen_t size = sizeof buffer_bytes_;
         getsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes_, &size);
         setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
+        setsockopt(socket_, IPPROTO_IP, IP_PKTINFO, &yes, sizeof yes);
         // Several programs may listen to a group; of other addresses, a second one would take the
         // packets away.
         if (address.isMulticast()) {
@@ -118,6 +119,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     }
     packet.bytes.assign(buffer_.begin(), buffer_.begin() + size);
     packet.from_ip = ntohl(from.sin_addr.s_addr);
+    packet.from_port = ntohs(from.sin_port);
     packet.to_port = port_;
     packet.arrival_s = steadyNow_s();  // first: what comes between makes packets older
     timespec now{};
@@ -125,6 +127,11 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     packet.time_ns = nanoseconds(now);
     for (cmsghdr* part_of = CMSG_FIRSTHDR(&message); part_of != nullptr;
          part_of = CMSG_NXTHDR(&message, part_of)) {
+        if (part_of->cmsg_level == IPPROTO_IP && part_of->cmsg_type == IP_PKTINFO) {
+            in_pktinfo info{};
+            std::memcpy(&info, CMSG_DATA(part_of), sizeof info);
+            packet.to_ip = ntohl(info.ipi_addr.s_addr);
+        }
         if (part_of->cmsg_level != SOL_SOCKET || part_of->cmsg_type != SCM_TIMESTAMPNS) continue;
         timespec stamp{};
         std::memcpy(&stamp, CMSG_DATA(part_of), sizeof stamp);
@@ -177,6 +184,8 @@ PacketSource::Next ReplaySource::next(Packet& packet) {
     packet.bytes.assign(waiting_.bytes, waiting_.bytes + waiting_.size);
     packet.time_ns = waiting_.time_ns;
     packet.from_ip = waiting_.from_ip;
+    packet.to_ip = waiting_.to_ip;
+    packet.from_port = waiting_.from_port;
     packet.to_port = waiting_.to_port;
     packet.arrival_s = steadyNow_s();
     return Next::Packet;

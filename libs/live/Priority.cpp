@@ -15,4 +15,9 @@ void letOthersGoFirst() {
     pthread_setschedparam(pthread_self(), policy, &priority);  // needs no privilege
 }
 
+void leaveRealTime() {
+    const sched_param none{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);  // needs no privilege
+}
+
 }  // namespace hagen::live

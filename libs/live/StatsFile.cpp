@@ -60,10 +60,9 @@ void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListe
     if (!options.recording.file.empty()) {
         base::Json files = base::Json::array();
         for (const auto& name : r.recorded.files) files.push_back(name.string());
-        json["recorded"] = base::Json{{"turns", r.recorded.turns},
+        json["recorded"] = base::Json{{"packets", r.recorded.packets},
                                       {"left_out", r.recorded.left_out},
-                                      {"packets_left_out", r.recorded.packets_left_out},
-                                      {"unreadable", r.recorded.unreadable},
+                                      {"poses", r.recorded.poses},
                                       {"files", files},
                                       {"failure", r.recorded.failure}};
     }

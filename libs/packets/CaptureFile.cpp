@@ -121,6 +121,8 @@ struct CaptureFile::Reader {
             static_cast<std::int64_t>(static_cast<std::uint64_t>(header.ts.tv_sec) * 1000000000u +
                                       static_cast<std::uint64_t>(header.ts.tv_usec));
         datagram.from_ip = packet.from_ip;
+        datagram.to_ip = packet.to_ip;
+        datagram.from_port = static_cast<std::uint16_t>(whole.at16(0));
         datagram.to_port = static_cast<std::uint16_t>(whole.at16(2));
         datagram.bytes = whole.data + kUdpHeader;
         datagram.size = size - kUdpHeader;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <hagen/pages/Table.h>
+#include <hagen/base/NumberText.h>
 
 namespace hagen::replays {
 namespace {
@@ -78,7 +78,7 @@ std::string wordsForTimeout(const trials::Course& course, const trials::TrialRes
 
 std::string endingOf(const trials::Course& course, const trials::TrialResult& result,
                      double speed_m_s, const Eigen::Vector3d& end_m) {
-    const std::string at = " at " + pages::figure(result.time_s, 2) + " s";
+    const std::string at = " at " + base::fixedText(result.time_s, 2) + " s";
     if (result.outcome == trials::Outcome::Success) return "reached the goal" + at;
     if (result.outcome == trials::Outcome::Timeout) {
         return wordsForTimeout(course, result, speed_m_s, end_m) + at;
@@ -88,7 +88,7 @@ std::string endingOf(const trials::Course& course, const trials::TrialResult& re
     constexpr double kMore_m = 0.05;  // rays may miss the nearest point slightly
     const simulation::ObjectClass kind =
         nearestKind(course.scene, end_m, result.time_s, clearance_m + kMore_m);
-    return "hit " + wordsFor(kind) + at + ": " + pages::figure(clearance_m, 2) +
+    return "hit " + wordsFor(kind) + at + ": " + base::fixedText(clearance_m, 2) +
            " m from the vehicle's centre";
 }
 

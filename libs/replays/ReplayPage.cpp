@@ -3,11 +3,10 @@
 
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Json.h>
-#include <hagen/pages/PackedNumbers.h>
-#include <hagen/pages/Page.h>
-#include <hagen/pages/Table.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/replays/Replay.h>
-#include <hagen/trials/Condition.h>
+#include "PackedNumbers.h"
+#include "PageTemplate.h"
 #include "ReplayTexts.h"
 
 namespace hagen::replays {
@@ -28,7 +27,7 @@ class PageWriter {
         Json data = head();
         addTrack(data);
         data["scene"] = scene();
-        pages::PackedNumbers lives;
+        PackedNumbers lives;
         std::vector<Eigen::Vector3f> middles;
         for (const ModelCell& cell : recording_.model) {
             middles.push_back(cell.centre_m);
@@ -68,7 +67,7 @@ class PageWriter {
     }
 
     void addTrack(Json& data) const {
-        pages::PackedNumbers places, speeds, clearances;
+        PackedNumbers places, speeds, clearances;
         for (const RecordedMoment& moment : recording_.track) {
             add(moment.at_m, places);
             speeds.add(moment.speed_m_s / kUnit_m);
@@ -107,7 +106,7 @@ class PageWriter {
 
     /// The corners of a shape's triangles, in its own frame.
     static std::string cornersOf(const simulation::Shape& shape) {
-        pages::PackedNumbers numbers;
+        PackedNumbers numbers;
         for (const auto& triangle : shape.triangles) {
             for (const std::uint32_t corner : triangle) {
                 for (int axis = 0; axis < 3; ++axis) {
@@ -132,7 +131,7 @@ class PageWriter {
 
     /// Positions and headings, alternating.
     std::string json(const std::vector<Eigen::Affine3f>& poses) const {
-        pages::PackedNumbers numbers;
+        PackedNumbers numbers;
         for (const Eigen::Affine3f& pose : poses) {
             add(Eigen::Vector3f(pose.translation()), numbers);
             const double heading_rad =
@@ -143,7 +142,7 @@ class PageWriter {
     }
 
     Json json(const TrueScene::Ground& ground) const {
-        pages::PackedNumbers heights;
+        PackedNumbers heights;
         for (const double height_m : ground.heights_m) {
             heights.add((height_m - recording_.start_m.z()) / kUnit_m);
         }
@@ -156,7 +155,7 @@ class PageWriter {
     }
 
     template <class Point>
-    void add(const Point& at, pages::PackedNumbers& numbers) const {
+    void add(const Point& at, PackedNumbers& numbers) const {
         for (int axis = 0; axis < 3; ++axis) {
             const double from_start_m = static_cast<double>(at[axis]) - recording_.start_m[axis];
             numbers.add(from_start_m / kUnit_m);
@@ -164,13 +163,13 @@ class PageWriter {
     }
     template <class Point>
     std::string points(const std::vector<Point>& all) const {
-        pages::PackedNumbers numbers;
+        PackedNumbers numbers;
         for (const Point& at : all) add(at, numbers);
         return numbers.text();
     }
 
     Json json(const RecordedStep& step) const {
-        pages::PackedNumbers ways;
+        PackedNumbers ways;
         Json sizes = Json::array();
         for (const RecordedMotion& motion : step.motions) {
             for (const Eigen::Vector3f& at : motion.path_m) add(at, ways);
@@ -197,24 +196,52 @@ class PageWriter {
     const Recording& recording_;
 };
 
-std::string headingOf(const Recording& recording) {
-    const trials::Run& run = recording.run;
-    return run.scenario + ", seed " + std::to_string(run.seed) + ", " +
-           trials::nameOf(trials::contenderOf(run)) + ", " +
-           trials::nameOf(trials::conditionOf(run)) + ": " + trials::nameOf(run.result.outcome);
+/// Scenario, seed, contender, speed, deviations from the default condition, outcome.
+std::string headingOf(const trials::Run& run) {
+    const trials::TrialSetup& setup = run.setup;
+    std::string text = run.scenario + ", seed " + std::to_string(run.seed) + ", " +
+                       avoidance::displayName(setup.model) + ", " +
+                       (setup.guidance == "astar" ? "A*" : setup.guidance) + ", " +
+                       base::shortestText(setup.speed_m_s) + " m/s";
+    const auto add = [&](bool deviates, const std::string& what) {
+        if (deviates) text += ", " + what;
+    };
+    add(setup.planner != "primitives", "planner " + setup.planner);
+    add(setup.pose_error != trials::PoseError::None, "pose " + nameOf(setup.pose_error));
+    add(setup.latency_scale != 1, "latency x" + base::shortestText(setup.latency_scale));
+    add(setup.brakes_in_known_space, "brakes in known space");
+    add(setup.air != trials::Air::Dusty, nameOf(setup.air) + " air");
+    add(setup.distance != trials::ModelDistance::Unbiased, "distances as stored");
+    add(setup.updates != trials::Updates::Scans, nameOf(setup.updates));
+    return text + ": " + trials::nameOf(run.result.outcome);
+}
+
+/// For the text of an HTML element.
+std::string htmlText(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '&') {
+            escaped += "&amp;";
+        } else if (c == '<') {
+            escaped += "&lt;";
+        } else {
+            escaped += c;
+        }
+    }
+    return escaped;
 }
 
 }  // namespace
 
 std::string replayPage(const Recording& recording) {
-    const std::string data = pages::scriptText(PageWriter(recording).data().dump());
-    const std::string heading = pages::htmlText(headingOf(recording));
-    return pages::filled(texts::replay_html, {{"style", texts::replay_css},
-                                              {"heading", heading},
-                                              {"data", data},
-                                              {"three", texts::three_js},
-                                              {"controls", texts::orbit_controls_js},
-                                              {"script", texts::replay_js}});
+    const std::string data = scriptText(PageWriter(recording).data().dump());
+    const std::string heading = htmlText(headingOf(recording.run));
+    return filled(texts::replay_html, {{"style", texts::replay_css},
+                                       {"heading", heading},
+                                       {"data", data},
+                                       {"three", texts::three_js},
+                                       {"controls", texts::orbit_controls_js},
+                                       {"script", texts::replay_js}});
 }
 
 }  // namespace hagen::replays

@@ -3,7 +3,6 @@
 #include <hagen/base/ReadFile.h>
 #include <hagen/base/TextStream.h>
 #include <hagen/trials/LatencyProfile.h>
-#include <hagen/trials/Statistics.h>
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -111,18 +111,12 @@ Run runOfOlder(const std::string& row, const Columns& columns) {
     return run;
 }
 
-/// The run of a row or key, with or without the optional columns.
-Run runWithOrWithout(const std::string& row, const Columns& without, const Columns& with) {
-    return runFrom(row, fieldsIn(row) == with.size() ? with : without);
-}
-
 }  // namespace
 
 std::string runHeader() { return headerOf(rowColumns()); }
 std::string rowOf(const Run& run) {
     return fieldsOf(run, needsAllColumns(run) ? allColumns() : rowColumns());
 }
-Run runOf(const std::string& row) { return runWithOrWithout(row, rowColumns(), allColumns()); }
 
 bool needsAllColumns(const Run& run) {
     return std::any_of(allColumns().begin(), allColumns().end(), [&](const RunColumn* one) {
@@ -132,12 +126,12 @@ bool needsAllColumns(const Run& run) {
 std::string fullRunHeader() { return headerOf(allColumns()); }
 std::string fullRowOf(const Run& run) { return fieldsOf(run, allColumns()); }
 
-std::string keyHeader() { return headerOf(keyColumns()); }
 std::string keyOf(const Run& run) {
     return fieldsOf(run, needsAllColumns(run) ? allKeyColumns() : keyColumns());
 }
 Run runOfKey(const std::string& key) {
-    return runWithOrWithout(key, keyColumns(), allKeyColumns());
+    const bool is_full = fieldsIn(key) == allKeyColumns().size();
+    return runFrom(key, is_full ? allKeyColumns() : keyColumns());
 }
 
 std::vector<Run> readRuns(const std::filesystem::path& file) {

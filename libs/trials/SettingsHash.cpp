@@ -45,8 +45,7 @@ std::string reachText() {
     return text;
 }
 
-}  // namespace
-
+/// As JSON.
 std::string vehicleText() {
     const avoidance::VehicleLimits limits;
     return base::Json{{"acceleration_m_s2", limits.acceleration_m_s2},
@@ -58,6 +57,7 @@ std::string vehicleText() {
         .dump();
 }
 
+/// The LiDAR's errors by air, as JSON.
 std::string sensorText() {
     base::Json airs;
     for (const Air air : {Air::Dusty, Air::Clear}) {
@@ -72,6 +72,8 @@ std::string sensorText() {
     }
     return airs.dump();
 }
+
+}  // namespace
 
 std::string hashOfSettings(const LatencyProfile& profile) {
     return hashOf(std::string(HAGEN_VERSION) + "\n" + std::to_string(kRevision) + "\n" +

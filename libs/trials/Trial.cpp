@@ -2,7 +2,6 @@
 #include <hagen/trials/CommandQueue.h>
 #include <hagen/trials/FlightTrace.h>
 #include <hagen/trials/PoseBelief.h>
-#include <hagen/trials/Statistics.h>
 #include <hagen/trials/Trial.h>
 #include <hagen/trials/TrialScore.h>
 #include <hagen/trials/TrialSensor.h>
@@ -53,10 +52,8 @@ class TrialFlight {
         };
         world.distance = setup.distance;
         world.pace = paceOf(setup);
-        stopwatch_.weigh("", 0, [&] {
-            world_ = setup.make_world ? setup.make_world(world)
-                                      : avoidance::makeWorldModel(setup.model, world);
-        });
+        world_ = setup.make_world ? setup.make_world(world)
+                                  : avoidance::makeWorldModel(setup.model, world);
     }
 
     TrialResult fly() {
@@ -91,8 +88,7 @@ class TrialFlight {
         scan_offset_m_ = belief_.offset_m(trace_, scan_s_).cast<float>();
         const std::string prefix = setup_.model + "/";
         const std::string planner = prefix + setup_.guidance + "+" + setup_.planner;
-        stopwatch_.weigh(prefix + "update", trace_.distance_m(time_s),
-                         [&] { world_->update(scan); });
+        stopwatch_.time(prefix + "update", [&] { world_->update(scan); });
 
         const avoidance::VehicleState now =
             commands_.advanced(state_, time_s, start_s, setup_.limits);

@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(OfPrograms, Help,
                                          Command{HAGEN_OCTOMAP_COMPARE, {}},
                                          Command{HAGEN_OCTOMAP_COMPARE, {"closedloop"}},
                                          Command{HAGEN_OCTOMAP_COMPARE, {"openloop"}},
-                                         Command{HAGEN_OCTOMAP_COMPARE, {"report"}},
+                                         Command{HAGEN_OCTOMAP_COMPARE, {"replay"}},
                                          Command{HAGEN_OCTOMAP_COMPARE, {"calibrate"}}));
 
 TEST(HelpText, ListsScenariosAndModels) {

@@ -397,14 +397,28 @@ TEST_F(LiveSegmentMavlink, AVehicleThatYawsAndRollsSeesThePolesWhereTheyAre) {
     std::thread sender([&] {
         while (!is_done) sensor.send();
     });
-    const auto outcome = run({"--listen", "127.0.0.1:" + std::to_string(port), "--duration", "4",
-                              "--mavlink", autopilot.peer(), "--stats", path("stats.json")});
+    const auto outcome =
+        run({"--listen", "127.0.0.1:" + std::to_string(port), "--duration", "4", "--mavlink",
+             autopilot.peer(), "--stats", path("stats.json"), "--record", path("flight.pcap")});
     is_done = true;
     sender.join();
     autopilot.stop();
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_GT(stats()["attitude"], 50);
     EXPECT_THAT(outcome.err, HasSubstr("the attitude of vehicle 1 is known"));
+
+    std::istringstream poses(test::readFile(path("flight.tum")));
+    poses.ignore(100, '\n');  // names of columns
+    double time_s, x, y, z, max_tilt_rad = 0;
+    Eigen::Quaterniond turn;
+    while (poses >> time_s >> x >> y >> z >> turn.x() >> turn.y() >> turn.z() >> turn.w()) {
+        max_tilt_rad = std::max(max_tilt_rad, std::acos((turn * Eigen::Vector3d::UnitZ()).z()));
+    }
+    EXPECT_NEAR(max_tilt_rad, 0.14, 0.03);  // as FlyingSensor rolls
+    const auto converted = test::run(
+        HAGEN_RAWLOG_SEGMENT,
+        {"-i", path("flight.pcap"), "--poses", path("flight.tum"), "-o", path("flight.rawlog")});
+    EXPECT_EQ(converted.exit_code, 0) << converted.err;
 
     const auto messages = all<mavlink::ObstacleDistance>(autopilot.frames());
     ASSERT_GT(messages.size(), 40u);

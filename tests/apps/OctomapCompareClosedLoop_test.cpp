@@ -88,22 +88,33 @@ int exitCodeOf(pid_t pid) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// For ten minutes at most: a flight takes that long under sanitizers on a busy machine.
-void waitForALine(const fs::path& journal) {
-    for (int i = 0; i < 60000 && (!fs::exists(journal) || fs::file_size(journal) == 0); ++i) {
+/// Waits for the first row of a table, for ten minutes at most: a flight takes that long under
+/// sanitizers on a busy machine.
+void waitForARow(const fs::path& table) {
+    for (int i = 0; i < 60000; ++i) {
+        const std::string text = fs::exists(table) ? readFile(table) : "";
+        if (std::count(text.begin(), text.end(), '\n') > 1) return;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
 }
 
-/// The process whose command line names this journal; 0 if there is none.
-pid_t workerOf(const fs::path& journal) {
-    for (const auto& entry : fs::directory_iterator("/proc")) {
-        const std::string words = readFile(entry.path() / "cmdline");
-        if (words.find(journal.string()) != std::string::npos) {
-            return std::stoi(entry.path().filename());
-        }
+/// The header, and the rows in alphabetical order.
+std::vector<std::string> sortedLines(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    if (!lines.empty()) std::sort(lines.begin() + 1, lines.end());
+    return lines;
+}
+
+/// Those of the tables together, which have the same header.
+std::vector<std::string> concatenated(const std::vector<fs::path>& tables) {
+    std::string text;
+    for (const fs::path& table : tables) {
+        const std::string one = readFile(table);
+        text += text.empty() ? one : one.substr(one.find('\n') + 1);
     }
-    return 0;
+    return sortedLines(text);
 }
 
 TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
@@ -120,23 +131,17 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
     ASSERT_EQ(octomapCompare(two).exit_code, 0);
     EXPECT_EQ(readFile(folder / "two/runs.csv"), runs);
     EXPECT_EQ(readFile(folder / "two/campaign.json"), readFile(folder / "one/campaign.json"));
+    EXPECT_THAT(one.out, AllOf(HasSubstr(" RoI window "), HasSubstr(" true scene ")));
+    std::vector<fs::path> tables;
     for (const char* shard : {"1/3", "2/3", "3/3"}) {
         const std::string into = std::string("shard") + shard[0];
         ASSERT_EQ(octomapCompare(flying(folder, into, {"--shard", shard})).exit_code, 0);
+        tables.push_back(folder / into / "runs.csv");
     }
-    const auto part = [&](int number) {
-        return (folder / ("shard" + std::to_string(number))).string();
-    };
-    ASSERT_EQ(octomapCompare(
-                  {"merge", part(3), part(1), part(2), part(2), "-o", (folder / "merged").string()})
-                  .exit_code,
-              0);
-    EXPECT_EQ(readFile(folder / "merged/runs.csv"), runs);
-    EXPECT_THAT(one.out, AllOf(HasSubstr(" RoI window "), HasSubstr(" true scene ")));
-    EXPECT_EQ(readFile(folder / "merged/campaign.json"), readFile(folder / "one/campaign.json"));
+    EXPECT_EQ(concatenated(tables), sortedLines(runs));
     // Nothing is left to fly.
-    ASSERT_EQ(octomapCompare(flying(folder, "merged")).exit_code, 0);
-    EXPECT_EQ(readFile(folder / "merged/runs.csv"), runs);
+    ASSERT_EQ(octomapCompare(flying(folder, "one")).exit_code, 0);
+    EXPECT_EQ(readFile(folder / "one/runs.csv"), runs);
 }
 
 TEST(ClosedLoopFlights, SectorsAreAConditionThatLeavesTheRowsOfScansAsTheyAre) {
@@ -203,76 +208,33 @@ TEST(ClosedLoopFlights, MapsAndPathSearchesToo) {
     EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 7);
     fly("first", {"--shard", "1/2"});
     fly("second", {"--shard", "2/2", "--jobs", "2"});
-    ASSERT_EQ(octomapCompare({"merge", (folder / "first").string(), (folder / "second").string(),
-                              "-o", (folder / "merged").string()})
-                  .exit_code,
-              0);
-    EXPECT_EQ(readFile(folder / "merged/runs.csv"), runs);
+    EXPECT_EQ(concatenated({folder / "first/runs.csv", folder / "second/runs.csv"}),
+              sortedLines(runs));
 }
 
-TEST(ClosedLoopFlights, KilledInFlightItGoesOnWhereItWas) {
+TEST(ClosedLoopFlights, ResumesAfterBeingKilled) {
     const TemporaryFolder folder;
     ASSERT_EQ(octomapCompare(flying(folder, "whole")).exit_code, 0);
-    const auto journal = folder / "killed/journal/1.csv";
     const pid_t pid = start(flying(folder, "killed", {"--jobs", "1", "-q"}), folder / "err");
-    waitForALine(journal);
+    waitForARow(folder / "killed/runs.csv");
     kill(pid, SIGKILL);
     EXPECT_EQ(exitCodeOf(pid), -1);
-    const std::string kept = readFile(journal);
-    for (int i = 0; i < 1000 && workerOf(journal) != 0; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    EXPECT_EQ(readFile(journal), kept);  // its worker ended with it
-    ASSERT_FALSE(fs::exists(folder / "killed/runs.csv"));
-    ASSERT_NE(kept, "");
-    std::ofstream(journal, std::ios::app) << "forest-0.02,10";  // an incomplete write
-    const Outcome told = octomapCompare({"report", (folder / "killed").string(), "--worst", "0"});
-    ASSERT_EQ(told.exit_code, 0) << told.err;
-    EXPECT_EQ(told.out.find("Unfinished: "), 0u) << told.out;
     const Outcome resumed = octomapCompare(flying(folder, "killed"));
     ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(resumed.err.find("run 0 of 6\n"), std::string::npos) << resumed.err;
     EXPECT_EQ(readFile(folder / "killed/runs.csv"), readFile(folder / "whole/runs.csv"));
-    // Flights of the first run are kept, including their costs.
-    const std::size_t tab = kept.find('\t');
-    EXPECT_THAT(readFile(folder / "killed/measured.csv"),
-                HasSubstr(kept.substr(tab + 1, kept.find(';') - tab - 1)));
 }
 
-TEST(ClosedLoopFlights, InterruptedItKeepsWhatItFinished) {
+TEST(ClosedLoopFlights, KeepsFinishedRunsWhenInterrupted) {
     const TemporaryFolder folder;
     const pid_t pid = start(flying(folder, "stopped", {"--jobs", "1"}), folder / "err");
-    waitForALine(folder / "stopped/journal/1.csv");
-    kill(pid, SIGTERM);  // only the main process, which stops its workers
+    waitForARow(folder / "stopped/runs.csv");
+    kill(pid, SIGTERM);
     EXPECT_EQ(exitCodeOf(pid), 1);
     EXPECT_THAT(readFile(folder / "err"),
                 AllOf(HasSubstr("octomap-compare: interrupted; "),
-                      HasSubstr(" of 6 runs are kept in " + (folder / "stopped/journal").string() +
+                      HasSubstr(" of 6 runs are kept in " + (folder / "stopped/runs.csv").string() +
                                 "; the same command resumes there\n")));
-    EXPECT_EQ(workerOf(folder / "stopped/journal/1.csv"), 0);
-    EXPECT_NE(readFile(folder / "stopped/journal/1.csv"), "");
-    EXPECT_FALSE(fs::exists(folder / "stopped/runs.csv"));
-}
-
-TEST(ClosedLoopFlights, AWorkerThatDiesIsToldWithTheRunThatItFlew) {
-    const TemporaryFolder folder;
-    const fs::path journal = folder / "c/journal/1.csv";
-    const pid_t pid = start(flying(folder, "c", {"--jobs", "1"}), folder / "err");
-    waitForALine(journal);
-    kill(workerOf(journal), SIGKILL);
-    EXPECT_EQ(exitCodeOf(pid), 1);
-    EXPECT_THAT(readFile(folder / "err"),
-                AllOf(HasSubstr("octomap-compare: a worker was killed by signal 9 (Killed) at "
-                                "forest-0.02,100"),
-                      HasSubstr(" finished runs are kept in ")));
-}
-
-TEST(ClosedLoopFlights, AParentThatIgnoresTheEndsOfChildrenCostsNothing) {
-    const TemporaryFolder folder;
-    std::string command = "trap '' CHLD; exec '" + std::string(HAGEN_OCTOMAP_COMPARE) + "'";
-    for (const std::string& word : flying(folder, "ignoring")) command += " '" + word + "'";
-    const Outcome outcome = test::run("/bin/bash", {"-c", command});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(fs::exists(folder / "ignoring/runs.csv"));
 }
 
 TEST(ClosedLoopFlights, AFullDiskIsNamedAndWhatWasFinishedIsKept) {
@@ -328,23 +290,6 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     expectFailure(octomapCompare({}), 2, "");
 }
 
-TEST(ClosedLoop, ItsWorkersAreNoCommandOfUsers) {
-    EXPECT_THAT(octomapCompare({"--help"}).out,
-                AllOf(HasSubstr("closedloop"), Not(HasSubstr("fly-runs"))));
-    EXPECT_THAT(octomapCompare({"hover"}).err,
-                AllOf(HasSubstr("closedloop, merge"), Not(HasSubstr("fly-runs"))));
-}
-
-TEST(ClosedLoop, AWorkerWithoutItsParentFliesNothing) {
-    const TemporaryFolder folder;
-    const Outcome outcome = octomapCompare(
-        {"fly-runs", "--parent", "1", "--profile", someProfile(folder).string(), "--journal",
-         (folder / "journal").string(),
-         "forest-0.02,1,oracle,straight,10,primitives,none,1,optimistic,dusty,unbiased"});
-    EXPECT_NE(outcome.exit_code, 0);
-    EXPECT_FALSE(fs::exists(folder / "journal"));
-}
-
 TEST(ClosedLoop, ABrokenProfileOrOneWithoutAStageIsNamed) {
     const TemporaryFolder folder;
     auto arguments = flying(folder, "none");
@@ -363,9 +308,6 @@ TEST(ClosedLoop, FoldersOfOthersAreLeftAlone) {
     folder.write("mine/file.txt", "text");
     expectFailure(octomapCompare(flying(folder, "mine", {"--overwrite"})), 1, "mine");
     EXPECT_EQ(readFile(folder / "mine/file.txt"), "text");
-    expectFailure(
-        octomapCompare({"merge", (folder / "mine").string(), "-o", (folder / "m").string()}), 1,
-        "campaign.json");
 }
 
 TEST(Calibrate, AsksForAnOutputAndKnownModels) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <hagen/reports/Summary.h>
+#include <hagen/trials/RunTable.h>
 
 namespace hagen::test {
 
@@ -34,7 +34,6 @@ inline Row runOf(const std::string& scenario, std::uint64_t seed, const std::str
 inline constexpr auto kWon = hagen::trials::Outcome::Success,
                       kHit = hagen::trials::Outcome::Collision,
                       kLate = hagen::trials::Outcome::Timeout;
-inline const trials::Condition kReference{4, "primitives", trials::PoseError::None, 1, false};
 
 /// Seeds 0..9: W-RoI wins all but 0 (hit); O-Full-0.4 all but 0, 1, 2 (late); W-RoI straight none.
 inline std::vector<Row> threeContenders() {

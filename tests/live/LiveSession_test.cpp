@@ -1,15 +1,14 @@
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/live/LiveSession.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <hagen/packets/CaptureFile.h>
 
 #include <algorithm>
-#include <csignal>
 #include <deque>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/CaptureWriter.h"
@@ -34,6 +33,9 @@ class GivenPackets : public PacketSource {
         Packet packet;
         packet.bytes.assign(bytes.begin(), bytes.end());
         packet.from_ip = from_ip;
+        packet.to_ip = 0x0a000001;
+        packet.from_port = 443;
+        packet.to_port = 2368;
         packet.arrival_s = later_s_;
         packet.time_ns = 1700000000000000000 + 1330000 * static_cast<std::int64_t>(packets_.size());
         packets_.push_back(packet);
@@ -437,196 +439,106 @@ TEST_F(LiveSessionTest, WhatIsNotSupportedIsNamed) {
                 HasSubstr("db.xml"));
 }
 
-/// Recorders that are shell scripts: their standard input is the socket.
+/// The datagrams of a capture: payload, and everything else as text.
+std::vector<std::pair<std::string, std::string>> datagramsIn(const std::filesystem::path& file) {
+    std::vector<std::pair<std::string, std::string>> all;
+    packets::CaptureFile capture(file);
+    packets::Datagram d;
+    while (capture.next(d)) {
+        all.emplace_back(std::string(reinterpret_cast<const char*>(d.bytes), d.size),
+                         std::to_string(d.time_ns) + " " + packets::ipText(d.from_ip) + ":" +
+                             std::to_string(d.from_port) + " " + packets::ipText(d.to_ip) + ":" +
+                             std::to_string(d.to_port));
+    }
+    return all;
+}
+
 class LiveRecordingTest : public LiveSessionTest {
  protected:
-    void recordBy(const std::string& script) {
-        const auto program = folder_.write("recorder", "#!/bin/sh\n" + script);
-        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-        options_.recording.program = program;
-        options_.recording.file = folder_ / "a.rawlog";
-    }
-    static constexpr const char* kReady = "echo '{\"failure\": \"\"}' >&0\n";
-    static constexpr const char* kDone =
-        "{\"turns\": 2, \"left_out\": 1, \"unreadable\": 0, \"files\": [\"x\"], "
-        "\"older_files\": [], \"failure\": \"\"}";
-    static std::string sayDone() { return std::string("echo '") + kDone + "' >&0\n"; }
+    LiveRecordingTest() { options_.recording.file = folder_ / "a.pcap"; }
     test::TemporaryFolder folder_;
 };
 
-TEST_F(LiveRecordingTest, ARecorderIsToldTheSensorAndItsFile) {
-    recordBy("printf '%s\\n' \"$@\" >'" + (folder_ / "arguments").string() + "'\n" + kReady);
-    options_.recording.rotate_bytes = 1500000;
-    options_.recording.settings_files = {"a.yaml", "b.yaml"};
-    options_.recording.overwrite = true;
+TEST_F(LiveRecordingTest, RecordsEveryDatagramAsReceived) {
+    auto packets = turnsOf(2);
+    packets.insert(packets.begin() + 5, "hello");
     GivenPackets source;
-    run(source);
-    EXPECT_EQ(test::readFile(folder_ / "arguments"),
-              "--model=VLP-16\n--config=a.yaml\n--config=b.yaml\n--record=" +
-                  (folder_ / "a.rawlog").string() +
-                  "\n--rotate-bytes=1500000\n--overwrite\n--wait\n");
-}
-
-TEST_F(LiveRecordingTest, WithoutARecorderNothingBegins) {
-    GivenPackets source;
-    options_.recording.file = folder_ / "a.rawlog";
-    options_.recording.program = "/no/such/program";
-    EXPECT_THAT(test::messageOf([&] { run(source); }),
-                HasSubstr("/no/such/program cannot be started: No such file"));
-    recordBy("echo '{\"failure\": \"a.rawlog: exists\"}' >&0");
-    EXPECT_EQ(test::messageOf([&] { run(source); }), "a.rawlog: exists");
-    recordBy("exit 3");
-    EXPECT_THAT(test::messageOf([&] { run(source); }),
-                testing::AllOf(HasSubstr("a.rawlog: its recorder"), HasSubstr("exit status 3")));
-    recordBy("echo hello >&0");
-    EXPECT_THAT(test::messageOf([&] { run(source); }), HasSubstr("answers 'hello'"));
-}
-
-TEST_F(LiveRecordingTest, LabelsGoOnWithoutTheRecorder) {
-    recordBy(kReady + std::string("kill -SEGV $$"));
-    GivenPackets source;
-    source.addAll(turnsOf(1)).pause(0.3).addAll(turnsOf(2, 1100000));
-    const LiveReport report = run(source);
-    EXPECT_EQ(report.packets, 228u);
-    EXPECT_GT(report.sectors, 60u);
-    EXPECT_THAT(report.recorded.failure, HasSubstr("was killed by signal 11"));
-    EXPECT_THAT(remarks_,
-                Contains(HasSubstr("recording has ended: " + (folder_ / "a.rawlog").string())));
-}
-
-TEST_F(LiveRecordingTest, WhatTheRecorderSaysIsReported) {
-    recordBy(kReady + std::string("cat <&0 >'") + (folder_ / "packets").string() + "'\n" +
-             sayDone());
-    GivenPackets source;
-    source.addAll(turnsOf(1));
-    source.add("hello").add(turnsOf(1, 0, "HDL-32E")[0]);  // no data of the sensor
-    const LiveReport report = run(source);
-    EXPECT_EQ(report.recorded.turns, 2u);
-    EXPECT_EQ(report.recorded.left_out, 1u);
-    EXPECT_THAT(report.recorded.files, testing::ElementsAre("x"));
+    const LiveReport report = run(source.addAll(packets));
+    EXPECT_EQ(report.recorded.packets, packets.size());
+    EXPECT_EQ(report.recorded.left_out, 0u);
     EXPECT_EQ(report.recorded.failure, "");
-    EXPECT_EQ(report.recorded.packets_left_out, 0u);
-    EXPECT_EQ(std::filesystem::file_size(folder_ / "packets"), 76u * (16 + 1206));
+    EXPECT_THAT(report.recorded.files, testing::ElementsAre(folder_ / "a.pcap"));
+    const auto recorded = datagramsIn(folder_ / "a.pcap");
+    ASSERT_EQ(recorded.size(), packets.size());
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+        EXPECT_EQ(recorded[i].first, packets[i]) << i;
+        EXPECT_EQ(recorded[i].second, std::to_string(1700000000000000000 + 1330000 * i) +
+                                          " 10.0.0.100:443 10.0.0.1:2368")
+            << i;
+    }
 }
 
-TEST_F(LiveRecordingTest, ARecorderWithoutAnEndOfWordsIsNotWaitedFor) {
-    recordBy(kReady + std::string("cat <&0 >/dev/null\nexec head -c 100000000 /dev/zero >&0"));
+TEST_F(LiveRecordingTest, CountsDatagramsThatTheDiskMissed) {
+    options_.recording.queue = 1;
     GivenPackets source;
-    source.addAll(turnsOf(1));
-    EXPECT_THAT(run(source).recorded.failure, HasSubstr("its recorder"));  // by a signal or not
-}
-
-TEST_F(LiveRecordingTest, ARecorderThatIsStuckIsEnded) {
-    recordBy(kReady + std::string("exec sleep 1000"));
-    options_.recording.patience_s = 0.2;
-    GivenPackets source;
-    source.addAll(turnsOf(20)).asSensor();  // more than a socket holds
+    source.addAll(turnsOf(20)).asSensor();
     const LiveReport report = run(source);
     EXPECT_EQ(report.packets + report.dropped, 20u * 76);
-    EXPECT_THAT(report.recorded.failure, HasSubstr("took no packets for 0.2 s and was ended"));
+    EXPECT_EQ(report.recorded.packets + report.recorded.left_out, 20u * 76);
+    EXPECT_GT(report.recorded.left_out, 0u);
+    EXPECT_EQ(datagramsIn(folder_ / "a.pcap").size(), report.recorded.packets);
+    EXPECT_THAT(remarks_, Contains(HasSubstr("the disk is too slow")));
 }
 
-/// As of a program that is started by one that ignores its children's ends.
-TEST_F(LiveRecordingTest, ARecorderWhoseEndNobodyIsToldIsNotWaitedFor) {
-    const auto before = std::signal(SIGCHLD, SIG_IGN);
-    recordBy("exit 3");
+TEST_F(LiveRecordingTest, ReplayWaitsForTheDisk) {
+    options_.recording.queue = 1;
     GivenPackets source;
-    EXPECT_THAT(test::messageOf([&] { run(source.addAll(turnsOf(1))); }),
-                HasSubstr("a.rawlog: its recorder"));
-    recordBy(kReady + std::string("exit 3"));
-    EXPECT_THAT(run(source).recorded.failure, HasSubstr("a.rawlog: its recorder"));
-    std::signal(SIGCHLD, before);
+    EXPECT_EQ(run(source.addAll(turnsOf(20))).recorded.packets, 20u * 76);
 }
 
-/// A replay waits for its recorder, but not for ever.
-TEST_F(LiveRecordingTest, ARecorderThatIsStuckInAReplayIsEnded) {
-    recordBy(kReady + std::string("exec sleep 1000"));
-    options_.recording.patience_s = 0.2;
+TEST_F(LiveRecordingTest, KeepsExistingFiles) {
+    options_.recording.file = folder_.write("a.pcap", "mine");
     GivenPackets source;
-    source.addAll(turnsOf(60));  // 4560 packets, more than the queue and a socket hold
-    EXPECT_THAT(run(source).recorded.failure, HasSubstr("took no packets for 1.2 s and was ended"));
+    EXPECT_THAT(test::messageOf([&] { run(source); }), HasSubstr("a.pcap exists"));
+    options_.recording.file = folder_ / "b.pcap";
+    folder_.write("b.tum", "mine");
+    LiveListener listener;
+    listener.motion = [](double) { return streaming::SensorMotion(); };
+    EXPECT_THAT(test::messageOf([&] { runLive(source, options_, listener); }),
+                HasSubstr("b.tum exists"));
+    EXPECT_EQ(test::readFile(folder_ / "a.pcap") + test::readFile(folder_ / "b.tum"), "minemine");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "b.pcap"));
 }
 
-TEST_F(LiveRecordingTest, ARecorderThatDoesNotBeginIsEnded) {
-    recordBy("exec sleep 1000");
-    options_.recording.patience_s = 0.05;
+/// Of a vehicle that is rolled by 0.2, with a sensor that is pitched by 0.3 on it.
+TEST_F(LiveRecordingTest, WritesVehiclePosesOnThePacketClock) {
+    options_.settings.mount.pitch_rad = 0.3f;
+    const Eigen::Quaterniond rolled(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()));
+    LiveListener listener;
+    listener.motion = [&](double) {
+        streaming::SensorMotion motion;
+        motion.map_from_sensor.emplace(Eigen::Translation3d(1, 2, 3) * rolled *
+                                       Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()));
+        return motion;
+    };
     GivenPackets source;
-    EXPECT_THAT(test::messageOf([&] { run(source.addAll(turnsOf(1))); }),
-                HasSubstr("did not begin for 0.3 s and was ended"));
-}
-
-TEST_F(LiveRecordingTest, ARecorderThatOnlyClosesItsSocketIsEnded) {
-    options_.recording.patience_s = 0.1;
-    recordBy("exec 0<&-\nexec sleep 1000");
-    GivenPackets none;
-    EXPECT_THAT(test::messageOf([&] { run(none); }),
-                HasSubstr("closed its socket, stayed for 0.1 s and was ended"));
-    recordBy(kReady + std::string("exec 0<&-\nexec sleep 1000"));
-    GivenPackets source;
-    source.addAll(turnsOf(1)).pause(0.5).addAll(turnsOf(1, 1100000));
-    EXPECT_THAT(run(source).recorded.failure, HasSubstr("closed its socket, stayed for 0.1 s"));
-    EXPECT_THAT(remarks_, Contains(HasSubstr("recording has ended")));
-}
-
-/// What fits into the socket tells nothing. Another process has that, too.
-TEST_F(LiveRecordingTest, ARecorderThatIsStuckAtTheEndIsEnded) {
-    recordBy(kReady + std::string("exec 5<&0\nsleep 5 >/dev/null 2>&1 &\nexec sleep 30"));
-    options_.recording.patience_s = 0.3;
-    GivenPackets source;
-    source.addAll(turnsOf(1)).asSensor();
-    const LiveReport report = run(source);
-    EXPECT_THAT(report.recorded.failure,
-                testing::AllOf(HasSubstr((folder_ / "a.rawlog").string()),
-                               HasSubstr("did nothing for 0.3 s and was ended"),
-                               HasSubstr("under a temporary name beside it")));
-}
-
-TEST_F(LiveRecordingTest, ARecorderThatStaysAfterItsLastLineIsEnded) {
-    recordBy(kReady + std::string("cat <&0 >/dev/null\necho $$ >'") + (folder_ / "pid").string() +
-             "'\n" + sayDone() + "exec sleep 1000");
-    options_.recording.patience_s = 0.3;
-    GivenPackets source;
-    source.addAll(turnsOf(1)).asSensor();
-    EXPECT_EQ(run(source).recorded.failure, "");
-    const int pid = std::stoi(test::readFile(folder_ / "pid"));
-    EXPECT_EQ(kill(pid, 0), -1) << "it is there still";
-}
-
-TEST_F(LiveRecordingTest, ARecorderThatIsBusyAtTheEndIsWaitedFor) {
-    recordBy(kReady + std::string("i=0\nwhile [ $i -lt 1000000 ]; do i=$((i + 1)); done\n") +
-             sayDone());
-    options_.recording.patience_s = 0.4;
-    GivenPackets source;
-    source.addAll(turnsOf(1)).asSensor();
-    const LiveReport report = run(source);
-    EXPECT_EQ(report.recorded.failure, "");
-    EXPECT_EQ(report.recorded.turns, 2u);
-}
-
-/// It starts a program whose input has no writer yet: the system shows that as it shows a wait for
-/// the disk.
-TEST_F(LiveRecordingTest, ARecorderThatWaitsForItsDiskAtTheEndIsWaitedForLonger) {
-    const std::string fifo = (folder_ / "fifo").string();
-    ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
-    std::thread writer([&] {
-        std::this_thread::sleep_for(std::chrono::seconds(1));
-        const int end = open(fifo.c_str(), O_RDWR | O_CLOEXEC);
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        close(end);
-    });
-    const auto program =
-        folder_.write("recorder.py",
-                      "import os\nos.posix_spawn('/bin/true', ['true'], {}, file_actions=["
-                      "(os.POSIX_SPAWN_OPEN, 3, '" +
-                          fifo + "', os.O_RDONLY, 0)])\nos.write(0, b'" + kDone + "\\n')\n");
-    recordBy(kReady + std::string("exec python3 '") + program.string() + "'\n");
-    options_.recording.patience_s = 0.4;
-    GivenPackets source;
-    source.addAll(turnsOf(1)).asSensor();
-    const LiveReport report = run(source);
-    writer.join();
-    EXPECT_EQ(report.recorded.failure, "");
-    EXPECT_EQ(report.recorded.turns, 2u);
+    const LiveReport report = runLive(source.addAll(turnsOf(1)), options_, listener);
+    EXPECT_EQ(report.recorded.poses, 5u);  // 76 packets, each 1.33 ms later; 20 ms apart
+    std::istringstream lines(test::readFile(folder_ / "a.tum"));
+    std::string header;
+    std::getline(lines, header);
+    EXPECT_EQ(header, "# time x y z qx qy qz qw");
+    std::string time;
+    double x, y, z, qx, qy, qz, qw;
+    std::vector<std::string> times;
+    while (lines >> time >> x >> y >> z >> qx >> qy >> qz >> qw) {
+        times.push_back(time);
+        EXPECT_EQ(Eigen::Vector3d(x, y, z), Eigen::Vector3d(1, 2, 3));
+        EXPECT_LT(Eigen::Quaterniond(qw, qx, qy, qz).angularDistance(rolled), 1e-6);
+    }
+    EXPECT_THAT(times, testing::ElementsAre("1700000000.000000000", "1700000000.021280000",
+                                            "1700000000.042560000", "1700000000.063840000",
+                                            "1700000000.085120000"));
 }
 
 TEST_F(LiveSessionTest, AFailingSourceIsReported) {

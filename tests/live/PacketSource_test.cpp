@@ -89,6 +89,8 @@ TEST(UdpSource, ReceivesWhatIsSent) {
     EXPECT_EQ(std::string(packet.bytes.begin(), packet.bytes.end()), "abc");
     EXPECT_EQ(packet.from_ip, 0x7f000001u);
     EXPECT_EQ(packet.to_port, port);
+    EXPECT_EQ(packet.to_ip, 0x7f000001u);
+    EXPECT_NE(packet.from_port, 0);
     EXPECT_GE(packet.arrival_s, before_s - 0.001);
     EXPECT_LE(packet.arrival_s, steadyNow_s());
     EXPECT_GT(packet.time_ns, 1700000000000000000);

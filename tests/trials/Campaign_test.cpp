@@ -1,9 +1,9 @@
-// Campaigns whose workers are shell scripts: nothing is flown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/trials/Calibration.h>
 #include <hagen/trials/Campaign.h>
-#include <hagen/trials/MeasuredTable.h>
+
+#include <fstream>
 
 #include "support/Program.h"
 
@@ -14,160 +14,132 @@ namespace fs = std::filesystem;
 using test::messageOf;
 using test::readFile;
 using test::TemporaryFolder;
-using testing::AllOf;
-using testing::EndsWith;
 using testing::HasSubstr;
-using testing::StartsWith;
-using Row = hagen::trials::Run;  // a test has a Run() of its own
 
+/// Six short flights through three courses.
 class Campaign : public testing::Test {
  protected:
     Campaign() {
-        CampaignPlan plan;
-        plan.scenarios = {"gap", "street"};
-        plan.last_seed = 9;
-        plan.models = {"W-RoI", "oracle"};
-        flights_ = flightsOf(plan);
+        plan_.scenarios = {"forest-0.02"};
+        plan_.last_seed = 2;
+        plan_.speeds_m_s = {20};
+        plan_.models = {"W-RoI", "oracle"};
+        plan_.guidances = {"straight"};
     }
 
-    CampaignFolder folder(const std::string& name) const {
-        return CampaignFolder(place_ / name, constantProfile(1), false);
+    std::vector<hagen::trials::Run> fly(const std::string& name, double latency_ms = 1) {
+        return flyCampaign(flightsOf(plan_), constantProfile(latency_ms), place_ / name, options_);
     }
 
-    /// A script in which $journal is the journal's path and "$@" are the keys; `fly KEY` appends
-    /// the run's line to the journal.
-    CampaignOptions running(const std::string& script, int jobs = 1) {
-        const std::string lines = place_.write("lines", allLines()).string();
-        CampaignOptions options;
-        options.jobs = jobs;
-        options.worker = {"/bin/sh",
-                          {"sh", "-c",
-                           "journal=$6; shift 6; fly() { grep -F \"$1|\" '" + lines +
-                               "' | cut -d'|' -f2 >>\"$journal\"; }; " + script,
-                           "worker"}};
-        return options;
+    std::string table(const std::string& name) const {
+        return readFile(place_ / name / "runs.csv");
     }
 
-    std::size_t fly(const CampaignOptions& options, const std::string& name) {
-        CampaignFolder campaign = folder(name);
-        return flyCampaign(flights_, options, campaign);
+    /// Ends a campaign after a number of flights.
+    void flyUntil(std::size_t count, const std::string& name) {
+        std::size_t seen = 0;
+        options_.progress = [&](std::size_t done, std::size_t) { seen = done; };
+        options_.keep_going = [&] { return seen < count; };
+        EXPECT_THROW(fly(name), CampaignStopped);
+        options_ = {};
     }
 
     TemporaryFolder place_;
-    const std::string all_ = "for key; do fly \"$key\"; done";
-    /// Waits, for longer than anything takes here, and leaves a file if nobody stopped it.
-    const std::string waiting_ = "for i in $(seq 200); do sleep 0.1; done; touch '" +
-                                 (place_ / "not stopped").string() + "'";
-    std::vector<CourseFlights> flights_;
-
- private:
-    /// "KEY|line of a journal" of each run.
-    std::string allLines() const {
-        const std::string hash = folder("hash").settingsHash();
-        std::string lines;
-        for (const CourseFlights& course : flights_) {
-            for (const TrialSetup& setup : course.setups) {
-                Row run{};
-                run.scenario = course.scenario;
-                run.seed = course.seed;
-                run.setup = setup;
-                run.settings_hash = hash;
-                lines += keyOf(run) + "|" + rowOf(run) + "\t" + measuredRowOf(run, {}) + ";\n";
-            }
-        }
-        return lines;
-    }
+    CampaignPlan plan_;
+    CampaignOptions options_;
 };
 
-TEST_F(Campaign, TheSameBytesForAnyNumberOfJobs) {
-    EXPECT_EQ(fly(running(all_, 1), "one"), 40u);
-    EXPECT_EQ(fly(running(all_, 3), "three"), 40u);
-    EXPECT_EQ(fly(running(all_, 100), "many"), 40u);
-    EXPECT_EQ(readRuns(place_ / "one/runs.csv").size(), 40u);
-    for (const char* name : {"three", "many"}) {
-        EXPECT_EQ(readFile(place_ / name / "runs.csv"), readFile(place_ / "one/runs.csv"));
-        EXPECT_EQ(readFile(place_ / name / "measured.csv"), readFile(place_ / "one/measured.csv"));
-    }
-    EXPECT_FALSE(fs::exists(place_ / "one/journal"));
-    EXPECT_EQ(fly(running("exit 1"), "one"), 0u);  // nothing is left to fly
+TEST_F(Campaign, TableDoesNotDependOnJobs) {
+    EXPECT_EQ(fly("one").size(), 6u);
+    options_.jobs = 3;
+    fly("three");
+    EXPECT_EQ(table("three"), table("one"));
+    EXPECT_EQ(readRuns(place_ / "one/runs.csv").size(), 6u);
+    EXPECT_EQ(textOf(readLatencyProfile(place_ / "one/profile.json")), textOf(constantProfile(1)));
 }
 
-TEST_F(Campaign, ProgressCountsFinishedRuns) {
-    CampaignOptions options = running(all_ + "; sleep 0.2", 2);
-    std::size_t last = 0;
-    std::vector<std::size_t> seen;
-    options.progress = [&](std::size_t done, std::size_t all) {
-        EXPECT_EQ(all, 40u);
-        EXPECT_GE(done, last);
-        last = done;
-        seen.push_back(done);
+TEST_F(Campaign, ResumesAfterInterruption) {
+    fly("whole");
+    flyUntil(2, "stopped");
+    const std::string kept = table("stopped");
+    EXPECT_EQ(std::count(kept.begin(), kept.end(), '\n'), 3);
+    std::vector<std::size_t> done;
+    options_.progress = [&](std::size_t now, std::size_t all) {
+        EXPECT_EQ(all, 4u);
+        done.push_back(now);
     };
-    fly(options, "c");
-    // On a busy machine some runs are through before the first report.
-    EXPECT_LT(seen.front(), 40u);
-    EXPECT_EQ(seen.back(), 40u);
+    fly("stopped");
+    EXPECT_THAT(done, testing::ElementsAre(0, 1, 2, 3, 4));
+    EXPECT_EQ(table("stopped"), table("whole"));
 }
 
-TEST_F(Campaign, WhyAWorkerFailedIsToldAndFinishedRunsAreKept) {
-    const std::string kept = " finished runs are kept in " + (place_ / "c/journal").string() +
-                             "; the same command resumes there";
-    const auto failsWith = [&](const std::string& script) {
-        return messageOf([&] { fly(running(script), "c"); });
-    };
-    EXPECT_EQ(failsWith("echo 'too tired' >&2; exit 1"), "too tired; 0" + kept);
-    EXPECT_EQ(failsWith("fly \"$1\"; exit 3"),
-              "a worker ended with exit status 3 at "
-              "gap,0,oracle,astar,4,primitives,none,1,optimistic,dusty,unbiased; 1" +
-                  kept);
-    EXPECT_THAT(failsWith("fly \"$1\"; echo 'out of air' >&2; kill -9 $$"),
-                AllOf(StartsWith("a worker was killed by signal 9 (Killed) at street,0,W-RoI,"),
-                      EndsWith(": out of air; 1" + kept)));
-    EXPECT_FALSE(fs::exists(place_ / "c/runs.csv"));
-    EXPECT_EQ(fly(running(all_), "c"), 38u);
-    EXPECT_EQ(readRuns(place_ / "c/runs.csv").size(), 40u);
+TEST_F(Campaign, RepeatsFlightOfIncompleteRow) {
+    fly("whole");
+    flyUntil(2, "killed");
+    std::ofstream(place_ / "killed/runs.csv", std::ios::app) << "forest-0.02,1,W-RoI,str";
+    fly("killed");
+    EXPECT_EQ(table("killed"), table("whole"));
 }
 
-TEST_F(Campaign, OneFailureStopsAllJobs) {
-    const CampaignOptions options = running("case $1 in gap,0,*) exit 3;; esac; " + waiting_, 4);
-    EXPECT_THAT(messageOf([&] { fly(options, "c"); }), HasSubstr("exit status 3 at gap,0,"));
-    EXPECT_FALSE(fs::exists(place_ / "not stopped"));
-}
-
-TEST_F(Campaign, ToldToStopItKeepsFinishedRunsAndGoesOnLater) {
-    CampaignOptions options = running("fly \"$1\"; " + waiting_, 2);
-    std::size_t seen = 0;
-    options.progress = [&](std::size_t done, std::size_t) { seen = done; };
-    options.keep_going = [&] { return seen < 2; };
-    try {
-        fly(options, "c");
-        ADD_FAILURE() << "did not stop";
-    } catch (const CampaignStopped& e) {
-        EXPECT_THAT(e.what(), StartsWith("interrupted; 2 of 40 runs are kept in "));
+TEST_F(Campaign, AddsFlightsOfAnotherPlan) {
+    const CampaignPlan all = plan_;
+    fly("whole");
+    for (const char* model : {"oracle", "W-RoI"}) {
+        plan_.models = {model};
+        fly("parts");
     }
-    EXPECT_FALSE(fs::exists(place_ / "not stopped"));
-    EXPECT_EQ(fly(running(all_), "c"), 38u);
+    EXPECT_EQ(table("parts"), table("whole"));
+    plan_ = all;
+    EXPECT_EQ(fly("parts").size(), 6u);
 }
 
-TEST_F(Campaign, AWorkerThatIsToldToStopStopsTheCampaign) {
-    for (const char* end : {"exit 0", "kill -TERM $$"}) {
-        try {
-            fly(running(std::string("fly \"$1\"; ") + end), end);
-            ADD_FAILURE() << "did not stop";
-        } catch (const CampaignStopped& e) {
-            EXPECT_THAT(e.what(), StartsWith("interrupted; 1 of 40 runs are kept in "));
-        }
-    }
+TEST_F(Campaign, ExtendsTableForSectors) {
+    plan_.last_seed = 0;
+    plan_.models = {"W-RoI"};
+    fly("c");
+    EXPECT_THAT(table("c"), HasSubstr(runHeader() + "\n"));
+    plan_.updates = {Updates::Sectors};
+    fly("c");
+    EXPECT_THAT(table("c"), HasSubstr(fullRunHeader() + "\n"));
+    EXPECT_THAT(table("c"), HasSubstr(",scans\n"));
+    EXPECT_THAT(table("c"), HasSubstr(",sectors\n"));
 }
 
-TEST_F(Campaign, TheFolderStaysLockedWhileAWorkerLives) {
-    fly(running(all_ + "; sleep 3 2>/dev/null >&2 &"), "c");
-    EXPECT_THAT(messageOf([&] { folder("c"); }), HasSubstr("another octomap-compare"));
+TEST_F(Campaign, RefusesOtherSettings) {
+    plan_.last_seed = 0;
+    fly("c");
+    const std::string before = table("c");
+    EXPECT_THAT(messageOf([&] { fly("c", 2); }), HasSubstr("campaign.json: has other settings"));
+    EXPECT_EQ(table("c"), before);
+    fly("d", 2);
+    fs::copy_file(place_ / "d/runs.csv", place_ / "c/runs.csv",
+                  fs::copy_options::overwrite_existing);
+    EXPECT_THAT(messageOf([&] { fly("c"); }), HasSubstr("runs.csv: has other settings"));
+    options_.overwrites = true;
+    fly("c");
+    EXPECT_EQ(table("c"), before);
 }
 
-TEST_F(Campaign, AProgramThatCannotBeStartedIsNamed) {
-    CampaignOptions options;
-    options.worker = {"/nowhere/worker", {"worker"}};
-    EXPECT_THAT(messageOf([&] { fly(options, "c"); }), HasSubstr("/nowhere/worker"));
+TEST_F(Campaign, RefusesFolderWithOtherFiles) {
+    place_.write("mine/file.txt", "text");
+    options_.overwrites = true;
+    EXPECT_THAT(messageOf([&] { fly("mine"); }), HasSubstr("has no campaign.json"));
+    EXPECT_EQ(readFile(place_ / "mine/file.txt"), "text");
+}
+
+TEST_F(Campaign, WritesTableWithoutFlights) {
+    EXPECT_TRUE(
+        flyCampaign(flightsOf(plan_, {4, 4}), constantProfile(1), place_ / "c", {}).empty());
+    EXPECT_EQ(table("c"), runHeader() + "\n");
+}
+
+TEST_F(Campaign, ReportsErrorOfAFlight) {
+    std::vector<CourseFlights> flights = flightsOf(plan_);
+    flights[1].scenario = "moon";
+    options_.jobs = 2;
+    EXPECT_THAT(
+        messageOf([&] { flyCampaign(flights, constantProfile(1), place_ / "c", options_); }),
+        HasSubstr("moon"));
 }
 
 }  // namespace

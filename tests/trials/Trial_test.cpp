@@ -271,10 +271,6 @@ TEST(Trial, MeasuringAndListeningChangeNothing) {
     for (const char* stage : {"filter", "W-RoI/update", "W-RoI/astar", "W-RoI/astar+primitives"}) {
         EXPECT_EQ(measurement.stage_ms[stage].size(), static_cast<std::size_t>(steps)) << stage;
     }
-#ifndef __SANITIZE_ADDRESS__  // whose heap does not tell its size
-    EXPECT_GT(measurement.peak_model_bytes, 1000);
-#endif
-    EXPECT_EQ(measurement.model_bytes_by_path_m.size(), static_cast<std::size_t>(steps) + 1);
 }
 
 TEST(Trial, WhatIsNotKnownIsNamed) {

@@ -68,7 +68,7 @@ struct LiveReport {
     std::array<streaming::SectorDistances::Sector, streaming::SectorDistances::kSectors> latest{};
     double seconds = 0;         ///< that it ran
     double filter_cpu_s = 0;    ///< CPU time of the thread that labels
-    double process_cpu_s = 0;   ///< of all threads, without the recorder
+    double process_cpu_s = 0;   ///< of all threads
     std::string stats_failure;  ///< why LiveOptions::stats could not be written
     Recorded recorded;          ///< if it was
 };
@@ -109,8 +109,8 @@ void checkLive(const LiveOptions& options);
 
 /// Labels the packets of a source until it ends, the time is over or the listener says so. One
 /// thread receives, one labels (that of the caller; its real-time priority, if it has one, is
-/// lowered by one, for good). A process of its own records; a recording that
-/// ends early is told, and the session goes on. What a packet holds never ends it.
+/// lowered by one, for good), and one records. A recording that stops early is reported, and the
+/// session goes on. What a packet holds never ends it.
 ///
 /// Throws std::runtime_error naming the file or address that failed, also a recording that cannot
 /// begin, and SettingsError.

@@ -11,10 +11,10 @@ namespace hagen::live {
 /// A datagram that came.
 struct Packet {
     std::vector<std::uint8_t> bytes;
-    std::int64_t time_ns = 0;   ///< since 1970: when it came, of a capture when it was recorded
-    double arrival_s = 0;       ///< when it came, by steadyNow_s()
-    std::uint32_t from_ip = 0;  ///< IPv4
-    std::uint16_t to_port = 0;
+    std::int64_t time_ns = 0;  ///< since 1970: when it came, of a capture when it was recorded
+    double arrival_s = 0;      ///< when it came, by steadyNow_s()
+    std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
+    std::uint16_t from_port = 0, to_port = 0;
 };
 
 /// Seconds of a clock that does not jump.

@@ -7,4 +7,7 @@ namespace hagen::live {
 /// that wait would let nobody receive or send until none is left.
 void letOthersGoFirst();
 
+/// Gives up a real-time policy for the calling thread.
+void leaveRealTime();
+
 }  // namespace hagen::live

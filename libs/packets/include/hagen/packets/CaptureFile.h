@@ -18,9 +18,9 @@ struct BrokenCapture : std::runtime_error {
 
 /// A UDP datagram of a capture, put together from its IP fragments.
 struct Datagram {
-    std::int64_t time_ns = 0;   ///< of the capture, since 1970; of its last fragment
-    std::uint32_t from_ip = 0;  ///< IPv4
-    std::uint16_t to_port = 0;
+    std::int64_t time_ns = 0;              ///< of the capture, since 1970; of its last fragment
+    std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
+    std::uint16_t from_port = 0, to_port = 0;
     const std::uint8_t* bytes = nullptr;  ///< valid until the next one is read
     std::size_t size = 0;
 };

@@ -2,16 +2,9 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hagen::trials {
-
-/// Heap of a world model along a flight: distance flown [m], heap [bytes].
-struct HeapCurve {
-    std::string model;
-    std::vector<std::pair<double, double>> bytes_by_path_m;
-};
 
 /// Flies `path_m` with each model and writes its heap as CSV: model,path_m,bytes. `begin` is called
 /// before each model, `continuing` before each scan; both may throw to end it. The file is written
@@ -21,8 +14,5 @@ void writeHeapCurves(const std::vector<std::string>& models, double path_m,
                      const std::function<void(const std::string& model)>& begin,
                      const std::function<void()>& continuing, const std::filesystem::path& place,
                      const std::filesystem::path& file);
-
-/// Reads such a file. Throws std::runtime_error, naming file and line.
-std::vector<HeapCurve> readHeapCurves(const std::filesystem::path& file);
 
 }  // namespace hagen::trials

@@ -34,17 +34,14 @@ bool needsAllColumns(const Run& run);
 std::string fullRunHeader();
 std::string fullRowOf(const Run& run);
 
-/// The run of a row. Throws std::runtime_error, naming the column.
-Run runOf(const std::string& row);
-
 /// A run's key identifies it: the fields of its course and setup, as in its row. The header's
 /// columns:
 /// scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown,air,distance
 /// and, of a run with sectors, updates.
-std::string keyHeader();
 std::string keyOf(const Run& run);
 
-/// A run of this course and setup that was not flown yet. Throws as runOf().
+/// A run of this course and setup that was not flown yet. Throws std::runtime_error, naming the
+/// column.
 Run runOfKey(const std::string& key);
 
 /// Tables of older versions have neither column `air` nor `distance`: clear air, as-stored. Without

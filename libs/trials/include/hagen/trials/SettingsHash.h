@@ -13,10 +13,4 @@ constexpr int kRevision = 13;
 /// program's version, kRevision, vehicle, sensor errors, filter options, ranges and latencies.
 std::string hashOfSettings(const LatencyProfile& profile);
 
-/// The vehicle of all runs, as JSON.
-std::string vehicleText();
-
-/// The LiDAR's faults by air, as JSON.
-std::string sensorText();
-
 }  // namespace hagen::trials
