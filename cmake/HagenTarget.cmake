@@ -82,44 +82,42 @@ function(hagen_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 endfunction()
 
-# hagen_program(NAME): settings of a program, which is installed with its manual page and completions. It writes them
-# itself.
+# hagen_program(NAME): settings of a program, which is installed with its manual page and completions. The page is made
+# from --help, so that a cross build without emulator has none.
 set(HAGEN_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Folder of completions for zsh")
-string(TIMESTAMP HAGEN_MANUAL_DATE "%Y-%m-%d" UTC)
+find_program(HAGEN_HELP2MAN help2man)
 function(hagen_program name)
   hagen_target(${name})
   set_property(GLOBAL APPEND PROPERTY HAGEN_PROGRAMS ${name})
-  if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
-    set(has_manual FALSE)
-  else()
-    set(has_manual TRUE)
-    set(share ${PROJECT_BINARY_DIR}/share)
-    set(man ${share}/man/man1/${name}.1)
-    set(bash ${share}/bash-completion/completions/${name})
-    set(zsh ${share}/zsh/site-functions/_${name})
-    file(MAKE_DIRECTORY ${share}/man/man1 ${share}/bash-completion/completions ${share}/zsh/site-functions)
+  set(share ${PROJECT_BINARY_DIR}/share)
+  set(bash ${share}/bash-completion/completions/${name})
+  set(zsh ${share}/zsh/site-functions/_${name})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/completions/program.bash.in ${bash} @ONLY)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/completions/program.zsh.in ${zsh} @ONLY)
+  set(man "")
+  if(HAGEN_HELP2MAN AND (NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR))
+    set(page ${share}/man/man1/${name}.1)
+    file(MAKE_DIRECTORY ${share}/man/man1)
+    set(man ${page})
     set(compress "")
     if(HAGEN_DEBIAN_PACKAGES)
-      set(compress COMMAND gzip -9nf ${man})
-      set(compressed .gz)
+      set(compress COMMAND gzip -9nf ${page})
+      set(man ${page}.gz)
     endif()
+    set(write_manual ${PROJECT_SOURCE_DIR}/cmake/write-manual)
     add_custom_command(
-      OUTPUT ${man}${compressed} ${bash} ${zsh}
-      COMMAND ${name} --hagen-manual man ${HAGEN_MANUAL_DATE} > ${man}
+      OUTPUT ${man}
+      COMMAND ${write_manual} ${page} $<TARGET_FILE:${name}> ${CMAKE_CROSSCOMPILING_EMULATOR}
       ${compress}
-      COMMAND ${name} --hagen-manual bash > ${bash}
-      COMMAND ${name} --hagen-manual zsh > ${zsh}
-      DEPENDS ${name}
-      COMMENT "Writing the manual page and completions of ${name}"
+      DEPENDS ${name} ${write_manual}
+      COMMENT "Writing the manual page of ${name}"
       VERBATIM)
-    add_custom_target(${name}-manual ALL DEPENDS ${man}${compressed} ${bash} ${zsh})
+    add_custom_target(${name}-manual ALL DEPENDS ${man})
   endif()
   if(HAGEN_INSTALL)
     install(TARGETS ${name} COMPONENT tools)
-    if(has_manual)
-      install(FILES ${man}${compressed} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
-      install(FILES ${bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
-      install(FILES ${zsh} DESTINATION ${HAGEN_ZSH_COMPLETIONS} COMPONENT tools)
-    endif()
+    install(FILES ${bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
+    install(FILES ${zsh} DESTINATION ${HAGEN_ZSH_COMPLETIONS} COMPONENT tools)
+    install(FILES ${man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
   endif()
 endfunction()

@@ -1,5 +1,5 @@
 # Cross-compiles everything for 64-bit ARM against HAGEN_SYSROOT, a folder with Debian's packages for it, and runs the
-# programs with QEMU: they write their own manual pages. See scripts/package --arch arm64.
+# programs with QEMU, for their manual pages. See scripts/package --arch arm64.
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES HAGEN_SYSROOT)
 set(CMAKE_SYSROOT ${HAGEN_SYSROOT})
 include(${CMAKE_CURRENT_LIST_DIR}/arm64.cmake)

@@ -20,7 +20,6 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/command_line/Interrupt.h>
 #include <hagen/command_line/Terminal.h>
-#include "Manual.h"
 #include "Stacks.h"
 #include "StandardStreams.h"
 
@@ -382,14 +381,6 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
            "memory that the program may take, in GB (default: half of the machine's)")
         .between(0.05, 1e6)
         .valueName("GB");
-    // For the build only: PROGRAM --hagen-manual man DATE, bash or zsh.
-    if (argc > 2 && std::string(argv[1]) == "--hagen-manual") {
-        const std::string kind = argv[2];
-        std::cout << (kind == "bash"  ? bashCompletion(*app_, name_)
-                      : kind == "zsh" ? zshCompletion(*app_, name_)
-                                      : manualPage(*app_, name_, argc > 3 ? argv[3] : ""));
-        return printed(kDone, kind);
-    }
     try {
         app_->parse(argc, argv);
         base::limitMemory(static_cast<std::uint64_t>(memory_gb_ * kGb));

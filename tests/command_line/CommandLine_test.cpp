@@ -65,16 +65,6 @@ TEST(CommandLine, TextsMayNotBeEmpty) {
     }
 }
 
-TEST(CommandLine, WritesItsManualAndCompletions) {
-    const Ran page = runWith({"--hagen-manual", "man", "2026-01-31"});
-    EXPECT_EQ(page.exit_code, kDone);
-    EXPECT_THAT(page.out, HasSubstr(".TH PROGRAM 1"));
-    EXPECT_THAT(page.out, HasSubstr("2026-01-31"));
-    EXPECT_THAT(runWith({"--hagen-manual", "bash"}).out, HasSubstr("complete -"));
-    EXPECT_THAT(runWith({"--hagen-manual", "zsh"}).out, HasSubstr("#compdef program"));
-    EXPECT_EQ(runWith({"--hagen-manual"}).exit_code, kWrongUsage);
-}
-
 TEST(CommandLine, LimitsOfMemoryAreChecked) {
     EXPECT_EQ(runWith({"--memory-limit", "0.01"}).exit_code, kWrongUsage);
     EXPECT_EQ(runWith({"--memory-limit", "many"}).exit_code, kWrongUsage);
