@@ -92,8 +92,12 @@ std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& fl
     link.is_simulated = flags.is_simulated;
     link.nearest = static_cast<std::size_t>(flags.nearest);
     const Eigen::AngleAxisd yaw(-radians(flags.sensor_yaw_deg), Eigen::Vector3d::UnitZ());
-    link.surroundings.vehicle_from_sensor = yaw * levelFromSensor(settings.mount).cast<double>();
-    if (flags.height_m) link.surroundings.height_m = *flags.height_m;
+    link.directions.body_from_sensor.linear() =
+        yaw * levelFromSensor(settings.mount).cast<double>();
+    if (flags.height_m) {
+        link.directions.low_m = -*flags.height_m;
+        link.directions.high_m = *flags.height_m;
+    }
     auto opened = std::make_unique<autopilot::AutopilotLink>(link, listener.remark);
     autopilot::AutopilotLink* const to = opened.get();
     listener.begin = [to](const SensorModel& sensor, const Options& options) {

@@ -43,7 +43,7 @@ class AutopilotLink::Work {
     void begin(const SensorModel& sensor, Limits limits) {
         limits_ = limits;
         limits_.nearest_m = sensor.min_range_m;
-        surroundings_.emplace(sensor, settings_.surroundings);
+        distances_.emplace(sensor, settings_.directions);
         start_s_ = now_s();
         thread_ = std::thread([this] { work(); });
     }
@@ -58,7 +58,7 @@ class AutopilotLink::Work {
                                ? std::nullopt
                                : groundBelow(sector.result.ground, vehicleFromSensor());
         const std::lock_guard lock(mutex_);
-        surroundings_->take(sector);
+        distances_->take(sector);
         if (below) {
             below_m_ = *below;
             below_s_ = sector.first_time_s;
@@ -69,7 +69,7 @@ class AutopilotLink::Work {
         const std::lock_guard lock(mutex_);
         const auto pose = motion_.at(time_s);
         if (!pose) return {};
-        const Eigen::Matrix3d mount = settings_.surroundings.vehicle_from_sensor;
+        const Eigen::Matrix3d mount = settings_.directions.body_from_sensor.linear();
         const Eigen::Matrix3f level = (levelFromVehicle(*pose) * mount).cast<float>();
         streaming::SensorMotion motion;
         motion.attitude = {std::atan2(level(2, 1), level(2, 2)),
@@ -111,7 +111,7 @@ class AutopilotLink::Work {
 
  private:
     Eigen::Matrix3f vehicleFromSensor() const {
-        return settings_.surroundings.vehicle_from_sensor.cast<float>();
+        return settings_.directions.body_from_sensor.linear().cast<float>();
     }
 
     void work() {
@@ -146,17 +146,18 @@ class AutopilotLink::Work {
         std::optional<float> below_m;
         // Copies, so that those who label do not wait while directions are made of them.
         std::unique_lock lock(mutex_);
-        const Surroundings surroundings = *surroundings_;
+        const streaming::SectorDistances distances = *distances_;
         const VehicleMotion motion = motion_;
-        if (time_s - below_s_ <= settings_.surroundings.stale_s) below_m = below_m_;
+        if (time_s - below_s_ <= settings_.directions.stale_s) below_m = below_m_;
         lock.unlock();
-        const Directions directions = surroundings.at(time_s, motion);
+        const Directions directions =
+            distances.at(time_s, [&](double at_s) { return motion.at(at_s); });
         const std::optional<VehiclePose> pose = motion.at(time_s);
-        const double latest_s = surroundings.latest_s();
+        const double latest_s = distances.latest_s();
         watch(latest_s, time_s);
         const bool is_all_unknown = std::all_of(
             directions.begin(), directions.end(),
-            [](const Direction& each) { return each.state == Direction::State::Unknown; });
+            [](const Direction& each) { return each.state == DirectionState::Unknown; });
         if (send(obstacleDistance(directions, limits_, time_s), sent_distance_) && is_all_unknown) {
             count(all_unknown_);
         }
@@ -179,7 +180,7 @@ class AutopilotLink::Work {
     /// Whether the one that labels still does.
     void watch(double latest_s, double time_s) {
         const bool is_stalled =
-            std::isfinite(latest_s) && time_s - latest_s > settings_.surroundings.stale_s;
+            std::isfinite(latest_s) && time_s - latest_s > settings_.directions.stale_s;
         if (is_stalled == is_stalled_) return;
         is_stalled_ = is_stalled;
         if (is_stalled) count(stalls_);
@@ -286,7 +287,7 @@ class AutopilotLink::Work {
     std::string trouble_;
 
     mutable std::mutex mutex_;  // of all that follows
-    std::optional<Surroundings> surroundings_;
+    std::optional<streaming::SectorDistances> distances_;
     VehicleMotion motion_;
     mavlink::Parser parser_;
     float below_m_ = 0;

@@ -40,13 +40,13 @@ mavlink::ObstacleDistance obstacleDistance(const Directions& directions, const L
     for (std::size_t k = 0; k < directions.size(); ++k) {
         std::uint16_t& distance_cm = message.distances[k];
         switch (directions[k].state) {
-            case Direction::State::Unknown:
+            case DirectionState::Unknown:
                 distance_cm = kUnknown_cm;
                 break;
-            case Direction::State::SeenNothing:
+            case DirectionState::SeenNothing:
                 distance_cm = static_cast<std::uint16_t>(message.max_distance + 1);
                 break;
-            case Direction::State::Obstacle:
+            case DirectionState::Obstacle:
                 distance_cm = centimetres(directions[k].distance_m, 1, message.max_distance);
                 break;
         }

@@ -9,9 +9,7 @@ namespace {
 constexpr float kGap_m = 1, kSame_m = 1.5f;
 constexpr std::uint16_t kUnknown = std::numeric_limits<std::uint16_t>::max();
 
-bool isObstacle(const Direction& direction) {
-    return direction.state == Direction::State::Obstacle;
-}
+bool isObstacle(const Direction& direction) { return direction.state == DirectionState::Obstacle; }
 
 /// The nearest point of each run of directions that see the same thing.
 std::vector<Obstacle> obstaclesOf(const Directions& directions) {

@@ -17,7 +17,7 @@ constexpr double kOtherRate = 0.2;      // is told
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
     SectorDistances::Settings settings;
-    settings.body_from_sensor.linear() = vehicle_from_sensor;
+    settings.body_from_sensor.linear() = vehicle_from_sensor.cast<double>();
     return settings;
 }
 
@@ -59,10 +59,7 @@ void SectorFigures::noteNearest(const streaming::LabelledSector& sector) {
         if (sector.label[i] != Label::Roi) continue;
         const Eigen::Vector3f at_m =
             vehicle_from_sensor_ * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
-        const double clockwise_rad = -static_cast<double>(std::atan2(at_m.y(), at_m.x()));
-        const double share = clockwise_rad / (2 * kPi) + (clockwise_rad < 0 ? 1 : 0);
-        const int k = std::min(static_cast<int>(share * SectorDistances::kSectors),
-                               SectorDistances::kSectors - 1);
+        const int k = streaming::directionOf(at_m.head<2>(), SectorDistances::kSectors);
         report_.nearest_m[k] = std::min(report_.nearest_m[k], at_m.head<2>().norm());
     }
 }

@@ -299,7 +299,7 @@ TEST_F(AutopilotLinkTest, TheLastMessageSaysThatNothingIsKnown) {
 }
 
 TEST_F(AutopilotLinkTest, ASensorOnItsMountHasItsOwnTilt) {
-    settings_.surroundings.vehicle_from_sensor =
+    settings_.directions.body_from_sensor.linear() =
         Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).toRotationMatrix();
     link_ = std::make_unique<AutopilotLink>(settings_, [](const std::string&) {});
     link_->begin(sensor_, {20, 0});

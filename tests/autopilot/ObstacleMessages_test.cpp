@@ -7,7 +7,7 @@
 namespace hagen::autopilot {
 namespace {
 
-using State = Direction::State;
+using State = DirectionState;
 
 TEST(ObstacleDistance, HasCentimetresNothingAndUnknown) {
     Directions directions;

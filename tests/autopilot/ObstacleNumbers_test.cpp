@@ -17,7 +17,7 @@ Directions directionsOf(const std::vector<Seen>& all) {
     for (const Seen& seen : all) {
         const double clockwise_rad = radians(5.0 * static_cast<double>(seen.k));
         Direction& direction = directions[seen.k];
-        direction.state = Direction::State::Obstacle;
+        direction.state = DirectionState::Obstacle;
         direction.distance_m = static_cast<float>(seen.distance_m);
         direction.at_m = Eigen::Vector3d(seen.distance_m * std::cos(clockwise_rad),
                                          -seen.distance_m * std::sin(clockwise_rad), 0.5)

@@ -162,6 +162,7 @@ TEST_F(SectorDistancesTest, WhatWasSeenBeforeTheClockWentBackIsForgotten) {
     SectorDistances distances(sensor_);
     turn(100, 0.1, {{32, 5}}, distances);  // at 10 s
     take(0, 20, 9.9, {}, distances);
+    EXPECT_EQ(distances.latest_s(), 9.9 + 0.005);
     for (const double now_s : {9.9, 10.1}) {
         for (int k = 0; k < SectorDistances::kSectors; ++k) {
             EXPECT_EQ(distances.at(now_s)[k].state, k < 4 ? State::SeenNothing : State::Unknown);
@@ -209,8 +210,7 @@ TEST_F(SectorDistancesTest, DistancesAreOfTheBody) {
     SectorDistances::Settings settings;
     // The sensor looks to the right of the body, half a metre ahead of its origin.
     settings.body_from_sensor =
-        Eigen::Translation3f(0.5f, 0, 0) *
-        Eigen::AngleAxisf(-static_cast<float>(kPi) / 2, Eigen::Vector3f::UnitZ());
+        Eigen::Translation3d(0.5, 0, 0) * Eigen::AngleAxisd(-kPi / 2, Eigen::Vector3d::UnitZ());
     SectorDistances distances(sensor_, settings);
     take(0, 20, 1, {}, distances);             // right of the body
     take(260, 280, 1, {{271, 4}}, distances);  // ahead of it
@@ -236,8 +236,7 @@ TEST_F(SectorDistancesTest, HeightsAreLimited) {
 
 TEST_F(SectorDistancesTest, WhereATiltedSensorDoesNotSeeTheHorizonNothingIsFree) {
     SectorDistances::Settings settings;
-    settings.body_from_sensor =
-        Eigen::AngleAxisf(static_cast<float>(radians(30.0)), Eigen::Vector3f::UnitY());
+    settings.body_from_sensor = Eigen::AngleAxisd(radians(30.0), Eigen::Vector3d::UnitY());
     SectorDistances distances(sensor_, settings);
     take(0, 360, 1, {}, distances);
     const auto at = distances.at(1);
@@ -304,15 +303,13 @@ TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStaysWhereItsPacketI
 /// Nose down by 20 degrees, it looks at the low obstacle at 268 degrees at 272.3 of its own.
 TEST_F(SectorDistancesTest, WhatATiltedSensorSeesBelowTheHorizonStays) {
     SectorDistances::Settings settings;
-    settings.body_from_sensor =
-        Eigen::AngleAxisf(static_cast<float>(radians(20.0)), Eigen::Vector3f::UnitY());
-    const Eigen::Vector3f left =
-        Eigen::Vector3d(std::cos(radians(268)), -std::sin(radians(268)), -std::tan(radians(12)))
-            .cast<float>();
-    const Eigen::Vector3f at_m = settings.body_from_sensor.inverse() * (8 * left);
+    settings.body_from_sensor = Eigen::AngleAxisd(radians(20.0), Eigen::Vector3d::UnitY());
+    const Eigen::Vector3d left(std::cos(radians(268)), -std::sin(radians(268)),
+                               -std::tan(radians(12)));
+    const Eigen::Vector3d at_m = settings.body_from_sensor.inverse() * (8 * left);
     const double azimuth_deg = turned_deg(-std::atan2(at_m.y(), at_m.x()));
     ASSERT_NEAR(azimuth_deg, 272.3, 0.1);
-    const Point low{azimuth_deg, at_m.head<2>().norm(), Label::Roi, at_m.z()};
+    const Point low{azimuth_deg, at_m.head<2>().norm(), Label::Roi, static_cast<float>(at_m.z())};
     SectorDistances distances(sensor_, settings);
     int steps = 0;
     for (double from_deg = 0; from_deg < 1080; from_deg += 3, ++steps) {

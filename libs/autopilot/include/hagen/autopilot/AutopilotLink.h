@@ -1,6 +1,6 @@
 #pragma once
+#include <hagen/autopilot/Directions.h>
 #include <hagen/autopilot/ObstacleMessages.h>
-#include <hagen/autopilot/Surroundings.h>
 #include <hagen/autopilot/VehicleMotion.h>
 #include <hagen/mavlink/Peer.h>
 #include <hagen/range_image/SensorModel.h>
@@ -33,7 +33,7 @@ class AutopilotLink {
         std::size_t nearest = 5;    ///< obstacles that are sent one by one
         bool has_ground = true;     ///< whether the ground below is sent
         bool is_simulated = false;  ///< the vehicle's clock may pause, or be slower than ours
-        Surroundings::Settings surroundings;
+        streaming::SectorDistances::Settings directions = aheadFirst();
     };
     /// What was sent and received so far, by name.
     using Counts = std::vector<std::pair<std::string, std::size_t>>;

@@ -1,6 +1,6 @@
 #pragma once
+#include <hagen/autopilot/Directions.h>
 #include <hagen/autopilot/ObstacleNumbers.h>
-#include <hagen/autopilot/Surroundings.h>
 #include <hagen/autopilot/VehicleMotion.h>
 #include <hagen/mavlink/Messages.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/autopilot/Surroundings.h>
+#include <hagen/autopilot/Directions.h>
 #include <hagen/autopilot/VehicleMotion.h>
 #include <Eigen/Core>
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/autopilot/ClockOffset.h>
 #include <hagen/mavlink/Frame.h>
+#include <hagen/streaming/VehiclePose.h>
 #include <Eigen/Geometry>
 
 #include <cstddef>
@@ -9,21 +10,7 @@
 
 namespace hagen::autopilot {
 
-/// Where a vehicle is and how it is tilted. The vehicle's frame is x forward, y left, z up; the
-/// map's x north, y west, z up. (MAVLink has forward, right, down and north, east, down.)
-struct VehiclePose {
-    Eigen::Quaterniond map_from_vehicle = Eigen::Quaterniond::Identity();
-    std::optional<Eigen::Vector3d> place_m;  ///< in the map; none: unknown
-
-    double heading_rad() const;  ///< of the vehicle's x axis, counter-clockwise from north
-};
-
-/// The rotation of a pose without its heading: from the vehicle's frame to the level one.
-Eigen::Matrix3d levelFromVehicle(const VehiclePose& pose);
-
-/// From the vehicle's level frame (heading as the vehicle's, z up) at one time to that at another:
-/// turned by what the heading changed, and moved if both places are known.
-Eigen::Isometry3d levelBetween(const VehiclePose& then, const VehiclePose& now);
+using streaming::VehiclePose;
 
 /// The poses of a vehicle over the last seconds, from its messages ATTITUDE, ATTITUDE_QUATERNION
 /// and LOCAL_POSITION_NED. Between messages they are interpolated; after the last one, turned on
